@@ -1,0 +1,8 @@
+"""What stands: drums, joints, columns, presets and column files."""
+
+from .column import MAX_DRUMS, Column
+from .drum import Drum
+from .joint import Joint
+from .presets import PAPER_BLOCK_MODULUS, PRESETS, preset
+
+__all__ = ["MAX_DRUMS", "PAPER_BLOCK_MODULUS", "PRESETS", "Column", "Drum", "Joint", "preset"]

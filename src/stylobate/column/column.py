@@ -1,0 +1,325 @@
+"""A freestanding column: drums on drums on a base, with the closed-form properties every model and check rests on."""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import json
+import math
+import warnings
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from ..constants import g as STANDARD_GRAVITY
+from ..errors import InputError, OutOfRangeWarning, check_range
+from .drum import Drum, section_area, section_second_moment
+from .joint import Joint
+
+MAX_DRUMS = 200
+
+
+@dataclass(frozen=True)
+class Column:
+    """Drums from the bottom up, and the joint under each of them.
+
+    Drum i = 0 … n−1 stands on joint i; joint 0 is the one with the base (the design numbers them from 1).
+
+    Parameters
+    ----------
+    drums : sequence of Drum
+    joints : sequence of Joint
+        As many as drums.
+    name : str
+    gravity : float
+        g [m/s²].
+
+    Raises
+    ------
+    InputError
+        No drum, too many drums, or a number of joints that differs from the number of drums.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        A drum that widens upward: allowed, but said.
+    """
+
+    drums: tuple[Drum, ...]
+    joints: tuple[Joint, ...]
+    name: str = "column"
+    gravity: float = STANDARD_GRAVITY
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "drums", tuple(self.drums))
+        object.__setattr__(self, "joints", tuple(self.joints))
+        if not 1 <= len(self.drums) <= MAX_DRUMS:
+            raise InputError(f"the column has {len(self.drums)} drums; allowed is 1 to {MAX_DRUMS}.")
+        if len(self.joints) != len(self.drums):
+            raise InputError(
+                f"the column has {len(self.joints)} joints for {len(self.drums)} drums; give one joint under each drum."
+            )
+        if len({drum.section for drum in self.drums}) > 1:
+            raise InputError("the drums mix circular and rectangular sections; give all drums the same section.")
+        object.__setattr__(
+            self, "gravity", check_range("gravity", self.gravity, 0.0, 100.0, unit="m/s²", open_low=True)
+        )
+        wide = [i + 1 for i, drum in enumerate(self.drums) if drum.top_width > drum.bottom_width * (1 + 1e-12)]
+        if wide:
+            which = ", ".join(map(str, wide[:5])) + (" …" if len(wide) > 5 else "")
+            warnings.warn(
+                f"drum {which} of {self.name!r} widens upward (top_width > bottom_width); "
+                "this is computed as given: swap the widths if it was not meant.",
+                OutOfRangeWarning,
+                stacklevel=3,
+            )
+
+    # -- made from -----------------------------------------------------------------------------------------------
+
+    @classmethod
+    def of_drums(
+        cls,
+        drums: Sequence[Drum],
+        joint: Joint,
+        *,
+        overrides: Mapping[int, Joint] | None = None,
+        name: str = "column",
+        gravity: float = STANDARD_GRAVITY,
+    ) -> Column:
+        """A column of given drums (bottom to top) with one joint law, some joints overridden.
+
+        Parameters
+        ----------
+        drums : sequence of Drum
+        joint : Joint
+            For every joint without an override.
+        overrides : mapping of int to Joint, optional
+            By joint number, counted from 1 at the base.
+        name : str
+        gravity : float
+            [m/s²]
+        """
+        joints = [joint] * len(drums)
+        for index, other in (overrides or {}).items():
+            if not 1 <= index <= len(joints):
+                raise InputError(
+                    f"joint_override index is {index}; allowed is 1 (the joint with the base) to {len(joints)}."
+                )
+            joints[index - 1] = other
+        return cls(tuple(drums), tuple(joints), name, gravity)
+
+    @classmethod
+    def tapered(
+        cls,
+        *,
+        height: float,
+        bottom_width: float,
+        top_width: float,
+        drums: int,
+        density: float,
+        joint: Joint,
+        section: str = "rectangular",
+        depth: float = 1.0,
+        overrides: Mapping[int, Joint] | None = None,
+        name: str = "column",
+        gravity: float = STANDARD_GRAVITY,
+    ) -> Column:
+        """A column of equally high drums cut from one taper.
+
+        Parameters
+        ----------
+        height, bottom_width, top_width : float
+            Of the whole column [m].
+        drums : int
+            Number of drums, 1 for a monolith.
+        density : float
+            [kg/m³]
+        joint : Joint
+        section : {"rectangular", "circular"}
+        depth : float
+            Rectangular only [m].
+        overrides, name, gravity
+            As in :meth:`of_drums`.
+        """
+        if isinstance(drums, bool) or not isinstance(drums, (int, np.integer)) or not 1 <= drums <= MAX_DRUMS:
+            raise InputError(f"drums is {drums!r}; allowed is a whole number from 1 to {MAX_DRUMS}.")
+        whole = Drum(height, bottom_width, top_width, density, section, depth)
+        taper = (whole.top_width - whole.bottom_width) / drums
+        widths = [whole.bottom_width + taper * i for i in range(drums)] + [whole.top_width]
+        stack = [
+            Drum(whole.height / drums, low, high, density, section, depth)
+            for low, high in zip(widths[:-1], widths[1:], strict=True)
+        ]
+        return cls.of_drums(stack, joint, overrides=overrides, name=name, gravity=gravity)
+
+    @classmethod
+    def from_toml(cls, path: str | Path) -> Column:
+        """Read a column file (see the documentation of file formats)."""
+        from .files import read_column
+
+        return read_column(path)
+
+    def replace(self, **changes) -> Column:
+        """A copy with some fields changed (``dataclasses.replace``)."""
+        return dataclasses.replace(self, **changes)
+
+    def with_joint(self, **changes) -> Column:
+        """A copy with the same change made to every joint, e.g. ``with_joint(friction_angle=10.0)``."""
+        joints = []
+        for joint in self.joints:
+            fields = {"normal_stiffness": joint.normal_stiffness, "shear_stiffness": joint.shear_stiffness}
+            fields |= {"friction_coefficient": joint.friction_coefficient, "cohesion": joint.cohesion}
+            if "friction_angle" in changes:
+                del fields["friction_coefficient"]
+            joints.append(Joint(**(fields | changes)))
+        return self.replace(joints=tuple(joints))
+
+    def as_prism(self) -> Column:
+        """The paper's idealisation: every drum a prism of its mean width."""
+        return self.replace(drums=tuple(drum.as_prism() for drum in self.drums))
+
+    # -- the stack -----------------------------------------------------------------------------------------------
+
+    @property
+    def n(self) -> int:
+        """Number of drums."""
+        return len(self.drums)
+
+    @property
+    def section(self) -> str:
+        """``circular`` or ``rectangular``."""
+        return self.drums[0].section
+
+    @cached_property
+    def heights(self) -> np.ndarray:
+        """Drum heights [m], shape (n,)."""
+        return np.array([drum.height for drum in self.drums])
+
+    @cached_property
+    def masses(self) -> np.ndarray:
+        """Drum masses [kg], shape (n,)."""
+        return np.array([drum.mass for drum in self.drums])
+
+    @cached_property
+    def inertias(self) -> np.ndarray:
+        """Drum inertias about their own centroids [kg m²], shape (n,)."""
+        return np.array([drum.inertia for drum in self.drums])
+
+    @cached_property
+    def joint_heights(self) -> np.ndarray:
+        """Height of each joint above the base [m], shape (n,)."""
+        return np.concatenate(([0.0], np.cumsum(self.heights)[:-1]))
+
+    @cached_property
+    def centroid_heights(self) -> np.ndarray:
+        """Height of each drum's centroid above the base [m], shape (n,)."""
+        return self.joint_heights + np.array([drum.centroid_height for drum in self.drums])
+
+    @cached_property
+    def joint_widths(self) -> np.ndarray:
+        """Width d_i of each joint's contact section, the smaller of its two faces [m], shape (n,)."""
+        widths = [drum.bottom_width for drum in self.drums]
+        for i in range(1, self.n):
+            widths[i] = min(widths[i], self.drums[i - 1].top_width)
+        return np.array(widths)
+
+    @cached_property
+    def joint_areas(self) -> np.ndarray:
+        """Contact area A_i of each joint [m²], shape (n,)."""
+        return np.array([section_area(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)])
+
+    @cached_property
+    def joint_second_moments(self) -> np.ndarray:
+        """Second moment J_i of each joint's contact area [m⁴], shape (n,)."""
+        return np.array(
+            [section_second_moment(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
+        )
+
+    def _joint_depth(self, i: int) -> float:
+        return min(self.drums[i].depth, self.drums[i - 1].depth) if i else self.drums[0].depth
+
+    @cached_property
+    def joint_weights(self) -> np.ndarray:
+        """Static weight N_i carried by each joint [N], shape (n,)."""
+        return np.cumsum(self.masses[::-1])[::-1] * self.gravity
+
+    # -- the column as one body ----------------------------------------------------------------------------------
+
+    @property
+    def height(self) -> float:
+        """Total height [m]."""
+        return float(self.heights.sum())
+
+    @property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return float(self.masses.sum())
+
+    @property
+    def centroid_height(self) -> float:
+        """Height of the centroid of the whole column [m]."""
+        return float(self.masses @ self.centroid_heights / self.masses.sum())
+
+    @property
+    def base_width(self) -> float:
+        """Width of the joint with the base [m]."""
+        return float(self.joint_widths[0])
+
+    @property
+    def radius(self) -> float:
+        """R: distance from the base corner to the centroid of the whole column [m]."""
+        return math.hypot(0.5 * self.base_width, self.centroid_height)
+
+    @property
+    def slenderness(self) -> float:
+        """α: angle at the base corner between the vertical and the line to the centroid [rad]."""
+        return math.atan2(0.5 * self.base_width, self.centroid_height)
+
+    @property
+    def corner_inertia(self) -> float:
+        """I₀: inertia of the column as one rigid body about its base corner [kg m²]."""
+        about_axis = float((self.inertias + self.masses * self.centroid_heights**2).sum())
+        return about_axis + self.mass * (0.5 * self.base_width) ** 2
+
+    @property
+    def frequency_parameter(self) -> float:
+        """p = sqrt(m g R / I₀) of the column as one rigid body [rad/s] (Housner 1963)."""
+        return math.sqrt(self.mass * self.gravity * self.radius / self.corner_inertia)
+
+    @property
+    def restitution(self) -> float:
+        """e = 1 − 2 m b² / I₀ with b the half base: Housner's velocity restitution at an impact [-]."""
+        return 1.0 - 2.0 * self.mass * (0.5 * self.base_width) ** 2 / self.corner_inertia
+
+    @cached_property
+    def joint_uplift_accelerations(self) -> np.ndarray:
+        """Static horizontal acceleration that opens each joint of the rigid stack above it [m/s²], shape (n,).
+
+        A uniform acceleration a overturns the part above joint i about the edge of its contact section when
+        a (z_C − z_i) > g d_i / 2.
+        """
+        out = np.empty(self.n)
+        for i in range(self.n):
+            mass = self.masses[i:]
+            arm = float(mass @ (self.centroid_heights[i:] - self.joint_heights[i]) / mass.sum())
+            out[i] = self.gravity * 0.5 * self.joint_widths[i] / arm
+        return out
+
+    @property
+    def uplift_acceleration(self) -> float:
+        """Static horizontal acceleration at which the first joint opens [m/s²]."""
+        return float(self.joint_uplift_accelerations.min())
+
+    # -- provenance ----------------------------------------------------------------------------------------------
+
+    def to_dict(self) -> dict:
+        """Everything that defines the column, as plain values in SI units."""
+        return dataclasses.asdict(self)
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of :meth:`to_dict`."""
+        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()

@@ -1,0 +1,68 @@
+"""One joint: the dry contact under a drum."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from ..constants import DEGREE
+from ..errors import InputError, check_range
+
+DEFAULT_FRICTION_ANGLE = 35.0
+
+
+@dataclass(frozen=True)
+class Joint:
+    """Stiffness and strength of a dry joint, per unit of area; no tension.
+
+    Parameters
+    ----------
+    normal_stiffness, shear_stiffness : float
+        k_n and k_s [N/m³].
+    friction_angle : float, optional
+        φ [degrees]; 35 if neither angle nor coefficient is given.
+    friction_coefficient : float, optional
+        tan φ [-], instead of the angle.
+    cohesion : float
+        c [Pa], acts while the joint is in contact.
+
+    Raises
+    ------
+    InputError
+        A value is not finite or outside its range, or both angle and coefficient are given.
+    """
+
+    normal_stiffness: float
+    shear_stiffness: float
+    friction_angle: float | None = None
+    friction_coefficient: float | None = None
+    cohesion: float = 0.0
+
+    def __post_init__(self) -> None:
+        remedy = "a rigid joint is approached by a large stiffness, such as 5e10"
+        for name in ("normal_stiffness", "shear_stiffness"):
+            value = check_range(
+                f"{name} of a joint", getattr(self, name), 0.0, 1e15, unit="N/m³", open_low=True, remedy=remedy
+            )
+            object.__setattr__(self, name, value)
+        object.__setattr__(self, "cohesion", check_range("cohesion of a joint", self.cohesion, 0.0, 1e9, unit="Pa"))
+        if self.friction_angle is not None and self.friction_coefficient is not None:
+            raise InputError(
+                f"friction_angle = {self.friction_angle!r} and friction_coefficient = {self.friction_coefficient!r} "
+                "are both given; give one of the two."
+            )
+        if self.friction_coefficient is not None:
+            mu = check_range("friction_coefficient of a joint", self.friction_coefficient, 0.0, 1e6)
+            object.__setattr__(self, "friction_coefficient", mu)
+            object.__setattr__(self, "friction_angle", math.atan(mu) / DEGREE)
+        else:
+            angle = DEFAULT_FRICTION_ANGLE if self.friction_angle is None else self.friction_angle
+            angle = check_range("friction_angle of a joint", angle, 0.0, 90.0, unit="degrees", open_high=True)
+            object.__setattr__(self, "friction_angle", angle)
+            object.__setattr__(self, "friction_coefficient", math.tan(angle * DEGREE))
+
+    @property
+    def tan_phi(self) -> float:
+        """tan φ [-]."""
+        assert self.friction_coefficient is not None
+        return self.friction_coefficient

@@ -1,0 +1,56 @@
+"""What can go wrong, as types: bad input, a failure of ours, a model beyond its declared limits."""
+
+
+class StylobateError(Exception):
+    """Base of every error that this package raises on purpose."""
+
+
+class InputError(StylobateError, ValueError):
+    """Input that cannot be used. The message holds the value, the allowed range and the remedy."""
+
+
+class OutOfRangeWarning(UserWarning):
+    """A run is possible, but outside a limit that the model declares; the message names the limit."""
+
+
+def check_range(
+    name: str,
+    value: float,
+    low: float,
+    high: float,
+    *,
+    unit: str = "",
+    open_low: bool = False,
+    open_high: bool = False,
+    remedy: str = "",
+) -> float:
+    """Return ``value`` as a float if it is finite and inside the interval, else raise :class:`InputError`.
+
+    Parameters
+    ----------
+    name : str
+        What the value is, as the person who typed it would say.
+    value : float
+    low, high : float
+        Ends of the allowed interval, closed unless ``open_low`` / ``open_high``.
+    unit : str
+        Shown behind the numbers.
+    remedy : str
+        One clause that says what to do instead.
+    """
+    import math
+
+    unit_text = f" {unit}" if unit else ""
+    interval = f"{'(' if open_low else '['}{low:g}, {high:g}{')' if open_high or math.isinf(high) else ']'}{unit_text}"
+    tail = f"; {remedy}" if remedy else ""
+    if isinstance(value, bool) or not isinstance(value, (int, float)) and not hasattr(value, "__float__"):
+        raise InputError(f"{name} is {value!r}, not a number; allowed is {interval}{tail}.")
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} is {value!r}, not a number; allowed is {interval}{tail}.") from None
+    too_low = number <= low if open_low else number < low
+    too_high = number >= high if open_high else number > high
+    if not math.isfinite(number) or too_low or too_high:
+        raise InputError(f"{name} is {number:g}{unit_text}; allowed is {interval}{tail}.")
+    return number

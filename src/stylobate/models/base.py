@@ -1,0 +1,110 @@
+"""What every model is: a frozen set of parameters that can run one case or many."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import typing
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, NamedTuple
+
+from ..column import Column
+from ..errors import InputError
+from ..motion import Motion
+from ..response import Measures, Response
+
+
+class Case(NamedTuple):
+    """One run of a batch."""
+
+    column: Column
+    motion: Motion
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """How long and how closely a run is followed; the same for every model.
+
+    Parameters
+    ----------
+    tail : float
+        Time to go on after the motion has ended [s].
+    output_interval : float
+        Wanted time between recorded states of a single run [s]; the nearest multiple of the step is used.
+    until_end : bool
+        Go on after a collapse is certain.
+    """
+
+    tail: float = 0.0
+    output_interval: float = 0.01
+    until_end: bool = False
+
+
+@dataclass(frozen=True)
+class Model:
+    """Base of the models. A subclass is a frozen dataclass of parameters, checked where it is made.
+
+    Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography.
+    """
+
+    name: ClassVar[str] = ""
+    title: ClassVar[str] = ""
+    references: ClassVar[tuple[str, ...]] = ()
+
+    def check(self, column: Column, motion: Motion) -> None:
+        """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
+
+    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories."""
+        raise NotImplementedError
+
+    def run_many(
+        self, cases: Sequence[Case], options: RunOptions, threads: int
+    ) -> Iterator[tuple[int, Measures]]:
+        """Many runs; yields (index of the case, measures) as they finish, in any order."""
+        raise NotImplementedError
+
+    def parameters(self) -> dict[str, Any]:
+        """All parameters as plain values, for provenance."""
+        return dataclasses.asdict(self)
+
+    @classmethod
+    def from_settings(cls, settings: Mapping[str, str]) -> Model:
+        """Make the model from texts as given by ``--set name=value``.
+
+        Raises
+        ------
+        InputError
+            An unknown name, or a value that is not of the parameter's type.
+        """
+        hints = typing.get_type_hints(cls)
+        allowed = [f.name for f in dataclasses.fields(cls)]
+        values = {}
+        for key, text in settings.items():
+            if key not in allowed:
+                close = difflib.get_close_matches(key, allowed, 1)
+                hint = f"did you mean {close[0]}? " if close else ""
+                raise InputError(f"{cls.name} has no option {key!r}; {hint}options are {', '.join(allowed) or 'none'}.")
+            values[key] = _parse(key, text, hints[key])
+        return cls(**values)
+
+
+def _parse(key: str, text: str, hint: Any) -> Any:
+    kinds = set(typing.get_args(hint)) or {hint}
+    if type(None) in kinds and text.lower() in ("none", "auto", ""):
+        return None
+    if bool in kinds:
+        if text.lower() in ("true", "yes", "on", "1"):
+            return True
+        if text.lower() in ("false", "no", "off", "0"):
+            return False
+        raise InputError(f"option {key} is {text!r}; allowed is true or false.")
+    for kind, word in ((int, "a whole number"), (float, "a number")):
+        if kind in kinds:
+            try:
+                return kind(text)
+            except ValueError:
+                if str not in kinds and not (kind is int and float in kinds):
+                    raise InputError(f"option {key} is {text!r}; allowed is {word}.") from None
+    return text

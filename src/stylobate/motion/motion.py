@@ -1,0 +1,217 @@
+"""A ground motion: acceleration of the base, sampled at equal steps and linear between the samples."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+
+import numpy as np
+
+from ..constants import g
+from ..errors import InputError, check_range
+
+MAX_SAMPLES = 20_000_000
+
+
+@dataclass(frozen=True, eq=False, init=False)
+class Motion:
+    """Acceleration of the base in one to three components.
+
+    Starts at t = 0 with its first sample, is linear between samples, and zero after its last one.
+
+    Parameters
+    ----------
+    dt : float
+        Step [s].
+    acceleration : array
+        Horizontal acceleration along x, the plane of the plane models, before ``factor`` [m/s²], shape (steps,).
+    lateral, vertical : array, optional
+        Second horizontal (y) and vertical (z, upward positive) acceleration before ``factor`` [m/s²], shape (steps,).
+    factor : float
+        Multiplies every component; scaled motions share their samples, so that a domain of ten thousand
+        amplitudes keeps one array. The attributes ``acceleration``, ``lateral`` and ``vertical`` include it.
+    name : str
+    metadata : mapping
+        What a file said: format, unit as found, station, event, azimuths, licence …
+    processing : tuple of str
+        Every step that changed the samples, in order.
+
+    Raises
+    ------
+    InputError
+        A step that is not positive, samples that are not finite, components of unequal length.
+    """
+
+    dt: float
+    samples: np.ndarray
+    y_samples: np.ndarray | None
+    z_samples: np.ndarray | None
+    factor: float
+    name: str
+    metadata: Mapping
+    processing: tuple[str, ...]
+
+    def __init__(
+        self,
+        dt: float,
+        acceleration: np.ndarray,
+        lateral: np.ndarray | None = None,
+        vertical: np.ndarray | None = None,
+        *,
+        factor: float = 1.0,
+        name: str = "motion",
+        metadata: Mapping | None = None,
+        processing: tuple[str, ...] = (),
+    ) -> None:
+        def put(key: str, value: object) -> None:
+            object.__setattr__(self, key, value)
+
+        put("dt", check_range("dt of a motion", dt, 0.0, 1e3, unit="s", open_low=True, remedy="state the step"))
+        put("factor", check_range("factor of a motion", factor, -1e9, 1e9))
+        put("name", name)
+        put("metadata", MappingProxyType(dict(metadata or {})))
+        put("processing", tuple(processing))
+        length = None
+        for label, key, value in (
+            ("x", "samples", acceleration),
+            ("y", "y_samples", lateral),
+            ("z", "z_samples", vertical),
+        ):
+            if value is None:
+                if key == "samples":
+                    raise InputError(f"motion {self.name!r} has no horizontal component; give one.")
+                put(key, None)
+                continue
+            array = _checked(value, label, name)
+            if length is not None and len(array) != length:
+                raise InputError(
+                    f"component {label} of {name!r} has {len(array)} samples, the first one {length}; "
+                    "cut or pad them to equal length."
+                )
+            length = len(array)
+            put(key, array)
+
+    # -- components ----------------------------------------------------------------------------------------------
+
+    @property
+    def acceleration(self) -> np.ndarray:
+        """Horizontal acceleration along x [m/s²], shape (steps,)."""
+        return self.samples * self.factor
+
+    @property
+    def lateral(self) -> np.ndarray | None:
+        """Horizontal acceleration along y [m/s²], shape (steps,), or None."""
+        return None if self.y_samples is None else self.y_samples * self.factor
+
+    @property
+    def vertical(self) -> np.ndarray | None:
+        """Vertical acceleration, upward positive [m/s²], shape (steps,), or None."""
+        return None if self.z_samples is None else self.z_samples * self.factor
+
+    @property
+    def components(self) -> dict[str, np.ndarray]:
+        """Components that are present, by axis name x, y, z [m/s²]."""
+        found = {"x": self.acceleration, "y": self.lateral, "z": self.vertical}
+        return {axis: values for axis, values in found.items() if values is not None}
+
+    @property
+    def steps(self) -> int:
+        """Number of samples."""
+        return len(self.samples)
+
+    @property
+    def duration(self) -> float:
+        """Time from the first to the last sample [s]."""
+        return (self.steps - 1) * self.dt
+
+    @property
+    def time(self) -> np.ndarray:
+        """Sample times [s], shape (steps,)."""
+        return np.arange(self.steps) * self.dt
+
+    @property
+    def pga(self) -> float:
+        """Largest absolute horizontal acceleration along x [m/s²]."""
+        return float(np.abs(self.samples).max()) * abs(self.factor)
+
+    @property
+    def pgv(self) -> float:
+        """Largest absolute velocity along x by the trapezoidal rule from rest [m/s]."""
+        return float(np.abs(integrate(self.acceleration, self.dt)).max())
+
+    # -- changed copies ------------------------------------------------------------------------------------------
+
+    def replace(self, **changes) -> Motion:
+        """A copy with some constructor arguments changed (``acceleration`` … without the factor)."""
+        fields: dict = {
+            "acceleration": self.samples,
+            "lateral": self.y_samples,
+            "vertical": self.z_samples,
+            "factor": self.factor,
+            "name": self.name,
+            "metadata": self.metadata,
+            "processing": self.processing,
+        }
+        fields |= changes
+        return Motion(fields.pop("dt", self.dt), fields.pop("acceleration"), **fields)
+
+    def scaled(self, factor: float) -> Motion:
+        """A copy with every component multiplied by ``factor``; the samples are shared."""
+        return self.replace(factor=self.factor * check_range("scale", factor, -1e6, 1e6))
+
+    def scaled_to_pga(self, pga: float) -> Motion:
+        """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike."""
+        value = check_range("pga", pga, 0.0, 1e4, unit="m/s²")
+        if self.pga == 0.0:
+            raise InputError(f"motion {self.name!r} is zero along x and cannot be scaled to a peak.")
+        return self.scaled(value / self.pga)
+
+    def without_vertical(self) -> Motion:
+        """A copy without its vertical component."""
+        return self.replace(vertical=None)
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of step, factor and samples."""
+        found = hashlib.sha256(np.array([self.dt, self.factor]).tobytes())
+        for label, values in (("x", self.samples), ("y", self.y_samples), ("z", self.z_samples)):
+            if values is not None:
+                found.update(label.encode())
+                found.update(values.tobytes())
+        return found.hexdigest()
+
+    def describe(self) -> str:
+        """One line for people."""
+        return f"{self.name}: {self.duration:g} s, dt {self.dt:g} s, PGA {self.pga / g:.3g} g"
+
+
+def _checked(value: np.ndarray, label: str, name: str) -> np.ndarray:
+    # Arrays that are already read-only float64 were checked when they were made: scaled copies share them.
+    if isinstance(value, np.ndarray) and value.dtype == np.float64 and not value.flags.writeable and value.ndim == 1:
+        return value
+    try:
+        array = np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"component {label} of {name!r} is not an array of numbers.") from None
+    if array.ndim != 1 or array.size < 2:
+        raise InputError(f"component {label} of {name!r} has shape {array.shape}; give at least 2 samples in one row.")
+    if array.size > MAX_SAMPLES:
+        raise InputError(f"component {label} of {name!r} has {array.size} samples; allowed is up to {MAX_SAMPLES}.")
+    bad = np.flatnonzero(~np.isfinite(array))
+    if bad.size:
+        raise InputError(
+            f"component {label} of {name!r} has {bad.size} values that are not finite, the first at sample {bad[0]}; "
+            "mend the record before use."
+        )
+    array.flags.writeable = False
+    return array
+
+
+def integrate(values: np.ndarray, dt: float) -> np.ndarray:
+    """Running integral from zero by the trapezoidal rule, same shape as ``values``."""
+    out = np.zeros_like(values)
+    np.cumsum(0.5 * dt * (values[1:] + values[:-1]), out=out[1:])
+    return out

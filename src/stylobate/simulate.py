@@ -1,0 +1,165 @@
+"""The two verbs: one run with its histories, many runs with their measures."""
+
+from __future__ import annotations
+
+import os
+import platform
+import time
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+from . import __version__
+from .column import Column
+from .errors import InputError, check_range
+from .models.base import Case, Model, RunOptions
+from .motion import Motion
+from .response import Measures, Response
+
+if TYPE_CHECKING:
+    import pandas
+
+
+def simulate(
+    column: Column,
+    motion: Motion,
+    model: Model,
+    *,
+    tail: float = 0.0,
+    output_interval: float = 0.01,
+    until_end: bool = False,
+) -> Response:
+    """Shake one column once and record what happens.
+
+    Parameters
+    ----------
+    column : Column
+    motion : Motion
+    model : Model
+        e.g. ``DistinctElement2D()``.
+    tail : float
+        Time to go on after the motion has ended [s].
+    output_interval : float
+        Time between recorded states [s].
+    until_end : bool
+        Go on after the collapse is certain.
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    InputError
+        The input cannot be used. A collapse or a failed computation is a result, not an exception.
+    """
+    options = _options(tail, output_interval, until_end)
+    model.check(column, motion)
+    started = time.perf_counter()
+    response = model.run(column, motion, options)
+    wall = time.perf_counter() - started
+    provenance = {
+        "version": __version__,
+        "model": model.name,
+        "parameters": model.parameters(),
+        "references": list(model.references),
+        "column": column.to_dict(),
+        "column_digest": column.digest,
+        "motion": motion.name,
+        "motion_digest": motion.digest,
+        "motion_metadata": {str(key): str(value) for key, value in motion.metadata.items()},
+        "motion_processing": list(motion.processing),
+        "tail_s": options.tail,
+        "output_interval_s": options.output_interval,
+        "python": platform.python_version(),
+        "machine": platform.machine(),
+    }
+    return response.with_provenance(provenance, wall)
+
+
+def simulate_iter(
+    cases: Sequence[Case],
+    model: Model,
+    *,
+    tail: float = 0.0,
+    until_end: bool = False,
+    threads: int | None = None,
+) -> Iterator[tuple[int, Measures]]:
+    """Run many cases; yields (index, measures) as they finish, in any order.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+    model : Model
+    tail, until_end
+        As in :func:`simulate`.
+    threads : int, optional
+        All cores by default.
+    """
+    options = _options(tail, 0.01, until_end)
+    seen: set[tuple[int, int]] = set()
+    for case in cases:
+        key = (id(case.column), id(case.motion.samples))
+        if key not in seen:
+            model.check(case.column, case.motion)
+            seen.add(key)
+    yield from model.run_many(cases, options, thread_count(threads))
+
+
+def simulate_many(
+    column: Column | Sequence[Column],
+    motions: Sequence[Motion],
+    model: Model,
+    *,
+    tail: float = 0.0,
+    until_end: bool = False,
+    threads: int | None = None,
+) -> pandas.DataFrame:
+    """Shake many columns many times; histories are not kept.
+
+    Parameters
+    ----------
+    column : Column or sequence of Column
+        One for all motions, or one for each motion.
+    motions : sequence of Motion
+    model : Model
+    tail, until_end
+        As in :func:`simulate`.
+    threads : int, optional
+        All cores by default.
+
+    Returns
+    -------
+    pandas.DataFrame
+        One row per run in the order given, columns named as the JSON keys of ``stylobate run``.
+    """
+    import pandas
+
+    columns = [column] * len(motions) if isinstance(column, Column) else list(column)
+    if len(columns) != len(motions):
+        raise InputError(
+            f"{len(columns)} columns are given for {len(motions)} motions; give one column, or one for each motion."
+        )
+    started = time.perf_counter()
+    cases = [Case(one, motion) for one, motion in zip(columns, motions, strict=True)]
+    rows: list[dict] = [{}] * len(cases)
+    for index, measures in simulate_iter(cases, model, tail=tail, until_end=until_end, threads=threads):
+        rows[index] = measures.row()
+    wall = (time.perf_counter() - started) / max(1, len(cases))
+    for row in rows:
+        row |= {"wall_s": wall, "model": model.name, "version": __version__}
+    return pandas.DataFrame(rows)
+
+
+def thread_count(threads: int | None) -> int:
+    """Number of threads to use: as asked, or one per core."""
+    if threads is None:
+        return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return int(check_range("threads", threads, 1, 1024, remedy="leave it out to use all cores"))
+
+
+def _options(tail: float, output_interval: float, until_end: bool) -> RunOptions:
+    return RunOptions(
+        check_range("tail", tail, 0.0, 1e4, unit="s"),
+        check_range("output interval", output_interval, 0.0, 1e3, unit="s", open_low=True),
+        until_end,
+    )
