@@ -1,0 +1,71 @@
+# make install | demo | test | check | format | bench | docs | lock | clean
+
+PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
+BIN := .venv/bin
+STAMP := .venv/.installed
+DOCS_STAMP := .venv/.installed-docs
+PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
+UV_VERSION := 0.13.8
+LOCK := .venv-lock/bin/uv pip compile -q --universal --python-version 3.11 --generate-hashes \
+        --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" $(UPGRADE)
+
+# An environment that was copied or moved here would run the code at its old place: build it anew.
+ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
+.PHONY: $(STAMP)
+endif
+
+.PHONY: install demo test check format bench docs lock clean
+
+install: $(STAMP)
+	@:
+
+$(STAMP): pyproject.toml requirements/base.lock
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
+	    { echo "stylobate needs Python 3.11 or newer: name one with  make install PYTHON=/path/to/python3.11" >&2; exit 1; }
+	@echo "Installing stylobate and its pinned requirements into .venv (a minute or two)"
+	@[ ! -e .venv ] || [ "$$(cat $@ 2>/dev/null)" = "$(CURDIR)" ] || rm -rf .venv
+	@[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
+	@$(PIP) install --require-hashes -r requirements/base.lock
+	@$(PIP) install --no-deps --no-build-isolation -e .
+	@echo "$(CURDIR)" > $@
+
+demo: install
+	@$(BIN)/python -m stylobate.cli.demo
+
+test: install
+	@$(BIN)/python -m pytest $(ARGS)
+
+check: install
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/basedpyright
+	$(BIN)/lint-imports --no-logo
+
+format: install
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: install
+	@$(BIN)/stylobate bench $(ARGS)
+
+$(DOCS_STAMP): requirements/docs.lock $(STAMP)
+	@echo "Installing what the documentation is built with into .venv"
+	@$(PIP) install --require-hashes -r requirements/docs.lock
+	@touch $@
+
+docs: $(DOCS_STAMP)
+	$(BIN)/python -m sphinx -W --keep-going -b html docs docs/_build/html
+
+# Keeps the pinned versions that still fit; `make lock UPGRADE=--upgrade` takes the newest.
+lock:
+	@[ -x .venv-lock/bin/uv ] || $(PYTHON) -m venv .venv-lock
+	@.venv-lock/bin/python -m pip --disable-pip-version-check -qq install uv==$(UV_VERSION)
+	$(LOCK) --extra test --extra dev --extra seismology --extra video \
+	    requirements/build.in pyproject.toml -o requirements/base.lock > /dev/null
+	$(LOCK) --extra docs -c requirements/base.lock pyproject.toml -o requirements/docs.lock > /dev/null
+	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
+	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
+
+clean:
+	rm -rf .venv .venv-lock build dist docs/_build .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	find src tests benchmarks gallery -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
