@@ -22,10 +22,11 @@ install: $(STAMP)
 $(STAMP): pyproject.toml requirements/base.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "stylobate needs Python 3.11 or newer: name one with  make install PYTHON=/path/to/python3.11" >&2; exit 1; }
-	@echo "Installing stylobate and its pinned requirements into .venv (a minute or two)"
+	@echo "Installing stylobate and its pinned requirements into .venv (about a minute)"
 	@[ ! -e .venv ] || [ "$$(cat $@ 2>/dev/null)" = "$(CURDIR)" ] || rm -rf .venv
 	@[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
-	@$(PIP) install --require-hashes -r requirements/base.lock
+	@$(PIP) install --no-compile --require-hashes -r requirements/base.lock
+	@$(BIN)/python -m compileall -qq -j 0 "$(CURDIR)/.venv/lib" || true # on all cores, which pip does not use
 	@$(PIP) install --no-deps --no-build-isolation -e .
 	@echo "$(CURDIR)" > $@
 
