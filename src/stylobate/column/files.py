@@ -1,0 +1,227 @@
+"""Column files (TOML): read, written, and found by the name of a preset or a path."""
+
+from __future__ import annotations
+
+import dataclasses
+import difflib
+import json
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..atomic import replacing
+from ..constants import g as STANDARD_GRAVITY
+from ..errors import InputError
+from .column import Column
+from .drum import Drum
+from .joint import Joint
+from .presets import PRESETS, preset
+from .toml import Table, read_table
+
+
+class JointTable(Table):
+    """``[joint]``: stiffness [N/m³], one form of friction (angle in degrees), cohesion [Pa]."""
+
+    normal_stiffness: float
+    shear_stiffness: float
+    friction_angle: float | None = None
+    friction_coefficient: float | None = None
+    cohesion: float = 0.0
+
+
+class OverrideTable(Table):
+    """``[[joint_override]]``: what differs at one joint; joint 1 is the one with the base."""
+
+    index: int
+    normal_stiffness: float | None = None
+    shear_stiffness: float | None = None
+    friction_angle: float | None = None
+    friction_coefficient: float | None = None
+    cohesion: float | None = None
+
+
+class DrumTable(Table):
+    """``[[drum]]``: one drum, bottom to top; lengths in m, density in kg/m³."""
+
+    height: float
+    bottom_width: float
+    top_width: float
+    density: float | None = None
+    depth: float | None = None
+
+
+class TaperedTable(Table):
+    """``[tapered]``: equal drums between two widths; lengths in m."""
+
+    height: float
+    bottom_width: float
+    top_width: float
+    drums: int
+
+
+class ColumnTable(Table):
+    """A column file."""
+
+    name: str | None = None
+    section: str = "rectangular"
+    depth: float | None = None
+    density: float | None = None
+    gravity: float = STANDARD_GRAVITY
+    tapered: TaperedTable | None = None
+    drum: list[DrumTable] | None = None
+    joint: JointTable | None = None
+    joint_override: list[OverrideTable] = []
+
+
+def load_column(text: str | Path) -> Column:
+    """The column preset of that name, or the column in the file of that path.
+
+    Raises
+    ------
+    InputError
+        There is neither, or the file cannot be used.
+    """
+    name = str(text)
+    if name in PRESETS:
+        return preset(name)
+    if Path(name).exists() or name.endswith(".toml"):
+        return read_column(name)
+    close = difflib.get_close_matches(name, PRESETS, 1)
+    hint = f"did you mean {close[0]}? " if close else ""
+    raise InputError(
+        f"there is no column preset or file {name!r}; {hint}presets are {', '.join(PRESETS)}, a column file is TOML."
+    )
+
+
+def read_column(path: str | Path) -> Column:
+    """Read a column file.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read or does not describe a column; the message names the file, the key and the remedy.
+    """
+    table = read_table(path, ColumnTable)
+    try:
+        return _column(table, default_name=Path(path).stem)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def write_column(column: Column, path: str | Path) -> Path:
+    """Write a column file, drum by drum, that :func:`read_column` reads back as an equal column."""
+    first = column.drums[0]
+    common = Counter(column.joints).most_common(1)[0][0]
+    lines = [f"name = {_text(column.name)}", f'section = "{first.section}"', f"gravity = {_number(column.gravity)}"]
+    for i, drum in enumerate(column.drums):
+        lines += ["", "[[drum]]" + (" # bottom to top" if i == 0 else "")]
+        lines += [
+            f"{key} = {_number(getattr(drum, key))}" for key in ("height", "bottom_width", "top_width", "density")
+        ]
+        if not drum.circular:
+            lines.append(f"depth = {_number(drum.depth)}")
+    lines += ["", "[joint]", *_joint_lines(common)]
+    for i, joint in enumerate(column.joints):
+        if joint != common:
+            lines += ["", "[[joint_override]]", f"index = {i + 1}", *_joint_lines(joint)]
+    target = Path(path)
+    with replacing(target) as partial:
+        partial.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    return target
+
+
+def column_from_dict(data: Mapping[str, Any]) -> Column:
+    """The column that :meth:`Column.to_dict` described."""
+    drums = tuple(Drum(**fields) for fields in data["drums"])
+    joints = tuple(_one_friction(fields) for fields in data["joints"])
+    return Column(drums, joints, data["name"], data["gravity"])
+
+
+def _column(table: ColumnTable, default_name: str) -> Column:
+    if table.joint is None:
+        raise InputError(
+            "there is no [joint] table; add one with normal_stiffness and shear_stiffness [N/m³] "
+            "and friction_angle [degrees]."
+        )
+    if table.tapered is not None and table.drum is not None:
+        raise InputError("both [tapered] and [[drum]] are given; keep one of the two.")
+    if table.section == "circular" and table.depth is not None:
+        raise InputError(f"depth is {table.depth:g} m for a circular section; leave it out.")
+    name = default_name if table.name is None else table.name
+    joint = Joint(**table.joint.model_dump())
+    overrides: dict[int, Joint] = {}
+    for override in table.joint_override:
+        if override.index in overrides:
+            raise InputError(f"joint_override index {override.index} is given twice; keep one of the two.")
+        overrides[override.index] = _overridden(table.joint, override)
+    if table.tapered is not None:
+        if table.density is None:
+            raise InputError("key 'density' [kg/m³] is missing; add it above [tapered].")
+        return Column.tapered(
+            **table.tapered.model_dump(),
+            density=table.density,
+            joint=joint,
+            section=table.section,
+            depth=1.0 if table.depth is None else table.depth,
+            overrides=overrides,
+            name=name,
+            gravity=table.gravity,
+        )
+    if not table.drum:
+        raise InputError("there is neither [tapered] nor [[drum]]; add one of the two.")
+    drums = [_drum(i, one, table) for i, one in enumerate(table.drum)]
+    return Column.of_drums(drums, joint, overrides=overrides, name=name, gravity=table.gravity)
+
+
+def _drum(i: int, one: DrumTable, table: ColumnTable) -> Drum:
+    density = table.density if one.density is None else one.density
+    if density is None:
+        raise InputError(f"[[drum]] number {i + 1} has no density; add one to it, or a common one at the top [kg/m³].")
+    if table.section == "circular" and one.depth is not None:
+        raise InputError(f"[[drum]] number {i + 1} has a depth but a circular section; leave the depth out.")
+    depth = one.depth if one.depth is not None else table.depth if table.depth is not None else 1.0
+    try:
+        return Drum(one.height, one.bottom_width, one.top_width, density, table.section, depth)
+    except InputError as error:
+        raise InputError(f"[[drum]] number {i + 1}: {error}") from None
+
+
+def _overridden(common: JointTable, override: OverrideTable) -> Joint:
+    fields = common.model_dump()
+    changes = override.model_dump(exclude={"index"}, exclude_none=True)
+    if "friction_angle" in changes or "friction_coefficient" in changes:
+        fields["friction_angle"] = fields["friction_coefficient"] = None
+    try:
+        return Joint(**(fields | changes))
+    except InputError as error:
+        raise InputError(f"[[joint_override]] with index {override.index}: {error}") from None
+
+
+def _one_friction(fields: Mapping[str, Any]) -> Joint:
+    # A joint holds friction as angle and as coefficient; it was made from one, which gives back the other to the bit.
+    for form in ("friction_coefficient", "friction_angle"):
+        joint = Joint(**{key: value for key, value in fields.items() if key != form})
+        if dataclasses.asdict(joint) == dict(fields):
+            break
+    return joint
+
+
+def _joint_lines(joint: Joint) -> list[str]:
+    fields = dataclasses.asdict(joint)
+    without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
+    drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
+    return [f"{key} = {_number(value)}" for key, value in fields.items() if key != drop]
+
+
+def _number(value: float) -> str:
+    if value != 0.0 and not 1e-3 <= abs(value) < 1e7:
+        return np.format_float_scientific(value, trim="0")
+    return repr(float(value))
+
+
+def _text(value: str) -> str:
+    # A JSON string is a TOML string, except for the one control character that JSON leaves as it is.
+    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

@@ -1,0 +1,131 @@
+"""TOML files checked against a schema: every mistake in one sentence that names the place and the remedy."""
+
+from __future__ import annotations
+
+import difflib
+import tomllib
+import typing
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from ..errors import InputError
+
+
+class Table(BaseModel):
+    """A table of a file: keys are known, values have their type."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+T = TypeVar("T", bound=Table)
+
+_EXPECTED = {
+    "float_type": "a number",
+    "int_type": "a whole number",
+    "int_from_float": "a whole number",
+    "string_type": "a text in quotes",
+    "bool_type": "true or false",
+    "list_type": "a list",
+    "tuple_type": "a list",
+    "dict_type": "a table",
+    "model_type": "a table",
+}
+
+
+def read_table(path: str | Path, schema: type[T]) -> T:
+    """Read a TOML file that follows a schema.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, is not TOML, or does not follow the schema.
+    """
+    return checked(parse_toml(path), schema, str(path))
+
+
+def parse_toml(path: str | Path) -> dict[str, Any]:
+    """Content of a TOML file, unchecked."""
+    try:
+        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(f"there is no file {path}.") from None
+    except IsADirectoryError:
+        raise InputError(f"{path} is a folder; name the TOML file in it.") from None
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}.") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path} is not a text file in UTF-8; give a TOML file.") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{path} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}.") from None
+
+
+def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
+    """``data`` as the schema's table; ``source`` is what messages call the file."""
+    try:
+        return schema.model_validate(data)
+    except ValidationError as error:
+        found = error.errors()
+    # A misspelt key is also a missing one: the spelling is what helps.
+    first = next((item for item in found if item["type"] == "extra_forbidden"), found[0])
+    raise InputError(f"{source}: {_sentence(first, schema)}")
+
+
+def _sentence(item: Any, schema: type[Table]) -> str:
+    *where, key = item["loc"] or ("",)
+    kind, value = item["type"], item["input"]
+    if isinstance(key, int):  # an element of a list: name it by the list
+        where, key, position = where[:-1], where[-1], f"number {key + 1} of "
+    else:
+        position = ""
+    place = _place(where)
+    if kind == "extra_forbidden":
+        keys = _keys(schema, where)
+        close = difflib.get_close_matches(str(key), keys, 1)
+        hint = f"did you mean {close[0]!r}?" if close else f"allowed are {', '.join(keys)}."
+        return f"unknown key {key!r}{place}; {hint}"
+    if kind == "missing":
+        return f"key {key!r} is missing{place}; add it."
+    if kind == "literal_error":
+        expected = item["ctx"]["expected"]
+    else:
+        expected = _EXPECTED.get(kind)
+    if expected is None:
+        return f"{position}{key!r}{place} is {value!r}: {item['msg'].lower()}."
+    return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}."
+
+
+def _place(where: list[str | int]) -> str:
+    if not where:
+        return ""
+    if isinstance(where[-1], int):
+        return f" in [[{where[-2]}]] number {where[-1] + 1}"
+    return f" in [{'.'.join(map(str, where))}]"
+
+
+def _keys(schema: type[Table], where: list[str | int]) -> list[str]:
+    for part in where:
+        if isinstance(part, str):
+            inner = _tables(schema.model_fields[part].annotation)
+            if not inner:
+                return []
+            schema = inner[0]
+    return list(schema.model_fields)
+
+
+def _tables(annotation: Any) -> list[type[Table]]:
+    if isinstance(annotation, type) and issubclass(annotation, Table):
+        return [annotation]
+    return [table for part in typing.get_args(annotation) for table in _tables(part)]
+
+
+def _short(value: Any) -> str:
+    if isinstance(value, dict):
+        return "a table"
+    if isinstance(value, list):
+        return "a list"
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    text = repr(value)
+    return text if len(text) <= 60 else text[:57] + "…"
