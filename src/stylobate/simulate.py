@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Sequence
 from typing import TYPE_CHECKING
 
 from . import __version__
@@ -83,7 +83,7 @@ def simulate_iter(
     tail: float = 0.0,
     until_end: bool = False,
     threads: int | None = None,
-) -> Iterator[tuple[int, Measures]]:
+) -> Generator[tuple[int, Measures], None, None]:
     """Run many cases; yields (index, measures) as they finish, in any order.
 
     Parameters

@@ -73,7 +73,7 @@ class ColumnTable(Table):
     tapered: TaperedTable | None = None
     drum: list[DrumTable] | None = None
     joint: JointTable | None = None
-    joint_override: list[OverrideTable] = []
+    joint_override: list[OverrideTable] | None = None
 
 
 def load_column(text: str | Path) -> Column:
@@ -153,7 +153,7 @@ def _column(table: ColumnTable, default_name: str) -> Column:
     name = default_name if table.name is None else table.name
     joint = Joint(**table.joint.model_dump())
     overrides: dict[int, Joint] = {}
-    for override in table.joint_override:
+    for override in table.joint_override or ():
         if override.index in overrides:
             raise InputError(f"joint_override index {override.index} is given twice; keep one of the two.")
         overrides[override.index] = _overridden(table.joint, override)

@@ -1,8 +1,8 @@
 """Responses as labelled data sets and netCDF files, and back without loss.
 
-A file holds the histories along ``time``, ``drum`` and ``joint`` (both numbered from 1 at the base), the energy ledger as
-``energy_*``, the measures as attributes under the names of ``stylobate run --json``, and the column and the provenance
-as JSON texts.
+A file holds the histories along ``time``, ``drum`` and ``joint`` (both numbered from 1 at the base), the energy ledger
+as ``energy_*``, the measures as attributes under the names of ``stylobate run --json``, and the column and the
+provenance as JSON texts.
 """
 
 from __future__ import annotations

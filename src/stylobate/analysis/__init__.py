@@ -1,0 +1,1 @@
+"""What it means: analyses that rest on many runs, or on the statics of a column."""

@@ -1,0 +1,142 @@
+"""Models side by side: the same column and motion through each, or the same domain through each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..column import Column
+from ..errors import InputError
+from ..models.base import Model
+from ..motion import Motion
+from ..response import Response
+from ..simulate import simulate
+from . import verdicts as v
+from .domain import Domain, collapse_domain
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Responses of several models to one motion, in the order asked for."""
+
+    responses: list[Response]
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per model, columns named as the JSON keys of ``stylobate run``."""
+        import pandas
+
+        rows = [{"model": r.model, **r.measures.row(), "wall_s": r.wall_time} for r in self.responses]
+        return pandas.DataFrame(rows)
+
+
+@dataclass(frozen=True, eq=False)
+class DomainComparison:
+    """Domains of several models over the same cells, in the order asked for."""
+
+    domains: list[Domain]
+
+    def differing(self, first: int, second: int) -> np.ndarray:
+        """Cells in which both models have a verdict and the verdicts differ, shape (F, A)."""
+        a, b = self.domains[first].verdicts, self.domains[second].verdicts
+        return self.comparable(first, second) & (a != b)
+
+    def comparable(self, first: int, second: int) -> np.ndarray:
+        """Cells in which both models have a verdict (stands or collapsed), shape (F, A)."""
+        certain = (v.STANDS, v.COLLAPSED)
+        return np.isin(self.domains[first].verdicts, certain) & np.isin(self.domains[second].verdicts, certain)
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per pair of models: cells that are comparable, cells that differ, and which of the two collapses."""
+        import pandas
+
+        rows = []
+        for i, j in combinations(range(len(self.domains)), 2):
+            differs = self.differing(i, j)
+            rows.append(
+                {
+                    "first": self.domains[i].model,
+                    "second": self.domains[j].model,
+                    "comparable": int(self.comparable(i, j).sum()),
+                    "differing": int(differs.sum()),
+                    "only_first_collapses": int((differs & (self.domains[i].verdicts == v.COLLAPSED)).sum()),
+                    "only_second_collapses": int((differs & (self.domains[j].verdicts == v.COLLAPSED)).sum()),
+                }
+            )
+        return pandas.DataFrame(rows)
+
+
+def compare_models(
+    column: Column,
+    motion: Motion,
+    models: Sequence[Model],
+    *,
+    tail: float = 0.0,
+    output_interval: float = 0.01,
+    progress: Callable[[int, int], None] | None = None,
+) -> Comparison:
+    """One column and one motion through several models.
+
+    Parameters
+    ----------
+    column, motion
+        As in :func:`stylobate.simulate`.
+    models : sequence of Model
+    tail, output_interval
+        As in :func:`stylobate.simulate`.
+    progress : callable, optional
+        Called with (finished, all).
+    """
+    _at_least_one(models)
+    responses = []
+    for model in models:
+        responses.append(simulate(column, motion, model, tail=tail, output_interval=output_interval))
+        if progress:
+            progress(len(responses), len(models))
+    return Comparison(responses)
+
+
+def compare_domains(
+    column: Column,
+    models: Sequence[Model],
+    frequencies: Sequence[float] | np.ndarray,
+    amplitudes: Sequence[float] | np.ndarray,
+    duration: float = 10.0,
+    *,
+    tail: float = 0.0,
+    threads: int | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> DomainComparison:
+    """One domain through several models; parameters as in :func:`stylobate.collapse_domain`.
+
+    ``progress`` counts the runs of all models. An interrupt (Ctrl-C) is passed on: half a comparison is none.
+    """
+    _at_least_one(models)
+    cells = len(frequencies) * len(amplitudes)
+    domains = []
+    for i, model in enumerate(models):
+
+        def advance(done: int, _: int, i: int = i) -> None:
+            if progress:
+                progress(i * cells + done, len(models) * cells)
+
+        domain = collapse_domain(
+            column, model, frequencies, amplitudes, duration, tail=tail, threads=threads, progress=advance
+        )
+        if not domain.complete:
+            raise KeyboardInterrupt
+        domains.append(domain)
+    return DomainComparison(domains)
+
+
+def _at_least_one(models: Sequence[Model]) -> None:
+    if not models:
+        raise InputError("no model is given to compare; name at least one.")

@@ -1,0 +1,186 @@
+"""The smallest amplitude of a motion that collapses a column, on a stated grid of amplitudes.
+
+Verdicts near the boundary alternate, so every amplitude of the grid is run and the whole alternation is reported; a
+bisection would return one of many boundaries.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..campaign.runner import Progress, run_campaign
+from ..column import Column
+from ..constants import g
+from ..errors import InputError, check_range
+from ..models.base import Case, Model
+from ..motion import Motion
+from . import verdicts as v
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Largest number of amplitudes of a grid.
+MAX_AMPLITUDES = 100_000
+
+
+@dataclass(frozen=True, eq=False)
+class CriticalAmplitude:
+    """Outcomes over a grid of amplitudes.
+
+    Parameters
+    ----------
+    column : Column
+    motion : Motion
+        The shape that was scaled.
+    model : str
+    amplitudes : array
+        Peak accelerations along x [m/s²], shape (runs,), rising.
+    rows : list of dict
+        One per amplitude, with the keys of ``Measures.row()``.
+    wall_time : float
+        [s]
+    """
+
+    column: Column
+    motion: Motion
+    model: str
+    amplitudes: np.ndarray
+    rows: list[dict]
+    wall_time: float
+
+    @property
+    def verdicts(self) -> list[str]:
+        """Verdict of each run: stands, collapsed, undecided or failed."""
+        return [v.verdict(row) for row in self.rows]
+
+    @property
+    def critical(self) -> float | None:
+        """Smallest amplitude of the grid that collapses the column [m/s²]; None when none does.
+
+        It is an upper bound where a smaller amplitude is undecided or failed; :attr:`counts` says whether any is.
+        """
+        return v.first_collapse(self.amplitudes, self.verdicts)
+
+    @property
+    def all_collapse_above(self) -> float | None:
+        """Smallest amplitude from which on every run of the grid collapses [m/s²]; None when the last one does not."""
+        return v.all_collapse_above(self.amplitudes, self.verdicts)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of runs by verdict."""
+        return v.count(self.verdicts)
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per run: ``amplitude_g``, ``verdict`` and the measures."""
+        import pandas
+
+        return pandas.DataFrame(
+            [
+                {"amplitude_g": a / g, "verdict": one, **row}
+                for a, one, row in zip(self.amplitudes, self.verdicts, self.rows)
+            ]
+        )
+
+    @property
+    def alternation(self) -> pandas.DataFrame:
+        """How the verdicts alternate with growing amplitude: one row per stretch of equal verdict."""
+        import pandas
+
+        return pandas.DataFrame(
+            [
+                {"from_g": low / g, "to_g": high / g, "verdict": one, "runs": runs}
+                for low, high, one, runs in v.alternations(self.amplitudes, self.verdicts)
+            ]
+        )
+
+    def summary(self) -> dict:
+        """The JSON object of ``stylobate critical``."""
+        counts = self.counts
+        return {
+            "critical_g": _in_g(self.critical),
+            "first_collapse_g": _in_g(self.critical),
+            "all_collapse_above_g": _in_g(self.all_collapse_above),
+            "runs": len(self.rows),
+            "collapsed": counts[v.COLLAPSED],
+            "stands": counts[v.STANDS],
+            "undecided": counts[v.UNDECIDED],
+            "failed": counts[v.FAILED],
+            "alternation": self.alternation.to_dict("records"),
+            "wall_s": self.wall_time,
+            "model": self.model,
+        }
+
+
+def critical_amplitude(
+    column: Column,
+    motion: Motion,
+    model: Model,
+    start: float,
+    stop: float,
+    step: float = 0.005 * g,
+    *,
+    nominal: float | None = None,
+    tail: float = 0.0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> CriticalAmplitude:
+    """Run a column under one motion at every amplitude of a grid.
+
+    Parameters
+    ----------
+    column : Column
+    motion : Motion
+        Scaled, all components alike, so that its peak along x takes the amplitudes of the grid.
+    model : Model
+    start, stop, step : float
+        The grid: ``start``, ``start + step`` … up to ``stop`` [m/s²].
+    nominal : float, optional
+        Amplitude that ``motion`` stands for as it is [m/s²]; its peak along x by default.
+    tail : float
+        Time to go on after the motion has ended [s].
+    threads : int, optional
+        All cores by default.
+    progress : callable, optional
+        Called with (finished, all).
+
+    Returns
+    -------
+    CriticalAmplitude
+
+    Raises
+    ------
+    InputError
+        An impossible grid, or input that the model refuses.
+    """
+    amplitudes = amplitude_grid(start, stop, step)
+    as_is = motion.pga if nominal is None else nominal
+    if as_is == 0.0:
+        raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
+    cases = [Case(column, motion.scaled(a / as_is)) for a in amplitudes]
+    result = run_campaign(cases, model, tail=tail, threads=threads, progress=progress)
+    if result.interrupted:
+        raise KeyboardInterrupt
+    rows = [row for row in result.rows if row is not None]
+    return CriticalAmplitude(column, motion, model.name, amplitudes, rows, result.wall_time)
+
+
+def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:
+    """Amplitudes from ``start`` to ``stop`` in steps [m/s²]; the last one is the last step not beyond ``stop``."""
+    low = check_range("the smallest amplitude", start, 0.0, 1e4, unit="m/s²", open_low=True)
+    high = check_range("the largest amplitude", stop, low, 1e4, unit="m/s²", remedy="it must not be below the smallest")
+    width = check_range("the amplitude step", step, 0.0, 1e4, unit="m/s²", open_low=True)
+    steps = int((high - low) / width * (1.0 + 1e-12) + 1e-9)
+    if steps >= MAX_AMPLITUDES:
+        raise InputError(
+            f"the grid of amplitudes has {steps + 1} steps; allowed is up to {MAX_AMPLITUDES}: give a larger step."
+        )
+    return low + width * np.arange(steps + 1)
+
+
+def _in_g(value: float | None) -> float | None:
+    return None if value is None else value / g

@@ -1,0 +1,290 @@
+"""The safe-unsafe domain of a column: its verdicts over frequency and amplitude of a harmonic base motion."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import __version__
+from ..atomic import replacing
+from ..campaign.ledger import discard
+from ..campaign.runner import Progress, run_campaign
+from ..column import Column
+from ..constants import g
+from ..errors import InputError, check_range
+from ..models.base import Case, Model
+from ..motion import harmonic
+from . import verdicts as v
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+#: Largest number of cells.
+MAX_CELLS = 1_000_000
+
+#: File in the output folder that keeps finished runs until the domain is complete.
+PROGRESS_FILE = "progress.sqlite"
+
+_GRIDS = {
+    "collapse_time_s": ("s", "time at which the collapse became certain"),
+    "peak_top_displacement_m": ("m", "largest top displacement relative to the base"),
+    "residual_top_displacement_m": ("m", "top displacement relative to the base at the end"),
+    "peak_rotation_rad": ("rad", "largest rotation of any drum"),
+    "peak_joint_opening_m": ("m", "largest opening of any joint"),
+    "residual_joint_slip_m": ("m", "largest offset of a drum along its joint at the end"),
+    "energy_imbalance": ("1", "energy that the ledger cannot account for, relative to the input work"),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Domain:
+    """Verdicts over frequency and amplitude.
+
+    Parameters
+    ----------
+    column : Column
+    model : str
+        Name of the model.
+    frequencies : array
+        [Hz], shape (F,), rising.
+    amplitudes : array
+        [m/s²], shape (A,), rising.
+    rows : list of dict or None
+        One per cell, frequency by frequency, with the keys of ``Measures.row()``; None where the cell was not run.
+    wall_time : float
+        [s]
+    provenance : dict
+        Versions, parameters and digests that reproduce the domain; plain values.
+    """
+
+    column: Column
+    model: str
+    frequencies: np.ndarray
+    amplitudes: np.ndarray
+    rows: list[dict | None]
+    wall_time: float
+    provenance: dict
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(number of frequencies, number of amplitudes)."""
+        return len(self.frequencies), len(self.amplitudes)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every cell was run; False after an interrupt."""
+        return all(row is not None for row in self.rows)
+
+    @property
+    def verdicts(self) -> np.ndarray:
+        """Verdict of each cell: stands, collapsed, undecided, failed or not run; shape (F, A)."""
+        return np.array([v.verdict(row) for row in self.rows]).reshape(self.shape)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Number of cells by verdict."""
+        return v.count(self.verdicts)
+
+    @property
+    def first_collapse(self) -> np.ndarray:
+        """Smallest amplitude that collapses the column at each frequency [m/s²], NaN where none does, shape (F,)."""
+        return _boundary(v.first_collapse, self)
+
+    @property
+    def all_collapse_above(self) -> np.ndarray:
+        """Smallest amplitude from which on all collapse at each frequency [m/s²], NaN where there is none, (F,)."""
+        return _boundary(v.all_collapse_above, self)
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per cell that was run: ``frequency_hz``, ``amplitude_g``, ``verdict`` and the measures."""
+        import pandas
+
+        cells = [(f, a) for f in self.frequencies for a in self.amplitudes]
+        return pandas.DataFrame(
+            [
+                {"frequency_hz": float(f), "amplitude_g": float(a / g), "verdict": v.verdict(row), **row}
+                for (f, a), row in zip(cells, self.rows)
+                if row is not None
+            ]
+        )
+
+    def grid(self, name: str) -> np.ndarray:
+        """One of the measures as an array of shape (F, A); NaN where there is no value."""
+        values = [np.nan if row is None or row[name] is None else float(row[name]) for row in self.rows]
+        return np.array(values).reshape(self.shape)
+
+    def summary(self) -> dict:
+        """The JSON object of ``stylobate domain``."""
+        counts = self.counts
+        return {
+            "cells": len(self.rows),
+            "collapsed": counts[v.COLLAPSED],
+            "stands": counts[v.STANDS],
+            "undecided": counts[v.UNDECIDED],
+            "failed": counts[v.FAILED],
+            "not_run": counts[v.NOT_RUN],
+            "runs": len(self.rows) - counts[v.NOT_RUN],
+            "uplift_g": self.column.uplift_acceleration / g,
+            "wall_s": self.wall_time,
+            "model": self.model,
+            "version": __version__,
+        }
+
+    def to_xarray(self) -> xarray.Dataset:
+        """The domain as a labelled data set.
+
+        Returns
+        -------
+        xarray.Dataset
+            Dimensions ``frequency`` [Hz] and ``amplitude`` [m/s²]; ``verdict`` as flags with their meanings, and the
+            measures, each with its unit in ``units``.
+        """
+        import xarray
+
+        dims = ("frequency", "amplitude")
+        flags = np.array([[v.VERDICTS.index(one) for one in line] for line in self.verdicts], dtype=np.int8)
+        variables: dict[str, Any] = {
+            "verdict": (
+                dims,
+                flags,
+                {
+                    "long_name": "verdict of the run",
+                    "flag_values": np.arange(len(v.VERDICTS), dtype=np.int8),
+                    "flag_meanings": " ".join(one.replace(" ", "_") for one in v.VERDICTS),
+                },
+            )
+        }
+        for name, (unit, meaning) in _GRIDS.items():
+            variables[name] = (dims, self.grid(name), {"units": unit, "long_name": meaning})
+        variables["column"] = ((), json.dumps(self.column.to_dict()))
+        variables["provenance"] = ((), json.dumps(self.provenance, default=str))
+        coordinates = {
+            "frequency": ("frequency", self.frequencies, {"units": "Hz", "long_name": "frequency of the base motion"}),
+            "amplitude": ("amplitude", self.amplitudes, {"units": "m s-2", "long_name": "amplitude of acceleration"}),
+            "amplitude_g": ("amplitude", self.amplitudes / g, {"units": "g", "long_name": "amplitude in g"}),
+        }
+        attributes = {
+            "model": self.model,
+            "version": __version__,
+            "wall_s": self.wall_time,
+            "uplift_acceleration_m_s2": self.column.uplift_acceleration,
+        }
+        return xarray.Dataset(variables, coordinates, attributes)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the domain: netCDF for a name that ends in ``.nc``, a table for ``.csv``; whole or not at all.
+
+        Raises
+        ------
+        InputError
+            Another ending, or a folder that cannot be written to.
+        """
+        target = Path(path)
+        if target.suffix not in (".nc", ".csv"):
+            raise InputError(f"{target} ends in {target.suffix!r}; a domain is saved as .nc (netCDF) or .csv (table).")
+        with replacing(target) as partial:
+            if target.suffix == ".nc":
+                self.to_xarray().to_netcdf(partial, engine="h5netcdf")
+            else:
+                self.table.to_csv(partial, index=False)
+        return target
+
+
+def collapse_domain(
+    column: Column,
+    model: Model,
+    frequencies: Sequence[float] | np.ndarray,
+    amplitudes: Sequence[float] | np.ndarray,
+    duration: float = 10.0,
+    *,
+    tail: float = 0.0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    out: str | Path | None = None,
+) -> Domain:
+    """Run a column under harmonic base motions of all frequencies and amplitudes.
+
+    Parameters
+    ----------
+    column : Column
+    model : Model
+    frequencies : array
+        [Hz], shape (F,)
+    amplitudes : array
+        [m/s²], shape (A,)
+    duration : float
+        Length of each motion [s].
+    tail : float
+        Time to go on after each motion has ended [s].
+    threads : int, optional
+        All cores by default.
+    progress : callable, optional
+        Called with (finished, all).
+    out : path, optional
+        Folder that keeps finished runs (``progress.sqlite``) until the domain is complete; a call with the same folder
+        and the same input goes on from there. When it is complete, ``domain.nc`` and ``domain.csv`` are written there.
+
+    Returns
+    -------
+    Domain
+        After an interrupt (Ctrl-C) it holds the cells that are finished, and ``complete`` is False.
+
+    Raises
+    ------
+    InputError
+        An impossible grid, a folder that cannot be used, or input that the model refuses.
+    """
+    f = _axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
+    a = _axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
+    if len(f) * len(a) > MAX_CELLS:
+        raise InputError(f"the domain has {len(f)} × {len(a)} cells; allowed is up to {MAX_CELLS}: give fewer.")
+    # One sine per frequency; its scaled copies share the samples.
+    units = [harmonic(float(one), 1.0, duration) for one in f]
+    cases = [Case(column, unit.scaled(float(amplitude))) for unit in units for amplitude in a]
+    key = {"column": column.digest, "frequencies": f.tolist(), "amplitudes": a.tolist(), "duration": float(duration)}
+    ledger = None if out is None else Path(out) / PROGRESS_FILE
+    if ledger is not None and not ledger.parent.is_dir():
+        raise InputError(f"folder {ledger.parent} does not exist; create it first.")
+    result = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
+    provenance = {
+        **key,
+        "column": column.to_dict(),
+        "column_digest": column.digest,
+        "model": model.name,
+        "parameters": model.parameters(),
+        "references": list(model.references),
+        "tail": tail,
+        "version": __version__,
+    }
+    domain = Domain(column, model.name, f, a, result.rows, result.wall_time, provenance)
+    if ledger is not None and domain.complete:
+        domain.save(ledger.parent / "domain.nc")
+        domain.save(ledger.parent / "domain.csv")
+        discard(ledger)
+    return domain
+
+
+def _axis(name: str, values: Sequence[float] | np.ndarray, low: float, high: float, unit: str) -> np.ndarray:
+    try:
+        axis = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} are not an array of numbers; give them in {unit}.") from None
+    if axis.ndim != 1 or axis.size == 0:
+        raise InputError(f"{name} have the shape {axis.shape}; give at least one value in one row [{unit}].")
+    for value in axis:
+        check_range(f"one of the {name}", value, low, high, unit=unit, open_low=True)
+    if (np.diff(axis) <= 0.0).any():
+        raise InputError(f"{name} must rise from value to value; sort them and leave doubles out.")
+    return axis
+
+
+def _boundary(find: Any, domain: Domain) -> np.ndarray:
+    found = [find(domain.amplitudes, line) for line in domain.verdicts]
+    return np.array([np.nan if one is None else one for one in found])

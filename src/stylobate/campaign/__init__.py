@@ -1,0 +1,1 @@
+"""Many times: study files, and campaigns of runs that can be interrupted and resumed."""

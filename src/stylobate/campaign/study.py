@@ -1,0 +1,146 @@
+"""Study files (TOML): a column, a model and the grid of a domain, so that a campaign can be repeated by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..column import Column
+from ..column.files import load_column
+from ..column.toml import Table, parse_toml, read_table
+from ..errors import InputError, check_range
+from ..models.base import Model
+from ..models.registry import make_model
+from ..motion.specs import parse_acceleration, parse_frequency
+
+#: Largest number of values of a range.
+MAX_VALUES = 100_000
+
+
+class StudyTable(Table):
+    """A study file."""
+
+    column: str
+    model: str
+    frequencies: Any  # a range as a text, or a list of values
+    amplitudes: Any
+    duration: float = 10.0
+    tail: float = 0.0
+    set: dict[str, Any] | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What a study file asks for.
+
+    Parameters
+    ----------
+    column : Column
+    model : Model
+    frequencies : array
+        [Hz]
+    amplitudes : array
+        [m/s²]
+    duration, tail : float
+        Length of each motion, and time to go on after it [s].
+    """
+
+    column: Column
+    model: Model
+    frequencies: np.ndarray
+    amplitudes: np.ndarray
+    duration: float = 10.0
+    tail: float = 0.0
+
+
+def is_study(path: str | Path) -> bool:
+    """Whether a TOML file is a study, not a column: it names a column, a model or a grid."""
+    return not {"column", "model", "frequencies", "amplitudes"}.isdisjoint(parse_toml(path))
+
+
+def read_study(path: str | Path) -> Study:
+    """Read a study file; the path of a column file in it starts from the study file's folder.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read or does not describe a study; the message names the file, the key and the remedy.
+    """
+    table = read_table(path, StudyTable)
+    beside = Path(path).parent / table.column
+    settings = {key: str(value) for key, value in (table.set or {}).items()}
+    try:
+        return Study(
+            column=load_column(beside if beside.is_file() else table.column),
+            model=make_model(table.model, settings),
+            frequencies=_values("frequencies", table.frequencies, frequency_range, parse_frequency, unit="Hz"),
+            amplitudes=_values("amplitudes", table.amplitudes, amplitude_range, parse_acceleration, unit=None),
+            duration=check_range("duration", table.duration, 0.0, 1e4, unit="s", open_low=True),
+            tail=check_range("tail", table.tail, 0.0, 1e4, unit="s"),
+        )
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def frequency_range(text: str) -> np.ndarray:
+    """Frequencies as typed, ``0.33:4:24`` (first, last, number) or ``0.5,1,2`` [Hz]."""
+
+    def parse(part: str) -> float:
+        try:
+            return float(part)
+        except ValueError:
+            return parse_frequency(part)
+
+    return _range("frequencies", text, parse, "0.33:4:24")
+
+
+def amplitude_range(text: str) -> np.ndarray:
+    """Amplitudes as typed, ``0.05g:0.6g:32`` (first, last, number) or ``0.1g,0.2g`` [m/s²]."""
+    return _range("amplitudes", text, parse_acceleration, "0.05g:0.6g:32")
+
+
+def _range(name: str, text: str, parse: Callable[[str], float], example: str) -> np.ndarray:
+    parts = text.split(":")
+    if len(parts) == 1:
+        return np.array([parse(part.strip()) for part in text.split(",")])
+    if len(parts) != 3:
+        raise InputError(f"{name} are {text!r}; write them as first:last:number, e.g. {example!r}.")
+    low, high = parse(parts[0].strip()), parse(parts[1].strip())
+    if not parts[2].strip().isdecimal():
+        raise InputError(f"{name} are {text!r}, where {parts[2]!r} is no number of values; write e.g. {example!r}.")
+    number = int(parts[2])
+    if not 1 <= number <= MAX_VALUES:
+        raise InputError(f"{name} are {text!r}, with {number} values; allowed is 1 to {MAX_VALUES}.")
+    if number > 1 and not low < high:
+        raise InputError(f"{name} are {text!r}; the first value must be below the last one, e.g. {example!r}.")
+    return np.linspace(low, high, number)
+
+
+def _values(
+    name: str,
+    given: Any,
+    parse_range: Callable[[str], np.ndarray],
+    parse: Callable[[str], float],
+    unit: str | None,
+) -> np.ndarray:
+    if isinstance(given, str):
+        return parse_range(given)
+    if not isinstance(given, list):
+        raise InputError(f"{name} is {given!r}; it must be a list, or a text such as first:last:number.")
+    values = []
+    for one in given:
+        if isinstance(one, str):
+            values.append(parse(one))
+        elif isinstance(one, bool) or not isinstance(one, (int, float)):
+            raise InputError(
+                f"one of the {name} is {one!r}; it must be a number, or a text with a number and its unit."
+            )
+        elif unit is None:
+            raise InputError(f"one of the {name} is {one:g}, without a unit; write it as a text such as '0.3g'.")
+        else:
+            values.append(float(one))
+    return np.array(values)

@@ -1,0 +1,37 @@
+"""Models by the name that they have on the command line; a model is loaded when it is asked for."""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+from collections.abc import Mapping
+
+from ..errors import InputError
+from .base import Model
+
+#: Name: module of this package and class in it.
+MODELS = {
+    "housner": ("housner", "HousnerBlock"),
+    "dem2d": ("distinct_element_2d", "DistinctElement2D"),
+}
+
+
+def model_class(name: str) -> type[Model]:
+    """The class of a model.
+
+    Raises
+    ------
+    InputError
+        There is no model of that name.
+    """
+    if name not in MODELS:
+        close = difflib.get_close_matches(name, MODELS, 1)
+        hint = f"did you mean {close[0]}? " if close else ""
+        raise InputError(f"there is no model {name!r}; {hint}models are {', '.join(MODELS)}.")
+    module, attribute = MODELS[name]
+    return getattr(importlib.import_module(f"{__package__}.{module}"), attribute)
+
+
+def make_model(name: str, settings: Mapping[str, str] | None = None) -> Model:
+    """A model of that name with options given as texts, e.g. ``make_model("dem2d", {"points": "3"})``."""
+    return model_class(name).from_settings(settings or {})
