@@ -1,0 +1,248 @@
+"""Pulses of one to three half-cycles, the simplest picture of a near-fault motion.
+
+Every pulse starts at t = 0, has unit peak acceleration scaled by ``factor``, and is followed by zeros until the end of
+the motion. Where the acceleration jumps inside the motion, the sample there is the middle of the jump, so that the
+linear interpolation carries the exact impulse.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ..constants import g
+from ..errors import InputError, check_range
+from .harmonic import SAMPLES_PER_CYCLE
+from .motion import MAX_SAMPLES, Motion
+
+#: Zeros that follow a pulse whose ``duration`` is not stated [s]: several times the period scale 2π/p of a tall column.
+DEFAULT_QUIET_TIME = 10.0
+
+#: Half length of a Ricker pulse in periods: the acceleration there is below 1e-7 of the peak.
+RICKER_HALF_LENGTH = 1.5
+
+
+def rectangular_pulse(frequency: float, amplitude: float, duration: float | None = None) -> Motion:
+    """Constant acceleration for half a period.
+
+    Parameters
+    ----------
+    frequency : float
+        f [Hz]; the pulse lasts 1/(2f).
+    amplitude : float
+        Acceleration of the pulse [m/s²].
+    duration : float, optional
+        Length of the whole motion, the pulse and the quiet after it [s]; rounded up to a whole step of 1/(1000f).
+        By default the pulse and ten seconds.
+
+    Returns
+    -------
+    Motion
+        Unit samples scaled by ``amplitude``.
+
+    Raises
+    ------
+    InputError
+        A frequency that is not positive, a duration shorter than the pulse.
+    """
+    return _pulse("rectangular", frequency, amplitude, duration, 0.5, lambda phase: np.ones_like(phase))
+
+
+def half_sine_pulse(frequency: float, amplitude: float, duration: float | None = None) -> Motion:
+    """Half a cycle of a sine: a sin(2πft) for 0 ≤ t ≤ 1/(2f). Parameters as for :func:`rectangular_pulse`."""
+    return _pulse("half-sine", frequency, amplitude, duration, 0.5, lambda phase: np.sin(2.0 * np.pi * phase))
+
+
+def sine_pulse(frequency: float, amplitude: float, duration: float | None = None) -> Motion:
+    """One cycle of a sine: a sin(2πft) for 0 ≤ t ≤ 1/f. Parameters as for :func:`rectangular_pulse`."""
+    return _pulse("sine", frequency, amplitude, duration, 1.0, lambda phase: np.sin(2.0 * np.pi * phase))
+
+
+def cosine_pulse(frequency: float, amplitude: float, duration: float | None = None) -> Motion:
+    """One cycle of a cosine: a cos(2πft) for 0 ≤ t ≤ 1/f. Parameters as for :func:`rectangular_pulse`.
+
+    Notes
+    -----
+    It jumps from zero to ``amplitude`` at its start and back at its end; the velocity returns to zero.
+    """
+    return _pulse("cosine", frequency, amplitude, duration, 1.0, lambda phase: np.cos(2.0 * np.pi * phase))
+
+
+def ricker(frequency: float, amplitude: float, duration: float | None = None, *, antisymmetric: bool = False) -> Motion:
+    """Ricker wavelet, symmetric or antisymmetric.
+
+    Parameters
+    ----------
+    frequency : float
+        Frequency of the peak of the wavelet's Fourier amplitude [Hz].
+    amplitude : float
+        Largest absolute acceleration [m/s²]; of the symmetric wavelet, its middle peak.
+    duration : float, optional
+        Length of the whole motion [s]; the wavelet takes the first 3/f. By default the wavelet and ten seconds.
+    antisymmetric : bool
+        The third derivative of a Gaussian instead of the second.
+
+    Returns
+    -------
+    Motion
+
+    Notes
+    -----
+    With τ the time from the middle, the symmetric wavelet is a (1 − 2π²f²τ²) exp(−π²f²τ²), the antisymmetric one
+    (a/β) (s² − 3) s exp(−s²/2) with s = 2πfτ/√3 and β such that the peak is a.
+
+    References
+    ----------
+    Ricker (1943); Vassiliou and Makris (2011).
+    """
+
+    def symmetric(phase: np.ndarray) -> np.ndarray:
+        x = (np.pi * (phase - RICKER_HALF_LENGTH)) ** 2  # Vassiliou and Makris (2011), symmetric
+        return (1.0 - 2.0 * x) * np.exp(-x)
+
+    def skew(phase: np.ndarray) -> np.ndarray:
+        s = 2.0 * np.pi / math.sqrt(3.0) * (phase - RICKER_HALF_LENGTH)  # Vassiliou and Makris (2011), antisymmetric
+        # The extrema of (s² − 3) s exp(−s²/2) are the roots of s⁴ − 6s² + 3 = 0; the inner one is the larger.
+        inner = math.sqrt(3.0 - math.sqrt(6.0))
+        beta = (3.0 - inner**2) * inner * math.exp(-(inner**2) / 2.0)
+        return (s * s - 3.0) * s * np.exp(-s * s / 2.0) / beta
+
+    if antisymmetric:
+        return _pulse("antisymmetric ricker", frequency, amplitude, duration, 2.0 * RICKER_HALF_LENGTH, skew)
+    return _pulse("ricker", frequency, amplitude, duration, 2.0 * RICKER_HALF_LENGTH, symmetric)
+
+
+def gabor(
+    frequency: float,
+    amplitude: float,
+    duration: float | None = None,
+    *,
+    oscillation: float = 2.0,
+    phase: float = 90.0,
+) -> Motion:
+    """Gabor pulse: a cosine under a Gaussian bell as velocity, differentiated analytically.
+
+    Parameters
+    ----------
+    frequency : float
+        f [Hz].
+    amplitude : float
+        Largest absolute acceleration [m/s²].
+    duration : float, optional
+        Length of the whole motion [s]. By default the pulse and ten seconds.
+    oscillation : float
+        γ: width of the bell, roughly the number of half-cycles [-].
+    phase : float
+        ν: phase of the cosine in the middle of the bell [degrees]; 0 gives a one-sided velocity pulse in the middle,
+        90 a two-sided one.
+
+    Returns
+    -------
+    Motion
+
+    Notes
+    -----
+    v(τ) = V exp(−2π²f²τ²/γ²) cos(2πfτ + ν), τ the time from the middle.
+
+    References
+    ----------
+    Gabor (1946); Mavroeidis and Papageorgiou (2003).
+    """
+    gamma = check_range("oscillation", oscillation, 0.5, 20.0)
+    nu = math.radians(check_range("phase", phase, -360.0, 360.0, unit="degrees"))
+    half = gamma * math.sqrt(math.log(1e9) / 2.0) / math.pi  # the bell is down to 1e-9
+
+    def shape(time: np.ndarray) -> np.ndarray:
+        x = 2.0 * np.pi * (time - half)
+        bell = np.exp(-0.5 * (x / gamma) ** 2)
+        return -bell * (np.sin(x + nu) + x / gamma**2 * np.cos(x + nu))  # dv/dt over 2πfV
+
+    return _pulse("gabor", frequency, amplitude, duration, 2.0 * half, _to_unit_peak(shape, 2.0 * half))
+
+
+def mavroeidis_papageorgiou(
+    frequency: float,
+    amplitude: float,
+    duration: float | None = None,
+    *,
+    oscillation: float = 2.0,
+    phase: float = 90.0,
+) -> Motion:
+    """Near-fault velocity pulse of Mavroeidis and Papageorgiou, differentiated analytically.
+
+    Parameters
+    ----------
+    frequency : float
+        f_p, prevailing frequency [Hz].
+    amplitude : float
+        Largest absolute acceleration [m/s²].
+    duration : float, optional
+        Length of the whole motion [s]. By default the pulse, γ/f_p long, and ten seconds.
+    oscillation : float
+        γ: number of half-cycles, more than 1 [-].
+    phase : float
+        ν [degrees]: 0 gives a velocity pulse symmetric about its middle, 90 an antisymmetric one.
+
+    Returns
+    -------
+    Motion
+
+    Notes
+    -----
+    v(τ) = (A/2) [1 + cos(2πf_p τ/γ)] cos(2πf_p τ + ν) for |τ| ≤ γ/(2f_p), zero elsewhere. Velocity and acceleration
+    vanish at both ends.
+
+    References
+    ----------
+    Mavroeidis and Papageorgiou (2003).
+    """
+    gamma = check_range("oscillation", oscillation, 1.0, 20.0, open_low=True)
+    nu = math.radians(check_range("phase", phase, -360.0, 360.0, unit="degrees"))
+
+    def shape(time: np.ndarray) -> np.ndarray:
+        x = 2.0 * np.pi * (time - gamma / 2.0)
+        # dv/dt over πfA/γ
+        return -(np.sin(x / gamma) * np.cos(x + nu) + gamma * np.sin(x + nu) * (1.0 + np.cos(x / gamma)))
+
+    return _pulse("mavroeidis-papageorgiou", frequency, amplitude, duration, gamma, _to_unit_peak(shape, gamma))
+
+
+def _to_unit_peak(shape: Callable[[np.ndarray], np.ndarray], cycles: float) -> Callable[[np.ndarray], np.ndarray]:
+    peak = float(np.abs(shape(np.linspace(0.0, cycles, 20_001))).max())
+    return lambda phase: shape(phase) / peak
+
+
+def _pulse(
+    kind: str,
+    frequency: float,
+    amplitude: float,
+    duration: float | None,
+    cycles: float,
+    shape: Callable[[np.ndarray], np.ndarray],
+) -> Motion:
+    """Sample ``shape``, a function of t f on [0, cycles], and let zeros follow."""
+    f = check_range("frequency", frequency, 1e-3, 1e3, unit="Hz")
+    a = check_range("amplitude", amplitude, -1e4, 1e4, unit="m/s²")
+    length = cycles / f
+    total = length + DEFAULT_QUIET_TIME if duration is None else check_range("duration", duration, 0.0, 1e4, unit="s")
+    if total < length * (1.0 - 1e-9):
+        raise InputError(
+            f"duration is {total:g} s; a {kind} pulse of {f:g} Hz takes {length:g} s, so give at least that, "
+            "or leave the duration out."
+        )
+    # A whole number of steps in the pulse, so that its end is a sample.
+    pulse_steps = math.ceil(cycles * SAMPLES_PER_CYCLE - 1e-9)
+    dt = length / pulse_steps
+    steps = max(pulse_steps, math.ceil(total / dt - 1e-6))
+    if steps >= MAX_SAMPLES:
+        raise InputError(
+            f"a pulse of {f:g} Hz followed over {total:g} s takes {steps} samples; allowed is up to {MAX_SAMPLES}: "
+            "give a shorter duration."
+        )
+    samples = np.zeros(steps + 1)
+    samples[: pulse_steps + 1] = shape(np.arange(pulse_steps + 1) / pulse_steps * cycles)
+    if steps > pulse_steps:
+        samples[pulse_steps] *= 0.5  # the middle of the jump, where there is one
+    return Motion(dt, samples, factor=a, name=f"{kind} pulse {f:g} Hz, {a / g:g} g", metadata={"pulse_length": length})

@@ -1,0 +1,103 @@
+"""Numbers out of columns of text: separated, glued by a minus sign, or of fixed width."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...errors import InputError
+
+#: A sign that follows a digit or a point directly begins a new number: Fortran fills its fields to the brim.
+_GLUED = re.compile(r"(?<=[\d.])(?=[+-])")
+_STRANGE = re.compile(r"[^\d\s.eEdD+\-]")
+_FORTRAN = re.compile(r"\(\s*(?:\d*[pP]\s*,?\s*)?(\d*)\s*[feigFEIG](\d+)(?:\.\d+)?(?:[eE]\d+)?\s*\)")
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+
+
+def fortran_width(text: str) -> int | None:
+    """Width of a field in a Fortran format such as ``(8f10.6)`` found in ``text``, or None."""
+    found = _FORTRAN.search(text)
+    width = int(found.group(2)) if found else 0
+    return width if 1 <= width <= 40 else None
+
+
+def first_number(text: str) -> float | None:
+    """First number in ``text``, or None."""
+    found = _NUMBER.search(text)
+    return float(found.group()) if found else None
+
+
+def read_numbers(
+    lines: Sequence[str], first: int, file: str, what: str, *, count: int | None = None, width: int | None = None
+) -> np.ndarray:
+    """All numbers of some lines, in reading order.
+
+    Parameters
+    ----------
+    lines : sequence of str
+    first : int
+        Index of the first of them in the file, from 0: messages name lines from 1.
+    file, what : str
+        Name of the file and of the numbers, for messages.
+    count : int, optional
+        Number that the header promises.
+    width : int, optional
+        Width of a fixed field. Without it numbers are separated by blanks, or by the minus sign of the next one.
+
+    Returns
+    -------
+    array
+        Shape (count,).
+
+    Raises
+    ------
+    InputError
+        Text where numbers should be, or another number of them than promised.
+    """
+    values = _parse(lines, None)
+    if width is not None and (values is None or len(values) != count):
+        fixed = _parse(lines, width)
+        values = fixed if fixed is not None else values
+    if values is None:
+        for index, line in enumerate(lines):
+            if _parse([line], None) is None and (width is None or _parse([line], width) is None):
+                shown = line.strip()
+                shown = shown if len(shown) <= 40 else shown[:40] + "…"
+                raise InputError(
+                    f"{file}, line {first + index + 1}: expected numbers ({what}), found {shown!r}; "
+                    "mend or remove that line."
+                )
+        raise InputError(f"{file}, from line {first + 1}: expected numbers ({what}); mend the file.")
+    if count is not None and len(values) != count:
+        raise InputError(
+            f"{file}, lines {first + 1} to {first + len(lines)}: the header promises {count} numbers ({what}), "
+            f"{len(values)} are there; the file is damaged or cut, fetch it again."
+        )
+    return values
+
+
+def _parse(lines: Sequence[str], width: int | None) -> np.ndarray | None:
+    """Numbers of the lines, or None if something there is no finite number. In pieces, so that memory stays small."""
+    parts = []
+    for start in range(0, len(lines), 5000):
+        piece = lines[start : start + 5000]
+        if width is None:
+            text = "\n".join(piece)
+        else:
+            text = "\n".join(
+                line[i : i + width].strip().replace(" ", "_")  # a blank inside a field: not laid out as declared
+                for line in map(str.rstrip, piece)
+                for i in range(0, len(line), width)
+            )
+        if _STRANGE.search(text):
+            return None
+        if width is None:
+            text = _GLUED.sub(" ", text)
+        try:
+            parts.append(np.array(text.replace("D", "e").replace("d", "e").split(), dtype=np.float64))
+        except ValueError:
+            return None
+    values = np.concatenate(parts) if parts else np.empty(0)
+    return values if np.isfinite(values).all() else None

@@ -1,0 +1,224 @@
+"""What a file holds before it becomes a motion: components with their direction, and what the header says."""
+
+from __future__ import annotations
+
+import math
+import re
+import warnings
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...constants import g
+from ...errors import InputError, OutOfRangeWarning
+from ..motion import MAX_SAMPLES, Motion
+from .steps import resampled, same_step
+
+#: A mean beyond this share of the peak is not an earthquake: an instrument's offset was left in.
+OFFSET_SHARE = 0.1
+
+
+@dataclass
+class Component:
+    """One component of a record.
+
+    Parameters
+    ----------
+    values : array
+        Acceleration [m/s²], shape (steps,).
+    dt : float
+        Step [s]; NaN where ``time`` holds unequal steps, or where no step is known.
+    label : str
+        Direction as the file states it: ``90 DEG``, ``Up``, ``H1``.
+    azimuth : float, optional
+        Direction of positive acceleration, clockwise from north [degrees].
+    vertical : bool
+        Upward or downward; the sign is turned so that upward is positive.
+    time : array, optional
+        Times of irregular samples [s], shape (steps,).
+    metadata : dict
+        What this component's own header says.
+    processing : list of str
+        What the reader did to the values.
+    """
+
+    values: np.ndarray
+    dt: float
+    label: str = ""
+    azimuth: float | None = None
+    vertical: bool = False
+    time: np.ndarray | None = None
+    metadata: dict = field(default_factory=dict)
+    processing: list[str] = field(default_factory=list)
+
+
+_COMPASS = re.compile(r"\b([NS])\s*(\d{1,3})\s*(?:DEG)?\s*([EW])\b")
+_POINTS = {
+    "N": 0.0, "NORTH": 0.0, "NS": 0.0, "N-S": 0.0, "HNN": 0.0, "N00E": 0.0,
+    "E": 90.0, "EAST": 90.0, "EW": 90.0, "E-W": 90.0, "HNE": 90.0,
+    "S": 180.0, "SOUTH": 180.0, "SN": 180.0, "S-N": 180.0,
+    "W": 270.0, "WEST": 270.0, "WE": 270.0, "W-E": 270.0,
+    "NE": 45.0, "SE": 135.0, "SW": 225.0, "NW": 315.0,
+}  # fmt: skip
+_UP = {"UP", "U", "Z", "V", "UD", "U-D", "VERT", "VERTICAL", "UPWARD", "+V", "VER", "VRT"}
+_DOWN = {"DOWN", "DN", "D", "DWN", "-V", "DU", "D-U"}
+
+
+def direction(label: str) -> tuple[float | None, bool, float]:
+    """Azimuth [degrees], whether vertical, and the sign that makes upward positive, from a label of any network.
+
+    ``90 DEG``, ``N10E``, ``S74E``, ``Up``, ``DOWN``, ``NS``, ``HNZ``, ``H1`` (azimuth unknown).
+    """
+    text = label.strip().upper().replace("_", " ").strip(" .:;")
+    words = text.replace("COMPONENT", " ").replace("COMP", " ").split()
+    first = words[0].strip(",.;:") if words else ""
+    if first in _UP or re.fullmatch(r"[A-Z]{2}Z|UP\d?", first):
+        return None, True, 1.0
+    if first in _DOWN:
+        return None, True, -1.0
+    if found := _COMPASS.search(text):
+        north, angle, east = found.group(1), float(found.group(2)), found.group(3)
+        if angle <= 90.0:
+            return (
+                {"NE": angle, "SE": 180.0 - angle, "SW": 180.0 + angle, "NW": 360.0 - angle}[north + east] % 360.0,
+                False,
+                1.0,
+            )
+    if first in _POINTS:
+        return _POINTS[first], False, 1.0
+    if (
+        re.fullmatch(r"[+]?\d{1,3}(\.\d*)?(°|DEG\.?)?", first)
+        and float(re.sub(r"[^\d.]", "", first).rstrip(".")) <= 360.0
+    ):
+        return float(re.sub(r"[^\d.]", "", first).rstrip(".")) % 360.0, False, 1.0
+    return None, False, 1.0
+
+
+def oriented(component: Component) -> Component:
+    """Fill in azimuth and vertical from the label, and turn a downward component upward."""
+    azimuth, vertical, sign = direction(component.label)
+    component.vertical = vertical
+    component.azimuth = azimuth if component.azimuth is None and not vertical else component.azimuth
+    if sign < 0.0:
+        component.values = -component.values
+        component.processing.append("sign turned: the file counts downward as positive, here upward is")
+    return component
+
+
+def assemble(
+    components: list[Component], metadata: dict, name: str, *, component: str | None = None, dt: float | None = None
+) -> Motion:
+    """Make a motion of the components of one record: the first two horizontal ones are x and y, the vertical one z.
+
+    Parameters
+    ----------
+    components : list of Component
+    metadata : dict
+        What holds for the whole record.
+    name : str
+        Of the motion and in messages.
+    component : str, optional
+        Label, azimuth in degrees or number (from 1) of the one component that is to be x.
+    dt : float, optional
+        Step for a record whose steps are unequal [s].
+
+    Raises
+    ------
+    InputError
+        No horizontal component, several records, components of different steps.
+    """
+    if component is not None:
+        chosen = _choose(components, component, name)
+        components, rest = [chosen], [one for one in components if one is not chosen]
+        chosen.vertical = False
+        dropped = [one.label or "?" for one in rest]
+    else:
+        dropped = []
+    horizontal = [one for one in components if not one.vertical]
+    vertical = [one for one in components if one.vertical]
+    if not horizontal:
+        raise InputError(
+            f"{name} holds only the vertical component {vertical[0].label!r}, and a motion needs a horizontal "
+            "one; give "
+            "the horizontal files with it, or choose it as the horizontal input with component='1' (--component 1)."
+        )
+    if len(horizontal) > 2 or len(vertical) > 1:
+        raise InputError(
+            f"{name} holds {len(components)} components ({', '.join(one.label or '?' for one in components)}), "
+            "more than "
+            "one place's two horizontal ones and the vertical; choose one by its number with component='1' "
+            "(--component 1)."
+        )
+    used = horizontal + vertical
+    processing: list[str] = []
+    axes = [axis for axis, _ in zip(["x", "y"], horizontal)] + ["z"] * len(vertical)
+    step = same_step(used, name, dt, processing)
+    lengths = [len(one.values) for one in used]
+    if len(set(lengths)) > 1:
+        shortest = min(lengths)
+        counts = ", ".join(f"{axis}: {length}" for axis, length in zip(axes, lengths))
+        processing.append(f"cut to the common length of {shortest} samples ({counts})")
+        warnings.warn(f"{name}: {processing[-1]}.", OutOfRangeWarning, stacklevel=4)
+    values = {axis: one.values[: min(lengths)] for axis, one in zip(axes, used)}
+    for axis, one in zip(axes, used):
+        processing += [f"{axis}: {text}" for text in one.processing]
+    _warn_of_offset(values, name)
+    facts = metadata | {
+        "azimuths": {axis: one.azimuth for axis, one in zip(axes, used)},
+        "labels": {axis: one.label for axis, one in zip(axes, used)},
+        "dt_found": step if all(one.time is None for one in used) else None,
+        "components": {axis: dict(one.metadata) for axis, one in zip(axes, used) if one.metadata},
+    }
+    if dropped:
+        facts["components_left_out"] = dropped
+    return Motion(
+        step,
+        values["x"],
+        values.get("y"),
+        values.get("z"),
+        name=name,
+        metadata=facts,
+        processing=tuple(processing),
+    )
+
+
+def _choose(components: list[Component], wanted: str, name: str) -> Component:
+    text = str(wanted).strip()
+    exact = [one for one in components if one.label.strip().lower() == text.lower()]
+    if len(exact) == 1:
+        return exact[0]
+    if re.fullmatch(r"\d{1,3}", text) and 1 <= int(text) <= len(components):
+        return components[int(text) - 1]
+    if re.fullmatch(r"\d{1,3}(\.\d+)?", text):
+        near = [one for one in components if one.azimuth is not None and abs(one.azimuth - float(text) % 360.0) < 0.5]
+        if len(near) == 1:
+            return near[0]
+    labels = ", ".join(f"{i} ({one.label or 'no label'})" for i, one in enumerate(components, 1))
+    raise InputError(f"{name} has no component {wanted!r}; it holds {labels}: give a number or a label.")
+
+
+def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
+    for axis, array in values.items():
+        peak = float(np.abs(array).max(initial=0.0))
+        mean = float(array.mean()) if array.size else 0.0
+        if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
+            warnings.warn(
+                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {abs(mean) / peak:.0%} of its peak, "
+                "as when an "
+                "instrument's offset was left in; remove it with stylobate.motion.demean unless it is meant.",
+                OutOfRangeWarning,
+                stacklevel=4,
+            )
+
+
+def check_count(count: float | None, file: str, line: int, what: str = "samples") -> int:
+    """A number of samples as a header states it, refused when it is impossible."""
+    if count is None or not math.isfinite(count) or count != int(count) or not 2 <= count <= MAX_SAMPLES:
+        raise InputError(
+            f"{file}, line {line}: the header promises {count if count is None else f'{count:g}'} {what}; "
+            f"allowed is a whole number from 2 to {MAX_SAMPLES}, so fetch the file again."
+        )
+    return int(count)
+
+
+__all__ = ["Component", "assemble", "check_count", "direction", "oriented", "resampled"]

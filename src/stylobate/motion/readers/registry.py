@@ -1,0 +1,119 @@
+"""The registry of formats, and the one function that reads any of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...errors import InputError
+from ..motion import Motion
+from . import columns, cosmos, csmip
+from .record import Component, assemble
+from .source import Source
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format of record files.
+
+    Parameters
+    ----------
+    name : str
+    recognises : callable
+        Whether a file's content is of this format.
+    read : callable
+        Its components and metadata.
+    """
+
+    name: str
+    recognises: Callable[[Source], bool]
+    read: Callable[[Source], tuple[list[Component], dict]]
+
+
+#: Formats that state unit and step themselves. Columns of text come last and are what no other format recognises.
+FORMATS: tuple[Format, ...] = (
+    Format("CSMIP V1, V2", csmip.recognises, csmip.read),
+    Format("COSMOS V0, V1, V2", cosmos.recognises, cosmos.read),
+)
+
+
+def read_motion(
+    path: str | Path | Sequence[str | Path],
+    unit: str | None = None,
+    dt: float | None = None,
+    *,
+    component: str | int | None = None,
+) -> Motion:
+    """Read a recorded motion from a file of any format that is known here.
+
+    Parameters
+    ----------
+    path : path, or sequence of paths
+        One file, or the files of the components of one record.
+    unit : str, optional
+        Unit of a file that states none: ``g``, ``m/s2``, ``gal``, ``mm/s2`` …
+    dt : float, optional
+        Step of a file that has no time column, or the step to resample unequal steps to [s].
+    component : str or int, optional
+        The one component that is to be the horizontal input: its number in the file (from 1), its label or its azimuth.
+
+    Returns
+    -------
+    Motion
+        SI; x and y are the file's first and second horizontal component, z its vertical one, upward positive.
+        ``metadata`` holds what the file says, ``processing`` what was done to the samples.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read with certainty: one sentence that names the line, what was expected and what to do.
+    """
+    paths = [path] if isinstance(path, (str, Path)) else list(path)
+    if not paths:
+        raise InputError("no file is given; give the path of a record.")
+    components: list[Component] = []
+    facts: dict = {}
+    names = []
+    for one in paths:
+        found, metadata = _read_file(Source.open(one), unit, dt)
+        components += found
+        if facts and metadata.get("station") != facts.get("station"):
+            raise InputError(
+                f"{names[0]} is of station {facts.get('station')}, {Path(one).name} of {metadata.get('station')}; "
+                "give the "
+                "components of one record."
+            )
+        facts = facts or metadata
+        names.append(Path(one).name)
+    defaults = {"station": None, "network": None, "event": None, "start_time": None, "terms": None}
+    metadata = defaults | facts | {"file": ", ".join(names)}
+    wanted = None if component is None else str(component)
+    return assemble(components, metadata, names[0], component=wanted, dt=dt)
+
+
+def _read_file(source: Source, unit: str | None, dt: float | None) -> tuple[list[Component], dict]:
+    matches = [one for one in FORMATS if one.recognises(source)]
+    if len(matches) > 1:
+        raise InputError(
+            f"{source.name} looks like {' and like '.join(one.name for one in matches)}; "
+            "convert it to columns under a header such as time_s,ax_g."
+        )
+    if matches:
+        if unit is not None:
+            raise InputError(
+                f"{source.name} is of format {matches[0].name}, which states its unit; leave the unit out."
+            )
+        components, metadata = matches[0].read(source)
+        if not components:
+            raise InputError(f"{source.name} is of format {matches[0].name} but holds no component; fetch it again.")
+        return components, metadata
+    if not source.is_text:
+        _ = source.lines  # refuses binary files
+    if columns.recognises(source):
+        return columns.read(source, unit, dt)
+    raise InputError(
+        f"{source.name} is in no format that is known here "
+        f"({', '.join(one.name for one in FORMATS)}, columns of text); "
+        "convert it to columns under a header such as time_s,ax_g."
+    )

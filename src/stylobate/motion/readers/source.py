@@ -1,0 +1,131 @@
+"""The text of a record file: opened, decoded and split into lines, or refused with a sentence."""
+
+from __future__ import annotations
+
+import codecs
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from ...errors import InputError
+from ..motion import MAX_SAMPLES
+
+#: Larger files are refused before they are read [bytes]; three components of an hour at 200 Hz take some 30 MB.
+MAX_BYTES = 100_000_000
+
+#: No record has longer lines [characters].
+MAX_LINE = 1_000_000
+
+_PACKED = {
+    b"\x1f\x8b": "gzip",
+    b"PK\x03\x04": "zip",
+    b"BZh": "bzip2",
+    b"\xfd7zXZ\x00": "xz",
+    b"7z\xbc\xaf\x27\x1c": "7z",
+    b"Rar!": "rar",
+    b"\x28\xb5\x2f\xfd": "zstandard",
+    b"\x1f\x9d": "compress",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A file as found.
+
+    Parameters
+    ----------
+    path : Path
+    data : bytes
+    """
+
+    path: Path
+    data: bytes
+
+    @classmethod
+    def open(cls, path: str | Path) -> Source:
+        """Read a file.
+
+        Raises
+        ------
+        InputError
+            Not a file that can be read, too large, empty, or compressed.
+        """
+        place = Path(path)
+        try:
+            size = place.stat().st_size
+            if not place.is_file():
+                raise InputError(f"{place} is not a file; give one record.")
+            if size > MAX_BYTES:
+                raise InputError(f"{place.name} holds {size} bytes; allowed is up to {MAX_BYTES}: cut the record.")
+            data = place.read_bytes()
+        except (OSError, ValueError) as error:
+            if isinstance(error, InputError):
+                raise
+            reason = getattr(error, "strerror", None) or str(error)
+            raise InputError(f"{place} cannot be read: {reason}; check the path.") from None
+        if not data.strip(b"\x00 \t\r\n\x1a"):
+            raise InputError(f"{place.name} is empty; give a file that holds a record.")
+        for magic, name in _PACKED.items():
+            if data.startswith(magic):
+                raise InputError(f"{place.name} is compressed ({name}); unpack it and give the file inside.")
+        return cls(place, data)
+
+    @property
+    def name(self) -> str:
+        """File name without its folder."""
+        return self.path.name
+
+    @cached_property
+    def is_text(self) -> bool:
+        """Whether the file is text: no zero bytes and hardly any control characters, or a byte-order mark."""
+        if self.data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            return True
+        start = self.data[:65536]
+        controls = sum(start.count(bytes([c])) for c in range(32) if c not in (9, 10, 12, 13, 26))
+        return b"\x00" not in self.data and controls <= len(start) // 500
+
+    @cached_property
+    def lines(self) -> list[str]:
+        """Lines of the text, without their ends; any mixture of LF, CR-LF, CR-CR-LF and CR.
+
+        Raises
+        ------
+        InputError
+            The file is not text.
+        """
+        if not self.is_text:
+            raise InputError(
+                f"{self.name} is binary, and in no binary format that is read here (miniSEED is); convert it to text."
+            )
+        if self.data.count(b"\n") > MAX_SAMPLES:
+            raise InputError(f"{self.name} has more than {MAX_SAMPLES} lines; cut the record.")
+        text = self._decoded.replace("\r\r\n", "\n").replace("\r\n", "\n").replace("\r", "\n")
+        lines = text.replace("\x1a", "").split("\n")
+        while lines and not lines[-1].strip():
+            lines.pop()
+        for number, line in enumerate(lines, 1):
+            if len(line) > MAX_LINE:
+                raise InputError(
+                    f"{self.name}, line {number}: {len(line)} characters in one line; allowed is up to {MAX_LINE}: "
+                    "break the numbers into lines."
+                )
+        return lines
+
+    @cached_property
+    def head(self) -> str:
+        """First 4000 characters in lower case, for recognising a format; empty when the file is not text."""
+        return "\n".join(line[:400] for line in self.lines[:60])[:4000].lower() if self.is_text else ""
+
+    @cached_property
+    def _decoded(self) -> str:
+        for mark, name in (
+            (codecs.BOM_UTF8, "utf-8-sig"),
+            (codecs.BOM_UTF16_LE, "utf-16"),
+            (codecs.BOM_UTF16_BE, "utf-16"),
+        ):
+            if self.data.startswith(mark):
+                return self.data.decode(name, errors="replace")
+        try:
+            return self.data.decode("utf-8")
+        except UnicodeDecodeError:
+            return self.data.decode("cp1252", errors="replace")  # names of places in an older code page

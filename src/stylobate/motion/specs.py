@@ -1,0 +1,238 @@
+"""What a person types for a motion or a quantity: ``1.0Hz,0.3g,10s``, ``ricker,1.0Hz,0.3g``, ``0.05g``, ``5s``."""
+
+from __future__ import annotations
+
+import difflib
+import math
+import re
+from collections.abc import Callable
+from typing import Literal, overload
+
+from ..constants import g
+from ..errors import InputError
+from . import pulses
+from .harmonic import harmonic
+from .motion import Motion
+
+#: Units of acceleration that a person may type or a file may name, in m/s².
+ACCELERATION_UNITS = {
+    "g": g,
+    "m/s2": 1.0,
+    "cm/s2": 0.01,
+    "gal": 0.01,
+    "mm/s2": 0.001,
+    "g/10": g / 10.0,
+    "mg": g / 1000.0,
+    "in/s2": 0.0254,
+    "ft/s2": 0.3048,
+}
+_SPELLINGS = {
+    "m/s/s": "m/s2",
+    "m/sec2": "m/s2",
+    "m/sec/sec": "m/s2",
+    "m/s**2": "m/s2",
+    "m/s^2": "m/s2",
+    "ms-2": "m/s2",
+    "m s-2": "m/s2",
+    "m_s2": "m/s2",
+    "cm/s/s": "cm/s2",
+    "cm/sec2": "cm/s2",
+    "cm/sec/sec": "cm/s2",
+    "cm/sec^2": "cm/s2",
+    "cm/sec**2": "cm/s2",
+    "cm/s**2": "cm/s2",
+    "cm/s^2": "cm/s2",
+    "cm_s2": "cm/s2",
+    "gals": "gal",
+    "mm/s/s": "mm/s2",
+    "mm/sec2": "mm/s2",
+    "mm/sec/sec": "mm/s2",
+    "mm/s^2": "mm/s2",
+    "mm/s**2": "mm/s2",
+    "mm_s2": "mm/s2",
+    "g10": "g/10",
+    "0.1g": "g/10",
+    "milli-g": "mg",
+    "in/sec2": "in/s2",
+    "ft/sec2": "ft/s2",
+}
+#: Units of time in s and of frequency in Hz.
+TIME_UNITS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "min": 60.0}
+FREQUENCY_UNITS = {"hz": 1.0, "khz": 1e3}
+
+#: Pulses by the name they have on the command line.
+PULSES: dict[str, Callable[..., Motion]] = {
+    "rectangular": pulses.rectangular_pulse,
+    "half-sine": pulses.half_sine_pulse,
+    "sine": pulses.sine_pulse,
+    "cosine": pulses.cosine_pulse,
+    "ricker": pulses.ricker,
+    "antisymmetric-ricker": lambda f, a, d=None: pulses.ricker(f, a, d, antisymmetric=True),
+    "gabor": pulses.gabor,
+    "mavroeidis-papageorgiou": pulses.mavroeidis_papageorgiou,
+}
+
+_QUANTITY = re.compile(r"\s*(\?|[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\s\d].*?)?\s*", re.DOTALL)
+
+
+def acceleration_unit(text: str) -> tuple[str, float]:
+    """The usual spelling of a unit of acceleration, and its size in m/s².
+
+    Raises
+    ------
+    InputError
+        The unit is not one of :data:`ACCELERATION_UNITS`.
+    """
+    key = text.strip().lower().replace("²", "2").replace(" ", "" if "s-2" not in text else " ")
+    key = _SPELLINGS.get(key, key)
+    if key not in ACCELERATION_UNITS:
+        raise InputError(f"unit of acceleration is {text!r}; allowed is {', '.join(ACCELERATION_UNITS)}.")
+    return key, ACCELERATION_UNITS[key]
+
+
+def parse_acceleration(text: str) -> float:
+    """An acceleration such as ``0.3g``, ``2.9m/s2`` or ``300gal`` in m/s²."""
+    return _quantity(text, "acceleration", "0.3g")
+
+
+def parse_time(text: str) -> float:
+    """A time such as ``5s`` or ``20ms`` in s."""
+    return _quantity(text, "time", "5s")
+
+
+def parse_frequency(text: str) -> float:
+    """A frequency such as ``1.0Hz`` in Hz."""
+    return _quantity(text, "frequency", "1.0Hz")
+
+
+@overload
+def parse_harmonic(text: str) -> Motion: ...
+@overload
+def parse_harmonic(text: str, *, allow_unknown: Literal[True]) -> tuple[Motion, bool]: ...
+def parse_harmonic(text: str, *, allow_unknown: bool = False) -> Motion | tuple[Motion, bool]:
+    """A harmonic motion as typed: ``1.0Hz,0.3g,10s`` (frequency, amplitude, length).
+
+    Parameters
+    ----------
+    text : str
+        The amplitude may be ``?g`` when it is what is looked for. Without a time the motion lasts 10 s.
+    allow_unknown : bool
+        Accept ``?g``, and return whether it was met as well.
+
+    Returns
+    -------
+    Motion or (Motion, bool)
+        With ``?g`` the amplitude is 1 m/s²: scale it.
+
+    Raises
+    ------
+    InputError
+        The text cannot be understood; the message shows how to write it.
+    """
+    example = "1.0Hz,0.3g,10s"
+    found = _parts(text.split(","), text, "--harmonic", example)
+    amplitude = _amplitude(found, text, "--harmonic", example, allow_unknown)
+    motion = harmonic(found["frequency"], amplitude, found.get("time", 10.0))
+    return (motion, math.isnan(found["acceleration"])) if allow_unknown else motion
+
+
+@overload
+def parse_pulse(text: str, default_length: float | None = None) -> Motion: ...
+@overload
+def parse_pulse(
+    text: str, default_length: float | None = None, *, allow_unknown: Literal[True]
+) -> tuple[Motion, bool]: ...
+def parse_pulse(
+    text: str, default_length: float | None = None, *, allow_unknown: bool = False
+) -> Motion | tuple[Motion, bool]:
+    """A pulse as typed: ``ricker,1.0Hz,0.3g`` or ``sine,1.0Hz,0.3g,10s`` (kind, frequency, amplitude, whole length).
+
+    Parameters
+    ----------
+    text : str
+        Kinds are the keys of :data:`PULSES`.
+    default_length : float, optional
+        Length of the whole motion where the text states none [s]; a pulse that takes longer is not cut.
+        By default ten seconds follow the pulse.
+    allow_unknown : bool
+        As for :func:`parse_harmonic`.
+
+    Returns
+    -------
+    Motion or (Motion, bool)
+
+    Raises
+    ------
+    InputError
+        The text cannot be understood; the message shows how to write it.
+    """
+    example = "half-sine,1.0Hz,0.3g"
+    kind, *parts = text.split(",")
+    key = kind.strip().lower()
+    if key not in PULSES:
+        close = difflib.get_close_matches(key, PULSES, 1)
+        hint = f"did you mean {close[0]}? " if close else ""
+        raise InputError(f"kind of pulse is {kind.strip()!r}; {hint}allowed is {', '.join(PULSES)}: {example!r}.")
+    found = _parts(parts, text, "--pulse", example)
+    amplitude = _amplitude(found, text, "--pulse", example, allow_unknown)
+    length = found.get("time")
+    if length is None and default_length is not None:
+        alone = PULSES[key](found["frequency"], amplitude).metadata["pulse_length"]
+        length = max(default_length, alone)
+    motion = PULSES[key](found["frequency"], amplitude, length)
+    return (motion, math.isnan(found["acceleration"])) if allow_unknown else motion
+
+
+def _parts(parts: list[str], text: str, option: str, example: str) -> dict[str, float]:
+    """Quantities by kind; the units say which is which. An acceleration that is looked for is NaN."""
+    found: dict[str, float] = {}
+    for part in parts:
+        kind, value = _measure(part, f"{option} {text!r}", example)
+        if kind in found:
+            raise InputError(f"{option} {text!r} holds two values of {kind}; write it as {example!r}.")
+        found[kind] = value
+    for kind, sample in (("frequency", "1.0Hz"), ("acceleration", "0.3g")):
+        if kind not in found:
+            raise InputError(f"{option} {text!r} holds no {kind} such as {sample}; write it as {example!r}.")
+    return found
+
+
+def _amplitude(found: dict[str, float], text: str, option: str, example: str, allow_unknown: bool) -> float:
+    value = found["acceleration"]
+    if not math.isnan(value):
+        return value
+    if not allow_unknown:
+        raise InputError(f"{option} {text!r} leaves the amplitude open; state it here, as in {example!r}.")
+    return 1.0
+
+
+def _quantity(text: str, kind: str, example: str) -> float:
+    found, value = _measure(text, f"{kind} {text!r}", example)
+    if found != kind or math.isnan(value):
+        raise InputError(f"{text!r} is not a value of {kind}; write it with its unit, as in {example!r}.")
+    return value
+
+
+def _measure(text: str, where: str, example: str) -> tuple[str, float]:
+    match = _QUANTITY.fullmatch(text)
+    if match is None:
+        raise InputError(f"{where}: {text.strip()!r} is not a number with a unit; write it as {example!r}.")
+    number, unit = match.group(1), match.group(2)
+    if unit is None:
+        raise InputError(f"{where}: {text.strip()!r} has no unit; write it as {example!r}.")
+    name = unit.lower()
+    for kind, units in (("frequency", FREQUENCY_UNITS), ("time", TIME_UNITS)):
+        if name in units and number != "?":
+            return kind, _number(number, where) * units[name]
+    try:
+        _, size = acceleration_unit(unit)
+    except InputError:
+        raise InputError(f"{where}: unit {unit!r} is unknown here; write it as {example!r}.") from None
+    return "acceleration", math.nan if number == "?" else _number(number, where) * size
+
+
+def _number(text: str, where: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise InputError(f"{where}: {text} is not a finite number.")
+    return value

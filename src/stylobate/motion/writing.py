@@ -1,0 +1,53 @@
+"""Motions written as CSV that reads back to the same bits."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ..errors import InputError
+from .motion import Motion
+
+
+def write_csv(motion: Motion, path: str | Path) -> Path:
+    """Write a motion as CSV in m/s², with a header that names the units.
+
+    Parameters
+    ----------
+    motion : Motion
+    path : path
+
+    Returns
+    -------
+    Path
+        The file. It appears whole or not at all.
+
+    Raises
+    ------
+    InputError
+        The place cannot be written.
+    """
+    place = Path(path)
+    azimuths = motion.metadata.get("azimuths") or {}
+    notes = [f"# dt_s: {motion.dt!r}", f"# name: {_one_line(motion.name)}"]
+    notes += [f"# azimuth_{axis}_deg: {angle!r}" for axis, angle in azimuths.items() if angle is not None]
+    for key in ("station", "network", "event", "start_time", "stage", "terms"):
+        if motion.metadata.get(key):
+            notes.append(f"# {key}: {_one_line(str(motion.metadata[key]))}")
+    notes += [f"# processing {i}: {_one_line(step)}" for i, step in enumerate(motion.processing, 1)]
+    components = motion.components
+    header = ",".join(["time_s", *(f"a{axis}_m_s2" for axis in components)])
+    rows = zip(motion.time.tolist(), *(values.tolist() for values in components.values()))
+    text = "\n".join([*notes, header, *(",".join(map(repr, row)) for row in rows), ""])
+    part = place.with_name(f".{place.name}.{os.getpid()}.part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        part.replace(place)
+    except OSError as error:
+        part.unlink(missing_ok=True)
+        raise InputError(f"{place} cannot be written: {error.strerror}; choose another place.") from None
+    return place
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())

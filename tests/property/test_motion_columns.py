@@ -1,0 +1,154 @@
+"""Columns of text: read as meant, to the bit where written by this package, or refused with the remedy."""
+
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from stylobate.constants import g
+from stylobate.errors import InputError, OutOfRangeWarning
+from stylobate.motion import Motion, read_motion, write_csv
+
+VALUES = st.floats(-50.0, 50.0, allow_nan=False)
+
+
+@pytest.fixture
+def put(tmp_path):
+    def write(text, name="record.txt"):
+        path = tmp_path / name
+        path.write_bytes(text.encode("utf-8") if isinstance(text, str) else text)
+        return path
+
+    return write
+
+
+@settings(max_examples=40)
+@given(
+    st.floats(1e-4, 2.0),
+    st.integers(1, 3),
+    st.lists(st.tuples(VALUES, VALUES, VALUES), min_size=2, max_size=50),
+    st.floats(0.1, 3.0),
+)
+def test_written_and_read_back_to_the_same_bits(tmp_path_factory, dt, count, rows, factor):
+    table = np.array(rows)
+    parts = [table[:, i] for i in range(count)] + [None] * (3 - count)
+    motion = Motion(dt, *parts, factor=factor, metadata={"azimuths": {"x": 12.5}, "station": "ABC"})
+    path = write_csv(motion, tmp_path_factory.mktemp("csv") / "motion.csv")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)  # random numbers may have a large mean
+        back = read_motion(path)
+    assert back.dt == motion.dt
+    for axis, values in motion.components.items():
+        assert np.array_equal(back.components[axis], values)
+    assert back.metadata["azimuths"]["x"] == 12.5
+    assert back.metadata["station"] == "ABC"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "time_s,ax_g\n0.00,0.1\n0.01,-0.2\n0.02,0.1\n",
+        "time_s,ax_m_s2\n0.00,0.981\n0.01,-1.962\n0.02,0.981\n",
+        "# a comment\n\ntime_s,ax_gal\r\n0.00,98.1\r\n0.01,-196.2\r\n0.02,98.1\r\n",
+        "time_s;ax_g\n0,00;0,1\n0,01;-0,2\n0,02;0,1\n",
+        "time_ms\tax_g\n0\t0.1\n10\t-0.2\n20\t0.1\n",
+        "Time (s), Acceleration (cm/s^2)\n0.00, 98.1\n0.01, -196.2\n0.02, 98.1\n",
+        "\ufefftime_s,ax_g\r\r\n0.00,0.1\r\r\n0.01,-0.2\r\r\n0.02,0.1\r\r\n",
+        "ax_g,time_s\n0.1,0.00\n-0.2,0.01\n0.1,0.02\n",
+    ],
+)
+def test_headers_that_name_the_unit(put, text):
+    motion = read_motion(put(text))
+    assert motion.dt == 0.01
+    assert motion.acceleration == pytest.approx([0.1 * g, -0.2 * g, 0.1 * g])
+
+
+def test_three_components_and_the_vertical(put):
+    motion = read_motion(put("time_s,ax_g,ay_g,az_m_s2\n0,1,2,3\n0.5,-1,-2,-3\n1.0,0,0,0\n"))
+    assert list(motion.components) == ["x", "y", "z"]
+    assert motion.vertical == pytest.approx([3.0, -3.0, 0.0])
+    assert motion.metadata["unit"] == "g, m/s2"
+
+
+def test_bare_columns(put):
+    two = read_motion(put("0.00 0.1\n0.02 -0.1\n0.04 0.0\n"), unit="g")
+    assert (two.dt, two.pga) == (0.02, pytest.approx(0.1 * g))
+    one = read_motion(put("title\n0.1\n-0.1\n0.0\n"), unit="m/s2", dt=0.01)
+    assert (one.dt, one.pga, one.metadata["header"]) == (0.01, 0.1, ("title",))
+    glued = read_motion(put("0.00-0.1\n0.02-0.2\n0.04 0.3\n"), unit="g")
+    assert glued.acceleration == pytest.approx([-0.1 * g, -0.2 * g, 0.3 * g])
+    fortran = read_motion(put("0.1D+01\n-1.0d0\n0.0\n"), unit="gal", dt=0.01)
+    assert fortran.acceleration == pytest.approx([0.01, -0.01, 0.0])
+
+
+def test_other_code_pages(put):
+    assert read_motion(put("# Mexicali, Hidr\xe1ulica\ntime_s,ax_g\n0,1\n1,-1\n".encode("latin-1"))).dt == 1.0
+    assert read_motion(put("time_s,ax_g\n0,1\n1,-1\n".encode("utf-16"))).dt == 1.0
+
+
+def test_rounded_times_are_equal_steps(put):
+    rows = "".join(f"{i / 300:.4f} {(-1) ** i}\n" for i in range(400))
+    assert read_motion(put(rows), unit="g").dt == pytest.approx(1 / 300, rel=1e-4)
+
+
+def test_unequal_steps_are_refused_or_resampled_on_demand(put):
+    path = put("time_s,ax_g\n0.00,0.0\n0.01,1.0\n0.03,-1.0\n0.04,0.0\n")
+    with pytest.raises(InputError, match=r"line 4: the time goes from 0\.01 s to 0\.03 s"):
+        read_motion(path)
+    motion = read_motion(path, dt=0.01)
+    assert motion.acceleration == pytest.approx([0.0, g, 0.0, -g, 0.0], abs=1e-12)
+    assert "resampled linearly from unequal steps" in motion.processing[0]
+
+
+def test_an_offset_is_noticed(put):
+    with pytest.warns(OutOfRangeWarning, match="mean of component x is 0.5 g"):
+        read_motion(put("time_s,ax_g\n0,0.4\n1,0.6\n"))
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "said"),
+    [
+        ("0 0.1\n1 0.2\n", {}, "--unit g"),
+        ("time_s,ax\n0,0.1\n1,0.2\n", {}, "--unit g"),
+        ("0.1\n0.2\n0.1\n", {"unit": "g"}, "no time column"),
+        ("0.1\n0.2\n0.1\n", {"unit": "g", "dt": 0.0}, "dt"),
+        ("0 0.1\n1 abc\n2 0\n", {"unit": "g"}, "line 2: expected numbers"),
+        ("0 0.1\n1 nan\n2 0\n", {"unit": "g"}, "line 2: expected numbers"),
+        ("0 0.1\n1 1e999\n2 0\n", {"unit": "g"}, "line 2: expected numbers"),
+        ("0 0.1\n1\n2 0\n", {"unit": "g"}, "line 2: 1 numbers where the rows above have 2"),
+        ("0 0.1\n1 2 3\n2\n", {"unit": "g"}, "line 2: 3 numbers"),
+        ("0 0.1\n1 0.1\n", {"unit": "furlong"}, "allowed is g, m/s2"),
+        ("time_s,ax_furlong\n0,1\n1,1\n", {}, "allowed is g, m/s2"),
+        ("time_s,ax_g,ax_g\n0,1,1\n1,1,1\n", {}, "2 columns are named"),
+        ("time_s,ay_g\n0,1\n1,1\n", {}, "no column holds the horizontal"),
+        ("time_s,ax_g\n0,1\n1,1\n", {"unit": "m/s2"}, "leave the unit out"),
+        ("time_s,ax_g\n0,1,2\n1,1,2\n", {}, "3 numbers under 2 column names"),
+        ("1 2 3 4 5 6\n1 2 3 4 5 6\n", {"unit": "g", "dt": 0.01}, "rows of 6 numbers"),
+        ("time_s,ax_g\n0,1\n0,1\n", {}, "time goes from 0 s to 0 s"),
+        ("time_s,ax_g\n0,1\n1,1\n2,0\n", {"dt": 0.5}, "leave dt out"),
+        ("words only\n", {}, "no format that is known"),
+        ("", {}, "empty"),
+        ("0.1\n", {"unit": "g", "dt": 0.1}, "one row"),
+        (b"\x1f\x8b\x08\x00rest", {}, "compressed .gzip."),
+        (b"PK\x03\x04rest", {}, "compressed .zip."),
+        (b"\x00\x01\x02\x03" * 100, {}, "binary"),
+        ("1 " * 600_000, {"unit": "g", "dt": 0.1}, "break the numbers into lines"),
+    ],
+)
+def test_files_that_are_refused(put, text, options, said):
+    with pytest.raises(InputError, match=said):
+        read_motion(put(text), **options)
+
+
+def test_a_folder_and_a_missing_file_are_refused(tmp_path):
+    for path in (tmp_path, tmp_path / "missing.csv", tmp_path / "nul\0byte"):
+        with pytest.raises(InputError):
+            read_motion(path)
+
+
+def test_nothing_half_written(tmp_path):
+    with pytest.raises(InputError, match="cannot be written"):
+        write_csv(Motion(0.1, np.zeros(3)), tmp_path / "missing" / "motion.csv")
+    assert list(tmp_path.iterdir()) == []
