@@ -9,6 +9,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
+import numpy as np
+
 from ..column import Column
 from ..errors import InputError
 from ..motion import Motion
@@ -88,6 +90,21 @@ class Model:
                 raise InputError(f"{cls.name} has no option {key!r}; {hint}options are {', '.join(allowed) or 'none'}.")
             values[key] = _parse(key, text, hints[key])
         return cls(**values)
+
+
+def ground_history(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Acceleration and displacement of the base along x at given times, from rest [m/s²], [m], shape of ``time``.
+
+    Exact for an acceleration that is linear between samples; after the motion the base keeps its velocity.
+    """
+    a, dt = motion.acceleration, motion.dt
+    v = np.concatenate(([0.0], np.cumsum(0.5 * dt * (a[1:] + a[:-1]))))
+    u = np.concatenate(([0.0], np.cumsum(v[:-1] * dt + (2.0 * a[:-1] + a[1:]) * (dt * dt / 6.0))))
+    i = np.minimum((time / dt).astype(np.int64), len(a) - 1)
+    rest = time - i * dt
+    jerk = np.append(np.diff(a), 0.0)[i] / dt
+    start = np.where(i == len(a) - 1, np.where(rest > 1e-9 * dt, 0.0, a[-1]), a[i])
+    return start + jerk * rest, u[i] + v[i] * rest + 0.5 * start * rest**2 + jerk * rest**3 / 6.0
 
 
 def _parse(key: str, text: str, hint: Any) -> Any:

@@ -1,0 +1,466 @@
+"""Plane distinct elements over lanes: explicit central differences of rigid drums on soft frictional joints.
+
+A block advances ``LANES`` independent runs together. The innermost loops run over lanes, without a branch that depends on
+one, so that they fill the vector registers. Every array is one of records whose fields hold one value per lane: distances
+in memory are then known to the compiler. A lane whose run is over has ``dt = 0`` and stands still.
+
+Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at t_n, velocities at t_{n−1/2})::
+
+    drum[i]    x z th c s     centroid [m], rotation [rad], its cosine and sine
+               vx vz w        velocities [m/s], [rad/s]
+               m i im ii      mass [kg], inertia [kg m²], and their inverses
+               hb ht b t      centroid to lower and to upper face, half width of lower and of upper face [m]
+    joint[j]   kn ks co       k_n, k_s, cohesion × area per length of overlap      [N/m²], [N/m²], [N/m]
+               mu             tan φ
+               fs[p]          shear force of contact point p                       [N]
+               dn[p] ds[p]    dashpot forces of contact point p                    [N]
+               fx fz mu_ ml   force on the drum above, moments on the drums above and below about their centroids
+    lane       dt g           step [s], gravity [m/s²]
+               beta alpha     stiffness- and mass-proportional damping [s], [1/s]; local: Cundall's local damping [-]
+               xi[p] sh[p]    place (−1 … 1) and share of the area of contact point p
+               work shear visc  work of the input, of the shear springs on their surroundings reversed, of the dampers [J]
+               px pz          momentum of all drums [kg m/s]
+    ground[k]  ax az          acceleration of the base at step k of the chunk [m/s²]
+    feed       x z            addresses of the samples of the lane's motion (z 0: no vertical component)
+               last step end  index of the last sample, step now, last step
+               ratio factor   step over sample interval, factor of the samples
+    watch      status         RUNNING, ENDED, COLLAPSED, FAILED or FREE
+               follow         1: go on after a collapse
+               amax           largest horizontal acceleration of the motion, and of its vertical part vmax [m/s²]
+               top open turn wmax   peaks: |top displacement| [m], joint opening [m], |rotation| [rad], |input work| [J]
+               when which side      collapse: step, joint, side (±1); −1 while there is none
+               m x z px pz    running sums over the drums above a joint; o_* the same for one joint
+"""
+
+import functools
+
+import numpy as np
+
+from . import contact as ct
+from .ground import sample
+from .jit import kernel, law, strict
+
+#: Lanes of a block. The same for a single run, so that it has the bits of the batch.
+LANES = 16
+
+#: Steps between two looks at the lanes: peaks, ends and collapses are found on this grid.
+CHUNK = 16
+
+RUNNING, ENDED, COLLAPSED, FAILED, FREE = range(5)
+
+#: A part above a joint between drums counts as lost only against this much more restoring acceleration [m/s²]:
+#: unlike the base, its support can be carried back under it.
+SUPPORT_MARGIN = 9.81
+
+#: Positions beyond this are not a column any more [m].
+FAR = 1.0e6
+
+
+def block_types(points):
+    """Record types (drum, joint, lane, ground, feed, watch) for a number of contact points per joint."""
+    row, rows = (LANES,), (points, LANES)
+
+    def fields(single, several=""):
+        return [(name, np.float64, row) for name in single.split()] + [(name, np.float64, rows) for name in several.split()]
+
+    return (
+        np.dtype(fields("x z th c s vx vz w m i im ii hb ht b t")),
+        np.dtype(fields("kn ks co mu fx fz mu_ ml", "fs dn ds")),
+        np.dtype(fields("dt g beta alpha local work shear visc px pz", "xi sh")),
+        np.dtype(fields("ax az")),
+        np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor")),
+        np.dtype(
+            [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side")]
+            + fields("amax vmax top open turn wmax m x z px pz")
+        ),
+    )
+
+
+@law
+def contact_point(p, points, xi, lo, hi, sl, ql, sr, qr, c, s, w):
+    """Contact point p of a joint: the ends of the overlap first and last, the others between them."""
+    if p == 0:
+        return ct.left_contact(sl, ql, c, s, w)
+    if p == points - 1:
+        return ct.right_contact(sr, qr, c, s, w)
+    return ct.inner_contact(xi, lo, hi, sl, ql, c, s)
+
+
+def make_forces(points, damped):
+    """Forces of all joints at t_n, for a number of contact points per joint, with or without damping."""
+
+    @kernel
+    def forces(drum, joint, lane):
+        o = lane[0]
+        for j in range(drum.shape[0] - 1):
+            u = drum[j + 1]
+            v = drum[j]
+            e = joint[j]
+            for l in range(LANES):
+                dt = o.dt[l]
+                ht = v.ht[l]
+                w = v.t[l]
+                wl = v.w[l]
+                wu = u.w[l]
+                cl = v.c[l]
+                sl = v.s[l]
+                ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
+                left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+                lo = max(left_s, -w)
+                hi = min(right_s, w)
+                over = max(hi - lo, 0.0)
+                dvx = u.vx[l] - v.vx[l]
+                dvz = u.vz[l] - v.vz[l]
+                vs = cl * dvx + sl * dvz
+                vq = cl * dvz - sl * dvx
+                kn = e.kn[l] * over
+                ks = e.ks[l] * over
+                co = e.co[l] * over
+                mu = e.mu[l]
+                sum_s = 0.0
+                sum_q = 0.0
+                upper = 0.0
+                lower = 0.0
+                shear = 0.0
+                visc = 0.0
+                for p in range(points):
+                    share = o.sh[p, l]
+                    at_s, at_q, gap, ns, nq = contact_point(
+                        p, points, o.xi[p, l], lo, hi, left_s, left_q, right_s, right_q, c, s, w
+                    )
+                    vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, wu, wl)
+                    ka = kn * share
+                    ksa = ks * share
+                    old = e.fs[p, l]
+                    fn = ct.normal_force(ka, gap)
+                    cohesion = co * share if fn > 0.0 else 0.0
+                    if damped:
+                        # dashpots parallel to the springs: no tension in sum, no friction above Coulomb's in sum
+                        beta = o.beta[l]
+                        dn = max(-beta * ka * vn, -fn) if fn > 0.0 else 0.0
+                        limit = mu * (fn + dn) + cohesion
+                        fs = ct.shear_force(old, ksa, vt * dt, limit)
+                        ds = min(max(-beta * ksa * vt, -limit - fs), limit - fs)
+                        visc -= 0.5 * dt * ((dn + e.dn[p, l]) * vn + (ds + e.ds[p, l]) * vt)
+                        e.dn[p, l] = dn
+                        e.ds[p, l] = ds
+                        fn_all = fn + dn
+                        fs_all = fs + ds
+                    else:
+                        fs = ct.shear_force(old, ksa, vt * dt, mu * fn + cohesion)
+                        fn_all = fn
+                        fs_all = fs
+                    e.fs[p, l] = fs
+                    shear -= 0.5 * (old + fs) * vt * dt
+                    fa = fn_all * ns + fs_all * nq
+                    fb = fn_all * nq - fs_all * ns
+                    sum_s += fa
+                    sum_q += fb
+                    upper += (at_s - ps) * fb - (at_q - pq) * fa
+                    lower += at_s * fb - (at_q + ht) * fa
+                e.fx[l] = cl * sum_s - sl * sum_q
+                e.fz[l] = sl * sum_s + cl * sum_q
+                e.mu_[l] = upper
+                e.ml[l] = lower
+                o.shear[l] += shear
+                if damped:
+                    o.visc[l] += visc
+
+    return forces
+
+
+def make_move(damped):
+    """Motion of all drums from t_n to t_{n+1} under the forces at t_n."""
+
+    @kernel
+    def move(drum, joint, lane, ground, k):
+        o = lane[0]
+        g0 = ground[k]
+        g1 = ground[k + 1]
+        for l in range(LANES):
+            o.px[l] = 0.0
+            o.pz[l] = 0.0
+        for j in range(drum.shape[0] - 1):
+            u = drum[j + 1]
+            e = joint[j]
+            a = joint[j + 1]  # the joint above; behind the topmost joint stands one without force
+            for l in range(LANES):
+                dt = o.dt[l]
+                vx = u.vx[l]
+                vz = u.vz[l]
+                w = u.w[l]
+                ax = (e.fx[l] - a.fx[l]) * u.im[l] - g0.ax[l]
+                az = (e.fz[l] - a.fz[l]) * u.im[l] - g0.az[l] - o.g[l]
+                aw = (e.mu_[l] - a.ml[l]) * u.ii[l]
+                m = u.m[l]
+                if damped:
+                    # local damping (Cundall): a share of the unbalanced force, against the velocity; for settling only
+                    local = o.local[l]
+                    ax -= local * abs(ax) * np.sign(vx)
+                    az -= local * abs(az) * np.sign(vz)
+                    aw -= local * abs(aw) * np.sign(w)
+                    half = 0.5 * o.alpha[l] * dt
+                    nx = (vx * (1.0 - half) + ax * dt) / (1.0 + half)
+                    nz = (vz * (1.0 - half) + az * dt) / (1.0 + half)
+                    nw = (w * (1.0 - half) + aw * dt) / (1.0 + half)
+                    mx = 0.5 * (vx + nx)
+                    mz = 0.5 * (vz + nz)
+                    mw = 0.5 * (w + nw)
+                    o.visc[l] += o.alpha[l] * dt * (m * (mx * mx + mz * mz) + u.i[l] * mw * mw)
+                else:
+                    nx = vx + ax * dt
+                    nz = vz + az * dt
+                    nw = w + aw * dt
+                u.vx[l] = nx
+                u.vz[l] = nz
+                u.w[l] = nw
+                u.x[l] += nx * dt
+                u.z[l] += nz * dt
+                u.th[l] += nw * dt
+                c, s = ct.turn(u.c[l], u.s[l], nw * dt)
+                u.c[l] = c
+                u.s[l] = s
+                o.px[l] += m * nx
+                o.pz[l] += m * nz
+        # work of the body force −m a by the trapezoidal rule (formulation, section 8)
+        for l in range(LANES):
+            mean_x = 0.5 * (g0.ax[l] + g1.ax[l])
+            mean_z = 0.5 * (g0.az[l] + g1.az[l])
+            o.work[l] -= (mean_x * o.px[l] + mean_z * o.pz[l]) * o.dt[l]
+
+    return move
+
+
+@kernel
+def fill_ground(ground, feed, watch):
+    """Acceleration of the base for the next chunk, each lane from its own motion."""
+    f = feed[0]
+    for l in range(LANES):
+        running = watch[0].status[l] == RUNNING
+        for k in range(CHUNK + 1):
+            g = ground[k]
+            if running:
+                place = (f.step[l] + k) * f.ratio[l]
+                g.ax[l] = f.factor[l] * sample(f.x[l], f.last[l], place)
+                g.az[l] = f.factor[l] * sample(f.z[l], f.last[l], place) if f.z[l] != 0 else 0.0
+            else:
+                g.ax[l] = 0.0
+                g.az[l] = 0.0
+
+
+@strict
+def joint_pose(u, v, l):
+    """Corners of the upper drum's lower face in the frame of the face below: (s left, q left, s right, q right)."""
+    ps, pq, c, s = ct.relative_pose(
+        u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l]
+    )
+    return ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+
+
+@strict
+def joint_opening(left_s, left_q, right_s, right_q, w):
+    """Largest gap of a joint at the corners of the upper face that are above the lower one [m]."""
+    left = left_q if left_s >= -w else 0.0
+    right = right_q if right_s <= w else 0.0
+    return max(left, right, 0.0)
+
+
+@strict
+def observe(drum, joint, lane, feed, watch):
+    """Look at all lanes: peaks, non-finite states, certain collapses, ends. Lanes that are over get dt = 0.
+
+    A collapse is certain when, for the part of the column above a joint, its centroid lies beyond the end of the contact,
+    moves outward, and the moment of its weight about that end exceeds what the strongest acceleration of the motion could
+    ever set against it (for joints between drums, with SUPPORT_MARGIN on top); or when two faces no longer overlap.
+    """
+    drums = drum.shape[0] - 1
+    o = lane[0]
+    f = feed[0]
+    w = watch[0]
+    for i in range(1, drums + 1):
+        u = drum[i]
+        for l in range(LANES):
+            fix = 1.5 - 0.5 * (u.c[l] * u.c[l] + u.s[l] * u.s[l])
+            u.c[l] *= fix
+            u.s[l] *= fix
+            w.turn[l] = max(w.turn[l], abs(u.th[l]))
+    for l in range(LANES):
+        top = drum[drums]
+        w.top[l] = max(w.top[l], abs(top.x[l] - top.s[l] * top.ht[l]))
+        w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
+        w.m[l] = 0.0
+        w.x[l] = 0.0
+        w.z[l] = 0.0
+        w.px[l] = 0.0
+        w.pz[l] = 0.0
+    for j in range(drums - 1, -1, -1):
+        u = drum[j + 1]
+        v = drum[j]
+        e = joint[j]
+        margin = SUPPORT_MARGIN if j > 0 else 0.0
+        for l in range(LANES):
+            m = u.m[l]
+            w.m[l] += m
+            w.x[l] += m * u.x[l]
+            w.z[l] += m * u.z[l]
+            w.px[l] += m * u.vx[l]
+            w.pz[l] += m * u.vz[l]
+            ls, lq, rs, rq = joint_pose(u, v, l)
+            half = v.t[l]
+            lo = max(ls, -half)
+            hi = min(rs, half)
+            w.open[l] = max(w.open[l], joint_opening(ls, lq, rs, rq, half))
+            # the end of the contact on the side to which the part above leans, in world axes
+            cx = w.x[l] / w.m[l]
+            cz = w.z[l] / w.m[l]
+            left_x = v.x[l] + v.c[l] * lo - v.s[l] * v.ht[l]
+            right_x = v.x[l] + v.c[l] * hi - v.s[l] * v.ht[l]
+            side = 1.0 if cx - right_x > left_x - cx else -1.0
+            end = hi if side > 0.0 else lo
+            end_x = right_x if side > 0.0 else left_x
+            end_z = v.z[l] + v.s[l] * end + v.c[l] * v.ht[l]
+            out = side * (cx - end_x)
+            up = max(cz - end_z, 0.0)
+            outward = side * (w.px[l] / w.m[l] - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
+            down = max(o.g[l] - w.vmax[l], 0.0)
+            lost = out > 0.0 and outward > 0.0 and out * down > (w.amax[l] + margin) * up
+            parted = hi <= lo and w.status[l] == RUNNING
+            if parted:
+                e.kn[l] = 0.0
+                e.ks[l] = 0.0
+                e.co[l] = 0.0
+            if (lost or parted) and w.status[l] == RUNNING and w.when[l] < 0:
+                w.when[l] = f.step[l]
+                w.which[l] = j
+                w.side[l] = int(side)
+            if w.status[l] == RUNNING and not (abs(u.x[l]) + abs(u.z[l]) + abs(u.th[l]) < FAR):
+                w.status[l] = FAILED
+    for l in range(LANES):
+        if w.status[l] == RUNNING:
+            if w.when[l] >= 0 and w.follow[l] == 0:
+                w.status[l] = COLLAPSED
+            elif f.step[l] >= f.end[l]:
+                w.status[l] = COLLAPSED if w.when[l] >= 0 else ENDED
+        if w.status[l] != RUNNING:
+            o.dt[l] = 0.0
+
+
+@strict
+def energies(drum, joint, lane, ground_x, ground_z, dt, l, points, out):
+    """Ledger of one lane at its present step, velocities brought to the whole step: see ENERGY_TERMS of the response.
+
+    ``dt`` is the lane's step (its own is 0 once it stands still). The shear springs are brought to the present positions
+    as the next step will do it. Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous.
+    """
+    drums = drum.shape[0] - 1
+    o = lane[0]
+    kinetic = 0.0
+    height = 0.0
+    elastic = 0.0
+    shear_work = o.shear[l]
+    visc = o.visc[l]
+    above_x = 0.0
+    above_z = 0.0
+    above_m = 0.0
+    for j in range(drums - 1, -1, -1):
+        u = drum[j + 1]
+        v = drum[j]
+        e = joint[j]
+        cl = v.c[l]
+        sl = v.s[l]
+        ht = v.ht[l]
+        w = v.t[l]
+        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
+        left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+        lo = max(left_s, -w)
+        hi = min(right_s, w)
+        over = max(hi - lo, 0.0)
+        dvx = u.vx[l] - v.vx[l]
+        dvz = u.vz[l] - v.vz[l]
+        vs = cl * dvx + sl * dvz
+        vq = cl * dvz - sl * dvx
+        sum_s = 0.0
+        sum_q = 0.0
+        upper = 0.0
+        lower = 0.0
+        for p in range(points):
+            share = o.sh[p, l]
+            at_s, at_q, gap, ns, nq = contact_point(
+                p, points, o.xi[p, l], lo, hi, left_s, left_q, right_s, right_q, c, s, w
+            )
+            vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, u.w[l], v.w[l])
+            ka = e.kn[l] * over * share
+            ksa = e.ks[l] * over * share
+            old = e.fs[p, l]
+            fn = ct.normal_force(ka, gap)
+            dn = max(-o.beta[l] * ka * vn, -fn) if fn > 0.0 else 0.0
+            limit = e.mu[l] * (fn + dn) + (e.co[l] * over * share if fn > 0.0 else 0.0)
+            fs = ct.shear_force(old, ksa, vt * dt, limit)
+            ds = min(max(-o.beta[l] * ksa * vt, -limit - fs), limit - fs)
+            shear_work -= 0.5 * (old + fs) * vt * dt
+            visc -= 0.5 * dt * ((dn + e.dn[p, l]) * vn + (ds + e.ds[p, l]) * vt)
+            if ka > 0.0:
+                elastic += 0.5 * fn * fn / ka
+            if ksa > 0.0:
+                stored = 0.5 * fs * fs / ksa
+                elastic += stored
+                shear_work -= stored
+            fa = (fn + dn) * ns + (fs + ds) * nq
+            fb = (fn + dn) * nq - (fs + ds) * ns
+            sum_s += fa
+            sum_q += fb
+            upper += (at_s - ps) * fb - (at_q - pq) * fa
+            lower += at_s * fb - (at_q + ht) * fa
+        fx = cl * sum_s - sl * sum_q
+        fz = sl * sum_s + cl * sum_q
+        vx = u.vx[l] + 0.5 * dt * ((fx - above_x) * u.im[l] - ground_x)
+        vz = u.vz[l] + 0.5 * dt * ((fz - above_z) * u.im[l] - ground_z - o.g[l])
+        vw = u.w[l] + 0.5 * dt * (upper - above_m) * u.ii[l]
+        above_x = fx
+        above_z = fz
+        above_m = lower
+        kinetic += 0.5 * (u.m[l] * (vx * vx + vz * vz) + u.i[l] * vw * vw)
+        height += u.m[l] * o.g[l] * u.z[l]
+    out[0] = o.work[l]
+    out[1] = kinetic
+    out[2] = height
+    out[3] = elastic
+    out[4] = shear_work
+    out[5] = visc
+
+
+@strict
+def joint_state(drum, l, opening, slip):
+    """Opening and slip of every joint of one lane [m]; the slip is read at the edge that is less open."""
+    for j in range(drum.shape[0] - 1):
+        ls, lq, rs, rq = joint_pose(drum[j + 1], drum[j], l)
+        opening[j] = joint_opening(ls, lq, rs, rq, drum[j].t[l])
+        slip[j] = ls + drum[j + 1].b[l] if lq < rq else rs - drum[j + 1].b[l]
+
+
+@functools.cache
+def make_advance(points, damped):
+    """``advance(drum, joint, lane, ground, feed, watch, chunks)`` for a number of contact points per joint.
+
+    Advances all lanes by up to ``chunks`` × CHUNK steps; returns early when no lane is running.
+    """
+    forces = make_forces(points, damped)
+    move = make_move(damped)
+
+    @kernel
+    def advance(drum, joint, lane, ground, feed, watch, chunks):
+        for _ in range(chunks):
+            fill_ground(ground, feed, watch)
+            for k in range(CHUNK):
+                forces(drum, joint, lane)
+                move(drum, joint, lane, ground, k)
+            running = 0
+            for l in range(LANES):
+                if watch[0].status[l] == RUNNING:
+                    feed[0].step[l] += CHUNK
+                    running += 1
+            if running == 0:
+                break
+            observe(drum, joint, lane, feed, watch)
+
+    return advance
