@@ -1,0 +1,21 @@
+"""Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG."""
+
+from .domain import draw_boundaries, draw_domain
+from .energy import draw_energy
+from .filmstrip import draw_filmstrip
+from .histories import draw_comparison, draw_histories
+from .joints import draw_joints
+from .motion import draw_motion
+from .style import save
+
+__all__ = [
+    "draw_boundaries",
+    "draw_comparison",
+    "draw_domain",
+    "draw_energy",
+    "draw_filmstrip",
+    "draw_histories",
+    "draw_joints",
+    "draw_motion",
+    "save",
+]

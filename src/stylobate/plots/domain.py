@@ -1,0 +1,119 @@
+"""The safe-unsafe domain: verdicts over frequency and amplitude, the boundary of collapse, and the static line."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+
+from ..analysis import verdicts as v
+from ..analysis.domain import Domain
+from ..constants import g
+from .style import BLACK, BLUE, CYCLE, SAND, WIDTH, styled
+
+# Light where it stands, dark where it collapses: also in grey.
+_FILL = {
+    v.STANDS: {"facecolor": SAND, "edgecolor": "none"},
+    v.COLLAPSED: {"facecolor": "#a6372f", "edgecolor": "none"},
+    v.UNDECIDED: {"facecolor": "#d9d9d9", "edgecolor": "#4d4d4d", "hatch": "////", "linewidth": 0.0},
+    v.FAILED: {"facecolor": "white", "edgecolor": BLACK, "hatch": "xxxx", "linewidth": 0.0},
+    v.NOT_RUN: {"facecolor": "white", "edgecolor": "none"},
+}
+
+
+@styled
+def draw_domain(domain: Domain, title: str | None = None) -> Figure:
+    """Cells by verdict, the boundary of the first collapse, and the static acceleration that opens a joint.
+
+    Parameters
+    ----------
+    domain : Domain
+    title : str, optional
+        Column and model by default.
+    """
+    figure = Figure(figsize=(WIDTH, 4.4))
+    axes = figure.subplots()
+    handles = _draw_cells(axes, domain)
+    handles += [
+        _draw_boundary(axes, domain, {"color": BLACK, "linestyle": "-"}, "first collapse"),
+        _draw_static_line(axes, domain),
+    ]
+    _finish(axes, domain, title or f"{domain.column.name}, {domain.model}")
+    figure.legend(handles=[h for h in handles if h is not None], loc="outside lower center", ncols=4)
+    return figure
+
+
+@styled
+def draw_boundaries(domains: Sequence[Domain], title: str | None = None) -> Figure:
+    """Boundaries of the first collapse of several domains of one column in one picture."""
+    figure = Figure(figsize=(WIDTH, 4.4))
+    axes = figure.subplots()
+    handles = [
+        _draw_boundary(axes, domain, line, domain.model, marker="os^Dv"[i % 5])
+        for i, (domain, line) in enumerate(zip(domains, CYCLE * (1 + len(domains) // len(CYCLE))))
+    ]
+    handles.append(_draw_static_line(axes, domains[0]))
+    _finish(axes, domains[0], title or f"{domains[0].column.name}: first collapse")
+    figure.legend(handles=[h for h in handles if h is not None], loc="outside lower center", ncols=4)
+    return figure
+
+
+def _draw_cells(axes: Axes, domain: Domain) -> list[Patch]:
+    x, y, verdicts = _edges(domain.frequencies), _edges(domain.amplitudes / g), domain.verdicts
+    handles = []
+    for one, fill in _FILL.items():
+        cells = [
+            [(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])]
+            for i, j in np.argwhere(verdicts == one)
+        ]
+        if not cells:
+            continue
+        axes.add_collection(PolyCollection(cells, antialiaseds=False, zorder=1, rasterized=len(cells) > 20_000, **fill))
+        frame = {"edgecolor": "#999999", "linewidth": 0.5}
+        handles.append(Patch(label=f"{one} ({len(cells)})", **(frame | fill if "hatch" in fill else fill | frame)))
+    return handles
+
+
+def _draw_boundary(axes: Axes, domain: Domain, line: dict, label: str, marker: str | None = None) -> Line2D | None:
+    """Lower edge of the smallest collapsing cell at each frequency, interrupted where nothing collapses."""
+    first = domain.first_collapse
+    if np.isnan(first).all():
+        return None
+    if marker is not None:
+        shape = {"marker": marker, "markersize": 4.5, "fillstyle": "none"}
+        return axes.plot(domain.frequencies, first / g, label=label, zorder=3, **shape, **line)[0]
+    x, lower = _edges(domain.frequencies), _edges(domain.amplitudes / g)[:-1]
+    level = [np.nan if np.isnan(a) else lower[np.searchsorted(domain.amplitudes, a)] for a in first]
+    axes.stairs(level, x, baseline=None, linewidth=1.6, zorder=3, **line)
+    return Line2D([], [], linewidth=1.6, label=label, **line)
+
+
+def _draw_static_line(axes: Axes, domain: Domain) -> Line2D:
+    value = domain.column.uplift_acceleration / g
+    return axes.axhline(
+        value, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.3, zorder=4, label=f"static uplift, {value:.3f} g"
+    )
+
+
+def _finish(axes: Axes, domain: Domain, title: str) -> None:
+    x, y = _edges(domain.frequencies), _edges(domain.amplitudes / g)
+    axes.set_xlim(x[0], x[-1])
+    axes.set_ylim(min(y[0], 0.95 * domain.column.uplift_acceleration / g), y[-1])
+    axes.set_xlabel("frequency of the base motion [Hz]")
+    axes.set_ylabel("amplitude of acceleration [g]")
+    axes.set_title(title)
+
+
+def _edges(centres: np.ndarray) -> np.ndarray:
+    """Edges of the cells around the given values: half-way between neighbours."""
+    if len(centres) == 1:
+        half = 0.1 * abs(centres[0]) or 0.5
+        return np.array([centres[0] - half, centres[0] + half])
+    middle = 0.5 * (centres[1:] + centres[:-1])
+    first, last = 2.0 * centres[0] - middle[0], 2.0 * centres[-1] - middle[-1]
+    return np.concatenate((np.array([first]), middle, np.array([last])))

@@ -1,0 +1,61 @@
+"""The energy ledger over time: what the ground put in, and where it went."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..response import ENERGY_TERMS, Response
+from .histories import describe
+from .style import CYCLE, GREY, WIDTH, styled, zero_line
+
+
+@styled
+def draw_energy(response: Response, title: str | None = None) -> Figure:
+    """Input work, where it is and where it went, and below what the ledger cannot account for.
+
+    Parameters
+    ----------
+    response : Response
+    title : str, optional
+    """
+    h = response.histories
+    figure = Figure(figsize=(WIDTH, 4.2))
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
+    zero_line(upper)
+    present = [term for term in ENERGY_TERMS if term == "input" or np.any(h.energy.get(term, 0.0))]
+    unit, factor = _unit(max((float(np.nanmax(np.abs(h.energy[t]))) for t in present if t in h.energy), default=0.0))
+    for term, line in zip(present, CYCLE * 2):
+        width = 1.8 if term == "input" else 1.0
+        upper.plot(h.time, factor * h.energy[term], label=_NAMES[term], linewidth=width, **line)
+    upper.set_ylabel(f"energy [{unit}]")
+    upper.legend(loc="upper left", ncols=3)
+    bottom, top = upper.get_ylim()
+    upper.set_ylim(bottom, top + 0.25 * (top - bottom))
+    upper.set_title(title or describe(response))
+    zero_line(lower)
+    lower.plot(h.time, factor * h.imbalance, color=GREY)
+    lower.set_ylabel(f"imbalance\n[{unit}]")
+    lower.set_xlabel("time [s]")
+    lower.set_xlim(float(h.time[0]), float(h.time[-1]) or 1.0)
+    share = response.measures.energy_imbalance
+    lower.set_title(f"imbalance at most {share:.1e} of the input work", loc="right", fontsize=8.0)
+    figure.align_ylabels()
+    return figure
+
+
+_NAMES = {
+    "input": "input",
+    "kinetic": "kinetic",
+    "gravitational": "gravity",
+    "elastic": "elastic",
+    "friction": "friction loss",
+    "viscous": "viscous loss",
+    "impact": "impact loss",
+}
+
+
+def _unit(largest: float) -> tuple[str, float]:
+    if largest >= 1e6:
+        return "MJ", 1e-6
+    return ("kJ", 1e-3) if largest >= 1e3 else ("J", 1.0)

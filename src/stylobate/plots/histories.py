@@ -1,0 +1,111 @@
+"""Displacement histories of base and top as Baraldi et al. draw them, and of the tops of several models."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..constants import g
+from ..response import Response
+from .style import BLACK, CYCLE, GREY, RED, WIDTH, styled, zero_line
+
+
+@styled
+def draw_histories(response: Response, title: str | None = None) -> Figure:
+    """Horizontal displacement of base and top, over the acceleration of the ground.
+
+    Parameters
+    ----------
+    response : Response
+    title : str, optional
+        Column, motion and outcome by default.
+    """
+    h = response.histories
+    figure = Figure(figsize=(WIDTH, 3.6))
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
+    zero_line(upper)
+    upper.plot(h.time, h.top_displacement, color=BLACK, linestyle=(0, (4.5, 1.6)), label="top")
+    upper.plot(h.time, h.base_displacement, color=RED, label="base")
+    upper.set_ylabel("displacement\nrelative to the ground [m]")
+    _mark_collapse(upper, [(response, BLACK)])
+    _focus(upper, [response])
+    upper.legend(loc="upper left", ncols=2)
+    upper.set_title(title or describe(response))
+    _draw_ground(lower, response)
+    figure.align_ylabels()
+    return figure
+
+
+@styled
+def draw_comparison(responses: Sequence[Response], title: str | None = None) -> Figure:
+    """Top displacement of several models under one motion, over the acceleration of the ground."""
+    figure = Figure(figsize=(WIDTH, 3.6))
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
+    zero_line(upper)
+    marks = []
+    for response, line in zip(responses, CYCLE * (1 + len(responses) // len(CYCLE))):
+        label = f"{response.model} ({response.outcome.label.replace('_', ' ')})"
+        upper.plot(response.histories.time, response.histories.top_displacement, label=label, **line)
+        marks.append((response, line["color"]))
+    upper.set_ylabel("top displacement\nrelative to the ground [m]")
+    _mark_collapse(upper, marks)
+    _focus(upper, responses)
+    upper.legend(loc="upper left", ncols=2)
+    upper.set_title(title or f"{responses[0].column.name}, {responses[0].provenance.get('motion', 'motion')}")
+    _draw_ground(lower, responses[0])
+    figure.align_ylabels()
+    return figure
+
+
+def describe(response: Response) -> str:
+    """Column, motion, model and outcome in one line."""
+    outcome = response.outcome.label.replace("_", " ")
+    undecided = "" if response.measures.decided else ", undecided"
+    motion = response.provenance.get("motion", "motion")
+    return f"{response.column.name}, {motion}, {response.model}: {outcome}{undecided}"
+
+
+def _draw_ground(axes: Axes, response: Response) -> None:
+    zero_line(axes)
+    h = response.histories
+    axes.plot(h.time, h.ground_acceleration / g, color=GREY, linewidth=0.8)
+    axes.set_ylabel("ground\n[g]")
+    axes.set_xlabel("time [s]")
+    axes.set_xlim(float(h.time[0]), float(h.time[-1]) or 1.0)
+
+
+def _mark_collapse(axes: Axes, responses: Sequence[tuple[Response, str]]) -> None:
+    for i, (response, color) in enumerate(responses):
+        time = response.measures.collapse_time
+        if math.isnan(time):
+            continue
+        axes.axvline(time, color=color, linewidth=0.8, linestyle=(0, (1, 2)))
+        axes.annotate(
+            f"collapse {time:.2f} s",
+            (time, 0.04 + 0.09 * i),
+            xycoords=("data", "axes fraction"),
+            xytext=(-3, 0),
+            textcoords="offset points",
+            ha="right",
+            fontsize=8.0,
+            color=color,
+            bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6},
+        )
+
+
+def _focus(axes: Axes, responses: Sequence[Response]) -> None:
+    # What falls after the collapse must not squeeze what came before it.
+    low = high = 0.0
+    for response in responses:
+        values = np.nan_to_num(response.histories.top_displacement)
+        if not math.isnan(response.measures.collapse_time):
+            limit = 2.0 * response.column.base_width
+            values = np.clip(values, -limit, limit)
+        low, high = min(low, float(values.min())), max(high, float(values.max()))
+    size = high - low
+    if size > 0.0:
+        axes.set_ylim(low - 0.15 * size, high + 0.3 * size)  # room for the legend

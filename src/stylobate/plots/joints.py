@@ -1,0 +1,59 @@
+"""Opening of every joint over time, one trace per joint, stacked like the joints."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..response import Response
+from .histories import describe
+from .style import BLACK, BROWN, GREY, SAND, WIDTH, styled
+
+
+@styled
+def draw_joints(response: Response, title: str | None = None) -> Figure:
+    """Largest opening of each joint over time, each drawn to its own peak, which stands beside it.
+
+    Joints that open by less than a hundredth of the largest opening are drawn smaller.
+
+    Parameters
+    ----------
+    response : Response
+    title : str, optional
+    """
+    h, n = response.histories, response.column.n
+    opening = np.nan_to_num(np.abs(h.joint_opening))
+    time = response.measures.collapse_time
+    if not math.isnan(time):  # a fallen column's gaps would hide all others
+        opening = np.where((h.time <= time)[:, None], opening, np.nan)
+    largest = float(np.nanmax(opening)) if np.isfinite(opening).any() else 0.0
+    figure = Figure(figsize=(WIDTH, 1.4 + 0.32 * max(n, 3)))
+    axes = figure.subplots()
+    for i in reversed(range(n)):
+        peak = float(np.nanmax(opening[:, i])) if np.isfinite(opening[:, i]).any() else 0.0
+        scale = 0.8 / max(peak, 0.01 * largest) if largest > 0.0 else 0.0
+        trace = i + 1 + scale * opening[:, i]
+        axes.fill_between(h.time, i + 1, trace, facecolor=SAND, edgecolor="none", zorder=2)
+        axes.plot(h.time, trace, color=BROWN, linewidth=0.8, zorder=2)
+        axes.axhline(i + 1, color=GREY, linewidth=0.4, zorder=1)
+        axes.annotate(
+            f"{1000.0 * peak:.3g} mm",
+            (1.01, i + 1),
+            xycoords=("axes fraction", "data"),
+            fontsize=8.0,
+            va="bottom",
+        )
+    axes.annotate("peak", (1.01, n + 1), xycoords=("axes fraction", "data"), fontsize=8.0, va="bottom", color=GREY)
+    if not math.isnan(time):
+        axes.axvline(time, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
+        axes.annotate(f"collapse {time:.2f} s  ", (time, n + 1), fontsize=8.0, va="bottom", ha="right")
+    axes.set_xlim(float(h.time[0]), float(h.time[-1]) or 1.0)
+    axes.set_ylim(0.85, n + 1.35)
+    every = 1 if n <= 30 else math.ceil(n / 25)
+    axes.set_yticks(range(1, n + 1, every))
+    axes.set_xlabel("time [s]")
+    axes.set_ylabel("joint, from the base\n(opening, each to its peak)")
+    axes.set_title(title or describe(response))
+    return figure

@@ -1,0 +1,45 @@
+"""A ground motion: acceleration and velocity of each component over time."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from ..constants import g
+from ..motion import Motion, integrate
+from .style import BLACK, BLUE, WIDTH, styled, zero_line
+
+_NAMES = {"x": "horizontal x", "y": "horizontal y", "z": "vertical z"}
+
+
+@styled
+def draw_motion(motion: Motion, title: str | None = None) -> Figure:
+    """Acceleration and velocity of each component, with their peaks.
+
+    Parameters
+    ----------
+    motion : Motion
+    title : str, optional
+    """
+    components = motion.components
+    figure = Figure(figsize=(WIDTH, 0.8 + 1.9 * len(components)))
+    rows = figure.subplots(2 * len(components), 1, sharex=True, height_ratios=(1.4, 1.0) * len(components))
+    for i, (axis, acceleration) in enumerate(components.items()):
+        velocity = integrate(acceleration, motion.dt)
+        for axes, values, color, unit in (
+            (rows[2 * i], acceleration / g, BLACK, "g"),
+            (rows[2 * i + 1], velocity, BLUE, "m/s"),
+        ):
+            zero_line(axes)
+            axes.plot(motion.time, values, color=color, linewidth=0.7)
+            peak = int(abs(values).argmax())
+            axes.plot(motion.time[peak], values[peak], "o", color=color, markersize=3.5, fillstyle="none")
+            said = f"peak {abs(values[peak]):.3g} {unit} at {motion.time[peak]:.2f} s"
+            axes.set_title(said, loc="right", fontsize=8.0, pad=2.0)
+            axes.margins(y=0.12)
+        rows[2 * i].set_ylabel(f"{_NAMES[axis]}\nacceleration [g]")
+        rows[2 * i + 1].set_ylabel("velocity\n[m/s]")
+    rows[-1].set_xlabel("time [s]")
+    rows[-1].set_xlim(0.0, motion.duration)
+    figure.suptitle(title or motion.name, x=0.01, ha="left", fontsize=10.0)
+    figure.align_ylabels()
+    return figure

@@ -1,0 +1,101 @@
+"""The one style of all pictures: legible in print, in grey, and to the colour-blind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from pathlib import Path
+from typing import Any, ParamSpec
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..atomic import replacing
+
+P = ParamSpec("P")
+
+#: Width of a picture across the text of a page [inch].
+WIDTH = 7.0
+
+#: Resolution of the PNG files.
+DOTS_PER_INCH = 200
+
+RED = "#b2182b"  # the base, as the paper draws it; collapse
+BLACK = "#1a1a1a"  # the top
+BLUE = "#2166ac"
+GREY = "#767676"
+SAND = "#efe6d2"  # stone; what stands
+BROWN = "#8c6d3f"
+
+#: Curves of several models or terms: dark to light in grey as well, each with its own dashes.
+CYCLE = (
+    {"color": BLACK, "linestyle": "-"},
+    {"color": RED, "linestyle": "--"},
+    {"color": BLUE, "linestyle": "-."},
+    {"color": "#e08214", "linestyle": (0, (1.2, 1.2))},
+    {"color": "#5aae61", "linestyle": (0, (6, 1.5, 1, 1.5, 1, 1.5))},
+    {"color": GREY, "linestyle": (0, (8, 2))},
+)
+
+_STYLE: dict[Any, Any] = {
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 9.0,
+    "axes.titlesize": 10.0,
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9.0,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.axisbelow": True,
+    "axes.formatter.useoffset": False,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.5,
+    "lines.linewidth": 1.1,
+    "hatch.linewidth": 0.6,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "stylobate",
+    "figure.constrained_layout.use": True,
+}
+
+
+def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
+    """Draw in the style of this package, whatever the settings around it."""
+
+    @wraps(draw)
+    def wrapped(*args: P.args, **kwargs: P.kwargs) -> Figure:
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(_STYLE)
+            return draw(*args, **kwargs)
+
+    return wrapped
+
+
+def save(figure: Figure, stem: str | Path) -> list[Path]:
+    """Write ``stem.png`` and ``stem.svg``; each appears whole or not at all.
+
+    Returns
+    -------
+    list of Path
+        The two files.
+    """
+    png, svg = Path(f"{stem}.png"), Path(f"{stem}.svg")
+    with matplotlib.rc_context(_STYLE):
+        with replacing(png) as partial:
+            figure.savefig(partial, dpi=DOTS_PER_INCH, facecolor="white")
+        with replacing(svg) as partial:
+            figure.savefig(partial, facecolor="white", metadata={"Date": None})  # same picture, same bytes
+    return [png, svg]
+
+
+def zero_line(axes: Axes) -> None:
+    """A thin line at zero."""
+    axes.axhline(0.0, color=GREY, linewidth=0.6, zorder=0)
