@@ -1,3 +1,89 @@
-"""stylobate: will this freestanding ancient column stand the shaking?"""
+"""stylobate: will this freestanding ancient column stand the shaking?
+
+The public names are loaded when first used, so that importing the package is cheap.
+"""
+
+from __future__ import annotations
+
+import sys
+import types
+from typing import TYPE_CHECKING, Any
 
 __version__ = "0.1.0"
+
+if TYPE_CHECKING:
+    from .analysis.critical import critical_amplitude
+    from .analysis.domain import collapse_domain
+    from .column import Column, Drum, Joint
+    from .constants import g
+    from .errors import InputError, OutOfRangeWarning, StylobateError
+    from .models.distinct_element_2d import DistinctElement2D
+    from .motion import Motion, harmonic
+    from .outcome import Outcome
+    from .response import Response
+    from .simulate import simulate, simulate_many
+
+#: Where each public name lives.
+_HOMES = {
+    "Column": "column",
+    "DistinctElement2D": "models.distinct_element_2d",
+    "Drum": "column",
+    "InputError": "errors",
+    "Joint": "column",
+    "Motion": "motion",
+    "OutOfRangeWarning": "errors",
+    "Outcome": "outcome",
+    "Response": "response",
+    "StylobateError": "errors",
+    "collapse_domain": "analysis.domain",
+    "critical_amplitude": "analysis.critical",
+    "g": "constants",
+    "harmonic": "motion",
+    "simulate": "simulate",
+    "simulate_many": "simulate",
+}
+
+__all__ = [
+    "Column",
+    "DistinctElement2D",
+    "Drum",
+    "InputError",
+    "Joint",
+    "Motion",
+    "OutOfRangeWarning",
+    "Outcome",
+    "Response",
+    "StylobateError",
+    "collapse_domain",
+    "critical_amplitude",
+    "g",
+    "harmonic",
+    "simulate",
+    "simulate_many",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module 'stylobate' has no attribute {name!r}")
+    import importlib
+
+    value = getattr(importlib.import_module(f".{_HOMES[name]}", __name__), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted([*__all__, "__version__"])
+
+
+class _Package(types.ModuleType):
+    # ``simulate`` names a module and the verb in it; importing the module binds it to the package's attribute, where
+    # everyone looks for the verb.
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name == "simulate" and isinstance(value, types.ModuleType):
+            value = value.simulate
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

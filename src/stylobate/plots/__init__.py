@@ -1,5 +1,6 @@
 """Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG."""
 
+from .amplitudes import draw_amplitudes
 from .domain import draw_boundaries, draw_domain
 from .energy import draw_energy
 from .filmstrip import draw_filmstrip
@@ -9,6 +10,7 @@ from .motion import draw_motion
 from .style import save
 
 __all__ = [
+    "draw_amplitudes",
     "draw_boundaries",
     "draw_comparison",
     "draw_domain",

@@ -88,7 +88,7 @@ def _draw_boundary(axes: Axes, domain: Domain, line: dict, label: str, marker: s
         shape = {"marker": marker, "markersize": 4.5, "fillstyle": "none"}
         return axes.plot(domain.frequencies, first / g, label=label, zorder=3, **shape, **line)[0]
     x, lower = _edges(domain.frequencies), _edges(domain.amplitudes / g)[:-1]
-    level = [np.nan if np.isnan(a) else lower[np.searchsorted(domain.amplitudes, a)] for a in first]
+    level = np.where(np.isnan(first), np.nan, lower[np.searchsorted(domain.amplitudes, first) % len(lower)])
     axes.stairs(level, x, baseline=None, linewidth=1.6, zorder=3, **line)
     return Line2D([], [], linewidth=1.6, label=label, **line)
 
@@ -115,5 +115,4 @@ def _edges(centres: np.ndarray) -> np.ndarray:
         half = 0.1 * abs(centres[0]) or 0.5
         return np.array([centres[0] - half, centres[0] + half])
     middle = 0.5 * (centres[1:] + centres[:-1])
-    first, last = 2.0 * centres[0] - middle[0], 2.0 * centres[-1] - middle[-1]
-    return np.concatenate((np.array([first]), middle, np.array([last])))
+    return np.array([2.0 * centres[0] - middle[0], *middle, 2.0 * centres[-1] - middle[-1]])

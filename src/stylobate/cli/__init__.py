@@ -1,0 +1,1 @@
+"""The command line. Modules here import nothing heavy when they are loaded: ``stylobate --help`` answers at once."""

@@ -1,0 +1,78 @@
+"""``stylobate columns``: the presets, and the closed-form properties of any column."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import options as o
+
+if TYPE_CHECKING:
+    from ..column import Column
+
+
+def columns(
+    which: Annotated[
+        list[str] | None, typer.Argument(metavar="[COLUMN]...", help="Presets or column files; all presets by default.")
+    ] = None,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Presets, and properties of columns.
+
+    With --out, writes them as column files to start from.
+    """
+    from ..column.files import load_column, write_column
+    from ..column.presets import PRESETS
+    from . import console
+
+    o.the_threads(threads)
+    chosen = [load_column(name) for name in which or PRESETS]
+    files = []
+    with console.folder(out) as folder:
+        if folder is not None:
+            files = [write_column(one, folder / f"{Path(one.name).name or 'column'}.toml") for one in chosen]
+    if as_json:
+        console.emit({"columns": [properties(one) for one in chosen], "files": [str(file) for file in files]})
+        return
+    for one in chosen:
+        console.say(one.name, _facts(one))
+    if files:
+        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+
+
+def properties(column: Column) -> dict:
+    """Closed-form properties of a column, under the names of the JSON object."""
+    from ..constants import g
+
+    return {
+        "name": column.name,
+        "section": column.section,
+        "drums": column.n,
+        "height_m": column.height,
+        "bottom_width_m": column.drums[0].bottom_width,
+        "top_width_m": column.drums[-1].top_width,
+        "mass_kg": column.mass,
+        "centroid_height_m": column.centroid_height,
+        "slenderness_rad": column.slenderness,
+        "radius_m": column.radius,
+        "frequency_parameter_rad_s": column.frequency_parameter,
+        "restitution": column.restitution,
+        "uplift_g": column.uplift_acceleration / g,
+    }
+
+
+def _facts(column: Column) -> dict[str, str]:
+    p = properties(column)
+    return {
+        "drums": f"{p['drums']}, {p['section']}",
+        "height": f"{p['height_m']:g} m",
+        "widths": f"{p['bottom_width_m']:g} m at the bottom, {p['top_width_m']:g} m at the top",
+        "mass": f"{p['mass_kg']:.0f} kg",
+        "slenderness": f"{p['slenderness_rad']:.4f} rad",
+        "frequency parameter": f"{p['frequency_parameter_rad_s']:.4f} rad/s",
+        "static uplift": f"{p['uplift_g']:.4f} g",
+    }

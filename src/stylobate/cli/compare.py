@@ -1,0 +1,137 @@
+"""``stylobate compare``: several models side by side, under one motion or over one domain."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..errors import InputError
+from . import options as o
+
+if TYPE_CHECKING:
+    import pandas
+
+
+def compare(
+    column: o.ColumnName,
+    models: Annotated[str, typer.Option("--models", metavar="A,B,C", help="Models to compare, such as housner,dem2d.")],
+    harmonic: o.Harmonic = None,
+    pulse: o.Pulse = None,
+    motion: o.MotionFile = None,
+    unit: o.Unit = None,
+    dt: o.Step = None,
+    scale: o.Scale = None,
+    pga: o.Pga = None,
+    vertical: o.Vertical = "on",
+    frequencies: Annotated[
+        str | None, typer.Option("--frequencies", metavar="F:F:N", help="Compare domains: such as 0.33:4:24.")
+    ] = None,
+    amplitudes: Annotated[
+        str | None, typer.Option("--amplitudes", metavar="A:A:N", help="Compare domains: such as 0.05g:0.6g:32.")
+    ] = None,
+    duration: Annotated[str, typer.Option("--duration", metavar="TIME", help="Of each motion of a domain.")] = "10s",
+    tail: o.Tail = "0s",
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="MODEL.NAME=VALUE", help="Option of one of the models; may be repeated."),
+    ] = None,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Several models side by side.
+
+    Histories and measures under one motion, or verdicts over a domain.
+    """
+    from ..analysis.compare import compare_domains, compare_models
+    from ..campaign.study import amplitude_range, frequency_range
+    from ..column.files import load_column
+    from ..motion.specs import parse_time
+    from . import console
+
+    names = [name.strip() for name in models.split(",")]
+    if len(set(names)) != len(names):
+        raise InputError(f"--models is {models!r}, with a model given twice; give each once.")
+    count, after = o.the_threads(threads), o.the_tail(tail)
+    stone = load_column(column)
+    chosen = [o.the_model(name, _settings_of(name, names, settings)) for name in names]
+    over_domain = frequencies is not None or amplitudes is not None
+    result: dict[str, Any] = {"models": names}
+    if over_domain:
+        if frequencies is None or amplitudes is None:
+            raise InputError("a domain needs both --frequencies and --amplitudes; give both.")
+        if harmonic or pulse or motion:
+            raise InputError("both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.")
+        grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
+        with console.folder(out) as folder, console.progress("cells") as progress:
+            domains = compare_domains(stone, chosen, *grid, tail=after, threads=count, progress=progress)
+            files = [] if folder is None else _write_domains(domains, folder)
+        table = domains.table
+        result |= {"domains": [one.summary() for one in domains.domains], "differences": table.to_dict("records")}
+    else:
+        shaking = o.the_motion(
+            stone,
+            harmonic=harmonic,
+            pulse=pulse,
+            file=motion,
+            unit=unit,
+            dt=dt,
+            scale=scale,
+            pga=pga,
+            vertical=vertical,
+        )
+        with console.folder(out) as folder, console.progress("models") as progress:
+            comparison = compare_models(stone, shaking, chosen, tail=after, progress=progress)
+            files = [] if folder is None else _write_histories(comparison, folder)
+        table = comparison.table
+        result |= {"motion": shaking.name, "runs": [response.summary() for response in comparison.responses]}
+    result["files"] = [str(file) for file in files]
+    if as_json:
+        console.emit(result)
+    else:
+        print(_table(table))
+        if files:
+            print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+
+
+def _settings_of(name: str, names: list[str], settings: list[str] | None) -> list[str]:
+    mine = []
+    for text in settings or []:
+        model, dot, setting = text.partition(".")
+        if not dot or model not in names:
+            raise InputError(f"--set is {text!r}; write it as model.name=value, the model one of {', '.join(names)}.")
+        if model == name:
+            mine.append(setting)
+    return mine
+
+
+def _write_histories(comparison: Any, folder: Path) -> list[Path]:
+    from .. import plots
+
+    files = [_write_table(comparison.table, folder / "comparison.csv")]
+    files += [response.save(folder / f"response-{response.model}.nc") for response in comparison.responses]
+    return files + plots.save(plots.draw_comparison(comparison.responses), folder / "comparison")
+
+
+def _write_domains(comparison: Any, folder: Path) -> list[Path]:
+    from .. import plots
+
+    files = [_write_table(comparison.table, folder / "comparison.csv")]
+    for one in comparison.domains:
+        files.append(one.save(folder / f"domain-{one.model}.nc"))
+        files += plots.save(plots.draw_domain(one), folder / f"domain-{one.model}")
+    return files + plots.save(plots.draw_boundaries(comparison.domains), folder / "comparison")
+
+
+def _write_table(table: pandas.DataFrame, path: Path) -> Path:
+    from ..atomic import replacing
+
+    with replacing(path) as partial:
+        table.to_csv(partial, index=False)
+    return path
+
+
+def _table(table: pandas.DataFrame) -> str:
+    return table.to_string(index=False, na_rep="-", float_format=lambda value: f"{value:.4g}")

@@ -1,0 +1,88 @@
+"""What a command prints and writes: one JSON object or a few lines for people, progress, and result files."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from pathlib import Path
+from typing import Any
+
+
+class Interrupted(Exception):
+    """A command was stopped by Ctrl-C; the message says what is kept of its work."""
+
+
+def emit(result: Mapping[str, Any]) -> None:
+    """Print the result as one JSON object."""
+    print(as_json(result))
+
+
+def say(sentence: str, facts: Mapping[str, str], files: list[Path] | None = None) -> None:
+    """Print a sentence, facts in two columns, and where the files are."""
+    print(sentence)
+    width = max((len(name) for name in facts), default=0)
+    for name, value in facts.items():
+        print(f"  {name:<{width}}  {value}")
+    if files:
+        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+
+
+def as_json(value: Any, indent: int | None = None) -> str:
+    """JSON with null where a number is not finite: NaN is no JSON."""
+    return json.dumps(_finite(value), ensure_ascii=False, allow_nan=False, indent=indent, default=str)
+
+
+def write_json(path: Path, value: Any) -> Path:
+    """Write a JSON file, whole or not at all."""
+    from ..atomic import replacing
+
+    with replacing(path) as partial:
+        partial.write_text(as_json(value, indent=2) + "\n", encoding="utf-8")
+    return path
+
+
+def folder(out: Path | None) -> AbstractContextManager[Path | None]:
+    """The output folder, made and tried before anything is computed; None if no files are wanted."""
+    from ..atomic import output_folder
+
+    return nullcontext() if out is None else output_folder(out)
+
+
+@contextmanager
+def progress(title: str) -> Iterator[Callable[[int, int], None] | None]:
+    """A bar with the remaining time on standard error; nothing where that is not a terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(title, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def length(value: float) -> str:
+    """A length for people."""
+    if not math.isfinite(value):
+        return "unknown"
+    if value == 0.0 or abs(value) >= 0.1:
+        return f"{value:.3f} m"
+    return f"{1000.0 * value:.3g} mm"
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _finite(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(one) for one in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    if isinstance(value, Path):
+        return str(value)
+    item = getattr(value, "item", None)  # numbers of numpy
+    return _finite(item()) if callable(item) else value

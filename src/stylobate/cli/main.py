@@ -1,0 +1,115 @@
+"""The entry point: commands, and what a person sees when something goes wrong."""
+
+from __future__ import annotations
+
+import sys
+import warnings
+from collections.abc import Sequence
+from typing import Annotated, Any
+
+import typer
+
+from .. import __version__
+from ..errors import InputError, OutOfRangeWarning, StylobateError
+from . import columns, compare, critical, domain, motion, run
+from .console import Interrupted
+
+BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
+
+# Base of typer's own complaints about a command line.
+_UsageError: type[Exception] = next(one for one in typer.BadParameter.__mro__ if one.__name__ == "ClickException")
+
+app = typer.Typer(
+    name="stylobate",
+    help="Will this freestanding ancient column stand the shaking?",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command("run")(run.run)
+app.command("critical")(critical.critical)
+app.command("domain")(domain.domain)
+app.command("compare")(compare.compare)
+app.command("motion")(motion.motion)
+app.command("columns")(columns.columns)
+
+
+def main() -> None:
+    """Run the command line and end the process."""
+    sys.exit(call(sys.argv[1:]))
+
+
+def call(arguments: Sequence[str]) -> int:
+    """Run one command line.
+
+    Returns
+    -------
+    int
+        0 when the command did its work (a collapse is a result), 2 for bad input, 1 for a failure of ours, 130 after
+        an interrupt.
+    """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        warnings.simplefilter("always", OutOfRangeWarning)
+        warnings.showwarning = _Warner()
+        try:
+            code = app(list(arguments), prog_name="stylobate", standalone_mode=False)
+        except InputError as error:
+            return _complain(str(error), BAD_INPUT)
+        except StylobateError as error:
+            return _complain(str(error), FAILURE)
+        except Interrupted as error:
+            return _complain(str(error), INTERRUPTED)
+        except (KeyboardInterrupt, typer.Abort):
+            code = INTERRUPTED
+        except OSError as error:
+            return _complain(f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}.", FAILURE)
+        except Exception as error:
+            if isinstance(error, _UsageError):
+                return _complain(_usage(error), BAD_INPUT)
+            import traceback
+
+            traceback.print_exc()
+            return _complain(f"this is a fault of stylobate {__version__}, not of the input: {error!r}.", FAILURE)
+    if code == INTERRUPTED:
+        return _complain("interrupted; nothing is kept.", INTERRUPTED)
+    return code if isinstance(code, int) else 0
+
+
+@app.callback(invoke_without_command=True)
+def _version(
+    version: Annotated[bool, typer.Option("--version", help="Print the version and leave.", is_eager=True)] = False,
+) -> None:
+    if version:
+        typer.echo(f"stylobate {__version__}")
+        raise typer.Exit
+
+
+class _Warner:
+    """Prints each warning once, in one line, on standard error."""
+
+    def __init__(self) -> None:
+        self.said: set[str] = set()
+
+    def __call__(self, message: Any, *_: Any, **__: Any) -> None:
+        text = str(message)
+        if text not in self.said:
+            self.said.add(text)
+            print(f"stylobate: warning: {text}", file=sys.stderr)
+
+
+def _usage(error: Any) -> str:
+    context = getattr(error, "ctx", None)
+    where = context.command_path if context is not None else "stylobate"
+    message = " ".join(error.format_message().split())
+    return f"{message.rstrip('.')}; see '{where} --help'."
+
+
+def _complain(text: str, code: int) -> int:
+    print(f"stylobate: {text}", file=sys.stderr)
+    return code
+
+
+if __name__ == "__main__":
+    main()

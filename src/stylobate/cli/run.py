@@ -1,0 +1,125 @@
+"""``stylobate run``: one column, one motion, one verdict."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import options as o
+
+if TYPE_CHECKING:
+    from ..motion import Motion
+    from ..response import Response
+
+
+def run(
+    column: o.ColumnName,
+    model: o.ModelName,
+    harmonic: o.Harmonic = None,
+    pulse: o.Pulse = None,
+    motion: o.MotionFile = None,
+    unit: o.Unit = None,
+    dt: o.Step = None,
+    scale: o.Scale = None,
+    pga: o.Pga = None,
+    vertical: o.Vertical = "on",
+    tail: o.Tail = "0s",
+    until_end: Annotated[bool, typer.Option("--until-end", help="Go on after the collapse is certain.")] = False,
+    output_interval: Annotated[
+        str, typer.Option("--output-interval", metavar="TIME", help="Time between recorded states.")
+    ] = "0.01s",
+    settings: o.Settings = None,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Shake one column once.
+
+    Prints the outcome; with --out, writes histories and figures.
+    """
+    from ..column.files import load_column
+    from ..motion.specs import parse_time
+    from ..simulate import simulate
+    from . import console
+
+    o.the_threads(threads)  # a single run has one thread
+    o.check_one_motion(harmonic, pulse, motion, unit, dt)
+    stone = load_column(column)
+    how = o.the_model(model, settings)
+    shaking = o.the_motion(
+        stone,
+        harmonic=harmonic,
+        pulse=pulse,
+        file=motion,
+        unit=unit,
+        dt=dt,
+        scale=scale,
+        pga=pga,
+        vertical=vertical,
+    )
+    with console.folder(out) as folder:
+        response = simulate(
+            stone,
+            shaking,
+            how,
+            tail=o.the_tail(tail),
+            output_interval=parse_time(output_interval),
+            until_end=until_end,
+        )
+        files = [] if folder is None else write(response, shaking, folder)
+    summary = response.summary()
+    if folder is not None:
+        summary["files"] = [str(file) for file in files]
+        files.append(console.write_json(folder / "run.json", summary))
+        summary["files"] = [str(file) for file in files]
+    if as_json:
+        console.emit(summary)
+    else:
+        describe(response, shaking, files)
+
+
+def write(response: Response, motion: Motion, folder: Path) -> list[Path]:
+    """Histories and figures of one run."""
+    from .. import plots
+
+    files = [response.save(folder / "response.nc")]
+    for name, figure in (
+        ("histories", plots.draw_histories(response)),
+        ("filmstrip", plots.draw_filmstrip(response)),
+        ("joints", plots.draw_joints(response)),
+        ("energy", plots.draw_energy(response)),
+        ("motion", plots.draw_motion(motion)),
+    ):
+        files += plots.save(figure, folder / name)
+    return files
+
+
+def describe(response: Response, motion: Motion, files: list[Path]) -> None:
+    """Print the verdict for people."""
+    from . import console
+
+    m, column = response.measures, response.column
+    sentence = m.outcome.sentence
+    if m.reason:
+        sentence += f" {m.reason}"
+    if not m.decided:
+        sentence += " The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
+    facts = {
+        "column": f"{column.name}, {column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high",
+        "motion": motion.describe(),
+        "model": f"{response.model}, step {m.time_step:.3g} s, {m.steps} steps, {response.wall_time:.2f} s",
+    }
+    if m.collapsed:
+        facts["collapse"] = f"certain at {m.collapse_time:.2f} s"
+    peak = m.peak_top_displacement
+    facts |= {
+        "peak top displacement": f"{console.length(peak)} ({peak / column.base_width:.2f} base widths)",
+        "residual top displacement": console.length(m.residual_top_displacement),
+        "peak rotation": f"{m.peak_rotation:.4f} rad",
+        "peak joint opening": console.length(m.peak_joint_opening),
+        "residual joint slip": console.length(m.residual_joint_slip),
+        "energy imbalance": f"{m.energy_imbalance:.1e} of the input work",
+    }
+    console.say(sentence, facts, files)

@@ -1,0 +1,55 @@
+"""Peak response and verdict over the amplitudes of one motion."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from ..analysis import verdicts as v
+from ..analysis.critical import CriticalAmplitude
+from ..constants import g
+from .style import BLACK, BLUE, GREY, RED, WIDTH, styled
+
+_MARKS: dict[str, dict[str, Any]] = {
+    v.STANDS: {"marker": "o", "color": BLACK, "fillstyle": "none"},
+    v.COLLAPSED: {"marker": "x", "color": RED},
+    v.UNDECIDED: {"marker": "s", "color": GREY, "fillstyle": "none"},
+    v.FAILED: {"marker": "+", "color": BLUE},
+}
+
+
+@styled
+def draw_amplitudes(result: CriticalAmplitude, title: str | None = None) -> Figure:
+    """Peak top displacement of the runs that have one, and the verdict of every run.
+
+    Parameters
+    ----------
+    result : CriticalAmplitude
+    title : str, optional
+        Column and model by default.
+    """
+    amplitudes, verdicts = result.amplitudes / g, np.array(result.verdicts)
+    peaks = np.array([row["peak_top_displacement_m"] for row in result.rows]) / result.column.base_width
+    finite = peaks[np.isfinite(peaks) & (verdicts != v.COLLAPSED)]
+    ceiling = 1.25 * max(float(finite.max()) if finite.size else 0.0, 0.1)
+    shown = np.where((verdicts == v.COLLAPSED) | ~np.isfinite(peaks), ceiling, np.minimum(peaks, ceiling))
+    figure = Figure(figsize=(WIDTH, 3.4))
+    axes = figure.subplots()
+    for one, mark in _MARKS.items():
+        chosen = verdicts == one
+        if chosen.any():
+            label = f"{one} ({int(chosen.sum())})"
+            axes.plot(amplitudes[chosen], shown[chosen], linestyle="none", markersize=5.0, label=label, **mark)
+    if result.critical is not None:
+        at = result.critical / g
+        axes.axvline(at, color=RED, linewidth=0.8, label=f"first collapse, {at:.4g} g")
+    uplift = result.column.uplift_acceleration / g
+    axes.axvline(uplift, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.0, label=f"static uplift, {uplift:.3f} g")
+    axes.set_ylim(0.0, 1.1 * ceiling)
+    axes.set_xlabel("amplitude of acceleration [g]")
+    axes.set_ylabel("peak top displacement\n/ base width (collapse: at the top)")
+    axes.set_title(title or f"{result.column.name}, {result.model}")
+    figure.legend(loc="outside lower center", ncols=3)
+    return figure
