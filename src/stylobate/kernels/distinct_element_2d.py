@@ -12,7 +12,8 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                hb ht b t      centroid to lower and to upper face, half width of lower and of upper face [m]
     joint[j]   kn ks co       k_n, k_s, cohesion × area per length of overlap      [N/m²], [N/m²], [N/m]
                mu             tan φ
-               fs[p]          shear force of contact point p                       [N]
+               over           length of overlap of the two faces                   [m]
+               fs[p] fn[p]    shear force and elastic normal force of contact point p [N]
                dn[p] ds[p]    dashpot forces of contact point p                    [N]
                fx fz mu_ ml   force on the drum above, moments on the drums above and below about their centroids
     lane       dt g           step [s], gravity [m/s²]
@@ -31,8 +32,6 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                when which side      collapse: step, joint, side (±1); −1 while there is none
                m x z px pz    running sums over the drums above a joint; o_* the same for one joint
 """
-
-import functools
 
 import numpy as np
 
@@ -56,16 +55,23 @@ SUPPORT_MARGIN = 9.81
 FAR = 1.0e6
 
 
-def block_types(points):
-    """Record types (drum, joint, lane, ground, feed, watch) for a number of contact points per joint."""
+def block_types(points, damped):
+    """Record types (drum, joint, lane, ground, feed, watch).
+
+    The types carry the number of contact points per joint and whether there are dashpots (``dn``, ``ds`` of more than one
+    row): the compiler makes one loop for each combination that is used, with both as constants.
+    """
     row, rows = (LANES,), (points, LANES)
+    dashpots = (points if damped else 1, LANES)
 
     def fields(single, several=""):
         return [(name, np.float64, row) for name in single.split()] + [(name, np.float64, rows) for name in several.split()]
 
     return (
         np.dtype(fields("x z th c s vx vz w m i im ii hb ht b t")),
-        np.dtype(fields("kn ks co mu fx fz mu_ ml", "fs dn ds")),
+        np.dtype(
+            fields("kn ks co mu over fx fz mu_ ml", "fs fn") + [(name, np.float64, dashpots) for name in ("dn", "ds")]
+        ),
         np.dtype(fields("dt g beta alpha local work shear visc px pz", "xi sh")),
         np.dtype(fields("ax az")),
         np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor")),
@@ -86,149 +92,146 @@ def contact_point(p, points, xi, lo, hi, sl, ql, sr, qr, c, s, w):
     return ct.inner_contact(xi, lo, hi, sl, ql, c, s)
 
 
-def make_forces(points, damped):
-    """Forces of all joints at t_n, for a number of contact points per joint, with or without damping."""
-
-    @kernel
-    def forces(drum, joint, lane):
-        o = lane[0]
-        for j in range(drum.shape[0] - 1):
-            u = drum[j + 1]
-            v = drum[j]
-            e = joint[j]
-            for l in range(LANES):
-                dt = o.dt[l]
-                ht = v.ht[l]
-                w = v.t[l]
-                wl = v.w[l]
-                wu = u.w[l]
-                cl = v.c[l]
-                sl = v.s[l]
-                ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
-                left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
-                lo = max(left_s, -w)
-                hi = min(right_s, w)
-                over = max(hi - lo, 0.0)
-                dvx = u.vx[l] - v.vx[l]
-                dvz = u.vz[l] - v.vz[l]
-                vs = cl * dvx + sl * dvz
-                vq = cl * dvz - sl * dvx
-                kn = e.kn[l] * over
-                ks = e.ks[l] * over
-                co = e.co[l] * over
-                mu = e.mu[l]
-                sum_s = 0.0
-                sum_q = 0.0
-                upper = 0.0
-                lower = 0.0
-                shear = 0.0
-                visc = 0.0
-                for p in range(points):
-                    share = o.sh[p, l]
-                    at_s, at_q, gap, ns, nq = contact_point(
-                        p, points, o.xi[p, l], lo, hi, left_s, left_q, right_s, right_q, c, s, w
-                    )
-                    vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, wu, wl)
-                    ka = kn * share
-                    ksa = ks * share
-                    old = e.fs[p, l]
-                    fn = ct.normal_force(ka, gap)
-                    cohesion = co * share if fn > 0.0 else 0.0
-                    if damped:
-                        # dashpots parallel to the springs: no tension in sum, no friction above Coulomb's in sum
-                        beta = o.beta[l]
-                        dn = max(-beta * ka * vn, -fn) if fn > 0.0 else 0.0
-                        limit = mu * (fn + dn) + cohesion
-                        fs = ct.shear_force(old, ksa, vt * dt, limit)
-                        ds = min(max(-beta * ksa * vt, -limit - fs), limit - fs)
-                        visc -= 0.5 * dt * ((dn + e.dn[p, l]) * vn + (ds + e.ds[p, l]) * vt)
-                        e.dn[p, l] = dn
-                        e.ds[p, l] = ds
-                        fn_all = fn + dn
-                        fs_all = fs + ds
-                    else:
-                        fs = ct.shear_force(old, ksa, vt * dt, mu * fn + cohesion)
-                        fn_all = fn
-                        fs_all = fs
-                    e.fs[p, l] = fs
-                    shear -= 0.5 * (old + fs) * vt * dt
-                    fa = fn_all * ns + fs_all * nq
-                    fb = fn_all * nq - fs_all * ns
-                    sum_s += fa
-                    sum_q += fb
-                    upper += (at_s - ps) * fb - (at_q - pq) * fa
-                    lower += at_s * fb - (at_q + ht) * fa
-                e.fx[l] = cl * sum_s - sl * sum_q
-                e.fz[l] = sl * sum_s + cl * sum_q
-                e.mu_[l] = upper
-                e.ml[l] = lower
-                o.shear[l] += shear
-                if damped:
-                    o.visc[l] += visc
-
-    return forces
-
-
-def make_move(damped):
-    """Motion of all drums from t_n to t_{n+1} under the forces at t_n."""
-
-    @kernel
-    def move(drum, joint, lane, ground, k):
-        o = lane[0]
-        g0 = ground[k]
-        g1 = ground[k + 1]
+@kernel
+def forces(drum, joint, lane):
+    """Forces of all joints at t_n; brings the contact memory from t_{n−1} to t_n."""
+    o = lane[0]
+    for j in range(drum.shape[0] - 1):
+        u = drum[j + 1]
+        v = drum[j]
+        e = joint[j]
+        points = e.fs.shape[0]
+        damped = e.dn.shape[0] > 1
         for l in range(LANES):
-            o.px[l] = 0.0
-            o.pz[l] = 0.0
-        for j in range(drum.shape[0] - 1):
-            u = drum[j + 1]
-            e = joint[j]
-            a = joint[j + 1]  # the joint above; behind the topmost joint stands one without force
-            for l in range(LANES):
-                dt = o.dt[l]
-                vx = u.vx[l]
-                vz = u.vz[l]
-                w = u.w[l]
-                ax = (e.fx[l] - a.fx[l]) * u.im[l] - g0.ax[l]
-                az = (e.fz[l] - a.fz[l]) * u.im[l] - g0.az[l] - o.g[l]
-                aw = (e.mu_[l] - a.ml[l]) * u.ii[l]
-                m = u.m[l]
+            dt = o.dt[l]
+            ht = v.ht[l]
+            w = v.t[l]
+            wl = v.w[l]
+            wu = u.w[l]
+            cl = v.c[l]
+            sl = v.s[l]
+            ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
+            left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+            lo = max(left_s, -w)
+            hi = min(right_s, w)
+            over = max(hi - lo, 0.0)
+            e.over[l] = over
+            dvx = u.vx[l] - v.vx[l]
+            dvz = u.vz[l] - v.vz[l]
+            vs = cl * dvx + sl * dvz
+            vq = cl * dvz - sl * dvx
+            kn = e.kn[l] * over
+            ks = e.ks[l] * over
+            co = e.co[l] * over
+            mu = e.mu[l]
+            sum_s = 0.0
+            sum_q = 0.0
+            upper = 0.0
+            lower = 0.0
+            shear = 0.0
+            visc = 0.0
+            for p in range(points):
+                share = o.sh[p, l]
+                at_s, at_q, gap, ns, nq = contact_point(
+                    p, points, o.xi[p, l], lo, hi, left_s, left_q, right_s, right_q, c, s, w
+                )
+                vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, wu, wl)
+                ka = kn * share
+                ksa = ks * share
+                old = e.fs[p, l]
+                fn = ct.normal_force(ka, gap)
+                cohesion = co * share if fn > 0.0 else 0.0
                 if damped:
-                    # local damping (Cundall): a share of the unbalanced force, against the velocity; for settling only
-                    local = o.local[l]
-                    ax -= local * abs(ax) * np.sign(vx)
-                    az -= local * abs(az) * np.sign(vz)
-                    aw -= local * abs(aw) * np.sign(w)
-                    half = 0.5 * o.alpha[l] * dt
-                    nx = (vx * (1.0 - half) + ax * dt) / (1.0 + half)
-                    nz = (vz * (1.0 - half) + az * dt) / (1.0 + half)
-                    nw = (w * (1.0 - half) + aw * dt) / (1.0 + half)
-                    mx = 0.5 * (vx + nx)
-                    mz = 0.5 * (vz + nz)
-                    mw = 0.5 * (w + nw)
-                    o.visc[l] += o.alpha[l] * dt * (m * (mx * mx + mz * mz) + u.i[l] * mw * mw)
+                    # dashpots parallel to the springs: no tension in sum, no friction above Coulomb's in sum
+                    beta = o.beta[l]
+                    dn = max(-beta * ka * vn, -fn) if fn > 0.0 else 0.0
+                    limit = mu * (fn + dn) + cohesion
+                    fs = ct.shear_force(old, ksa, vt * dt, limit)
+                    ds = min(max(-beta * ksa * vt, -limit - fs), limit - fs)
+                    visc -= 0.5 * dt * ((dn + e.dn[p, l]) * vn + (ds + e.ds[p, l]) * vt)
+                    e.dn[p, l] = dn
+                    e.ds[p, l] = ds
+                    fn_all = fn + dn
+                    fs_all = fs + ds
                 else:
-                    nx = vx + ax * dt
-                    nz = vz + az * dt
-                    nw = w + aw * dt
-                u.vx[l] = nx
-                u.vz[l] = nz
-                u.w[l] = nw
-                u.x[l] += nx * dt
-                u.z[l] += nz * dt
-                u.th[l] += nw * dt
-                c, s = ct.turn(u.c[l], u.s[l], nw * dt)
-                u.c[l] = c
-                u.s[l] = s
-                o.px[l] += m * nx
-                o.pz[l] += m * nz
-        # work of the body force −m a by the trapezoidal rule (formulation, section 8)
-        for l in range(LANES):
-            mean_x = 0.5 * (g0.ax[l] + g1.ax[l])
-            mean_z = 0.5 * (g0.az[l] + g1.az[l])
-            o.work[l] -= (mean_x * o.px[l] + mean_z * o.pz[l]) * o.dt[l]
+                    fs = ct.shear_force(old, ksa, vt * dt, mu * fn + cohesion)
+                    fn_all = fn
+                    fs_all = fs
+                e.fs[p, l] = fs
+                e.fn[p, l] = fn
+                shear -= 0.5 * (old + fs) * vt * dt
+                fa = fn_all * ns + fs_all * nq
+                fb = fn_all * nq - fs_all * ns
+                sum_s += fa
+                sum_q += fb
+                upper += (at_s - ps) * fb - (at_q - pq) * fa
+                lower += at_s * fb - (at_q + ht) * fa
+            e.fx[l] = cl * sum_s - sl * sum_q
+            e.fz[l] = sl * sum_s + cl * sum_q
+            e.mu_[l] = upper
+            e.ml[l] = lower
+            o.shear[l] += shear
+            if damped:
+                o.visc[l] += visc
 
-    return move
+
+@kernel
+def move(drum, joint, lane, ground, k):
+    """Motion of all drums from t_n to t_{n+1} under the forces at t_n."""
+    o = lane[0]
+    g0 = ground[k]
+    g1 = ground[k + 1]
+    for l in range(LANES):
+        o.px[l] = 0.0
+        o.pz[l] = 0.0
+    for j in range(drum.shape[0] - 1):
+        u = drum[j + 1]
+        e = joint[j]
+        damped = e.dn.shape[0] > 1
+        a = joint[j + 1]  # the joint above; behind the topmost joint stands one without force
+        for l in range(LANES):
+            dt = o.dt[l]
+            vx = u.vx[l]
+            vz = u.vz[l]
+            w = u.w[l]
+            ax = (e.fx[l] - a.fx[l]) * u.im[l] - g0.ax[l]
+            az = (e.fz[l] - a.fz[l]) * u.im[l] - g0.az[l] - o.g[l]
+            aw = (e.mu_[l] - a.ml[l]) * u.ii[l]
+            m = u.m[l]
+            if damped:
+                # local damping (Cundall): a share of the unbalanced force, against the velocity; for settling only
+                local = o.local[l]
+                ax -= local * abs(ax) * np.sign(vx)
+                az -= local * abs(az) * np.sign(vz)
+                aw -= local * abs(aw) * np.sign(w)
+                half = 0.5 * o.alpha[l] * dt
+                nx = (vx * (1.0 - half) + ax * dt) / (1.0 + half)
+                nz = (vz * (1.0 - half) + az * dt) / (1.0 + half)
+                nw = (w * (1.0 - half) + aw * dt) / (1.0 + half)
+                mx = 0.5 * (vx + nx)
+                mz = 0.5 * (vz + nz)
+                mw = 0.5 * (w + nw)
+                o.visc[l] += o.alpha[l] * dt * (m * (mx * mx + mz * mz) + u.i[l] * mw * mw)
+            else:
+                nx = vx + ax * dt
+                nz = vz + az * dt
+                nw = w + aw * dt
+            u.vx[l] = nx
+            u.vz[l] = nz
+            u.w[l] = nw
+            u.x[l] += nx * dt
+            u.z[l] += nz * dt
+            u.th[l] += nw * dt
+            c, s = ct.turn(u.c[l], u.s[l], nw * dt)
+            u.c[l] = c
+            u.s[l] = s
+            o.px[l] += m * nx
+            o.pz[l] += m * nz
+    # work of the body force −m a by the trapezoidal rule (formulation, section 8)
+    for l in range(LANES):
+        mean_x = 0.5 * (g0.ax[l] + g1.ax[l])
+        mean_z = 0.5 * (g0.az[l] + g1.az[l])
+        o.work[l] -= (mean_x * o.px[l] + mean_z * o.pz[l]) * o.dt[l]
 
 
 @kernel
@@ -346,87 +349,38 @@ def observe(drum, joint, lane, feed, watch):
 
 
 @strict
-def energies(drum, joint, lane, ground_x, ground_z, dt, l, points, out):
-    """Ledger of one lane at its present step, velocities brought to the whole step: see ENERGY_TERMS of the response.
+def ledger(drum, joint, lane, ground, k, dt, l, out):
+    """Ledger of one lane at t_n, after its ``forces``, with velocities brought to the whole step (formulation, section 8).
 
-    ``dt`` is the lane's step (its own is 0 once it stands still). The shear springs are brought to the present positions
-    as the next step will do it. Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous.
+    Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J].
+    ``dt`` is the step of the lane (its own is 0 once it stands still), ``k`` the row of ``ground`` that holds t_n.
     """
-    drums = drum.shape[0] - 1
     o = lane[0]
+    g = ground[k]
     kinetic = 0.0
     height = 0.0
     elastic = 0.0
-    shear_work = o.shear[l]
-    visc = o.visc[l]
-    above_x = 0.0
-    above_z = 0.0
-    above_m = 0.0
-    for j in range(drums - 1, -1, -1):
+    stored = 0.0
+    for j in range(drum.shape[0] - 1):
         u = drum[j + 1]
-        v = drum[j]
         e = joint[j]
-        cl = v.c[l]
-        sl = v.s[l]
-        ht = v.ht[l]
-        w = v.t[l]
-        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
-        left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
-        lo = max(left_s, -w)
-        hi = min(right_s, w)
-        over = max(hi - lo, 0.0)
-        dvx = u.vx[l] - v.vx[l]
-        dvz = u.vz[l] - v.vz[l]
-        vs = cl * dvx + sl * dvz
-        vq = cl * dvz - sl * dvx
-        sum_s = 0.0
-        sum_q = 0.0
-        upper = 0.0
-        lower = 0.0
-        for p in range(points):
-            share = o.sh[p, l]
-            at_s, at_q, gap, ns, nq = contact_point(
-                p, points, o.xi[p, l], lo, hi, left_s, left_q, right_s, right_q, c, s, w
-            )
-            vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, u.w[l], v.w[l])
-            ka = e.kn[l] * over * share
-            ksa = e.ks[l] * over * share
-            old = e.fs[p, l]
-            fn = ct.normal_force(ka, gap)
-            dn = max(-o.beta[l] * ka * vn, -fn) if fn > 0.0 else 0.0
-            limit = e.mu[l] * (fn + dn) + (e.co[l] * over * share if fn > 0.0 else 0.0)
-            fs = ct.shear_force(old, ksa, vt * dt, limit)
-            ds = min(max(-o.beta[l] * ksa * vt, -limit - fs), limit - fs)
-            shear_work -= 0.5 * (old + fs) * vt * dt
-            visc -= 0.5 * dt * ((dn + e.dn[p, l]) * vn + (ds + e.ds[p, l]) * vt)
-            if ka > 0.0:
-                elastic += 0.5 * fn * fn / ka
-            if ksa > 0.0:
-                stored = 0.5 * fs * fs / ksa
-                elastic += stored
-                shear_work -= stored
-            fa = (fn + dn) * ns + (fs + ds) * nq
-            fb = (fn + dn) * nq - (fs + ds) * ns
-            sum_s += fa
-            sum_q += fb
-            upper += (at_s - ps) * fb - (at_q - pq) * fa
-            lower += at_s * fb - (at_q + ht) * fa
-        fx = cl * sum_s - sl * sum_q
-        fz = sl * sum_s + cl * sum_q
-        vx = u.vx[l] + 0.5 * dt * ((fx - above_x) * u.im[l] - ground_x)
-        vz = u.vz[l] + 0.5 * dt * ((fz - above_z) * u.im[l] - ground_z - o.g[l])
-        vw = u.w[l] + 0.5 * dt * (upper - above_m) * u.ii[l]
-        above_x = fx
-        above_z = fz
-        above_m = lower
-        kinetic += 0.5 * (u.m[l] * (vx * vx + vz * vz) + u.i[l] * vw * vw)
+        a = joint[j + 1]
+        vx = u.vx[l] + 0.5 * dt * ((e.fx[l] - a.fx[l]) * u.im[l] - g.ax[l])
+        vz = u.vz[l] + 0.5 * dt * ((e.fz[l] - a.fz[l]) * u.im[l] - g.az[l] - o.g[l])
+        w = u.w[l] + 0.5 * dt * (e.mu_[l] - a.ml[l]) * u.ii[l]
+        kinetic += 0.5 * (u.m[l] * (vx * vx + vz * vz) + u.i[l] * w * w)
         height += u.m[l] * o.g[l] * u.z[l]
+        for p in range(e.fs.shape[0]):
+            area = e.over[l] * o.sh[p, l]
+            if area > 0.0 and e.kn[l] > 0.0:
+                elastic += 0.5 * e.fn[p, l] ** 2 / (e.kn[l] * area)
+                stored += 0.5 * e.fs[p, l] ** 2 / (e.ks[l] * area)
     out[0] = o.work[l]
     out[1] = kinetic
     out[2] = height
-    out[3] = elastic
-    out[4] = shear_work
-    out[5] = visc
+    out[3] = elastic + stored
+    out[4] = o.shear[l] - stored
+    out[5] = o.visc[l]
 
 
 @strict
@@ -438,29 +392,20 @@ def joint_state(drum, l, opening, slip):
         slip[j] = ls + drum[j + 1].b[l] if lq < rq else rs - drum[j + 1].b[l]
 
 
-@functools.cache
-def make_advance(points, damped):
-    """``advance(drum, joint, lane, ground, feed, watch, chunks)`` for a number of contact points per joint.
-
-    Advances all lanes by up to ``chunks`` × CHUNK steps; returns early when no lane is running.
-    """
-    forces = make_forces(points, damped)
-    move = make_move(damped)
-
-    @kernel
-    def advance(drum, joint, lane, ground, feed, watch, chunks):
-        for _ in range(chunks):
-            fill_ground(ground, feed, watch)
-            for k in range(CHUNK):
-                forces(drum, joint, lane)
-                move(drum, joint, lane, ground, k)
-            running = 0
-            for l in range(LANES):
-                if watch[0].status[l] == RUNNING:
-                    feed[0].step[l] += CHUNK
-                    running += 1
-            if running == 0:
-                break
-            observe(drum, joint, lane, feed, watch)
-
-    return advance
+@kernel
+def advance(drum, joint, lane, ground, feed, watch, chunks):
+    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns early when no lane is running."""
+    for _ in range(chunks):
+        running = 0
+        for l in range(LANES):
+            running += watch[0].status[l] == RUNNING
+        if running == 0:
+            break
+        fill_ground(ground, feed, watch)
+        for k in range(CHUNK):
+            forces(drum, joint, lane)
+            move(drum, joint, lane, ground, k)
+        for l in range(LANES):
+            if watch[0].status[l] == RUNNING:
+                feed[0].step[l] += CHUNK
+        observe(drum, joint, lane, feed, watch)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
 
@@ -135,14 +135,12 @@ class DistinctElement2D(Model):
         block.load(0, Case(column, motion))
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
+        residual = block.residual_acceleration(0)
         states = [block.snapshot(0)]
         while not block.is_over(0):
             block.advance(stride)
             states.append(block.snapshot(0))
-        provenance = {
-            "time_step_s": block.dt[0],
-            "residual_acceleration_at_start_m_s2": block.residual_acceleration(0),
-        }
+        provenance = {"time_step_s": block.dt[0], "residual_acceleration_at_start_m_s2": residual}
         measures = block.collect(0)
         return Response(column, _histories(column, motion, states), measures, self.name, provenance)
 
@@ -170,7 +168,7 @@ class _Block:
         self.options = options
         self.lanes = kernel.LANES
         self.chunk = kernel.CHUNK
-        types = kernel.block_types(model.points)
+        types = kernel.block_types(model.points, model.damped)
         self.drum = np.zeros(drums + 1, types[0])
         self.joint = np.zeros(drums + 1, types[1])
         self.lane = np.zeros(1, types[2])
@@ -178,14 +176,11 @@ class _Block:
         self.feed = np.zeros(1, types[4])
         self.watch = np.zeros(1, types[5])
         self.watch["status"] = kernel.FREE
-        self.advance_kernel = kernel.make_advance(model.points, model.damped)
         self.dt = np.zeros(self.lanes)
         self.steps = np.zeros(self.lanes, dtype=np.int64)
         self.start = np.zeros((self.lanes, 6))
         self.cases: list[Case | None] = [None] * self.lanes
         self.chunks_per_call = 1
-        # one view per lane on all fields of all records, so that a lane is filled by plain assignments
-        self.arrays = {"drum": self.drum, "joint": self.joint, "lane": self.lane}
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
@@ -194,6 +189,10 @@ class _Block:
         for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
             for name, values in fields.items():
                 array[name][..., lane] = values
+        if self.model.start == "settle":
+            for name, values in _settled(column, self.model).items():
+                (self.joint if name == "fs" else self.drum)[name][..., lane] = values
+        self.joint["dn"][..., lane] = self.joint["ds"][..., lane] = 0.0
         duration = motion.duration + self.options.tail
         chunks = max(1, math.ceil(duration / (self.chunk * packed.step)))
         steps = chunks * self.chunk
@@ -227,7 +226,7 @@ class _Block:
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
         count = self.chunks_per_call if chunks is None else chunks
-        self.advance_kernel(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
+        self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
 
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended."""
@@ -242,16 +241,28 @@ class _Block:
         case = self.cases[lane]
         assert case is not None
         place = self.time(lane) / case.motion.dt
-        ground = [_sample(values, place) for values in (case.motion.acceleration, case.motion.vertical)]
+        ground = np.zeros(1, self.ground.dtype)
+        ground["ax"][0, lane] = _sample(case.motion.samples, place) * case.motion.factor
+        if case.motion.z_samples is not None:
+            ground["az"][0, lane] = _sample(case.motion.z_samples, place) * case.motion.factor
+        # the forces at the present positions, found as the next step will find them, on a copy
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = self.dt[lane]
+        self.kernel.forces(self.drum, joint, state)
         out = np.empty(6)
-        self.kernel.energies(
-            self.drum, self.joint, self.lane, ground[0], ground[1], self.dt[lane], lane, self.model.points, out
-        )
+        self.kernel.ledger(self.drum, joint, state, ground, 0, self.dt[lane], lane, out)
         return out
 
     def residual_acceleration(self, lane: int) -> float:
-        """Largest acceleration of a drum in its starting position without input [m/s²]."""
-        return _pack(self.cases[lane].column, self.model).residual if self.cases[lane] else math.nan
+        """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
+        joint, state = self.joint.copy(), self.lane.copy()
+        self.kernel.forces(self.drum, joint, state)
+        d = {name: self.drum[name][1:, lane] for name in ("im", "ii", "b")}
+        net = {name: joint[name][:, lane] for name in ("fx", "fz", "mu_", "ml")}
+        ax = (net["fx"][:-1] - net["fx"][1:]) * d["im"]
+        az = (net["fz"][:-1] - net["fz"][1:]) * d["im"] - state["g"][0, lane]
+        turn = (net["mu_"][:-1] - net["ml"][1:]) * d["ii"] * d["b"]
+        return float(np.abs(np.concatenate((ax, az, turn))).max())
 
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
@@ -326,7 +337,6 @@ class _Packed:
 
     fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
     step: float
-    residual: float
 
 
 @lru_cache(maxsize=4096)
@@ -364,8 +374,7 @@ def _pack(column: Column, model: DistinctElement2D) -> _Packed:
         "co": above(np.array([joint.cohesion for joint in column.joints]) * area / width),
         "mu": above(np.array([joint.tan_phi for joint in column.joints])),
         "fs": np.zeros((n + 1, model.points)),
-        "dn": np.zeros((n + 1, model.points)),
-        "ds": np.zeros((n + 1, model.points)),
+        "over": np.zeros(n + 1),
     }
     lane_fields = {
         "g": column.gravity,
@@ -378,9 +387,30 @@ def _pack(column: Column, model: DistinctElement2D) -> _Packed:
         "xi": xi,
         "sh": share,
     }
-    # the static closure is in equilibrium but for the rounding of positions
-    residual = float(np.max(np.finfo(float).eps * column.height * kn * area / column.masses))
-    return _Packed((drum_fields, joint_fields, lane_fields), model.step_for(column), residual)
+    return _Packed((drum_fields, joint_fields, lane_fields), model.step_for(column))
+
+
+#: Local damping while settling, the residual acceleration at which a column has settled [m/s²], and the most chunks.
+SETTLE_DAMPING, SETTLED, SETTLE_CHUNKS = 0.8, 1e-7, 20_000
+
+
+@lru_cache(maxsize=256)
+def _settled(column: Column, model: DistinctElement2D) -> dict[str, np.ndarray]:
+    """Positions and shear forces after settling under gravity with local damping, by field and drum or joint."""
+    block = _Block(replace(model, start="static", mass_damping=max(model.mass_damping, 1e-300)), column.n, RunOptions())
+    block.load(0, Case(column, Motion(1e3, np.zeros(2))))
+    block.lane["local"][0, 0] = SETTLE_DAMPING
+    for _ in range(SETTLE_CHUNKS // 100):
+        block.advance(100)
+        if block.residual_acceleration(0) < SETTLED:
+            break
+    else:
+        raise InputError(
+            f"column {column.name!r} does not come to rest under its weight: {block.residual_acceleration(0):.2g} m/s² "
+            f"remain, allowed is {SETTLED:g}; check that every drum is supported under its centroid."
+        )
+    state = {name: block.drum[name][:, 0].copy() for name in ("x", "z", "th", "c", "s")}
+    return state | {"fs": block.joint["fs"][..., 0].copy()}
 
 
 def joint_stiffnesses(column: Column, block_modulus: float | None) -> tuple[np.ndarray, np.ndarray]:
@@ -489,8 +519,10 @@ def _barrier(column: Column, slip: np.ndarray) -> float:
     return lowest
 
 
-def _sample(values: np.ndarray | None, place: float) -> float:
-    return 0.0 if values is None else float(np.interp(place, np.arange(len(values)), values, right=0.0))
+def _sample(values: np.ndarray, place: float) -> float:
+    """Linear between samples, zero after the last one."""
+    i = min(int(place), len(values) - 2)
+    return float(values[i] + (values[i + 1] - values[i]) * (place - i)) if place <= len(values) - 1 else 0.0
 
 
 def _peak(values: np.ndarray) -> float:
