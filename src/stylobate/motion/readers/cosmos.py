@@ -1,8 +1,7 @@
 """COSMOS strong-motion format 1.20, volumes 0 (counts), 1 (uncorrected) and 2 (corrected), one or more channels.
 
 Published by the Consortium of Organizations for Strong-Motion Observation Systems (2001). Per channel: 13 lines of
-text,
-100 integers, 100 reals, comments, blocks of samples, and a closing line.
+text, 100 integers, 100 reals, comments, blocks of samples, and a closing line.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """California's strong-motion files, volume 1 (uncorrected) and 2 (corrected): CSMIP, before them CDMG.
 
 Layout after the agency's report OSMS 85-03: per channel a block of text, one of integers, one of reals, the
-samples, and a
-line that begins with ``/&``. Units stand in the text.
+samples, and a line that begins with ``/&``. Units stand in the text.
 """
 
 from __future__ import annotations

@@ -8,7 +8,22 @@ from pathlib import Path
 
 from ...errors import InputError
 from ..motion import Motion
-from . import columns, cosmos, csmip
+from . import (
+    afad,
+    bhrc,
+    columns,
+    cosmos,
+    csmip,
+    esm,
+    geonet,
+    knet,
+    miniseed,
+    peer,
+    renadic,
+    smc,
+    unam,
+    usc,
+)
 from .record import Component, assemble
 from .source import Source
 
@@ -35,6 +50,16 @@ class Format:
 FORMATS: tuple[Format, ...] = (
     Format("CSMIP V1, V2", csmip.recognises, csmip.read),
     Format("COSMOS V0, V1, V2", cosmos.recognises, cosmos.read),
+    Format("USGS SMC V1, V2", smc.recognises, smc.read),
+    Format("GeoNet V1A, V2A", geonet.recognises, geonet.read),
+    Format("USC V1", usc.recognises, usc.read),
+    Format("PEER AT2", peer.recognises, peer.read),
+    Format("ESM / ITACA ASCII", esm.recognises, esm.read),
+    Format("K-NET / KiK-net", knet.recognises, knet.read),
+    Format("AFAD text", afad.recognises, afad.read),
+    Format("UNAM ASA", unam.recognises, unam.read),
+    Format("RENADIC V1", renadic.recognises, renadic.read),
+    Format("BHRC V1", bhrc.recognises, bhrc.read),
 )
 
 
@@ -50,7 +75,7 @@ def read_motion(
     Parameters
     ----------
     path : path, or sequence of paths
-        One file, or the files of the components of one record.
+        One file, or the files of the components of one record (and of the StationXML that belongs to miniSEED).
     unit : str, optional
         Unit of a file that states none: ``g``, ``m/s2``, ``gal``, ``mm/s2`` …
     dt : float, optional
@@ -72,27 +97,34 @@ def read_motion(
     paths = [path] if isinstance(path, (str, Path)) else list(path)
     if not paths:
         raise InputError("no file is given; give the path of a record.")
+    sources = [Source.open(one) for one in paths]
+    descriptions = [one for one in sources if miniseed.is_station_xml(one)]
+    records = [one for one in sources if one not in descriptions]
+    if not records:
+        raise InputError(f"{sources[0].name} describes a station (StationXML); give the miniSEED files with it.")
     components: list[Component] = []
     facts: dict = {}
-    names = []
-    for one in paths:
-        found, metadata = _read_file(Source.open(one), unit, dt)
+    for source in records:
+        found, metadata = _read_file(source, descriptions, unit, dt)
         components += found
         if facts and metadata.get("station") != facts.get("station"):
             raise InputError(
-                f"{names[0]} is of station {facts.get('station')}, {Path(one).name} of {metadata.get('station')}; "
-                "give the "
-                "components of one record."
+                f"{records[0].name} is of station {facts.get('station')}, {source.name} of {metadata.get('station')}; "
+                "give the components of one record."
             )
         facts = facts or metadata
-        names.append(Path(one).name)
+    names = [one.name for one in records]
     defaults = {"station": None, "network": None, "event": None, "start_time": None, "terms": None}
     metadata = defaults | facts | {"file": ", ".join(names)}
     wanted = None if component is None else str(component)
     return assemble(components, metadata, names[0], component=wanted, dt=dt)
 
 
-def _read_file(source: Source, unit: str | None, dt: float | None) -> tuple[list[Component], dict]:
+def _read_file(
+    source: Source, descriptions: Sequence[Source], unit: str | None, dt: float | None
+) -> tuple[list[Component], dict]:
+    if miniseed.recognises(source):
+        return miniseed.read(source, descriptions)
     matches = [one for one in FORMATS if one.recognises(source)]
     if len(matches) > 1:
         raise InputError(
@@ -114,6 +146,6 @@ def _read_file(source: Source, unit: str | None, dt: float | None) -> tuple[list
         return columns.read(source, unit, dt)
     raise InputError(
         f"{source.name} is in no format that is known here "
-        f"({', '.join(one.name for one in FORMATS)}, columns of text); "
+        f"({', '.join(one.name for one in FORMATS)}, miniSEED, columns of text); "
         "convert it to columns under a header such as time_s,ax_g."
     )

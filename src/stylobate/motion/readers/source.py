@@ -113,8 +113,8 @@ class Source:
 
     @cached_property
     def head(self) -> str:
-        """First 4000 characters in lower case, for recognising a format; empty when the file is not text."""
-        return "\n".join(line[:400] for line in self.lines[:60])[:4000].lower() if self.is_text else ""
+        """First 8000 characters in lower case, for recognising a format; empty when the file is not text."""
+        return "\n".join(line[:400] for line in self.lines[:60])[:8000].lower() if self.is_text else ""
 
     @cached_property
     def _decoded(self) -> str:

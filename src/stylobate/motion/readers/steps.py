@@ -68,7 +68,7 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
     if len(time) < 2:
         raise InputError(f"{name}: the times do not increase; give a record with increasing times.")
     steps = np.diff(time)
-    median = float(np.median(steps))
+    median = float(f"{np.median(steps):.6g}")
     span = float(time[-1] - time[0])
     peak = max(float(np.abs(values).max()), 1e-300)
 

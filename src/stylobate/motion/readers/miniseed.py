@@ -1,0 +1,156 @@
+"""miniSEED with the sensitivity from a StationXML file, through ObsPy (extra ``seismology``)."""
+
+from __future__ import annotations
+
+import io
+import math
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...errors import InputError
+from .record import Component
+from .source import Source
+
+#: StationXML files beside the record that are looked into.
+MAX_BESIDE, MAX_XML_BYTES = 50, 20_000_000
+
+
+def recognises(source: Source) -> bool:
+    """Whether the file begins with a miniSEED record: six digits and a quality letter."""
+    start = source.data[:8]
+    return (
+        len(start) == 8 and start[:6].replace(b" ", b"0").isdigit() and start[6:7] in b"DRQM" and start[7:8] in b" \x00"
+    )
+
+
+def is_station_xml(source: Source) -> bool:
+    """Whether the file is a StationXML."""
+    return b"FDSNStationXML" in source.data[:4000]
+
+
+def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component], dict]:
+    """Components and what the file and the description of the station say.
+
+    Parameters
+    ----------
+    source : Source
+    descriptions : sequence of Source
+        StationXML files. Without one, those in the folder of the record are looked into.
+
+    Raises
+    ------
+    InputError
+        ObsPy is missing, no description covers the channel, the channel does not measure acceleration, gaps.
+    """
+    obspy = _obspy(source.name)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            stream = obspy.read(io.BytesIO(source.data), format="MSEED")
+            stream.merge(method=0)
+    except Exception as error:  # ObsPy raises many kinds for a damaged file
+        raise InputError(f"{source.name} cannot be decoded as miniSEED ({_one_line(error)}); fetch it again.") from None
+    if len(stream) == 0:
+        raise InputError(f"{source.name} holds no samples; fetch it again.")
+    components, used = [], set()
+    for trace in stream:
+        if np.ma.isMaskedArray(trace.data):
+            raise InputError(f"{source.name}: channel {trace.id} has gaps; give a record without gaps.")
+        channel, name = _channel(trace, descriptions or _beside(source), source.name)
+        used.add(name)
+        components.append(_component(trace, channel, source.name))
+    stats = stream[0].stats
+    return components, {
+        "format": "miniSEED",
+        "stage": "raw counts",
+        "unit": "counts",
+        "station": stats.station,
+        "network": stats.network,
+        "start_time": str(stats.starttime),
+        "response": ", ".join(sorted(used)),
+    }
+
+
+def _component(trace: Any, channel: Any, file: str) -> Component:
+    sensitivity = channel.response.instrument_sensitivity if channel.response else None
+    unit = (sensitivity.input_units or "").upper() if sensitivity else ""
+    if sensitivity is None or not sensitivity.value or not math.isfinite(sensitivity.value):
+        raise InputError(f"{file}: the StationXML gives no sensitivity for {trace.id}; give a complete one.")
+    if unit.replace("**", "").replace("^", "") not in ("M/S2", "M/S/S", "M/(S2)"):
+        raise InputError(
+            f"{file}: channel {trace.id} measures {unit or 'an unknown quantity'}, not M/S**2; give accelerations."
+        )
+    counts = np.asarray(trace.data, dtype=np.float64)
+    zero = float(counts.mean())
+    component = Component((counts - zero) / sensitivity.value, float(trace.stats.delta), trace.stats.channel)
+    component.metadata = {"unit": "counts", "counts_per_m_s2": float(sensitivity.value), "dip": channel.dip}
+    component.processing.append(
+        f"counts / {sensitivity.value:.6g} per m/s², after the zero level of {zero:.6g} counts (their mean) was "
+        "taken off; "
+        "the response is taken as flat"
+    )
+    dip = channel.dip
+    component.vertical = dip is not None and abs(dip) > 45.0
+    if dip is not None and dip > 45.0:  # SEED counts the dip downward
+        component.values = -component.values
+        component.processing.append("sign turned: the channel counts downward as positive, here upward is")
+    component.azimuth = None if component.vertical or channel.azimuth is None else float(channel.azimuth) % 360.0
+    return component
+
+
+def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any, str]:
+    """Description of a trace's channel at its time, and the file it stands in."""
+    obspy = _obspy(file)
+    stats = trace.stats
+    for description in descriptions:
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                inventory = obspy.read_inventory(io.BytesIO(description.data), format="STATIONXML")
+                found = inventory.select(
+                    network=stats.network,
+                    station=stats.station,
+                    location=stats.location,
+                    channel=stats.channel,
+                    time=stats.starttime,
+                )
+        except Exception as error:  # as above
+            raise InputError(f"{description.name} cannot be read as StationXML ({_one_line(error)}).") from None
+        for network in found:
+            for station in network:
+                for channel in station:
+                    return channel, description.name
+    raise InputError(
+        f"{file}: counts of {trace.id} without their sensitivity; put the station's StationXML beside the file, "
+        "or give both."
+    )
+
+
+def _beside(source: Source) -> list[Source]:
+    found = []
+    for path in sorted(source.path.parent.glob("*.xml"))[:MAX_BESIDE]:
+        if path.stat().st_size <= MAX_XML_BYTES:
+            one = Source(path, path.read_bytes())
+            if is_station_xml(one):
+                found.append(one)
+    return found
+
+
+def _obspy(file: str) -> Any:
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            import obspy
+    except ImportError:
+        raise InputError(
+            f"{file} is miniSEED, which needs ObsPy; install it with  pip install 'stylobate[seismology]'."
+        ) from None
+    return obspy
+
+
+def _one_line(error: Exception) -> str:
+    text = " ".join(str(error).split()) or type(error).__name__
+    return text if len(text) <= 120 else text[:120] + "…"

@@ -1,0 +1,53 @@
+"""Chile's RENADIC network, volume 1: pairs of time and acceleration in g/10."""
+
+from __future__ import annotations
+
+import re
+
+from ...errors import InputError
+from .record import Component, oriented
+from .source import Source
+from .volume1 import channel_end, pairs, points, unit
+
+TEXT_LINES, HEADER_LINES = 13, 27
+
+
+def recognises(source: Source) -> bool:
+    """Whether the text block names the network."""
+    return "universidad de chile - renadic" in source.head
+
+
+def read(source: Source) -> tuple[list[Component], dict]:
+    """All channels and what the headers say."""
+    lines, file = source.lines, source.name
+    components = []
+    start = 0
+    while start < len(lines):
+        if not lines[start].strip():
+            start += 1
+            continue
+        text = lines[start : start + TEXT_LINES]
+        data = start + HEADER_LINES
+        if data >= len(lines):
+            raise InputError(
+                f"{file}, line {start + 1}: the channel that begins here ends within its header; fetch it again."
+            )
+        count = points(text, file, start)
+        end = channel_end(lines, data)
+        component = pairs(lines, data, end, count, file, width=7)
+        component.metadata["unit"], size = unit(text, "g/10")
+        component.values = component.values * size
+        component.label = re.sub(r"^\W*(comp\w*|chan\w*|canal)\W*(\d+\W+)?", "", text[6].strip(), flags=re.IGNORECASE)
+        component.label = component.label.split()[0] if component.label.split() else ""
+        components.append(oriented(component))
+        start = end + 1
+    name = lines[5].upper().split("S/N")[0].strip() or None
+    return components, {
+        "format": "RENADIC V1",
+        "stage": "uncorrected",
+        "unit": components[0].metadata["unit"],
+        "station": name,
+        "network": "C",
+        "event": lines[1].strip() or None,
+        "start_time": lines[3].strip() or None,
+    }

@@ -1,0 +1,101 @@
+"""The USGS's SMC files, volumes 1 (film at unequal steps) and 2 (corrected): one component each, cm/s²."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from ...errors import InputError
+from .numbers import read_numbers
+from .record import Component, check_count, oriented
+from .source import Source
+
+TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
+_FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")
+#: What stands for an unknown integer.
+_UNKNOWN = -32768
+
+
+def recognises(source: Source) -> bool:
+    """Whether the first lines are those of the format: a volume number, and lines of a star."""
+    lines = source.head.split("\n")
+    return (
+        len(lines) > TEXT_LINES
+        and re.match(r"^\s*\d\s+((un)?corrected accelerogram|velocity|displacement|response|fourier)", lines[0])
+        is not None
+        and lines[1].strip() == "*"
+    )
+
+
+def read(source: Source) -> tuple[list[Component], dict]:
+    """The component and what the header says."""
+    lines, file = source.lines, source.name
+    found = _FIRST.match(lines[0])
+    if found is None or "ACCELEROGRAM" not in found["what"].upper():
+        raise InputError(f"{file}, line 1: expected an accelerogram, found {lines[0].strip()!r}; give that file.")
+    corrected = "UNCORRECTED" not in found["what"].upper()
+    at = TEXT_LINES + INTEGER_LINES
+    integers = read_numbers(lines[TEXT_LINES:at], TEXT_LINES, file, "header integers", count=48, width=10)
+    reals = read_numbers(lines[at : at + REAL_LINES], at, file, "header reals", count=50, width=15)
+    comments = int(integers[15]) if 0 <= integers[15] <= 1000 else 0
+    start = at + REAL_LINES + comments
+    stated = check_count(float(integers[16]), file, TEXT_LINES + 3, "values")
+    numbers, left_out = _values(lines, start, stated, file)
+    if corrected:
+        rate = float(reals[1])
+        if not 0.0 < rate < 1e5:
+            raise InputError(
+                f"{file}, line {at + 1}: expected the sampling rate, found {rate:g}; fetch the file again."
+            )
+        component = Component(numbers * 0.01, 1.0 / rate)
+    else:
+        if stated % 2:
+            raise InputError(f"{file}, line {TEXT_LINES + 3}: {stated} values are not pairs of time and acceleration.")
+        time, values = numbers.reshape(-1, 2).T.copy()
+        if (np.diff(time) < 0.0).any():
+            bad = int(np.flatnonzero(np.diff(time) < 0.0)[0]) + 1
+            raise InputError(
+                f"{file}, below line {start + 1}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it."
+            )
+        component = Component(values * 0.01, np.nan, time=time)
+    if left_out:
+        component.processing.append(f"{left_out} numbers beyond the {stated} that the header promises were left out")
+    component.label = _label(int(integers[12]), int(integers[13]), lines[5])
+    component.metadata["unit"] = "cm/s2"
+    head = [line.strip() for line in lines[:TEXT_LINES]]
+    terms = " ".join(line.lstrip("| ").strip() for line in lines[at + REAL_LINES : start]).strip()
+    place = re.search(r"station\s*=\s*(?P<name>.*?)\s*component", head[5], re.IGNORECASE)
+    return [oriented(component)], {
+        "format": f"USGS SMC V{2 if corrected else 1}",
+        "stage": "corrected" if corrected else "uncorrected",
+        "unit": "cm/s2",
+        "station": place["name"].rstrip(", ") if place else None,
+        "event": re.sub(r"\s{2,}", " ", head[3]) or None,
+        "network": head[7].split("data source =")[-1].strip() if "data source =" in head[7] else None,
+        "comments": terms or None,
+    }
+
+
+def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.ndarray, int]:
+    """The numbers that the header promises, and how many more there are: a stray last line is known in these files."""
+    rows = -(-stated // 8)
+    numbers = read_numbers(lines[start : start + rows], start, file, "accelerations", count=stated, width=10)
+    if len(lines) > start + rows + 1:
+        raise InputError(
+            f"{file}, line {start + rows + 1}: the header promises {stated} numbers, which end here, but more "
+            "follow; the "
+            "file is damaged, fetch it again."
+        )
+    beyond = read_numbers(lines[start + rows :], start + rows, file, "accelerations", width=10)
+    return numbers, len(beyond)
+
+
+def _label(from_vertical: int, azimuth: int, station: str) -> str:
+    """Direction: integer 13 counts from the vertical (0 up, 180 down, 90 horizontal), integer 14 from north."""
+    if from_vertical in (0, 180):
+        return "Up" if from_vertical == 0 else "Down"
+    if azimuth != _UNKNOWN and 0 <= azimuth <= 360:
+        return f"{azimuth} deg"
+    found = re.search(r"component\s*=\s*(?P<label>\S+)", station, re.IGNORECASE)
+    return found["label"] if found else ""

@@ -1,0 +1,85 @@
+"""Mexico's standard acceleration file (ASA) of the UNAM network: channels as columns in gal."""
+
+from __future__ import annotations
+
+import re
+
+from ...errors import InputError
+from .keyed import is_numeric, keyed
+from .numbers import read_numbers
+from .record import Component, check_count, oriented
+from .source import Source
+
+
+def recognises(source: Source) -> bool:
+    """Whether the head names the standard file."""
+    return "archivo estandar de aceleracion" in source.head.replace("á", "a").replace("ó", "o")
+
+
+def read(source: Source) -> tuple[list[Component], dict]:
+    """All channels and what the header says."""
+    lines, file = source.lines, source.name
+    header = keyed(lines[:160])
+    labels = _list(header, "orientacion c1-c6", file)
+    steps = [
+        _number(text, "INTERVALO DE MUESTREO", file) for text in _list(header, "intervalo de muestreo, c1-c6", file)
+    ]
+    counts = [
+        _number(text, "NUM. TOTAL DE MUESTRAS", file) for text in _list(header, "num. total de muestras, c1-c6", file)
+    ]
+    channels = min(len(labels), len(steps), len(counts))
+    if channels == 0:
+        raise InputError(f"{file}: the header describes no channel (ORIENTACION C1-C6); fetch the file again.")
+    last = max(line for _, line in header.values())
+    start = next(
+        (
+            i
+            for i in range(last, min(last + 60, len(lines)))
+            if is_numeric(lines[i]) and len(lines[i].split()) >= channels
+        ),
+        None,
+    )
+    if start is None:
+        raise InputError(f"{file}, below line {last}: expected rows of {channels} accelerations; fetch the file again.")
+    count = check_count(max(counts[:channels]), file, header_line(header, "num. total de muestras"))
+    table = read_numbers(
+        lines[start:], start, file, f"rows of {channels} accelerations", count=channels * count
+    ).reshape(-1, channels)
+    components = []
+    for i in range(channels):
+        one = table[: check_count(counts[i], file, header_line(header, "num. total de muestras")), i]
+        components.append(oriented(Component(one * 0.01, steps[i], labels[i].split(";")[0].strip(" +"))))
+    text = {key: value for key, (value, _) in header.items()}
+    return components, {
+        "format": "UNAM ASA",
+        "stage": "not stated",
+        "unit": "gal",
+        "station": text.get("clave de la estacion") or None,
+        "station_name": text.get("nombre de la estacion") or None,
+        "network": "UNAM",
+        "event": text.get("fecha del sismo [gmt]") or None,
+        "start_time": text.get("hora de la primera muestra (gmt)") or None,
+    }
+
+
+def header_line(header: dict[str, tuple[str, int]], key: str) -> int:
+    """Line of the first key that begins so."""
+    return next((line for name, (_, line) in header.items() if name.startswith(key)), 0)
+
+
+def _list(header: dict[str, tuple[str, int]], key: str, file: str) -> list[str]:
+    """Values of the channels, between slashes."""
+    value, line = next((entry for name, entry in header.items() if name.startswith(key)), ("", 0))
+    parts = [part.strip() for part in value.split("/")]
+    parts = [part for part in parts if part]
+    if not parts:
+        raise InputError(
+            f"{file}, line {line}: expected the channels' values of {key.upper()!r}; fetch the file again."
+        )
+    return parts
+
+
+def _number(text: str, key: str, file: str) -> float:
+    if not re.fullmatch(r"(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", text):
+        raise InputError(f"{file}: {key} holds {text!r}, where a number is expected; fetch the file again.")
+    return float(text)

@@ -1,0 +1,75 @@
+"""Volume 1 of the University of Southern California's Los Angeles network: film digitised at unequal steps."""
+
+from __future__ import annotations
+
+import re
+
+from ...constants import g
+from ...errors import InputError
+from .numbers import read_numbers
+from .record import Component, check_count, oriented
+from .source import Source
+from .volume1 import channel_end, pairs, unit
+
+TEXT_LINES = 13
+_CODES = {400: "Vert", 500: "Up", 600: "Down", 700: "Long", 800: "Tran"}
+
+
+def recognises(source: Source) -> bool:
+    """Whether the first line is that of USC's volume 1."""
+    return "of uncorrected accelerogram data of" in source.head.split("\n")[0]
+
+
+def read(source: Source) -> tuple[list[Component], dict]:
+    """All channels and what the headers say."""
+    lines, file = source.lines, source.name
+    components = []
+    start = 0
+    station = None
+    while start < len(lines):
+        if not lines[start].strip():
+            start += 1
+            continue
+        component, station, start = _channel(lines, start, file)
+        components.append(component)
+    return components, {
+        "format": "USC V1",
+        "stage": "uncorrected",
+        "unit": components[0].metadata["unit"],
+        "station": station,
+        "station_name": re.split(r"\s{2,}", lines[5].strip())[0] or None,
+        "network": "LA",
+        "event": re.split(r"\s{2,}", lines[1].strip())[0] or None,
+    }
+
+
+def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, int]:
+    first = start + TEXT_LINES
+    reals_at = first
+    while reals_at < len(lines) and lines[reals_at].strip() and "." not in lines[reals_at]:
+        reals_at += 1
+    rows = reals_at - first
+    if rows not in (5, 7) or reals_at + 7 >= len(lines):
+        raise InputError(
+            f"{file}, line {first + 1}: expected 7 (or 5) lines of integers and 7 of reals after the text, found "
+            f"{rows} "
+            "of integers; the file is damaged or cut, fetch it again."
+        )
+    # 100 integers: 16 of width 5 to a line, or 20 of width 4.
+    width = 5 if rows == 7 else 4
+    integers = read_numbers(lines[first:reals_at], first, file, "header integers", count=100, width=width)
+    reals = read_numbers(lines[reals_at : reals_at + 7], reals_at, file, "header reals", count=50, width=10)
+    count = check_count(float(integers[27]), file, first + 2)
+    data = reals_at + 7
+    end = channel_end(lines, data)
+    component = pairs(lines, data, end, count, file, width=7)
+    fraction = float(reals[4])
+    if fraction > 0.0:
+        size, label = fraction * g, "g/10" if abs(fraction - 0.1) < 1e-9 else f"{fraction:g} g"
+    else:
+        label, size = unit(lines[start:first], "g/10")
+    component.values = component.values * size
+    component.metadata["unit"] = label
+    code = int(integers[26])
+    component.label = _CODES.get(code, f"{code} deg" if 0 <= code <= 360 else f"code {code}")
+    return oriented(component), f"{int(integers[8])}", end + 1
