@@ -18,7 +18,18 @@ if TYPE_CHECKING:
     from .constants import g
     from .errors import InputError, OutOfRangeWarning, StylobateError
     from .models.distinct_element_2d import DistinctElement2D
+    from .models.housner import HousnerBlock
     from .motion import Motion, harmonic
+    from .motion.pulses import (
+        cosine_pulse,
+        gabor,
+        half_sine_pulse,
+        mavroeidis_papageorgiou,
+        rectangular_pulse,
+        ricker,
+        sine_pulse,
+    )
+    from .motion.readers import read_motion
     from .outcome import Outcome
     from .response import Response
     from .simulate import simulate, simulate_many
@@ -28,6 +39,7 @@ _HOMES = {
     "Column": "column",
     "DistinctElement2D": "models.distinct_element_2d",
     "Drum": "column",
+    "HousnerBlock": "models.housner",
     "InputError": "errors",
     "Joint": "column",
     "Motion": "motion",
@@ -36,17 +48,26 @@ _HOMES = {
     "Response": "response",
     "StylobateError": "errors",
     "collapse_domain": "analysis.domain",
+    "cosine_pulse": "motion.pulses",
     "critical_amplitude": "analysis.critical",
     "g": "constants",
+    "gabor": "motion.pulses",
+    "half_sine_pulse": "motion.pulses",
     "harmonic": "motion",
+    "mavroeidis_papageorgiou": "motion.pulses",
+    "read_motion": "motion.readers",
+    "rectangular_pulse": "motion.pulses",
+    "ricker": "motion.pulses",
     "simulate": "simulate",
     "simulate_many": "simulate",
+    "sine_pulse": "motion.pulses",
 }
 
 __all__ = [
     "Column",
     "DistinctElement2D",
     "Drum",
+    "HousnerBlock",
     "InputError",
     "Joint",
     "Motion",
@@ -55,11 +76,19 @@ __all__ = [
     "Response",
     "StylobateError",
     "collapse_domain",
+    "cosine_pulse",
     "critical_amplitude",
     "g",
+    "gabor",
+    "half_sine_pulse",
     "harmonic",
+    "mavroeidis_papageorgiou",
+    "read_motion",
+    "rectangular_pulse",
+    "ricker",
     "simulate",
     "simulate_many",
+    "sine_pulse",
 ]
 
 

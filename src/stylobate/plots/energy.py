@@ -34,12 +34,13 @@ def draw_energy(response: Response, title: str | None = None) -> Figure:
     upper.set_ylim(bottom, top + 0.25 * (top - bottom))
     upper.set_title(title or describe(response))
     zero_line(lower)
-    lower.plot(h.time, factor * h.imbalance, color=GREY)
-    lower.set_ylabel(f"imbalance\n[{unit}]")
+    largest = float(np.nanmax(np.abs(h.energy["input"])))
+    lower.plot(h.time, h.imbalance / (largest or 1.0), color=GREY)
+    lower.set_ylabel("imbalance\n/ input")
     lower.set_xlabel("time [s]")
     lower.set_xlim(float(h.time[0]), float(h.time[-1]) or 1.0)
     share = response.measures.energy_imbalance
-    lower.set_title(f"imbalance at most {share:.1e} of the input work", loc="right", fontsize=8.0)
+    lower.set_title(f"energy imbalance {share:.1e} of the input work", loc="right", fontsize=8.0)
     figure.align_ylabels()
     return figure
 
