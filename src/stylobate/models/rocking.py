@@ -1,0 +1,147 @@
+"""The numbers of the rocking equation, and what follows from them: kinematics, energies, verdict, measures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..motion import Motion
+from ..outcome import classify
+from ..response import Measures
+
+#: Impact velocity over p α under which the block comes to rest; it would rise to 5e-11 α.
+REST = 1.0e-5
+
+
+@dataclass(frozen=True)
+class RockingBlock:
+    """One block that rocks: what the equation, the kinematics and the energies need.
+
+    Parameters
+    ----------
+    p : float
+        Frequency parameter [rad/s].
+    alpha : float
+        Slenderness [rad].
+    restitution : float
+        e [-].
+    inertia : float
+        About the pivot [kg m²].
+    gravity : float
+        g [m/s²].
+    half_width, height, centroid_height : float
+        Of the block [m].
+    linear : bool
+        Linearised equation and kinematics.
+    """
+
+    p: float
+    alpha: float
+    restitution: float
+    inertia: float
+    gravity: float
+    half_width: float
+    height: float
+    centroid_height: float
+    linear: bool = False
+
+    @property
+    def uplift_sine(self) -> float:
+        """Factor of 1 + a_v/g in the condition of uplift: sin α, linearised α."""
+        return self.alpha if self.linear else math.sin(self.alpha)
+
+    @property
+    def uplift_cosine(self) -> float:
+        """Factor of |a_g|/g in the condition of uplift: cos α, linearised 1."""
+        return 1.0 if self.linear else math.cos(self.alpha)
+
+    @property
+    def barrier(self) -> float:
+        """Energy it takes to bring the block from upright to its balance point, over I₀ [1/s²]."""
+        return float(self.potential(self.alpha))
+
+    def potential(self, x):
+        """Gravitational energy at rotation x ≥ 0 over I₀ [1/s²]."""
+        if self.linear:
+            return self.p**2 * x * (self.alpha - 0.5 * x)
+        return self.p**2 * (np.cos(self.alpha - x) - math.cos(self.alpha))
+
+    def displacement(self, tilt, height: float):
+        """Displacement (x, z) of a point on the axis at a height, for a tilt towards +x [rad] [m]."""
+        b, x = self.half_width, np.abs(tilt)
+        if self.linear:
+            return height * tilt, b * x
+        horizontal = np.sign(tilt) * (b * (1.0 - np.cos(x)) + height * np.sin(x))
+        return horizontal, b * np.sin(x) - height * (1.0 - np.cos(x))
+
+    def opening(self, tilt):
+        """Gap at the edge that opens [m]."""
+        x = np.abs(tilt)
+        return 2.0 * self.half_width * (x if self.linear else np.sin(x))
+
+    def verdict(self, x: float, v: float, collapsed: bool) -> tuple[bool, bool]:
+        """Whether the block has fallen or will, and whether that is decided, when no input is left.
+
+        Parameters
+        ----------
+        x, v : float
+            Rotation on the side the block stands on, and its velocity [rad], [rad/s].
+        collapsed : bool
+            Found certain during the run.
+        """
+        over = 0.5 * v * v + float(self.potential(x)) >= self.barrier
+        beyond = x > self.alpha
+        collapsed = collapsed or (v > 0.0 if over else beyond)
+        return collapsed, collapsed or not over
+
+    def measures(
+        self,
+        *,
+        x: float,
+        v: float,
+        side: float,
+        peak: float,
+        collapse_time: float,
+        end: float,
+        failure: str,
+        imbalance: float,
+        step: float,
+        steps: int,
+    ) -> Measures:
+        """Measures of a run from its last state, its largest rotation and its collapse time (negative: none)."""
+        found = collapse_time >= 0.0
+        collapsed, decided = (found, found) if failure else self.verdict(x, v, found)
+        opening = float(self.opening(peak))
+        width = 2.0 * self.half_width
+        return Measures(
+            outcome=classify(collapsed and not failure, bool(failure), opening / width, 0.0),
+            decided=decided and not failure,
+            collapse_time=(collapse_time if found else end) if collapsed and not failure else math.nan,
+            peak_top_displacement=float(self.displacement(peak, self.height)[0]),
+            residual_top_displacement=float(self.displacement(side * x, self.height)[0]),
+            peak_rotation=peak,
+            peak_joint_opening=opening,
+            residual_joint_slip=0.0,
+            energy_imbalance=float(imbalance),
+            time_step=step,
+            steps=steps,
+            reason=failure or ("overturns as one block" if collapsed else ""),
+        )
+
+
+def imbalance(input_work: float, accounted: float, largest: float) -> float:
+    """Energy that the ledger cannot account for over the largest input work so far [-]; 0 without input."""
+    return abs(input_work - accounted) / largest if largest > 0.0 else 0.0
+
+
+def remaining_peak(motion: Motion) -> np.ndarray:
+    """Largest |sample| from each sample on, then zero: what is left of a motion, before its factor, shape (steps + 1,)."""
+    return np.append(np.maximum.accumulate(np.abs(motion.samples)[::-1])[::-1], 0.0)
+
+
+def lightest_weight(motion: Motion, gravity: float) -> float:
+    """Smallest 1 + a_v/g of a motion, not below 0.05 [-]."""
+    vertical = motion.vertical
+    return 1.0 if vertical is None else max(0.05, min(1.0, 1.0 + float(vertical.min()) / gravity))

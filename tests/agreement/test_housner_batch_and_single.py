@@ -1,0 +1,112 @@
+"""Housner's block: batch against single run, order of the cases and number of threads, refused input."""
+
+import math
+
+import numpy as np
+import pytest
+
+from stylobate.column import Column, Drum, Joint, preset
+from stylobate.constants import g
+from stylobate.errors import InputError, OutOfRangeWarning
+from stylobate.kernels.housner import LANES, trigonometry
+from stylobate.models.base import Case
+from stylobate.models.housner import HousnerBlock
+from stylobate.motion import Motion, harmonic
+from stylobate.outcome import Outcome
+from stylobate.simulate import simulate, simulate_iter, simulate_many
+
+COLUMN = preset("paper-monolithic")
+JOINT = Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_coefficient=0.7)
+
+
+def record() -> Motion:
+    """Noise of two components, sampled as coarsely as records are."""
+    random = np.random.default_rng(5)
+    time = np.arange(1201) * 0.01
+    shape = np.sin(np.pi * time / 12.0) ** 2
+    x, z = (shape * np.convolve(random.standard_normal(1201), np.hanning(60), "same") for _ in range(2))
+    return Motion(0.01, x / np.abs(x).max(), vertical=0.3 * z / np.abs(z).max(), factor=0.3 * g)
+
+
+@pytest.mark.parametrize(
+    ("motion", "tail"),
+    [(harmonic(1.0, 0.24 * g, 4.0), 3.0), (harmonic(1.0, 0.40 * g, 10.0), 0.0), (harmonic(0.5, 0.3 * g, 6.0), 1.0),
+     (record(), 2.0)],
+)  # fmt: skip
+@pytest.mark.parametrize("model", [HousnerBlock(), HousnerBlock(linear=True, restitution=0.8)])
+def test_batch_agrees_with_single_run(motion, tail, model):
+    single = simulate(COLUMN, motion, model, tail=tail)
+    batch = simulate_many(COLUMN, [motion], model, tail=tail).iloc[0]
+    assert batch.outcome == str(single.outcome)
+    assert batch.decided == single.decided
+    assert single.peak_rotation > 0.0
+    if single.collapsed:
+        assert batch.collapse_time_s == pytest.approx(single.collapse_time, abs=0.3)
+    else:
+        assert batch.peak_rotation_rad == pytest.approx(single.peak_rotation, rel=2e-3)
+
+
+def mixed_cases() -> list[Case]:
+    stocky = Column.of_drums([Drum(2.0, 0.7, 0.6, 2000.0)], JOINT)
+    shared = record()
+    cases = []
+    for k in range(3 * LANES // 2):
+        motion = shared.scaled(0.5 + k / 50) if k % 3 else harmonic(0.5 + 0.02 * k, 0.3 * g, 2.0 + 0.05 * k)
+        cases.append(Case(stocky if k % 4 == 0 else COLUMN, motion))
+    return cases
+
+
+def test_same_bits_for_any_order_and_number_of_threads():
+    cases = mixed_cases()
+    model = HousnerBlock()
+    reference = dict(simulate_iter(cases, model, threads=1))
+    assert len({str(m.outcome) for m in reference.values()}) >= 2
+    threaded = dict(simulate_iter(cases, model, threads=2))
+    order = np.random.default_rng(1).permutation(len(cases))
+    shuffled = {order[i]: m for i, m in simulate_iter([cases[i] for i in order], model, threads=1)}
+    for index, measures in reference.items():
+        expected = repr(measures)
+        assert repr(threaded[index]) == expected
+        assert repr(shuffled[index]) == expected
+
+
+def test_followed_until_it_lies():
+    motion = harmonic(1.0, 0.45 * g, 10.0)
+    short, long = (simulate(COLUMN, motion, HousnerBlock(), until_end=flag) for flag in (False, True))
+    assert short.outcome == long.outcome == Outcome.COLLAPSED
+    assert short.collapse_time == pytest.approx(long.collapse_time)
+    assert short.time[-1] == pytest.approx(short.collapse_time)
+    assert np.abs(long.drum_rotation[-1, 0]) == pytest.approx(math.pi / 2, abs=0.1)
+
+
+def test_polynomials_over_their_range():
+    w = np.linspace(-2.0, 2.0, 2001)
+    coefficients = trigonometry(False)
+    assert np.polynomial.polynomial.polyval(w * w, coefficients[:8]) * w == pytest.approx(np.sin(w), abs=2e-13)
+    assert np.polynomial.polynomial.polyval(w * w, coefficients[8:]) == pytest.approx(np.cos(w), abs=2e-13)
+
+
+def test_refused_input():
+    motion = harmonic(1.0, 0.3 * g, 1.0)
+    with pytest.raises(InputError, match=r"12 drums.*rigid-beam"):
+        simulate(preset("paper-12-drums"), motion, HousnerBlock())
+    for bad in (-0.1, 1.1, math.nan):
+        with pytest.raises(InputError, match=r"restitution.*\[0, 1\]"):
+            HousnerBlock(restitution=bad)
+    with pytest.raises(InputError, match="initial_rotation"):
+        simulate(COLUMN, motion, HousnerBlock(initial_rotation=0.5))
+    with pytest.raises(InputError, match="time_step"):
+        simulate(COLUMN, motion, HousnerBlock(time_step=0.5))
+    with pytest.raises(InputError, match="restitutoin"):
+        HousnerBlock.from_settings({"restitutoin": "0.9"})
+    assert HousnerBlock.from_settings({"restitution": "0.9", "linear": "yes"}) == HousnerBlock(0.9, True)
+
+
+def test_declared_limits_warn():
+    motion = harmonic(1.0, 0.3 * g, 0.1)
+    stocky = Column.of_drums([Drum(1.0, 0.8, 0.8, 1600.0)], JOINT)
+    with pytest.warns(OutOfRangeWarning, match="slides before it rocks"):
+        simulate(stocky, motion, HousnerBlock())
+    lifted = motion.replace(vertical=-8.0 * motion.samples)
+    with pytest.warns(OutOfRangeWarning, match="leave the ground"):
+        simulate(COLUMN, lifted, HousnerBlock())
