@@ -2,7 +2,8 @@
 
 A block advances ``LANES`` independent runs together. The innermost loops run over lanes, without a branch that depends on
 one, so that they fill the vector registers. Every array is one of records whose fields hold one value per lane: distances
-in memory are then known to the compiler. A lane whose run is over has ``dt = 0`` and stands still.
+in memory are then known to the compiler. A lane whose run is over has ``dt = 0`` and stands
+still; it is taken out before the block goes on.
 
 Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at t_n, velocities at t_{n−1/2})::
 
@@ -393,13 +394,20 @@ def joint_state(drum, l, opening, slip):
 
 
 @kernel
+def running_lanes(watch):
+    """Number of lanes whose run goes on."""
+    count = 0
+    for l in range(LANES):
+        count += watch[0].status[l] == RUNNING
+    return count
+
+
+@kernel
 def advance(drum, joint, lane, ground, feed, watch, chunks):
-    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns early when no lane is running."""
+    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
+    before = running_lanes(watch)
     for _ in range(chunks):
-        running = 0
-        for l in range(LANES):
-            running += watch[0].status[l] == RUNNING
-        if running == 0:
+        if before == 0 or running_lanes(watch) < before:
             break
         fill_ground(ground, feed, watch)
         for k in range(CHUNK):
