@@ -46,6 +46,8 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     rows, first = _rows(lines, start)
     table = _table(rows, first, source.name)
     columns = table.shape[1]
+    if len(table) < 2:
+        raise InputError(f"{source.name}, line {first + 1}: one row of numbers; give one row per time, at least two.")
     if names is not None and len(names) != columns:
         raise InputError(
             f"{source.name}, line {first + 1}: {columns} numbers under {len(names)} column names; every row needs "
@@ -194,8 +196,6 @@ def _bare(
 ) -> tuple[list[Component], np.ndarray | None, str]:
     """Numbers without column names: time, then x, y, z; the time is known by its growth."""
     columns = table.shape[1]
-    if len(table) < 2:
-        raise InputError(f"{file} holds one row of numbers; give one row per time.")
     grows = columns > 1 and bool((np.diff(table[:, 0]) >= 0.0).all()) and table[-1, 0] > table[0, 0]
     time = table[:, 0] if grows else None
     values = table[:, 1:] if time is not None else table

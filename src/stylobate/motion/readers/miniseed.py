@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import math
+import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
@@ -47,8 +49,7 @@ def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component
     """
     obspy = _obspy(source.name)
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with _without_complaints():
             stream = obspy.read(io.BytesIO(source.data), format="MSEED")
             stream.merge(method=0)
     except Exception as error:  # ObsPy raises many kinds for a damaged file
@@ -137,6 +138,20 @@ def _beside(source: Source) -> list[Source]:
             if is_station_xml(one):
                 found.append(one)
     return found
+
+
+@contextlib.contextmanager
+def _without_complaints() -> Iterator[None]:
+    """Neither warnings nor the traces that ObsPy's callbacks print on a damaged header; the error itself comes "
+    "through."""
+    hook = sys.unraisablehook
+    sys.unraisablehook = lambda _: None
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        sys.unraisablehook = hook
 
 
 def _obspy(file: str) -> Any:

@@ -76,6 +76,12 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
         count = math.floor(span / step + 1e-6) + 1
         if count > MAX_SAMPLES:
             raise InputError(f"{name}: {count} samples at a step of {step:g} s; allowed is up to {MAX_SAMPLES}.")
+        if dt is None and count > 100 * len(time) + 1000:
+            raise InputError(
+                f"{name}: the steps of the times range from {steps.min():.4g} to {steps.max():.4g} s, which is a "
+                "gap, not film; "
+                "mend the times, or state a step to resample to: dt=0.01 (--dt 0.01s)."
+            )
         grid = time[0] + step * np.arange(count)
         found = np.interp(grid, time, values)
         return found, float(
