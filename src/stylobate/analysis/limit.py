@@ -1,0 +1,413 @@
+"""Limit analysis of the rigid–plastic column: lower and upper bound by linear programmes, mechanism, active joints."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..column import Column
+from ..constants import DEGREE
+from ..errors import InputError, StylobateError, check_range
+from ..models.block_stack import BlockStack
+
+#: A joint's strength counts as used up when less than this share of it is left [-].
+ACTIVE = 1e-7
+
+FLOWS = ("non-associated", "associated")
+
+_TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+
+
+@dataclass(frozen=True)
+class ActiveJoint:
+    """A joint that takes part in the mechanism.
+
+    Parameters
+    ----------
+    joint : int
+        Counted from 1 at the base.
+    mode : str
+        ``rocking right``, ``rocking left``, ``sliding right``, ``sliding left``: what the part above does.
+    rate : float
+        Relative rotation [rad] or slip [m] per metre that the fastest block moves.
+    """
+
+    joint: int
+    mode: str
+    rate: float
+
+
+@dataclass(frozen=True, eq=False)
+class LimitResult:
+    """Result of :func:`limit_analysis`.
+
+    Parameters
+    ----------
+    multiplier : float
+        Collapse multiplier λ: horizontal forces of λ times the weight make the column a mechanism [g].
+    lower, upper : float
+        Bounds of the static and the kinematic programme [g].
+    mechanism : array
+        Velocities of each block's centroid and its rotation, for a unit horizontal velocity of the fastest block:
+        x, z [m], rotation counter-clockwise positive [rad], shape (n, 3).
+    active : tuple of ActiveJoint
+    compression, shear, eccentricity : array
+        Joint forces at collapse: N [N], V [N] on the part above, towards +x positive, and M/N [m], shape (n,).
+    at_limit : tuple of int
+        Joints whose strength is used up, whether or not the mechanism shown uses them; counted from 1.
+    flow : str
+        Flow rule of the mechanism that is shown.
+    """
+
+    multiplier: float
+    lower: float
+    upper: float
+    mechanism: np.ndarray
+    active: tuple[ActiveJoint, ...]
+    compression: np.ndarray
+    shear: np.ndarray
+    eccentricity: np.ndarray
+    at_limit: tuple[int, ...]
+    flow: str
+
+    @property
+    def governing_joint(self) -> int:
+        """Lowest joint of the mechanism, counted from 1."""
+        return min(item.joint for item in self.active)
+
+
+def limit_analysis(
+    column: Column | BlockStack,
+    *,
+    pattern: Sequence[float] | None = None,
+    base_tilt: float = 0.0,
+    flow: str = "non-associated",
+    compressive_strength: float | None = None,
+) -> LimitResult:
+    """Collapse multiplier of horizontal forces on a column of rigid blocks, from below and from above.
+
+    Parameters
+    ----------
+    column : Column or BlockStack
+    pattern : sequence of float, optional
+        Relative horizontal force on each drum, bottom to top; proportional to mass by default. Their sum is λ W.
+    base_tilt : float
+        Tilt of the base, downhill towards +x [degrees].
+    flow : {"non-associated", "associated"}
+        Flow rule of friction in the mechanism: sliding without or with dilatancy tan φ. In a stack the joint forces
+        follow from equilibrium alone, so that the multiplier is the same.
+    compressive_strength : float, optional
+        f_c of the joints [Pa]; unlimited by default.
+
+    Returns
+    -------
+    LimitResult
+
+    Raises
+    ------
+    InputError
+        The column cannot stand under its own weight, or an argument cannot be used.
+    """
+    if flow not in FLOWS:
+        raise InputError(f"flow is {flow!r}; allowed are {', '.join(FLOWS)}.")
+    stack = column if isinstance(column, BlockStack) else BlockStack.of_column(column)
+    strength = crushing_forces(stack, compressive_strength)
+    dead = gravity_forces(stack, base_tilt)
+    live = horizontal_forces(stack, pattern)
+    check_standing(stack, dead, strength, base_tilt)
+    equilibrium = compatibility(stack)
+    facets = _Facets(stack)
+    lower, forces = _static(equilibrium, dead, live, facets)
+    # The crushing domain is curved: its tangents are added where the last answer left it.  (Kelley's cutting planes)
+    while facets.cut(stack, forces, strength):
+        lower, forces = _static(equilibrium, dead, live, facets)
+    upper, rates, multipliers = _kinematic(equilibrium, dead, live, facets)
+    if flow == "non-associated":
+        rates, multipliers = _non_associated(equilibrium, live, facets, forces)
+    control = _top_movement(rates)
+    return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, flow)
+
+
+# -- loads, shared with the pushover analysis -------------------------------------------------------------------------
+
+
+def gravity_forces(stack: BlockStack, base_tilt: float = 0.0) -> np.ndarray:
+    """Weight of each block in the frame of the base [N, N, N m], shape (n, 3)."""
+    tilt = check_range("base_tilt", base_tilt, -60.0, 60.0, unit="degrees") * DEGREE
+    weight = stack.mass * stack.gravity
+    return np.column_stack((weight * np.sin(tilt), -weight * np.cos(tilt), np.zeros(stack.n)))
+
+
+def horizontal_forces(stack: BlockStack, pattern: Sequence[float] | None = None) -> np.ndarray:
+    """Horizontal forces for λ = 1 g: their sum is the weight [N, N, N m], shape (n, 3)."""
+    share = stack.mass if pattern is None else np.asarray(pattern, dtype=float)
+    if share.shape != (stack.n,):
+        raise InputError(
+            f"the load pattern has {share.size} values for {stack.n} drums; give one value per drum, bottom to top."
+        )
+    if not np.isfinite(share).all() or (share < 0.0).any() or share.sum() <= 0.0:
+        raise InputError("the load pattern must hold finite values ≥ 0 with a positive sum; give relative forces.")
+    forces = np.zeros((stack.n, 3))
+    forces[:, 0] = share / share.sum() * stack.weight
+    return forces
+
+
+def crushing_forces(stack: BlockStack, compressive_strength: float | None) -> np.ndarray:
+    """f_c A of each joint [N], infinite without a limit, shape (n,)."""
+    if compressive_strength is None:
+        return np.full(stack.n, np.inf)
+    return stack.area * check_range(
+        "compressive_strength",
+        compressive_strength,
+        0.0,
+        1e12,
+        unit="Pa",
+        open_low=True,
+        remedy="leave it out for none",
+    )
+
+
+def compatibility(stack: BlockStack) -> np.ndarray:
+    """B: opening, slip and rotation of each joint from the blocks' small displacements, shape (3n, 3n).
+
+    Rows per joint: opening at the joint's middle, slip of the part above along the joint, rotation of the part above
+    relative to the part below. Bᵀ turns the joint forces (N, V, M) on the part above into forces on all blocks.
+    """
+    n = stack.n
+    matrix = np.zeros((3 * n, 3 * n))
+    for i in range(n):
+        c, s = np.cos(stack.angle[i]), np.sin(stack.angle[i])
+        for block, sign in ((i, 1.0), (i - 1, -1.0)):
+            if block < 0:
+                continue
+            arm = stack.joint[i] - stack.centroid[block]
+            rows, columns = slice(3 * i, 3 * i + 3), slice(3 * block, 3 * block + 3)
+            matrix[rows, columns] = sign * np.array(
+                [[-s, c, s * arm[1] + c * arm[0]], [c, s, -c * arm[1] + s * arm[0]], [0.0, 0.0, 1.0]]
+            )
+    return matrix
+
+
+def joint_forces(stack: BlockStack, loads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Compression N, shear V on the part above, and eccentricity of N in each joint under given loads, by equilibrium.
+
+    Parameters
+    ----------
+    stack : BlockStack
+    loads : array
+        Forces and moment on each block [N, N, N m], shape (n, 3).
+
+    Returns
+    -------
+    tuple of array
+        [N], [N], [m], each of shape (n,); the eccentricity is NaN where N is not positive.
+    """
+    forces = np.linalg.solve(compatibility(stack).T, -loads.ravel()).reshape(-1, 3)
+    n = forces[:, 0]
+    return n, forces[:, 1], np.where(n > 0.0, forces[:, 2] / np.where(n > 0.0, n, 1.0), np.nan)
+
+
+def check_standing(stack: BlockStack, dead: np.ndarray, strength: np.ndarray, base_tilt: float = 0.0) -> None:
+    """Refuse a column that cannot stand under its own weight.
+
+    Raises
+    ------
+    InputError
+        Names the joint, what is needed, what there is, and the remedy.
+    """
+    n, v, e = joint_forces(stack, dead)
+    left, right = contact_limits(stack)
+    tilt = f" on a base tilted by {base_tilt:g} degrees" if base_tilt else ""
+    for i in range(stack.n):
+        where = f"joint {i + 1}"
+        if n[i] >= strength[i]:
+            raise InputError(
+                f"{where} crushes under the column's own weight: it carries {n[i]:.4g} N and bears f_c A = "
+                f"{strength[i]:.4g} N; give compressive_strength above {n[i] / stack.area[i]:.4g} Pa."
+            )
+        share = 1.0 - n[i] / strength[i]
+        if abs(v[i]) > stack.friction[i] * n[i] + stack.cohesion[i] + 1e-12 * n[i]:
+            raise InputError(
+                f"{where} slides under the column's own weight{tilt}: it needs a friction coefficient of "
+                f"{(abs(v[i]) - stack.cohesion[i]) / n[i]:.4g} and has {stack.friction[i]:.4g}; raise the friction "
+                "or lower the tilt."
+            )
+        if not left[i] * share <= e[i] <= right[i] * share:
+            raise InputError(
+                f"the part above {where} overturns under its own weight{tilt}: its weight acts {e[i]:.4g} m from the "
+                f"middle of the joint, allowed is {left[i] * share:.4g} to {right[i] * share:.4g} m; lower the tilt."
+            )
+
+
+def contact_limits(stack: BlockStack) -> tuple[np.ndarray, np.ndarray]:
+    """Left and right end of each contact section, from the joint's middle [m], each of shape (n,)."""
+    left = np.maximum(stack.upper_reach[:, 0], stack.lower_reach[:, 0])
+    right = np.minimum(stack.upper_reach[:, 1], stack.lower_reach[:, 1])
+    return left, right
+
+
+# -- the programmes ---------------------------------------------------------------------------------------------------
+
+
+class _Facets:
+    """Strength of all joints as rows f · (N, V, M) ≤ k, each with the place, kind and flow of its joint."""
+
+    def __init__(self, stack: BlockStack) -> None:
+        self.rows: list[np.ndarray] = []
+        self.bound: list[float] = []
+        self.joint: list[int] = []
+        self.kind: list[str] = []
+        left, right = contact_limits(stack)
+        self.left, self.right = left, right
+        for i in range(stack.n):
+            mu, cohesion = stack.friction[i], stack.cohesion[i]
+            # M = N e: the eccentricity stays inside the contact section.  # formulation section 4
+            self.add(i, [-right[i], 0.0, 1.0], 0.0, "rocking right")
+            self.add(i, [left[i], 0.0, -1.0], 0.0, "rocking left")
+            # |V| ≤ c A + N tan φ; V acts on the part above: towards −x when that slides to the right.
+            self.add(i, [-mu, -1.0, 0.0], cohesion, "sliding right")
+            self.add(i, [-mu, 1.0, 0.0], cohesion, "sliding left")
+
+    def add(self, joint: int, row: Sequence[float], bound: float, kind: str) -> None:
+        self.rows.append(np.asarray(row, dtype=float))
+        self.bound.append(bound)
+        self.joint.append(joint)
+        self.kind.append(kind)
+
+    def cut(self, stack: BlockStack, forces: np.ndarray, strength: np.ndarray) -> bool:
+        """Add tangents of the crushing domain M ≤ N a (1 − N/(f_c A)) that the forces (N, V, M) violate."""
+        added = False
+        for i in map(int, np.flatnonzero(np.isfinite(strength))):
+            n, _, m = forces[i]
+            for half, sign, kind in ((self.right[i], 1.0, "rocking right"), (-self.left[i], -1.0, "rocking left")):
+                if sign * m > half * n * (1.0 - n / strength[i]) + 1e-10 * half * n:
+                    # Tangent at N: M ≤ a [N (1 − 2 n/F) + n²/F].
+                    slope, offset = half * (1.0 - 2.0 * n / strength[i]), half * n * n / strength[i]
+                    self.add(i, [-slope, 0.0, sign], offset, kind)
+                    added = True
+        return added
+
+    def matrix(self, n: int, *, dilatancy: bool = True) -> np.ndarray:
+        """Rows as one matrix of shape (facets, 3 n); without dilatancy the flow of friction has no opening."""
+        out = np.zeros((len(self.rows), 3 * n))
+        for k, (row, i, kind) in enumerate(zip(self.rows, self.joint, self.kind)):
+            out[k, 3 * i : 3 * i + 3] = row
+            if not dilatancy and kind.startswith("sliding"):
+                out[k, 3 * i] = 0.0
+        return out
+
+
+def _static(equilibrium: np.ndarray, dead: np.ndarray, live: np.ndarray, facets: _Facets) -> tuple[float, np.ndarray]:
+    """Largest λ in equilibrium with admissible joint forces (lower bound theorem)."""
+    from scipy.optimize import linprog
+
+    size = dead.size
+    scale = np.abs(dead).max()
+    balance = np.column_stack((equilibrium.T, live.ravel() / scale))
+    strength = np.column_stack((facets.matrix(size // 3), np.zeros(len(facets.rows))))
+    found = linprog(
+        np.append(np.zeros(size), -1.0),
+        A_ub=strength,
+        b_ub=np.array(facets.bound) / scale,
+        A_eq=balance,
+        b_eq=-dead.ravel() / scale,
+        bounds=(None, None),
+        method="highs",
+        options=_TIGHT,
+    )
+    _check_solved(found, "static")
+    return float(found.x[-1]), found.x[:-1].reshape(-1, 3) * scale
+
+
+def _kinematic(
+    equilibrium: np.ndarray, dead: np.ndarray, live: np.ndarray, facets: _Facets
+) -> tuple[float, np.ndarray, np.ndarray]:
+    """Smallest λ = (dissipation − power of gravity) / (power of the live load), associated flow (upper bound)."""
+    from scipy.optimize import linprog
+
+    size = dead.size
+    scale = np.abs(dead).max()
+    flow = facets.matrix(size // 3)
+    # Normality: what the joints dissipate is −(N, V, M) · B q̇, so that B q̇ + Σ γ f = 0.
+    compatible = np.column_stack((equilibrium, flow.T))
+    power = np.append(live.ravel() / scale, np.zeros(len(flow)))
+    found = linprog(
+        np.append(-dead.ravel() / scale, np.array(facets.bound) / scale),
+        A_eq=np.vstack((compatible, power)),
+        b_eq=np.append(np.zeros(size), 1.0),
+        bounds=[(None, None)] * size + [(0.0, None)] * len(flow),
+        method="highs",
+        options=_TIGHT,
+    )
+    _check_solved(found, "kinematic")
+    return float(found.fun), found.x[:size].reshape(-1, 3), found.x[size:]
+
+
+def _non_associated(
+    equilibrium: np.ndarray, live: np.ndarray, facets: _Facets, forces: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Mechanism of the facets that the joint forces use up, friction without dilatancy: the one of least movement."""
+    from scipy.optimize import linprog
+
+    size = live.size
+    scale = np.abs(live).max()
+    left_over = np.array(facets.bound) - facets.matrix(size // 3) @ forces.ravel()
+    used = left_over < ACTIVE * forces[facets.joint, 0]
+    flow = facets.matrix(size // 3, dilatancy=False)
+    compatible = np.column_stack((equilibrium, flow.T))
+    power = np.append(live.ravel() / scale, np.zeros(len(flow)))
+    found = linprog(
+        np.append(np.zeros(size), np.ones(len(flow))),
+        A_eq=np.vstack((compatible, power)),
+        b_eq=np.append(np.zeros(size), 1.0),
+        bounds=[(None, None)] * size + [(0.0, None if use else 0.0) for use in used],
+        method="highs",
+        options=_TIGHT,
+    )
+    _check_solved(found, "mechanism")
+    return found.x[:size].reshape(-1, 3), found.x[size:]
+
+
+def _check_solved(found, which: str) -> None:
+    if found.status != 0:
+        raise StylobateError(f"the {which} programme of the limit analysis was not solved: {found.message}")
+
+
+def _result(
+    stack: BlockStack,
+    lower: float,
+    upper: float,
+    forces: np.ndarray,
+    rates: np.ndarray,
+    multipliers: np.ndarray,
+    facets: _Facets,
+    flow: str,
+) -> LimitResult:
+    threshold = ACTIVE * multipliers.max()
+    active = [
+        ActiveJoint(facets.joint[k] + 1, facets.kind[k], float(rate))
+        for k, rate in enumerate(multipliers)
+        if rate > threshold
+    ]
+    left_over = np.array(facets.bound) - facets.matrix(stack.n) @ forces.ravel()
+    used = left_over < ACTIVE * forces[facets.joint, 0]
+    n = forces[:, 0]
+    return LimitResult(
+        multiplier=0.5 * (lower + upper),
+        lower=lower,
+        upper=upper,
+        mechanism=rates,
+        active=tuple(sorted(active, key=lambda item: item.joint)),
+        compression=n,
+        shear=forces[:, 1],
+        eccentricity=forces[:, 2] / np.where(n > 0.0, n, np.nan),
+        at_limit=tuple(sorted({facets.joint[k] + 1 for k in np.flatnonzero(used)})),
+        flow=flow,
+    )
+
+
+def _top_movement(rates: np.ndarray) -> float:
+    """Largest horizontal velocity of a block: the measure that makes a mechanism comparable."""
+    return float(np.abs(rates[:, 0]).max())

@@ -1,0 +1,171 @@
+"""Limit analysis against closed forms: both bounds, every mechanism."""
+
+import math
+
+import numpy as np
+import pytest
+
+from stylobate.analysis.limit import limit_analysis
+from stylobate.column import Column, Drum, Joint, preset
+from stylobate.errors import InputError
+from stylobate.models.block_stack import BlockStack
+
+JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)
+
+
+def overturning(column: Column) -> tuple[float, int]:
+    """Smallest half width over height of the centroid above the joint, over all joints."""
+    values = column.joint_uplift_accelerations / column.gravity
+    return float(values.min()), int(values.argmin()) + 1
+
+
+@pytest.mark.parametrize("flow", ["associated", "non-associated"])
+@pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])
+def test_both_bounds_meet_the_overturning_multiplier(name, flow):
+    column = preset(name)
+    found = limit_analysis(column, flow=flow)
+    expected, joint = overturning(column)
+    assert found.lower == pytest.approx(expected, rel=1e-9)
+    assert found.upper == pytest.approx(expected, rel=1e-9)
+    assert [(item.joint, item.mode) for item in found.active] == [(joint, "rocking right")]
+    # A rigid rotation about the right corner: ẋ = z θ̇, ż = −(x − d/2) θ̇.
+    turn = -found.mechanism[:, 2]
+    assert np.allclose(found.mechanism[:, 0], turn * column.centroid_heights)
+    assert np.allclose(found.mechanism[:, 1], turn * column.base_width / 2)
+
+
+@pytest.mark.parametrize(("section", "drums"), [("circular", 1), ("circular", 12), ("rectangular", 1)])
+def test_cone_and_prism(section, drums):
+    column = Column.tapered(
+        height=5.0, bottom_width=0.96, top_width=0.66, drums=drums, density=1600.0, joint=JOINT, section=section
+    )
+    assert limit_analysis(column).multiplier == pytest.approx(0.21869 if section == "circular" else 0.20463, abs=5e-6)
+    if drums == 1 and section == "rectangular":
+        assert limit_analysis(column.as_prism()).multiplier == pytest.approx(0.81 / 5.0, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])
+def test_low_friction_changes_the_mechanism_to_sliding_at_tan_phi(name):
+    column = preset(name).with_joint(friction_angle=8.0)
+    mu = math.tan(math.radians(8.0))
+    for flow, dilatancy in (("non-associated", 0.0), ("associated", mu)):
+        found = limit_analysis(column, flow=flow)
+        assert found.lower == pytest.approx(mu, rel=1e-9)
+        assert found.upper == pytest.approx(mu, rel=1e-9)
+        assert {item.mode for item in found.active} == {"sliding right"}
+        # Every joint reaches its friction at once, and the flow rule decides how the mechanism lifts.
+        assert found.at_limit == tuple(range(1, column.n + 1))
+        moving = found.mechanism[-1]
+        assert moving[1] == pytest.approx(dilatancy * moving[0], abs=1e-9)
+
+
+def test_cohesion_adds_to_friction():
+    column = preset("paper-monolithic").with_joint(friction_angle=8.0, cohesion=1000.0)
+    expected = math.tan(math.radians(8.0)) + 1000.0 * 0.96 / (column.mass * column.gravity)
+    assert limit_analysis(column).multiplier == pytest.approx(expected, rel=1e-9)
+
+
+def test_one_slippery_joint_governs():
+    column = Column.tapered(
+        height=5.0, bottom_width=0.96, top_width=0.66, drums=6, density=1600.0, joint=JOINT,
+        overrides={4: Joint(5e10, 2.5e10, friction_angle=6.0)},
+    )  # fmt: skip
+    found = limit_analysis(column)
+    assert found.multiplier == pytest.approx(math.tan(math.radians(6.0)), rel=1e-9)
+    assert found.at_limit == (4,)
+    assert np.allclose(found.mechanism[:3], 0.0, atol=1e-12)
+    assert np.allclose(found.mechanism[3:, 0], 1.0)
+
+
+def test_unequal_drums_rock_about_the_narrow_neck():
+    drums = [Drum(1.0, 1.2, 1.0, 2000.0), Drum(0.7, 0.5, 0.6, 2200.0), Drum(2.0, 0.8, 0.7, 1800.0)]
+    with pytest.warns(UserWarning, match="widens"):
+        column = Column.of_drums(drums, JOINT)
+    expected, joint = overturning(column)
+    found = limit_analysis(column)
+    assert joint == 2
+    assert found.multiplier == pytest.approx(expected, rel=1e-9)
+    assert found.governing_joint == joint
+
+
+def test_a_load_pattern_moves_the_resultant():
+    column = preset("paper-12-drums")
+    share = column.masses * column.centroid_heights
+    found = limit_analysis(column, pattern=share)
+    force = share / share.sum() * column.joint_weights[0]
+    limits = [
+        column.joint_weights[i]
+        * column.joint_widths[i]
+        / 2
+        / float(force[i:] @ (column.centroid_heights[i:] - column.joint_heights[i]))
+        for i in range(column.n)
+    ]
+    assert found.multiplier == pytest.approx(min(limits), rel=1e-9)
+    assert found.governing_joint == int(np.argmin(limits)) + 1
+
+
+def test_a_tilted_base_uses_up_part_of_the_multiplier():
+    column = preset("paper-monolithic")
+    tilt = math.radians(3.0)
+    expected = math.cos(tilt) * math.tan(column.slenderness) - math.sin(tilt)
+    assert limit_analysis(column, base_tilt=3.0).multiplier == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("drums", [1, 12])
+def test_compressive_strength_shortens_the_lever_arm(drums):
+    column = Column.tapered(
+        height=5.0, bottom_width=0.96, top_width=0.66, drums=drums, density=1600.0, joint=JOINT
+    )  # fmt: skip
+    strength = 3.0e5
+    expected = math.tan(column.slenderness) * (1.0 - column.joint_weights[0] / (strength * 0.96))
+    found = limit_analysis(column, compressive_strength=strength)
+    assert found.lower == pytest.approx(expected, rel=1e-6)
+    assert found.upper == pytest.approx(expected, rel=1e-6)
+
+
+def test_quadrilaterals_equal_the_column_and_may_lean():
+    column = preset("paper-12-drums")
+    outlines = BlockStack.of_column(column).outlines
+    stack = BlockStack.of_quadrilaterals(outlines, column.joints[0], density=1600.0)
+    assert np.allclose(stack.inertia, column.inertias, rtol=1e-12)
+    assert np.allclose(stack.centroid[:, 1], column.centroid_heights, rtol=1e-12)
+    assert limit_analysis(stack).multiplier == pytest.approx(limit_analysis(column).multiplier, rel=1e-12)
+    # A parallelogram: its centroid stands off the middle by half the lean.
+    lean = np.array([[[-0.5, 0.0], [0.5, 0.0], [0.7, 4.0], [-0.3, 4.0]]])
+    found = limit_analysis(BlockStack.of_quadrilaterals(lean, JOINT, density=2000.0))
+    assert found.multiplier == pytest.approx((0.5 - 0.1) / 2.0, rel=1e-9)
+
+
+def test_an_inclined_joint_slides_at_the_difference_of_the_angles():
+    # Joint inclined by β, downhill to the right: the part above slides to the right at tan(φ − β).
+    beta, phi = math.radians(10.0), math.radians(15.0)
+    drop = math.tan(beta)
+    outlines = [
+        [[-2.0, 0.0], [2.0, 0.0], [2.0, 1.0 - drop], [-2.0, 1.0 + 3 * drop]],
+        [[-1.0, 1.0 + 2 * drop], [1.0, 1.0], [1.0, 1.5], [-1.0, 1.5 + drop]],
+    ]
+    stack = BlockStack.of_quadrilaterals(outlines, [JOINT, Joint(5e10, 2.5e10, friction_angle=15.0)], density=2000.0)
+    found = limit_analysis(stack)
+    # λ W acts on both blocks; the part above needs λ at its own weight.
+    assert found.multiplier == pytest.approx(math.tan(phi - beta), rel=1e-9)
+    assert found.at_limit == (2,)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"compressive_strength": 3.0e4}, "crushes under the column's own weight"),
+        ({"pattern": [1.0, 1.0]}, "2 values for 12 drums"),
+        ({"pattern": [-1.0] * 12}, "positive sum"),
+        ({"base_tilt": 40.0}, "lower the tilt"),
+        ({"flow": "plastic"}, "allowed are"),
+    ],
+)
+def test_bad_input_is_one_sentence(change, words):
+    with pytest.raises(InputError, match=words):
+        limit_analysis(preset("paper-12-drums"), **change)
+
+
+def test_no_friction_on_a_tilted_base():
+    with pytest.raises(InputError, match="slides under the column's own weight"):
+        limit_analysis(preset("paper-12-drums").with_joint(friction_angle=0.0), base_tilt=1.0)

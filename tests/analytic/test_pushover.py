@@ -1,0 +1,173 @@
+"""Pushover against closed forms: peak, softening branch, mechanism; both controls; equilibrium of the exact tangent."""
+
+import math
+
+import numpy as np
+import pytest
+
+from stylobate.analysis.limit import crushing_forces, gravity_forces, horizontal_forces, limit_analysis
+from stylobate.analysis.pushover import STATES, _Path, pushover
+from stylobate.column import Column, Drum, Joint, preset
+from stylobate.errors import InputError
+from stylobate.models.block_stack import BlockStack
+
+JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)
+
+
+def tapered(drums: int, section: str = "rectangular") -> Column:
+    return Column.tapered(
+        height=5.0, bottom_width=0.96, top_width=0.66, drums=drums, density=1600.0, joint=JOINT, section=section
+    )
+
+
+@pytest.mark.parametrize("control", ["displacement", "arc-length"])
+@pytest.mark.parametrize(
+    ("column", "multiplier"),
+    [
+        (preset("paper-monolithic"), 0.20463),
+        (preset("paper-12-drums"), 0.20463),
+        (tapered(1, "circular"), 0.21869),
+        (tapered(12, "circular"), 0.21869),
+        (preset("paper-monolithic").as_prism(), 0.16200),
+    ],
+)
+def test_peak_and_zero_of_the_softening_branch(column, multiplier, control):
+    found = pushover(column, control=control)
+    assert found.complete, found.stop
+    # The joints' elasticity takes 2e-4 off the rigid multiplier at most (the stiffness is 5e10 N/m³).
+    assert found.collapse_multiplier == pytest.approx(multiplier, rel=2.5e-4)
+    assert found.governing_joint == 1
+    # λ(θ) = tan(α − θ): zero where the centroid stands above the corner. The elastic joints above add 1e-4.
+    assert -found.rotation_at_zero(1) == pytest.approx(column.slenderness, rel=2e-4)
+    behind = slice(found.peak + 5, None)
+    expected = np.tan(column.slenderness + found.rotation[behind, 0])
+    assert np.allclose(found.multiplier[behind], expected, atol=2e-4)
+    # The top's displacement at that rotation: the top turns about the corner.
+    turn, half = column.slenderness, column.base_width / 2
+    top = half * (1 - math.cos(turn)) + column.height * math.sin(turn)
+    assert found.ultimate_displacement == pytest.approx(top, rel=2e-3)
+
+
+@pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])
+def test_without_geometric_nonlinearity_the_peak_is_a_plateau(name):
+    found = pushover(preset(name), geometric=False, to=0.2)
+    expected = limit_analysis(preset(name)).multiplier
+    assert found.complete
+    assert found.displacement[-1] == pytest.approx(0.2, rel=1e-9)
+    # Newton stops at about 1e-8 of the weight per block, which is where the joints' stiffness rounds.
+    assert found.collapse_multiplier == pytest.approx(expected, abs=5e-7)
+    assert found.multiplier[-1] == pytest.approx(expected, abs=5e-7)
+    assert math.isnan(found.ultimate_displacement)
+
+
+def test_the_elastic_branch_has_the_stiffness_of_the_joint():
+    # One block on its joint: u_top = λ W (z_C H / k_n J + 1 / k_s A), with a dead load that stays put.
+    column = preset("paper-monolithic")
+    found = pushover(column, geometric=False, to=0.01)
+    weight, second, area = column.joint_weights[0], column.joint_second_moments[0], column.joint_areas[0]
+    soft = weight * (column.centroid_height * column.height / (5e10 * second) + 1.0 / (2.5e10 * area))
+    elastic = (found.states[:, 0] == STATES.index("elastic")) & (found.multiplier > 0.0)
+    assert elastic.sum() > 5
+    assert np.allclose(found.displacement[elastic], soft * found.multiplier[elastic], rtol=1e-7)
+
+
+@pytest.mark.parametrize("drums", [1, 12])
+def test_low_friction_slides_on_a_plateau(drums):
+    column = tapered(drums).with_joint(friction_angle=8.0)
+    found = pushover(column, geometric=False, to=0.02)
+    mu = math.tan(math.radians(8.0))
+    assert found.collapse_multiplier == pytest.approx(mu, abs=5e-7)
+    assert (found.states[-1] == STATES.index("sliding")).any()
+    assert found.slip[-1].sum() == pytest.approx(0.02, rel=2e-2)
+
+
+def test_joint_forces_are_those_of_equilibrium():
+    column = preset("paper-12-drums")
+    found = pushover(column, geometric=False, to=0.01)
+    assert np.allclose(found.compression, column.joint_weights, rtol=1e-7)
+    # The part above pushes the joint with λ times its weight; the joint holds it back.
+    assert np.allclose(
+        found.shear, -found.multiplier[:, None] * column.joint_weights, atol=1e-6 * column.joint_weights[0]
+    )
+
+
+@pytest.mark.parametrize("geometric", [True, False])
+def test_the_weak_joint_governs(geometric):
+    drums = [Drum(1.0, 1.2, 1.0, 2000.0), Drum(0.7, 0.5, 0.5, 2200.0), Drum(2.0, 0.8, 0.7, 1800.0)]
+    column = Column.of_drums(drums, JOINT)
+    found = pushover(column, geometric=geometric, to=0.1)
+    expected = limit_analysis(column)
+    assert found.collapse_multiplier == pytest.approx(expected.multiplier, rel=1e-3)
+    assert found.governing_joint == expected.governing_joint == 2
+    # The mechanism is that of the limit analysis: to first order with large rotations, else the same.
+    assert np.allclose(found.mechanism, expected.mechanism, atol=0.06 if geometric else 1e-3)
+
+
+def test_compressive_strength_lowers_the_peak():
+    column = preset("paper-12-drums")
+    found = pushover(column, compressive_strength=3.0e5)
+    assert found.collapse_multiplier == pytest.approx(
+        limit_analysis(column, compressive_strength=3.0e5).multiplier, rel=1e-3
+    )
+
+
+def test_softer_joints_lower_the_peak():
+    # Second order: the peak lies on the softening branch at the rotation at which the joint gives way.
+    peaks = []
+    for stiffness in (5e10, 5e8, 5e7):
+        joint = Joint(stiffness, stiffness / 2, friction_angle=35.0)
+        column = Column.tapered(
+            height=5.0, bottom_width=0.96, top_width=0.66, drums=1, density=1600.0, joint=joint
+        )  # fmt: skip
+        peaks.append(pushover(column, to=0.5).collapse_multiplier)
+        # M = N d/2 is reached at θ = N d / (2 k_n J); λ there is tan(α − θ) up to second order.
+        turn = column.joint_weights[0] * 0.48 / (stiffness * column.joint_second_moments[0])
+        assert peaks[-1] == pytest.approx(math.tan(column.slenderness - turn), rel=3e-4)
+    assert peaks[0] > peaks[1] > peaks[2]
+
+
+def test_the_tangent_is_the_derivative_of_the_forces():
+    outlines = [
+        [[-0.5, 0.0], [0.6, 0.1], [0.5, 1.2], [-0.3, 1.0]],
+        [[-0.3, 1.0], [0.5, 1.2], [0.4, 2.0], [-0.3, 2.1]],
+    ]
+    stack = BlockStack.of_quadrilaterals(outlines, Joint(1e5, 1e5, friction_angle=50.0), density=2000.0)
+    path = _Path(stack, gravity_forces(stack), horizontal_forces(stack), crushing_forces(stack, None), True)
+    seen = set()
+    for seed in range(12):
+        place = np.random.default_rng(seed).normal(size=(2, 3)) * 0.2 - [[0.0, 0.3, 0.0], [0.0, 0.6, 0.0]]
+        path.memory[:] = [0.0, 0.0, 1.0, 0.0, 9.0, 9.0]
+        path.residual(place, 0.0)
+        path.memory[:, :3] = path.after[:, :3] * [0.5, 1.0, 1.0]
+        path.residual(place, 0.0)
+        exact = path.stiffness.copy()
+        seen |= set(path.report[:, 3].astype(int))
+        step = 1e-7
+        for j in range(6):
+            move = step * np.eye(6)[j].reshape(2, 3)
+            change = (path.residual(place + move, 0.0) - path.residual(place - move, 0.0)) / (2 * step)
+            assert np.allclose(exact[:, j], -change, atol=1e-7 * np.abs(exact).max())
+    assert len(seen) >= 3
+
+
+def test_a_lost_path_says_where_and_keeps_its_curve(monkeypatch):
+    monkeypatch.setattr("stylobate.analysis.pushover.MAX_ITERATIONS", 1)
+    monkeypatch.setattr("stylobate.analysis.pushover.MAX_CUTS", 1)
+    found = pushover(preset("paper-12-drums"))
+    assert not found.complete
+    assert found.stop.startswith(f"step {len(found.multiplier)}: ")
+    assert len(found.to_frame()) == len(found.multiplier) >= 1
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"to": -0.1}, "control displacement is -0.1"),
+        ({"pattern": [1.0] * 11}, "11 values for 12 drums"),
+        ({"compressive_strength": 1e4}, "crushes under the column's own weight"),
+        ({"control": "force"}, "allowed are displacement, arc-length"),
+    ],
+)
+def test_bad_input_is_one_sentence(change, words):
+    with pytest.raises(InputError, match=words):
+        pushover(preset("paper-12-drums"), **change)
