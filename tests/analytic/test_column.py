@@ -1,0 +1,132 @@
+"""Closed-form properties of drums and columns: printed values, and quadrature over the height."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+
+import stylobate as st
+from stylobate.column.presets import preset
+
+JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
+SHAPES = [(0.82, 1.11, 1.08), (5.0, 0.96, 0.66), (0.3, 2.0, 0.4), (1.0, 0.5, 0.9), (1.0, 1.0, 1.0)]
+
+
+def paper_column(drums=1, section="rectangular"):
+    return st.Column.tapered(
+        height=5.0, bottom_width=0.96, top_width=0.66, drums=drums, density=1600.0, joint=JOINT, section=section
+    )
+
+
+# Baraldi et al. print 0.16 and 0.205 for the first two; the others follow from the geometry (formulation §9).
+@pytest.mark.parametrize(
+    ("column", "tan_alpha", "p", "e"),
+    [
+        (paper_column().as_prism(), 0.1620, 1.7044, 0.9616),
+        (paper_column(), 0.2046, 1.7299, 0.9413),
+        (paper_column(section="circular"), 0.2187, 1.7619, 0.9351),
+    ],
+    ids=["prism", "trapezium", "cone"],
+)
+def test_slenderness_frequency_parameter_and_restitution(column, tan_alpha, p, e):
+    half = 0.5e-4  # the values have four decimals
+    assert math.tan(column.slenderness) == pytest.approx(tan_alpha, abs=half)
+    assert column.frequency_parameter == pytest.approx(p, abs=half)
+    assert column.restitution == pytest.approx(e, abs=half)
+    assert column.uplift_acceleration / st.g == pytest.approx(tan_alpha, abs=half)
+
+
+@pytest.mark.parametrize("section", ["rectangular", "circular"])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_mass_centroid_and_inertia_against_quadrature(shape, section):
+    height, bottom, top = shape
+    drum = st.Drum(height, bottom, top, density=2400.0, section=section, depth=0.7)
+
+    def width(z):
+        return bottom + (top - bottom) * z / height
+
+    def area(z):
+        return math.pi * width(z) ** 2 / 4 if section == "circular" else 0.7 * width(z)
+
+    def own_second_moment(z):
+        return math.pi * width(z) ** 4 / 64 if section == "circular" else 0.7 * width(z) ** 3 / 12
+
+    volume = quad(area, 0, height, epsabs=0, epsrel=1e-13)[0]
+    centroid = quad(lambda z: z * area(z), 0, height, epsabs=0, epsrel=1e-13)[0] / volume
+    inertia = quad(lambda z: own_second_moment(z) + area(z) * (z - centroid) ** 2, 0, height, epsabs=0, epsrel=1e-13)[0]
+    assert drum.mass == pytest.approx(2400.0 * volume, rel=1e-12)
+    assert drum.centroid_height == pytest.approx(centroid, rel=1e-12)
+    assert drum.inertia == pytest.approx(2400.0 * inertia, rel=1e-12)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_inertia_of_the_trapezium_in_closed_form(shape):
+    h, b, t = shape
+    drum = st.Drum(h, b, t, density=1600.0, depth=2.0)
+    closed = 1600.0 * 2.0 * (h**3 * (b**2 + 4 * b * t + t**2) / (36 * (b + t)) + h * (b + t) * (b**2 + t**2) / 48)
+    assert drum.inertia == pytest.approx(closed, rel=1e-13)
+
+
+@pytest.mark.parametrize("section", ["rectangular", "circular"])
+def test_a_stack_of_drums_is_the_monolith(section):
+    whole, stack = paper_column(1, section), paper_column(12, section)
+    for name in ("height", "mass", "centroid_height", "slenderness", "radius", "corner_inertia", "restitution"):
+        assert getattr(stack, name) == pytest.approx(getattr(whole, name), rel=1e-12), name
+    assert stack.frequency_parameter == pytest.approx(whole.frequency_parameter, rel=1e-12)
+    assert stack.uplift_acceleration == pytest.approx(whole.uplift_acceleration, rel=1e-12)
+    assert stack.joint_weights[0] == pytest.approx(whole.mass * st.g, rel=1e-12)
+
+
+def test_uplift_of_a_joint_is_that_of_the_part_above_it():
+    column = paper_column(12)
+    for i in range(12):
+        above = st.Column(column.drums[i:], column.joints[i:])
+        assert column.joint_uplift_accelerations[i] == pytest.approx(st.g * math.tan(above.slenderness), rel=1e-12)
+
+
+def test_contact_section_is_the_smaller_of_two_faces():
+    drums = [st.Drum(1.0, 1.0, 0.8, 2000.0, depth=2.0), st.Drum(1.0, 0.9, 0.5, 2000.0, depth=1.5)]
+    column = st.Column.of_drums(drums, JOINT)
+    np.testing.assert_allclose(column.joint_widths, [1.0, 0.8])
+    np.testing.assert_allclose(column.joint_areas, [2.0, 1.2])
+    np.testing.assert_allclose(column.joint_second_moments, [2.0 / 12, 1.5 * 0.8**3 / 12])
+    round_column = st.Column.of_drums([st.Drum(1.0, 1.0, 0.8, 2000.0, section="circular")], JOINT)
+    assert round_column.joint_areas[0] == pytest.approx(math.pi / 4)
+    assert round_column.joint_second_moments[0] == pytest.approx(math.pi / 64)
+
+
+def test_presets_are_the_columns_of_the_paper():
+    for name, drums in (("paper-monolithic", 1), ("paper-12-drums", 12)):
+        column = preset(name)
+        assert column.n == drums
+        assert column.mass == pytest.approx(1600.0 * 5.0 * 0.81, rel=1e-12)
+        assert {joint.normal_stiffness for joint in column.joints} == {5e10}
+        assert {joint.shear_stiffness for joint in column.joints} == {2.5e10}
+
+
+def test_a_drum_that_widens_upward_is_said_and_computed():
+    with pytest.warns(st.OutOfRangeWarning, match=r"drum 1 of .* widens upward"):
+        column = st.Column.of_drums([st.Drum(1.0, 0.5, 0.9, 2000.0)], JOINT)
+    assert column.base_width == 0.5
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: st.Drum(-1.0, 1.0, 1.0, 2000.0), ["height", "-1 m", "(0, 1000] m"]),
+        (lambda: st.Drum(1.0, 1.0, 1.0, math.nan), ["density", "nan"]),
+        (lambda: st.Drum(1.0, 1.0, 1.0, 2000.0, section="round"), ["'round'", "circular, rectangular"]),
+        (lambda: st.Joint(0.0, 1e10), ["normal_stiffness", "0 N/m³", "rigid joint"]),
+        (lambda: st.Joint(1e10, 1e10, friction_angle=90.0), ["friction_angle", "90", "[0, 90) degrees"]),
+        (lambda: st.Joint(1e10, 1e10, friction_angle=30.0, friction_coefficient=0.5), ["both given"]),
+        (lambda: paper_column(0), ["drums is 0", "1 to 200"]),
+        (lambda: paper_column(10**6), ["drums is 1000000", "1 to 200"]),
+        (lambda: st.Column((), ()), ["0 drums"]),
+    ],
+)
+def test_impossible_columns_are_refused_in_one_sentence(make, words):
+    with pytest.raises(st.InputError) as error:
+        make()
+    for word in words:
+        assert word in str(error.value)

@@ -1,0 +1,191 @@
+"""Column files: what is written is read back equal, and every mistake is one sentence."""
+
+import warnings
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as some
+
+import stylobate as st
+from stylobate.column.files import column_from_dict, load_column, read_column, write_column
+from stylobate.column.presets import PRESETS, preset
+
+LENGTHS = some.floats(1e-3, 1e3)
+
+
+@some.composite
+def joints(draw):
+    friction = draw(some.sampled_from(["friction_angle", "friction_coefficient"]))
+    value = draw(some.floats(0.0, 89.9)) if friction == "friction_angle" else draw(some.floats(0.0, 100.0))
+    stiffness = some.floats(1.0, 1e15)
+    return st.Joint(draw(stiffness), draw(stiffness), cohesion=draw(some.floats(0.0, 1e9)), **{friction: value})
+
+
+@some.composite
+def columns(draw):
+    section = draw(some.sampled_from(["circular", "rectangular"]))
+    n = draw(some.integers(1, 6))
+    drums = [
+        st.Drum(
+            draw(LENGTHS),
+            draw(LENGTHS),
+            draw(LENGTHS),
+            draw(some.floats(1.0, 1e5)),
+            section,
+            draw(LENGTHS) if section == "rectangular" else 1.0,
+        )
+        for _ in range(n)
+    ]
+    name = draw(some.text(some.characters(exclude_categories=["Cs"]), max_size=20))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", st.OutOfRangeWarning)
+        return st.Column(tuple(drums), tuple(draw(joints()) for _ in range(n)), name, draw(some.floats(0.1, 100.0)))
+
+
+@given(column=columns())
+def test_a_written_column_is_read_back_equal(column, tmp_path_factory):
+    path = write_column(column, tmp_path_factory.getbasetemp() / "round.toml")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", st.OutOfRangeWarning)
+        assert read_column(path) == column
+        assert column_from_dict(column.to_dict()) == column
+
+
+@pytest.mark.parametrize("name", PRESETS)
+def test_presets_survive_a_file(name, tmp_path):
+    path = write_column(preset(name), tmp_path / "column.toml")
+    assert load_column(path) == load_column(name) == st.Column.from_toml(path)
+    assert [file.name for file in tmp_path.iterdir()] == ["column.toml"]
+
+
+TAPERED = """\
+name = "paper, 12 drums"
+section = "rectangular"
+depth = 1.0
+density = 1600.0
+
+[tapered]
+height = 5.0
+bottom_width = 0.96
+top_width = 0.66
+drums = 12
+
+[joint]
+normal_stiffness = 5.0e10
+shear_stiffness = 2.5e10
+friction_angle = 35.0
+"""
+DRUMS = """\
+density = 2620.0
+[[drum]]
+height = 0.82
+bottom_width = 1.11
+top_width = 1.08
+[[drum]]
+height = 1
+bottom_width = 1.08
+top_width = 1.0
+density = 2000.0
+[joint]
+normal_stiffness = 5e10
+shear_stiffness = 2.5e10
+friction_coefficient = 0.70
+[[joint_override]]
+index = 2
+friction_angle = 25.0
+"""
+
+
+def test_both_ways_of_stating_drums(tmp_path):
+    path = tmp_path / "column.toml"
+    path.write_text(TAPERED)
+    tapered = read_column(path)
+    assert tapered == st.Column.tapered(
+        height=5.0,
+        bottom_width=0.96,
+        top_width=0.66,
+        drums=12,
+        density=1600.0,
+        joint=st.Joint(5e10, 2.5e10, friction_angle=35.0),
+        name="paper, 12 drums",
+    )
+    path.write_text(DRUMS)
+    column = read_column(path)
+    assert column.name == "column"
+    assert [drum.density for drum in column.drums] == [2620.0, 2000.0]
+    assert column.joints[0].friction_coefficient == 0.70
+    assert column.joints[1] == st.Joint(5e10, 2.5e10, friction_angle=25.0)
+
+
+@given(data=some.data())
+def test_a_misspelt_key_is_named_with_the_right_one(data, tmp_path_factory):
+    lines = TAPERED.splitlines()
+    at = data.draw(some.sampled_from([i for i, line in enumerate(lines) if "=" in line]))
+    key, _, value = lines[at].partition(" = ")
+    cut = data.draw(some.integers(0, len(key) - 1))
+    wrong = key[:cut] + key[cut + 1 :]
+    lines[at] = f"{wrong} = {value}"
+    path = tmp_path_factory.getbasetemp() / "misspelt.toml"
+    path.write_text("\n".join(lines))
+    with pytest.raises(st.InputError) as error:
+        read_column(path)
+    assert f"unknown key '{wrong}'" in str(error.value)
+    assert f"'{key}'" in str(error.value)
+    assert "misspelt.toml" in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (TAPERED.replace("height = 5.0\n", ""), ["'height'", "missing", "[tapered]"]),
+        (TAPERED.replace("height = 5.0", "height = -5.0"), ["height", "-5 m", "(0, 1000] m"]),
+        (TAPERED.replace("height = 5.0", 'height = "5 m"'), ["'height' in [tapered]", "'5 m'", "a number"]),
+        (TAPERED.replace("height = 5.0", "height = inf"), ["height", "inf"]),
+        (TAPERED.replace("drums = 12", "drums = 12.0"), ["'drums' in [tapered]", "whole number"]),
+        (TAPERED.replace("drums = 12", "drums = true"), ["'drums' in [tapered]", "whole number"]),
+        (TAPERED.replace("drums = 12", "drums = 0"), ["drums is 0", "1 to 200"]),
+        (TAPERED.replace("drums = 12", "drums = 1000000"), ["drums is 1000000", "1 to 200"]),
+        (TAPERED.replace("density = 1600.0\n", ""), ["'density'", "missing"]),
+        (TAPERED.replace('"rectangular"', '"round"'), ["'round'", "circular, rectangular"]),
+        (TAPERED.replace('"rectangular"', '"circular"'), ["depth", "circular", "leave it out"]),
+        (TAPERED.split("[joint]")[0], ["no [joint] table", "normal_stiffness"]),
+        (TAPERED.replace("5.0e10", "0.0"), ["normal_stiffness", "0 N/m³"]),
+        (TAPERED.replace("= 35.0", "= 90.0"), ["friction_angle", "[0, 90) degrees"]),
+        (TAPERED + "friction_coefficient = 0.7\n", ["both given", "one of the two"]),
+        (TAPERED + "[[drum]]\nheight = 1.0\nbottom_width = 1.0\ntop_width = 1.0\n", ["both [tapered] and [[drum]]"]),
+        (TAPERED + "[[joint_override]]\nindex = 13\n", ["index is 13", "to 12"]),
+        (TAPERED + "[[joint_override]]\nindex = 0\n", ["index is 0", "1 (the joint with the base)"]),
+        (TAPERED + "[[joint_override]]\nindex = 3\nfriction_angle = 95.0\n", ["index 3", "95 degrees"]),
+        (TAPERED + 2 * "[[joint_override]]\nindex = 3\n", ["index 3", "twice"]),
+        (DRUMS.replace("top_width = 1.0\n", ""), ["'top_width'", "missing", "[[drum]] number 2"]),
+        (DRUMS.replace("density = 2620.0\n", ""), ["[[drum]] number 1", "no density"]),
+        (DRUMS.replace("0.82", "-0.82"), ["[[drum]] number 1", "-0.82 m"]),
+        ("[joint]\nnormal_stiffness = 1e10\nshear_stiffness = 1e10\n", ["neither [tapered] nor [[drum]]"]),
+        ("height = [1,", ["not valid TOML"]),
+        ("", ["no [joint] table"]),
+    ],
+)
+def test_every_mistake_is_one_sentence(text, words, tmp_path):
+    path = tmp_path / "bad.toml"
+    path.write_text(text)
+    with pytest.raises(st.InputError) as error:
+        read_column(path)
+    message = str(error.value)
+    assert message.startswith(str(path))
+    assert "\n" not in message
+    for word in words:
+        assert word in message
+
+
+def test_a_column_that_is_neither_preset_nor_file(tmp_path):
+    with pytest.raises(st.InputError, match=r"did you mean paper-12-drums\?"):
+        load_column("paper-12-drum")
+    with pytest.raises(st.InputError, match="there is no file"):
+        load_column(tmp_path / "none.toml")
+    with pytest.raises(st.InputError, match="is a folder"):
+        load_column(tmp_path)
+    (tmp_path / "binary.toml").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(st.InputError, match="not a text file in UTF-8"):
+        load_column(tmp_path / "binary.toml")
+    with pytest.raises(st.InputError, match="does not exist"):
+        write_column(preset("paper-monolithic"), tmp_path / "none" / "column.toml")
