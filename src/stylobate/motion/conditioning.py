@@ -1,0 +1,339 @@
+"""Steps between a record and an input motion: each a pure function that writes itself into the processing history.
+
+Nothing is applied unless it is called. All components are treated alike, and ``factor`` is left alone, except where a
+function scales.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+
+import numpy as np
+
+from ..constants import g
+from ..errors import InputError, check_range
+from .integration import arias_growth, displacement
+from .motion import MAX_SAMPLES, Motion, integrate
+
+
+def demean(motion: Motion, pre_event: float | None = None) -> Motion:
+    """Take off the mean of each component, of the whole record or of its first ``pre_event`` seconds.
+
+    Parameters
+    ----------
+    motion : Motion
+    pre_event : float, optional
+        Length of the quiet beginning whose mean is the zero level [s].
+    """
+    count = motion.steps
+    if pre_event is not None:
+        check_range("pre_event", pre_event, motion.dt, motion.duration, unit="s")
+        count = round(pre_event / motion.dt) + 1
+    part = "the record" if pre_event is None else f"the first {pre_event:g} s"
+    return _changed(motion, lambda a: a - a[:count].mean(), f"mean of {part} taken off")
+
+
+def detrend(motion: Motion) -> Motion:
+    """Take off the straight line that fits each component best."""
+
+    def straight(a: np.ndarray) -> np.ndarray:
+        t = np.linspace(-1.0, 1.0, len(a))
+        return a - a.mean() - t * ((t @ a) / (t @ t))
+
+    return _changed(motion, straight, "linear trend taken off")
+
+
+def baseline_polynomial(motion: Motion, order: int = 6) -> Motion:
+    """Baseline correction by a polynomial of the displacement, which then ends near zero.
+
+    Parameters
+    ----------
+    motion : Motion
+    order : int
+        Highest power of time in the polynomial; its constant and linear terms are zero, so that displacement and
+        velocity start at rest.
+
+    Notes
+    -----
+    The polynomial is fitted to the displacement and its second derivative is taken off the acceleration. A permanent
+    displacement of the ground is lost: use :func:`baseline_piecewise` to keep one.
+
+    References
+    ----------
+    Ancheta et al. (2014), NGA-West2 database, section on the baseline correction.
+    """
+    n = int(check_range("order of the baseline", order, 2, 12))
+
+    def corrected(a: np.ndarray) -> np.ndarray:
+        s = np.linspace(0.0, 1.0, len(a))
+        total = (len(a) - 1) * motion.dt
+        powers = np.stack([s**k for k in range(2, n + 1)], axis=1)
+        weights = np.linalg.lstsq(powers, displacement(a, motion.dt), rcond=None)[0]
+        curve = sum(w * k * (k - 1) * s ** (k - 2) for w, k in zip(weights, range(2, n + 1)))
+        return a - curve / total**2
+
+    return _changed(motion, corrected, f"baseline: polynomial of order {n} fitted to the displacement taken off")
+
+
+def baseline_piecewise(motion: Motion, start: float | None = None, end: float | None = None) -> Motion:
+    """Baseline correction by two constant offsets, which keeps a permanent displacement.
+
+    Parameters
+    ----------
+    motion : Motion
+    start, end : float, optional
+        Strong shaking, during which the instrument's baseline moved [s]; by default 5 % and 95 % of the Arias
+        intensity of all components together.
+
+    Notes
+    -----
+    A straight line is fitted to the velocity after ``end``. Its slope is the offset after ``end``; the offset between
+    ``start`` and ``end`` is the constant one that leads to the line's value there. The velocity after ``end`` is then
+    zero on average, and the displacement settles at its permanent value.
+
+    References
+    ----------
+    Iwan, Moser and Peng (1985); Boore (2001).
+    """
+    growth = arias_growth(motion)
+    t1 = float(np.interp(0.05, growth, motion.time)) if start is None else start
+    t2 = float(np.interp(0.95, growth, motion.time)) if end is None else end
+    check_range("start of strong shaking", t1, 0.0, motion.duration, unit="s")
+    check_range("end of strong shaking", t2, t1, motion.duration, unit="s", open_low=True)
+    # On samples, so that the areas are exact; the corners of the offset are its middle values.
+    i, j = round(t1 / motion.dt), round(t2 / motion.dt)
+    if j - i < 2 or motion.steps - j < 10:
+        raise InputError(
+            f"strong shaking from {t1:g} s to {t2:g} s leaves no quiet end in {motion.duration:g} s; "
+            "state start and end, or use baseline_polynomial."
+        )
+
+    def corrected(a: np.ndarray) -> np.ndarray:
+        v = integrate(a, motion.dt)
+        after = (np.arange(len(a)) - j) * motion.dt
+        slope, at_end = np.polyfit(after[j:], v[j:], 1)
+        offset = np.zeros(len(a))
+        between = at_end / ((j - i) * motion.dt)
+        offset[i:j], offset[j:] = between, slope
+        offset[i], offset[j] = 0.5 * between, 0.5 * (between + slope)
+        return a - offset
+
+    text = f"baseline: constant offsets from {i * motion.dt:g} to {j * motion.dt:g} s and after it taken off"
+    return _changed(motion, corrected, text)
+
+
+def taper(motion: Motion, length: float, *, start: bool = True, end: bool = True) -> Motion:
+    """Lead the ends to zero with half a cosine.
+
+    Parameters
+    ----------
+    motion : Motion
+    length : float
+        Of each taper [s], up to half of the record.
+    start, end : bool
+        Which ends.
+    """
+    check_range("length of the taper", length, motion.dt, 0.5 * motion.duration, unit="s")
+    count = round(length / motion.dt)
+    ramp = 0.5 * (1.0 - np.cos(np.pi * np.arange(count) / count))
+
+    def tapered(a: np.ndarray) -> np.ndarray:
+        out = a.copy()
+        if start:
+            out[:count] *= ramp
+        if end:
+            out[-count:] *= ramp[::-1]
+        return out
+
+    ends = " and ".join(name for name, used in (("start", start), ("end", end)) if used) or "no end"
+    return _changed(motion, tapered, f"cosine taper of {count * motion.dt:g} s at {ends}")
+
+
+def bandpass(
+    motion: Motion, low: float | None, high: float | None, order: int = 4, *, keep_padding: bool = True
+) -> Motion:
+    """Acausal Butterworth filter: forward and backward, without phase shift.
+
+    Parameters
+    ----------
+    motion : Motion
+    low, high : float or None
+        Corner frequencies [Hz]; None leaves that side open.
+    order : int
+        Of one pass.
+    keep_padding : bool
+        Keep the zeros that are put before and after the record, where the filter rings. Without them the velocity and
+        the displacement do not return to rest.
+
+    Notes
+    -----
+    Computed as a gain on the spectrum, 1/(1 + (f_low/f)^2n) · 1/(1 + (f/f_high)^2n): the squared gain of one pass.
+    Zeros of 1.5 n / f_low seconds are put at each end.
+
+    References
+    ----------
+    Boore (2005); Boore and Bommer (2005).
+    """
+    nyquist = 0.5 / motion.dt
+    n = int(check_range("order of the filter", order, 1, 10))
+    if low is None and high is None:
+        raise InputError("a filter needs a low or a high corner frequency; give one, e.g. low=0.1.")
+    if low is not None:
+        check_range("low corner frequency", low, 1e-4, nyquist, unit="Hz", open_high=True)
+    if high is not None:
+        remedy = "the record holds nothing above it"
+        check_range("high corner frequency", high, low or 0.0, nyquist, unit="Hz", open_low=True, remedy=remedy)
+    pad = math.ceil(1.5 * n / (low or high or 1.0) / motion.dt)
+    total = motion.steps + 2 * pad
+    if total > MAX_SAMPLES:
+        raise InputError(f"a low corner of {low:g} Hz needs {total} samples; allowed is up to {MAX_SAMPLES}: raise it.")
+    size = _fast_length(total)
+    f = np.fft.rfftfreq(size, motion.dt)
+    gain = np.ones_like(f)
+    if low is not None:
+        with np.errstate(divide="ignore"):
+            gain /= 1.0 + (low / f) ** (2 * n)  # Boore (2005), the square of one pass
+    if high is not None:
+        gain /= 1.0 + (f / high) ** (2 * n)
+
+    def filtered(a: np.ndarray) -> np.ndarray:
+        padded = np.zeros(size)
+        padded[pad : pad + len(a)] = a
+        out = np.fft.irfft(np.fft.rfft(padded) * gain, size)[:total]
+        return out if keep_padding else out[pad : pad + len(a)]
+
+    band = f"{low:g}" if low is not None else "0"
+    band += f" to {high:g} Hz" if high is not None else " Hz up"
+    padding = f"zeros of {pad * motion.dt:g} s at each end {'kept' if keep_padding else 'cut off again'}"
+    return _changed(motion, filtered, f"acausal Butterworth filter of order {n}, {band}; {padding}")
+
+
+def resample(motion: Motion, dt: float) -> Motion:
+    """Another step, by way of the spectrum: nothing is folded back from above the new Nyquist frequency.
+
+    Parameters
+    ----------
+    motion : Motion
+    dt : float
+        New step [s]; old and new step must be in the ratio of whole numbers up to 1000.
+
+    Notes
+    -----
+    A coarser step loses what lies above 0.8 of its Nyquist frequency (a cosine flank, gone at 1.0). A finer step adds
+    nothing. Zeros follow the record on the way, so that its end does not wrap around to its beginning.
+    """
+    new = check_range("dt", dt, 1e-6, 10.0, unit="s")
+    ratio = Fraction(new / motion.dt).limit_denominator(1000)
+    if abs(float(ratio) - new / motion.dt) > 1e-9 * float(ratio) or ratio == 0:
+        raise InputError(
+            f"new step {new:g} s and old step {motion.dt:g} s are not in the ratio of small whole numbers; choose "
+            "a step "
+            f"such as {motion.dt * 2:g} or {motion.dt / 2:g} s."
+        )
+    p, q = ratio.numerator, ratio.denominator
+    if motion.steps * q / p > MAX_SAMPLES:
+        raise InputError(f"dt of {new:g} s gives {motion.steps * q // p} samples; allowed is up to {MAX_SAMPLES}.")
+    blocks = _fast_length(math.ceil((motion.steps + min(motion.steps, 1000)) / p) + 1)
+    old_size, new_size = blocks * p, blocks * q
+    count = math.floor((motion.steps - 1) * q / p + 1e-9) + 1
+
+    def at_new_step(a: np.ndarray) -> np.ndarray:
+        spectrum = np.fft.rfft(a, old_size)
+        if new_size < old_size:
+            share = np.arange(new_size // 2 + 1) / (new_size / 2)
+            flank = np.clip((share - 0.8) / 0.2, 0.0, 1.0)
+            spectrum = spectrum[: new_size // 2 + 1] * (0.5 * (1.0 + np.cos(np.pi * flank)))
+        return np.fft.irfft(spectrum, new_size)[:count] * (new_size / old_size)
+
+    text = f"resampled from {motion.dt:g} to {new:g} s by way of the spectrum"
+    return _changed(motion, at_new_step, text, dt=motion.dt * p / q)
+
+
+def trim(motion: Motion, low: float = 0.05, high: float = 0.95, *, before: float = 0.0, after: float = 0.0) -> Motion:
+    """Keep the significant duration: from ``low`` to ``high`` of the Arias intensity of all components together.
+
+    Parameters
+    ----------
+    motion : Motion
+    low, high : float
+        Shares of the intensity [-].
+    before, after : float
+        More to keep before and after it [s].
+
+    Notes
+    -----
+    The cut ends are as they are; :func:`taper` leads them to zero.
+    """
+    check_range("low share", low, 0.0, 1.0, open_high=True)
+    check_range("high share", high, low, 1.0, open_low=True)
+    growth = arias_growth(motion)
+    t1 = float(np.interp(low, growth, motion.time)) - check_range("before", before, 0.0, 1e4, unit="s")
+    t2 = float(np.interp(high, growth, motion.time)) + check_range("after", after, 0.0, 1e4, unit="s")
+    i = max(0, math.floor(t1 / motion.dt))
+    j = min(motion.steps - 1, math.ceil(t2 / motion.dt))
+    text = f"trimmed to {i * motion.dt:g} … {j * motion.dt:g} s ({low:.0%} to {high:.0%} of the Arias intensity)"
+    return _changed(motion, lambda a: a[i : j + 1], text)
+
+
+def scale_to_pgv(motion: Motion, pgv: float) -> Motion:
+    """Scale all components so that the peak velocity along x is ``pgv`` [m/s]."""
+    value = check_range("pgv", pgv, 0.0, 100.0, unit="m/s")
+    return _scaled_to(motion, value, motion.pgv, f"PGV of {value:g} m/s")
+
+
+def scale_to_sa(motion: Motion, period: float, sa: float, damping: float = 0.05) -> Motion:
+    """Scale all components so that the pseudo-acceleration of a period along x is ``sa``.
+
+    Parameters
+    ----------
+    motion : Motion
+    period : float
+        [s]
+    sa : float
+        [m/s²]
+    damping : float
+        Share of the critical damping [-].
+    """
+    from .spectra import response_spectrum
+
+    value = check_range("sa", sa, 0.0, 1e4, unit="m/s²")
+    found = float(response_spectrum(motion, [period], damping).psa[0])
+    return _scaled_to(motion, value, found, f"Sa({period:g} s, {damping:.0%}) of {value / g:g} g")
+
+
+def _scaled_to(motion: Motion, wanted: float, found: float, text: str) -> Motion:
+    if found == 0.0:
+        raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to a {text}.")
+    factor = wanted / found
+    return motion.replace(
+        factor=motion.factor * factor, processing=(*motion.processing, f"scaled by {factor:.6g} to a {text}")
+    )
+
+
+def _changed(
+    motion: Motion, change: Callable[[np.ndarray], np.ndarray], text: str, *, dt: float | None = None
+) -> Motion:
+    """A copy with every component changed and the step written down; for changes that are linear in the samples."""
+    parts = {
+        "acceleration": motion.samples,
+        "lateral": motion.y_samples,
+        "vertical": motion.z_samples,
+    }
+    new = {key: None if values is None else change(values) for key, values in parts.items()}
+    return motion.replace(dt=motion.dt if dt is None else dt, processing=(*motion.processing, text), **new)
+
+
+def _fast_length(count: int) -> int:
+    """The next number of the form 2^a 3^b 5^c, for which the transform is fast."""
+    best = 1 << max(0, (count - 1).bit_length())
+    five = 1
+    while five < best:
+        three = five
+        while three < best:
+            rest = -(-count // three)
+            best = min(best, three << max(0, (rest - 1).bit_length()))
+            three *= 3
+        five *= 5
+    return best

@@ -1,0 +1,139 @@
+"""Turning the two horizontal components: to an azimuth, to the strongest direction, to the principal axes.
+
+Azimuths count clockwise from north; x, y and the upward z are right-handed after turning: y points 90° to the left
+of x.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import numpy as np
+
+from ..errors import InputError, check_range
+from .integration import square_integral
+from .motion import Motion
+
+
+def rotated(motion: Motion, azimuth: float) -> Motion:
+    """Turn the horizontal components so that x points to ``azimuth`` and y to 90° less.
+
+    Parameters
+    ----------
+    motion : Motion
+        With two horizontal components of known azimuths that are not parallel.
+    azimuth : float
+        Clockwise from north [degrees].
+
+    Raises
+    ------
+    InputError
+        One horizontal component, or azimuths that the file did not state: turn those with :func:`turned`.
+    """
+    wanted = check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees") % 360.0
+    x, y = _samples(motion)
+    known = _azimuths(motion)
+    if known is None:
+        raise InputError(
+            f"the azimuths of {motion.name!r} are not stated in its file, so it cannot be turned to {wanted:g}°; turn it "
+            "by an angle from its first component with stylobate.motion.turned."
+        )
+    a, b = (math.radians(one) for one in known)
+    determinant = math.sin(a - b)
+    if abs(determinant) < 0.1:
+        raise InputError(
+            f"the horizontal components of {motion.name!r} point to {known[0]:g}° and {known[1]:g}°, nearly parallel; "
+            "check the azimuths."
+        )
+    # a(θ) = e sin θ + n cos θ for both components, solved for east and north
+    east = (x * math.cos(b) - y * math.cos(a)) / determinant
+    north = (y * math.sin(a) - x * math.sin(b)) / determinant
+    theta = math.radians(wanted)
+    first = east * math.sin(theta) + north * math.cos(theta)
+    second = -east * math.cos(theta) + north * math.sin(theta)
+    return _with(
+        motion,
+        first,
+        second,
+        (wanted, wanted - 90.0),
+        f"turned to azimuth {wanted:g}° (y to {(wanted - 90.0) % 360.0:g}°)",
+    )
+
+
+def turned(motion: Motion, angle: float) -> Motion:
+    """Turn the horizontal components by an angle from x towards y, for files that state no azimuth.
+
+    Parameters
+    ----------
+    motion : Motion
+        With two horizontal components, taken as perpendicular.
+    angle : float
+        [degrees]
+    """
+    theta = math.radians(check_range("angle", angle, -360.0, 360.0, unit="degrees"))
+    x, y = _samples(motion)
+    c, s = math.cos(theta), math.sin(theta)
+    known = _azimuths(motion)
+    text = f"turned by {angle:g}° from x towards y"
+    if known is None:
+        return _with(motion, c * x + s * y, c * y - s * x, None, text)
+    clockwise = math.cos(math.radians(known[1] - known[0] - 90.0)) > 0.0
+    to = known[0] + (angle if clockwise else -angle)
+    return _with(motion, c * x + s * y, c * y - s * x, (to, to + known[1] - known[0]), text)
+
+
+def along(motion: Motion, azimuth: float) -> Motion:
+    """The component along an azimuth as the only horizontal one, for a plane model; the rest is left out and said."""
+    found = rotated(motion, azimuth)
+    azimuths = {key: value for key, value in found.metadata["azimuths"].items() if key != "y"}
+    return found.replace(
+        lateral=None,
+        metadata={**found.metadata, "azimuths": azimuths},
+        processing=(*found.processing, "the component across it left out"),
+    )
+
+
+def principal(motion: Motion) -> Motion:
+    """Turn to the principal axes: x has the largest Arias intensity, y the smallest, and they are uncorrelated.
+
+    References
+    ----------
+    Penzien and Watabe (1975).
+    """
+    x, y = _samples(motion)
+    dt = motion.dt
+    xx, yy = square_integral(x, dt)[-1], square_integral(y, dt)[-1]
+    xy = 0.5 * (square_integral(x + y, dt)[-1] - xx - yy)
+    return turned(motion, math.degrees(0.5 * math.atan2(2.0 * xy, xx - yy)))
+
+
+def strongest(motion: Motion) -> Motion:
+    """Turn so that x has the largest peak acceleration of all directions, the PGA of RotD100."""
+    x, y = _samples(motion)
+    at = int(np.argmax(x * x + y * y))
+    return turned(motion, math.degrees(math.atan2(y[at], x[at])))
+
+
+def _samples(motion: Motion) -> tuple[np.ndarray, np.ndarray]:
+    if motion.y_samples is None:
+        raise InputError(f"motion {motion.name!r} has one horizontal component; turning needs two of them.")
+    return motion.samples, motion.y_samples
+
+
+def _azimuths(motion: Motion) -> tuple[float, float] | None:
+    azimuths = motion.metadata.get("azimuths")
+    x, y = (azimuths.get("x"), azimuths.get("y")) if isinstance(azimuths, Mapping) else (None, None)
+    return None if x is None or y is None else (float(x), float(y))
+
+
+def _with(motion: Motion, x: np.ndarray, y: np.ndarray, azimuths: tuple[float, float] | None, text: str) -> Motion:
+    stated: dict[str, float | None] = {"x": None, "y": None}
+    if azimuths is not None:
+        stated = {"x": azimuths[0] % 360.0, "y": azimuths[1] % 360.0}
+    return motion.replace(
+        acceleration=x,
+        lateral=y,
+        metadata={**motion.metadata, "azimuths": {**(motion.metadata.get("azimuths") or {}), **stated}},
+        processing=(*motion.processing, text),
+    )
