@@ -11,7 +11,7 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, OutOfRangeWarning, StylobateError
-from . import columns, compare, critical, domain, motion, run
+from . import bench, columns, compare, critical, domain, motion, run
 from .console import Interrupted
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
@@ -33,6 +33,7 @@ app.command("domain")(domain.domain)
 app.command("compare")(compare.compare)
 app.command("motion")(motion.motion)
 app.command("columns")(columns.columns)
+app.command("bench")(bench.bench)
 
 
 def main() -> None:

@@ -30,6 +30,12 @@ def face_corners(ps, pq, cr, sr, b, hb):
 
 
 @law
+def opening(sl, ql, sr, qr, w):
+    """Largest gap at the corners of the upper face that are above the lower one."""
+    return max(max(ql if sl >= -w else 0.0, qr if sr <= w else 0.0), 0.0)
+
+
+@law
 def left_contact(sl, ql, cr, sr, w):
     """Contact at the left end of the overlap: (s, q, gap, normal s, normal q).
 

@@ -31,7 +31,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                amax           largest horizontal acceleration of the motion, and of its vertical part vmax [m/s²]
                top open turn wmax   peaks: |top displacement| [m], joint opening [m], |rotation| [rad], |input work| [J]
                when which side      collapse: step, joint, side (±1); −1 while there is none
-               m x z px pz    running sums over the drums above a joint; o_* the same for one joint
+               m x z px       running sums over the drums above a joint
 """
 
 import numpy as np
@@ -78,7 +78,7 @@ def block_types(points, damped):
         np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor")),
         np.dtype(
             [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side")]
-            + fields("amax vmax top open turn wmax m x z px pz")
+            + fields("amax vmax top open turn wmax m x z px")
         ),
     )
 
@@ -253,25 +253,19 @@ def fill_ground(ground, feed, watch):
 
 
 @strict
-def joint_pose(u, v, l):
-    """Corners of the upper drum's lower face in the frame of the face below: (s left, q left, s right, q right)."""
-    ps, pq, c, s = ct.relative_pose(
-        u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l]
-    )
-    return ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+def check_finite(drum, watch):
+    """Lanes whose state is no number, or far away, have failed."""
+    w = watch[0]
+    for i in range(1, drum.shape[0]):
+        u = drum[i]
+        for l in range(LANES):
+            lost = w.status[l] == RUNNING and not (abs(u.x[l]) + abs(u.z[l]) + abs(u.th[l]) < FAR)
+            w.status[l] = FAILED if lost else w.status[l]
 
 
-@strict
-def joint_opening(left_s, left_q, right_s, right_q, w):
-    """Largest gap of a joint at the corners of the upper face that are above the lower one [m]."""
-    left = left_q if left_s >= -w else 0.0
-    right = right_q if right_s <= w else 0.0
-    return max(left, right, 0.0)
-
-
-@strict
+@kernel
 def observe(drum, joint, lane, feed, watch):
-    """Look at all lanes: peaks, non-finite states, certain collapses, ends. Lanes that are over get dt = 0.
+    """Look at all lanes: peaks, and certain collapses; rotations get their length back.
 
     A collapse is certain when, for the part of the column above a joint, its centroid lies beyond the end of the contact,
     moves outward, and the moment of its weight about that end exceeds what the strongest acceleration of the motion could
@@ -281,6 +275,14 @@ def observe(drum, joint, lane, feed, watch):
     o = lane[0]
     f = feed[0]
     w = watch[0]
+    top = drum[drums]
+    for l in range(LANES):
+        w.top[l] = max(w.top[l], abs(top.x[l] - top.s[l] * top.ht[l]))
+        w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
+        w.m[l] = 0.0
+        w.x[l] = 0.0
+        w.z[l] = 0.0
+        w.px[l] = 0.0
     for i in range(1, drums + 1):
         u = drum[i]
         for l in range(LANES):
@@ -288,57 +290,58 @@ def observe(drum, joint, lane, feed, watch):
             u.c[l] *= fix
             u.s[l] *= fix
             w.turn[l] = max(w.turn[l], abs(u.th[l]))
-    for l in range(LANES):
-        top = drum[drums]
-        w.top[l] = max(w.top[l], abs(top.x[l] - top.s[l] * top.ht[l]))
-        w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
-        w.m[l] = 0.0
-        w.x[l] = 0.0
-        w.z[l] = 0.0
-        w.px[l] = 0.0
-        w.pz[l] = 0.0
-    for j in range(drums - 1, -1, -1):
+            w.m[l] += u.m[l]
+            w.x[l] += u.m[l] * u.x[l]
+            w.z[l] += u.m[l] * u.z[l]
+            w.px[l] += u.m[l] * u.vx[l]
+    for j in range(drums):
         u = drum[j + 1]
         v = drum[j]
         e = joint[j]
         margin = SUPPORT_MARGIN if j > 0 else 0.0
         for l in range(LANES):
-            m = u.m[l]
-            w.m[l] += m
-            w.x[l] += m * u.x[l]
-            w.z[l] += m * u.z[l]
-            w.px[l] += m * u.vx[l]
-            w.pz[l] += m * u.vz[l]
-            ls, lq, rs, rq = joint_pose(u, v, l)
             half = v.t[l]
+            ps, pq, c, s = ct.relative_pose(
+                u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l]
+            )
+            ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
             lo = max(ls, -half)
             hi = min(rs, half)
-            w.open[l] = max(w.open[l], joint_opening(ls, lq, rs, rq, half))
-            # the end of the contact on the side to which the part above leans, in world axes
-            cx = w.x[l] / w.m[l]
-            cz = w.z[l] / w.m[l]
-            left_x = v.x[l] + v.c[l] * lo - v.s[l] * v.ht[l]
-            right_x = v.x[l] + v.c[l] * hi - v.s[l] * v.ht[l]
-            side = 1.0 if cx - right_x > left_x - cx else -1.0
-            end = hi if side > 0.0 else lo
-            end_x = right_x if side > 0.0 else left_x
+            w.open[l] = max(w.open[l], ct.opening(ls, lq, rs, rq, half))
+            # centroid of the part above, and the end of the contact on the side to which it leans, in world axes
+            each = 1.0 / w.m[l]
+            cx = w.x[l] * each
+            cz = w.z[l] * each
+            middle = v.x[l] + 0.5 * v.c[l] * (lo + hi) - v.s[l] * v.ht[l]
+            side = 1.0 if cx > middle else -1.0
+            end = hi if cx > middle else lo
+            end_x = v.x[l] + v.c[l] * end - v.s[l] * v.ht[l]
             end_z = v.z[l] + v.s[l] * end + v.c[l] * v.ht[l]
             out = side * (cx - end_x)
             up = max(cz - end_z, 0.0)
-            outward = side * (w.px[l] / w.m[l] - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
+            outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
             down = max(o.g[l] - w.vmax[l], 0.0)
-            lost = out > 0.0 and outward > 0.0 and out * down > (w.amax[l] + margin) * up
-            parted = hi <= lo and w.status[l] == RUNNING
-            if parted:
-                e.kn[l] = 0.0
-                e.ks[l] = 0.0
-                e.co[l] = 0.0
-            if (lost or parted) and w.status[l] == RUNNING and w.when[l] < 0:
-                w.when[l] = f.step[l]
-                w.which[l] = j
-                w.side[l] = int(side)
-            if w.status[l] == RUNNING and not (abs(u.x[l]) + abs(u.z[l]) + abs(u.th[l]) < FAR):
-                w.status[l] = FAILED
+            lost = (out > 0.0) & (outward > 0.0) & (out * down > (w.amax[l] + margin) * up)
+            parted = hi <= lo
+            hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)
+            w.when[l] = f.step[l] if hit else w.when[l]
+            w.which[l] = j if hit else w.which[l]
+            w.side[l] = (1 if cx > middle else -1) if hit else w.side[l]
+            keep = 0.0 if parted else 1.0  # a joint that has parted does not close again
+            e.kn[l] *= keep
+            e.ks[l] *= keep
+            e.co[l] *= keep
+            w.m[l] -= u.m[l]
+            w.x[l] -= u.m[l] * u.x[l]
+            w.z[l] -= u.m[l] * u.z[l]
+            w.px[l] -= u.m[l] * u.vx[l]
+
+
+@kernel
+def end_runs(lane, feed, watch):
+    """Runs end at their last step, or at their collapse; lanes that are over get dt = 0."""
+    f = feed[0]
+    w = watch[0]
     for l in range(LANES):
         if w.status[l] == RUNNING:
             if w.when[l] >= 0 and w.follow[l] == 0:
@@ -346,7 +349,7 @@ def observe(drum, joint, lane, feed, watch):
             elif f.step[l] >= f.end[l]:
                 w.status[l] = COLLAPSED if w.when[l] >= 0 else ENDED
         if w.status[l] != RUNNING:
-            o.dt[l] = 0.0
+            lane[0].dt[l] = 0.0
 
 
 @strict
@@ -388,9 +391,12 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
 def joint_state(drum, l, opening, slip):
     """Opening and slip of every joint of one lane [m]; the slip is read at the edge that is less open."""
     for j in range(drum.shape[0] - 1):
-        ls, lq, rs, rq = joint_pose(drum[j + 1], drum[j], l)
-        opening[j] = joint_opening(ls, lq, rs, rq, drum[j].t[l])
-        slip[j] = ls + drum[j + 1].b[l] if lq < rq else rs - drum[j + 1].b[l]
+        u = drum[j + 1]
+        v = drum[j]
+        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l])
+        ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+        opening[j] = ct.opening(ls, lq, rs, rq, v.t[l])
+        slip[j] = ls + u.b[l] if lq < rq else rs - u.b[l]
 
 
 @kernel
@@ -416,4 +422,6 @@ def advance(drum, joint, lane, ground, feed, watch, chunks):
         for l in range(LANES):
             if watch[0].status[l] == RUNNING:
                 feed[0].step[l] += CHUNK
+        check_finite(drum, watch)
         observe(drum, joint, lane, feed, watch)
+        end_runs(lane, feed, watch)

@@ -102,11 +102,12 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
         after[i, 4], after[i, 5] = memory[i, 4], memory[i, 5]
         crushing = geometry[i, 14]
         if crushing > 0.0 and n > 0.0:
-            if e > 0.0 and e > geometry[i, 6] * (1.0 - n * crushing):
-                after[i, 4] = crushed(-nu, psi, geometry[i, 6], e, kn, km, crushing)
-                r_right = after[i, 4]
-            if e < 0.0 and e < geometry[i, 5] * (1.0 - n * crushing):
-                after[i, 5] = crushed(-nu, -psi, -geometry[i, 5], -e, kn, km, crushing)
+            right, left = min(geometry[i, 6], geometry[i, 8]), min(-geometry[i, 5], -geometry[i, 7])
+            if e > right * (1.0 - n * crushing):
+                r_right = crushed(-nu, psi, right, e, kn, km, crushing)
+                after[i, 4] = r_right
+            if -e > left * (1.0 - n * crushing):
+                after[i, 5] = crushed(-nu, -psi, left, -e, kn, km, crushing)
                 r_left = -after[i, 5]
             n, e = compression(-nu, psi, r_left, r_right, kn, km)
         trial = memory[i, 0] + ks * (tau - memory[i, 1] + e * (chi - memory[i, 2]))

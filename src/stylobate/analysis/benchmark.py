@@ -1,0 +1,139 @@
+"""How fast the plane distinct elements are on this machine, beside the same step in native code, in one run."""
+
+from __future__ import annotations
+
+import os
+import platform
+import shutil
+import subprocess
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..column import preset
+from ..constants import g
+from ..errors import StylobateError
+from ..models.base import Case, RunOptions
+from ..models.distinct_element_2d import DistinctElement2D, _Block
+from ..motion import Motion, harmonic
+from ..simulate import simulate, simulate_many, thread_count
+
+#: Native references stand in the source tree, beside the package; an installed package goes without.
+NATIVE = Path(__file__).parents[3] / "benchmarks"
+
+#: Vectors as wide as the machine has, multiply-add contraction as in the kernels, no reordering of sums.
+FLAGS = ("-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-mprefer-vector-width=512")
+
+STEPS = 16_000
+ROUNDS = 7
+
+
+def native_reference(source: str, folder: str | Path) -> Path | None:
+    """Compile ``benchmarks/<source>`` into a folder; None where there is no C++ compiler or no source tree."""
+    compiler = shutil.which(os.environ.get("CXX", "c++")) or shutil.which("g++") or shutil.which("clang++")
+    path = NATIVE / source
+    if compiler is None or not path.is_file():
+        return None
+    target = Path(folder) / path.stem
+    flags = [flag for flag in FLAGS if not (flag.startswith("-mprefer") and platform.machine() not in ("x86_64", "AMD64"))]
+    done = subprocess.run([compiler, *flags, str(path), "-o", str(target)], capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise StylobateError(f"the native reference {source} does not compile: {done.stderr.strip().splitlines()[:1]}.")
+    return target
+
+
+def bench(threads: int | None = None, *, full: bool = False, say: Callable[[str], None] = lambda _: None) -> dict[str, Any]:
+    """Time the kernel, one run, threads against each other, and (``full``) the domain of 768 cells of ten seconds.
+
+    Parameters
+    ----------
+    threads : int, optional
+        All cores by default.
+    full : bool
+        Also the domain of the 12-drum column, 24 × 32 cells.
+    say : callable
+        Takes a line of progress.
+
+    Returns
+    -------
+    dict
+        Keys of ``stylobate bench --json``. Times per contact point and step are the smallest of several rounds, in which
+        ours and the native one take turns.
+    """
+    count = thread_count(threads)
+    column, model = preset("paper-12-drums"), DistinctElement2D()
+    out: dict[str, Any] = {"threads": count, "cpu": cpu_name()}
+    say("kernel and native reference")
+    out |= _kernel(model)
+    say("one run")
+    shaking = harmonic(1.0, 0.3 * g, 10.0)
+    simulate(column, shaking.scaled(0.0), model)
+    wall = min(_timed(lambda: simulate(column, shaking, model)) for _ in range(3))
+    out |= {"single_run_s": wall, "real_time_factor": shaking.duration / wall}
+    say(f"1 thread against {count}")
+    motions = [harmonic(1.0, 1.0, 2.0).scaled(a * g) for a in np.linspace(0.05, 0.3, 64)]
+    one, many = (
+        min(_timed(lambda n=n: simulate_many(column, motions, model, threads=n)) for _ in range(3)) for n in (1, count)
+    )
+    out["threads_speedup"] = one / many
+    if full:
+        for name in ("paper-monolithic", "paper-12-drums"):
+            say(f"domain of 768 cells, {name}")
+            units = [harmonic(f, 1.0, 10.0) for f in np.linspace(0.33, 4.0, 24)]
+            cells = [unit.scaled(a * g) for unit in units for a in np.linspace(0.05, 0.6, 32)]
+            out[f"domain_768_{name.removeprefix('paper-').replace('-', '_')}_s"] = _timed(
+                lambda name=name, cells=cells: simulate_many(preset(name), cells, model, threads=count)
+            )
+    return out
+
+
+def _kernel(model: DistinctElement2D) -> dict[str, Any]:
+    """Nanoseconds per contact point and step, ours and native, for one full block of the paper's 12 drums."""
+    column = preset("paper-12-drums")
+    dt = model.step_for(column)
+    motion = Motion(dt * STEPS, np.array([2.0, 2.0]))
+    ours, native, tops = [], [], {}
+    with tempfile.TemporaryDirectory() as folder:
+        program = native_reference("native_dem2d.cpp", folder)
+        for round_ in range(ROUNDS + 1):
+            block = _Block(model, column.n, RunOptions(until_end=True))
+            for lane in range(block.lanes):
+                block.load(lane, Case(column, motion))
+            seconds = _timed(lambda block=block: block.advance(STEPS // block.chunk - 1))
+            contacts = (STEPS - block.chunk) * column.n * model.points * block.lanes
+            tops["ours"] = float(block.drum["x"][-1, 0])
+            if round_:  # the first round compiles
+                ours.append(seconds / contacts * 1e9)
+            if program is not None:
+                arguments = [str(program), str(STEPS - block.chunk), repr(float(block.dt[0]))]
+                text = subprocess.run(arguments, capture_output=True, text=True, check=True).stdout.split()
+                native.append(float(text[0]))
+                tops["native"] = float(text[1])
+    best = min(native) if native else None
+    return {
+        "ns_per_contact_step": min(ours),
+        "native_ns_per_contact_step": best,
+        "ratio_to_native": None if best is None else min(ours) / best,
+        "native_difference_m": None if best is None else abs(tops["ours"] - tops["native"]),
+    }
+
+
+def cpu_name() -> str:
+    """Name of the processor."""
+    try:
+        for line in Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    except OSError:
+        pass
+    return platform.processor() or platform.machine()
+
+
+def _timed(action: Callable[[], object]) -> float:
+    started = time.perf_counter()
+    action()
+    return time.perf_counter() - started
