@@ -96,6 +96,7 @@ PICTURES = {
     "energy": lambda: plots.draw_energy(rocking()),
     "motion": lambda: plots.draw_motion(st.harmonic(1.0, 3.0, 5.0)),
     "motion of three components": lambda: plots.draw_motion(THREE_COMPONENTS),
+    "spectra": lambda: plots.draw_spectra(THREE_COMPONENTS),
     "domain": lambda: plots.draw_domain(domain()),
     "domain without collapse": lambda: plots.draw_domain(domain(False)),
     "boundaries": lambda: plots.draw_boundaries([domain(), domain(False)]),

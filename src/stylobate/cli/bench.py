@@ -20,7 +20,9 @@ def bench(
     from . import console
 
     with console.folder(out) as folder:
-        found = measure(o.the_threads(threads), full=full, say=lambda text: None if as_json else print(text, flush=True))
+        found = measure(
+            o.the_threads(threads), full=full, say=lambda text: None if as_json else print(text, flush=True)
+        )
         files = [] if folder is None else [console.write_json(folder / "bench.json", found)]
     if as_json:
         console.emit(found | {"files": [str(file) for file in files]})

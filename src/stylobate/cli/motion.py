@@ -35,6 +35,7 @@ def motion(
             files = [
                 console.write_json(folder / "motion.json", summary),
                 *plots.save(plots.draw_motion(found), folder / "motion"),
+                *plots.save(plots.draw_spectra(found), folder / "spectra"),
             ]
             summary = summary | {"files": [str(one) for one in files]}
     if as_json:
@@ -43,18 +44,23 @@ def motion(
         console.say(found.describe(), _facts(summary), files)
 
 
+_UNITS = {"_deg": " [degrees]", "_m_s": " [m/s]", "_g": " [g]", "_m": " [m]", "_s": " [s]"}
+
+
 def _facts(summary: dict) -> dict[str, str]:
-    facts: dict[str, str] = {}
+    facts = {}
     for key, value in summary.items():
-        if isinstance(value, dict):
-            for inner, one in value.items():
-                facts[f"{key} {inner}"] = _text(one)
-        elif key != "files":
-            facts[key.replace("_", " ")] = _text(value)
+        if key in ("name", "files") or value in (None, [], {}):
+            continue
+        ending = next((one for one in _UNITS if key.endswith(one)), "")
+        name = key.removesuffix(ending).replace("_", " ") + _UNITS.get(ending, "")
+        facts[name] = _text(value)
     return facts
 
 
 def _text(value: object) -> str:
     if isinstance(value, dict):
-        return ", ".join(f"{key} {_text(one)}" for key, one in value.items())
+        return ", ".join(f"{key} {_text(one)}" for key, one in value.items() if one is not None)
+    if isinstance(value, list):
+        return ", ".join(_text(one) for one in value)
     return f"{value:.4g}" if isinstance(value, float) else str(value)

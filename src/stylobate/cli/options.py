@@ -35,7 +35,7 @@ Unit = Annotated[str | None, typer.Option("--unit", help="Unit of the record whe
 Step = Annotated[
     str | None, typer.Option("--dt", metavar="TIME", help="Step of a record without times, such as 0.01s.")
 ]
-Scale = Annotated[float | None, typer.Option("--scale", help="Multiply the motion.")]
+Scale = Annotated[str | None, typer.Option("--scale", metavar="X", help="Multiply the motion, such as 1.5.")]
 Pga = Annotated[
     str | None, typer.Option("--pga", metavar="A", help="Scale the motion to this horizontal peak, such as 0.4g.")
 ]
@@ -45,7 +45,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on sta
 Out = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Folder for files and figures; without it none are written.")
 ]
-Threads = Annotated[int | None, typer.Option("--threads", metavar="N", help="Threads to use; all cores by default.")]
+Threads = Annotated[str | None, typer.Option("--threads", metavar="N", help="Threads to use; all cores by default.")]
 
 
 def the_model(name: str, settings: list[str] | None) -> Model:
@@ -63,11 +63,13 @@ def the_model(name: str, settings: list[str] | None) -> Model:
     return make_model(name, values)
 
 
-def the_threads(threads: int | None) -> int:
+def the_threads(text: str | None) -> int:
     """Number of threads, checked before anything is read or computed."""
     from ..simulate import thread_count
 
-    return thread_count(threads)
+    if text is not None and not text.isdecimal():
+        raise InputError(f"--threads is {text!r}; allowed is a whole number from 1; leave it out to use all cores.")
+    return thread_count(None if text is None else int(text))
 
 
 def the_tail(text: str) -> float:
@@ -85,7 +87,7 @@ def the_motion(
     file: Path | None,
     unit: str | None = None,
     dt: str | None = None,
-    scale: float | None = None,
+    scale: str | None = None,
     pga: str | None = None,
     vertical: str = "on",
 ) -> Motion:
@@ -107,7 +109,8 @@ def the_motion(
     if scale is not None and pga is not None:
         raise InputError("--scale and --pga are both given; give one of the two.")
     if scale is not None:
-        motion = motion.scaled(scale).replace(name=f"{motion.name} × {scale:g}")
+        factor = _number("--scale", scale)
+        motion = motion.scaled(factor).replace(name=f"{motion.name} × {factor:g}")
     if pga is not None:
         motion = motion.scaled_to_pga(parse_acceleration(pga)).replace(name=f"{motion.name}, scaled to {pga}")
     return with_vertical(motion, vertical)
@@ -127,6 +130,13 @@ def with_vertical(motion: Motion, vertical: str) -> Motion:
     if vertical not in ("on", "off"):
         raise InputError(f"--vertical is {vertical!r}; allowed is on or off.")
     return motion.without_vertical() if vertical == "off" else motion
+
+
+def _number(option: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.5.") from None
 
 
 def check_one_motion(

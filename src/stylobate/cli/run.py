@@ -71,9 +71,9 @@ def run(
         files = [] if folder is None else write(response, shaking, folder)
     summary = response.summary()
     if folder is not None:
+        files.append(folder / "run.json")
         summary["files"] = [str(file) for file in files]
-        files.append(console.write_json(folder / "run.json", summary))
-        summary["files"] = [str(file) for file in files]
+        console.write_json(files[-1], summary)
     if as_json:
         console.emit(summary)
     else:

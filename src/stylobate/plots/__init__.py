@@ -7,6 +7,7 @@ from .filmstrip import draw_filmstrip
 from .histories import draw_comparison, draw_histories
 from .joints import draw_joints
 from .motion import draw_motion
+from .spectra import draw_spectra
 from .style import save
 
 __all__ = [
@@ -19,5 +20,6 @@ __all__ = [
     "draw_histories",
     "draw_joints",
     "draw_motion",
+    "draw_spectra",
     "save",
 ]

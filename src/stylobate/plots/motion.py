@@ -6,9 +6,11 @@ from matplotlib.figure import Figure
 
 from ..constants import g
 from ..motion import Motion, integrate
+from ..motion.integration import peak_velocity
 from .style import BLACK, BLUE, WIDTH, styled, zero_line
 
-_NAMES = {"x": "horizontal x", "y": "horizontal y", "z": "vertical z"}
+#: Components in words.
+NAMES = {"x": "horizontal x", "y": "horizontal y", "z": "vertical z"}
 
 
 @styled
@@ -25,18 +27,18 @@ def draw_motion(motion: Motion, title: str | None = None) -> Figure:
     rows = figure.subplots(2 * len(components), 1, sharex=True, height_ratios=(1.4, 1.0) * len(components))
     for i, (axis, acceleration) in enumerate(components.items()):
         velocity = integrate(acceleration, motion.dt)
-        for axes, values, color, unit in (
-            (rows[2 * i], acceleration / g, BLACK, "g"),
-            (rows[2 * i + 1], velocity, BLUE, "m/s"),
+        for axes, values, largest, color, unit in (
+            (rows[2 * i], acceleration / g, abs(acceleration).max() / g, BLACK, "g"),
+            (rows[2 * i + 1], velocity, peak_velocity(acceleration, motion.dt), BLUE, "m/s"),
         ):
             zero_line(axes)
             axes.plot(motion.time, values, color=color, linewidth=0.7)
             peak = int(abs(values).argmax())
             axes.plot(motion.time[peak], values[peak], "o", color=color, markersize=3.5, fillstyle="none")
-            said = f"peak {abs(values[peak]):.3g} {unit} at {motion.time[peak]:.2f} s"
+            said = f"peak {largest:.3g} {unit} at {motion.time[peak]:.2f} s"
             axes.set_title(said, loc="right", fontsize=8.0, pad=2.0)
             axes.margins(y=0.12)
-        rows[2 * i].set_ylabel(f"{_NAMES[axis]}\nacceleration [g]")
+        rows[2 * i].set_ylabel(f"{NAMES[axis]}\nacceleration [g]")
         rows[2 * i + 1].set_ylabel("velocity\n[m/s]")
     rows[-1].set_xlabel("time [s]")
     rows[-1].set_xlim(0.0, motion.duration)

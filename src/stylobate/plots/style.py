@@ -29,7 +29,7 @@ SAND = "#efe6d2"  # stone; what stands
 BROWN = "#8c6d3f"
 
 #: Curves of several models or terms: dark to light in grey as well, each with its own dashes.
-CYCLE = (
+CYCLE: tuple[dict[str, Any], ...] = (
     {"color": BLACK, "linestyle": "-"},
     {"color": RED, "linestyle": "--"},
     {"color": BLUE, "linestyle": "-."},

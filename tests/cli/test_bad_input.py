@@ -1,0 +1,265 @@
+"""Bad input: exit code 2, one clear sentence on standard error, nothing on standard output, nothing half-written."""
+
+import pytest
+
+import stylobate as st
+from stylobate.cli.main import call
+
+GOOD = {"--model": "housner", "--harmonic": "1Hz,0.3g,1s"}
+COLUMN = """\
+density = 1600.0
+[tapered]
+height = 5.0
+bottom_width = 0.96
+top_width = 0.66
+drums = 2
+[joint]
+normal_stiffness = 5.0e10
+shear_stiffness = 2.5e10
+friction_angle = 35.0
+"""
+STUDY = """\
+column = "paper-monolithic"
+model = "housner"
+frequencies = "1:2:2"
+amplitudes = "0.1g:0.2g:2"
+duration = 1.0
+"""
+
+
+@pytest.fixture
+def refused(capsys, tmp_path):
+    """Runs a command line that must be refused; returns its sentence."""
+
+    def run(*arguments):
+        folder = tmp_path / "never"
+        seen = {path.name for path in tmp_path.iterdir()}
+        code = call([*(str(one) for one in arguments), "--json"])
+        out, err = capsys.readouterr()
+        assert code == 2, err
+        assert out == ""
+        lines = err.splitlines()
+        assert len(lines) == 1, err
+        assert lines[0].startswith("stylobate: ")
+        assert lines[0].endswith((".", "?"))
+        assert not folder.exists()
+        assert {path.name for path in tmp_path.iterdir()} == seen
+        return lines[0]
+
+    return run
+
+
+def with_options(command, column, tmp_path, **changes):
+    options = {**GOOD, "--out": str(tmp_path / "never"), **{f"--{key}": value for key, value in changes.items()}}
+    return [
+        command,
+        str(column),
+        *(part for key, value in options.items() if value is not None for part in (key, value)),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"model": "dem2"}, ["no model 'dem2'", "did you mean dem2d?", "housner"]),
+        ({"model": "dem3d"}, ["no model 'dem3d'"]),
+        ({"model": None}, ["--model"]),
+        ({"set": "restitutoin=0.9"}, ["'restitutoin'", "did you mean restitution?"]),
+        ({"set": "restitution"}, ["'restitution'", "name=value"]),
+        ({"set": "restitution=2"}, ["restitution is 2", "[0, 1]"]),
+        ({"set": "linear=maybe"}, ["linear is 'maybe'", "true or false"]),
+        ({"model": "dem2d", "set": "points=1"}, ["points is 1", "from 2"]),
+        ({"model": "dem2d", "set": "points=2.5"}, ["points is '2.5'", "whole number"]),
+        ({"model": "dem2d", "set": "time_step=0.1"}, ["0.1 s"]),
+        ({"harmonic": None}, ["no motion", "--harmonic, --pulse and --motion"]),
+        ({"pulse": "ricker,1Hz,0.3g"}, ["--harmonic and --pulse are both given"]),
+        ({"harmonic": "1Hz,0.3,10s"}, ["'0.3' has no unit", "1.0Hz,0.3g,10s"]),
+        ({"harmonic": "1Hz,?g,10s"}, ["leaves the amplitude open"]),
+        ({"harmonic": "-1Hz,0.3g,10s"}, ["frequency is -1 Hz"]),
+        ({"harmonic": None, "pulse": "rickr,1Hz,0.3g"}, ["'rickr'", "did you mean ricker?"]),
+        ({"harmonic": None, "motion": "nowhere.csv"}, ["nowhere.csv"]),
+        ({"unit": "g"}, ["--unit", "record"]),
+        ({"dt": "0.01s"}, ["--dt", "record"]),
+        ({"scale": "2", "pga": "0.3g"}, ["--scale and --pga"]),
+        ({"scale": "nan"}, ["scale is nan"]),
+        ({"scale": "twice"}, ["--scale", "twice"]),
+        ({"pga": "0.3"}, ["'0.3'", "unit"]),
+        ({"vertical": "maybe"}, ["--vertical is 'maybe'", "on or off"]),
+        ({"tail": "5"}, ["'5'", "unit"]),
+        ({"tail": "-1s"}, ["tail is -1 s"]),
+        ({"output-interval": "0s"}, ["output interval is 0 s"]),
+        ({"threads": "0"}, ["threads is 0"]),
+        ({"threads": "many"}, ["--threads", "many"]),
+    ],
+)
+def test_run(changes, words, refused, tmp_path):
+    message = refused(*with_options("run", "paper-monolithic", tmp_path, **changes))
+    for word in words:
+        assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("bottom_width", "botom_width"), ["'botom_width'", "did you mean 'bottom_width'?"]),
+        (("height = 5.0", "height = -5.0"), ["height", "-5 m"]),
+        (("= 2\n", "= 0\n"), ["drums is 0", "1 to 200"]),
+        (("= 2\n", "= 1000000\n"), ["drums is 1000000"]),
+        (("5.0e10", "0.0"), ["normal_stiffness", "0 N/m³"]),
+        (("35.0", "90.0"), ["friction_angle", "[0, 90) degrees"]),
+        (("[joint]", "[jiont]"), ["'jiont'", "did you mean 'joint'?"]),
+        (("density = 1600.0", "density = "), ["not valid TOML"]),
+    ],
+)
+def test_column_files(change, words, refused, tmp_path):
+    path = tmp_path / "column.toml"
+    path.write_text(COLUMN.replace(*change))
+    message = refused(*with_options("run", path, tmp_path))
+    for word in [str(path), *words]:
+        assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("time_s,ax\n0,0\n0.01,1\n0.02,0\n", ["unit"]),
+        ("time_s,ax_g\n0,0\n0.01,nan\n0.02,0\n", ["record.csv"]),
+        ("time_s,ax_g\n0,0\n0.01,1\n0.05,0\n", ["0.0"]),
+        ("", ["record.csv"]),
+    ],
+    ids=["no unit", "NaN", "unequal steps", "empty"],
+)
+def test_records(text, words, refused, tmp_path):
+    path = tmp_path / "record.csv"
+    path.write_text(text)
+    message = refused(*with_options("run", "paper-monolithic", tmp_path, harmonic=None, motion=str(path)))
+    for word in words:
+        assert word in message, message
+
+
+def test_a_column_that_is_nowhere(refused, tmp_path):
+    assert "did you mean paper-monolithic?" in refused(*with_options("run", "paper-monolith", tmp_path))
+    assert "there is no file" in refused(*with_options("run", tmp_path / "none.toml", tmp_path))
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["run", "paper-monolithic", "--model", "housner", "--harmonic", "1Hz,0.3g,1s"],
+        [
+            "critical",
+            "paper-monolithic",
+            "--model",
+            "housner",
+            "--harmonic",
+            "1Hz,?g,1s",
+            "--from",
+            "0.1g",
+            "--to",
+            "0.2g",
+        ],
+        ["domain", "paper-monolithic", "--model", "housner", "--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2"],
+        ["compare", "paper-monolithic", "--models", "housner", "--harmonic", "1Hz,0.3g,1s"],
+        ["columns"],
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_a_folder_that_cannot_be_written_is_refused_before_anything_is_computed(
+    arguments, refused, tmp_path, monkeypatch
+):
+    computed = []
+    for verb in ("run", "run_many"):
+        monkeypatch.setattr(st.HousnerBlock, verb, lambda *_, **__: computed.append(1))
+    (tmp_path / "file").write_text("in the way")
+    message = refused(*arguments, "--out", tmp_path / "file" / "folder")
+    assert "cannot be written" in message
+    assert not computed
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"harmonic": "1Hz,0.3g,1s"}, ["states its amplitude", "?g"]),
+        ({"from": "0.5g", "to": "0.2g"}, ["largest amplitude", "must not be below"]),
+        ({"from": "0g"}, ["smallest amplitude is 0"]),
+        ({"step": "0g"}, ["step is 0"]),
+        ({"step": "0.0000001g"}, ["larger step"]),
+        ({"from": None}, ["--from"]),
+    ],
+)
+def test_critical(changes, words, refused, tmp_path):
+    options = {"harmonic": "1Hz,?g,1s", "from": "0.1g", "to": "0.2g", "step": "0.05g"} | changes
+    message = refused(*with_options("critical", "paper-monolithic", tmp_path, **options))
+    for word in words:
+        assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"model": None}, ["--model is missing"]),
+        ({"frequencies": None}, ["--frequencies is missing", "0.33:4:24"]),
+        ({"amplitudes": "0.1:0.2:2"}, ["'0.1'", "unit"]),
+        ({"amplitudes": "0.1g:0.2g"}, ["first:last:number"]),
+        ({"amplitudes": "0.3g:0.2g:4"}, ["first value must be below the last"]),
+        ({"frequencies": "1:2:0"}, ["0 values"]),
+        ({"frequencies": "1:2:two"}, ["'two'"]),
+        ({"frequencies": "2,1"}, ["must rise"]),
+        ({"duration": "0s"}, ["duration is 0"]),
+    ],
+)
+def test_domain(changes, words, refused, tmp_path):
+    options = {"harmonic": None, "frequencies": "1:2:2", "amplitudes": "0.1g:0.2g:2"} | changes
+    message = refused(*with_options("domain", "paper-monolithic", tmp_path, **options))
+    for word in words:
+        assert word in message, message
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("frequencies", "frequncies"), ["'frequncies'", "did you mean 'frequencies'?"]),
+        (('"housner"', '"houser"'), ["no model 'houser'", "did you mean housner?"]),
+        (('"paper-monolithic"', '"paper-monolith"'), ["did you mean paper-monolithic?"]),
+        (("1.0", '"1 s"'), ["'duration'", "a number"]),
+        (('"0.1g:0.2g:2"', "[0.1, 0.2]"), ["0.1, without a unit", "'0.3g'"]),
+        (('"1:2:2"', "3"), ["frequencies is 3", "a list"]),
+        (('"1:2:2"', "[true]"), ["True", "a number"]),
+        (("1.0", "1.0\n[set]\nrestitutoin = 1"), ["'restitutoin'", "did you mean restitution?"]),
+    ],
+)
+def test_study_files(change, words, refused, tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(STUDY.replace(*change))
+    message = refused("domain", path, "--out", tmp_path / "never")
+    for word in [str(path), *words]:
+        assert word in message, message
+
+
+def test_a_study_file_and_options_at_once(refused, tmp_path):
+    path = tmp_path / "study.toml"
+    path.write_text(STUDY)
+    assert "--model is given as well" in refused("domain", path, "--model", "dem2d", "--out", tmp_path / "never")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["rnu", "paper-monolithic"], ["rnu"]),
+        (["run"], ["COLUMN"]),
+        (["run", "paper-monolithic", "--modle", "housner"], ["--modle"]),
+        (["columns", "nowhere"], ["nowhere"]),
+        (["motion", "nowhere.csv"], ["nowhere.csv"]),
+        (["compare", "paper-monolithic", "--models", "housner,housner", "--harmonic", "1Hz,1g,1s"], ["given twice"]),
+        (["compare", "paper-monolithic", "--models", "housner,dem", "--harmonic", "1Hz,1g,1s"], ["dem2d"]),
+        (["compare", "paper-monolithic", "--models", "housner", "--frequencies", "1:2:2"], ["both --frequencies and"]),
+        (
+            ["compare", "paper-monolithic", "--models", "housner", "--harmonic", "1Hz,1g", "--set", "e=1"],
+            ["model.name=value"],
+        ),
+    ],
+)
+def test_what_is_typed_wrong(arguments, words, refused):
+    message = refused(*arguments)
+    for word in words:
+        assert word in message, message
