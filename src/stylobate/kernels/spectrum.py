@@ -34,12 +34,13 @@ def advance(u, v, p, q, h, w, z, c11, c12, c21, c22):
 def peaks(a, dt, periods, z, per_period, out):
     """Largest |u|, |v| and |absolute acceleration| of each period; ``out`` of shape (periods, 3).
 
-    Each step is divided so that ``per_period`` states fall on a period; one more period of free vibration follows.
+    Each step is divided so that ``per_period`` states fall on a period, and into 8 parts at least, because the velocity
+    follows the input within a step; one more period of free vibration follows.
     """
     n = a.shape[0]
     for j in range(periods.shape[0]):
         w = 2.0 * math.pi / periods[j]
-        k = max(1, math.ceil(per_period * dt / periods[j]))
+        k = max(8, math.ceil(per_period * dt / periods[j]))
         h = dt / k
         c11, c12, c21, c22 = transition(w, z, h)
         u = v = 0.0
@@ -69,7 +70,7 @@ def rotated_peaks(ax, ay, dt, periods, z, per_period, cosine, sine, out):
     angles = cosine.shape[0]
     for j in range(periods.shape[0]):
         w = 2.0 * math.pi / periods[j]
-        k = max(1, math.ceil(per_period * dt / periods[j]))
+        k = max(1, math.ceil(per_period * dt / periods[j]))  # for displacements
         h = dt / k
         c11, c12, c21, c22 = transition(w, z, h)
         ux = vx = uy = vy = 0.0

@@ -1,7 +1,31 @@
-"""What shakes: ground motions, harmonic and pulse-like, and recorded ones from files."""
+"""What shakes: ground motions, harmonic and pulse-like, recorded and simulated, and what is measured on them."""
 
+from .conditioning import (
+    bandpass,
+    baseline_piecewise,
+    baseline_polynomial,
+    demean,
+    detrend,
+    resample,
+    scale_to_pgv,
+    scale_to_sa,
+    taper,
+    trim,
+)
 from .harmonic import harmonic
+from .integration import displacement
+from .intensity import (
+    arias_intensity,
+    cumulative_absolute_velocity,
+    motion_summary,
+    peak_ground_displacement,
+    peak_ground_velocity,
+    rocking_measures,
+    significant_duration,
+)
 from .motion import MAX_SAMPLES, Motion, integrate
+from .orientation import along, principal, rotated, strongest, turned
+from .pulse_match import PulseMatch, pulse_match
 from .pulses import (
     cosine_pulse,
     gabor,
@@ -13,25 +37,56 @@ from .pulses import (
 )
 from .readers import read_motion
 from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_time
+from .spectra import ResponseSpectrum, housner_intensity, response_spectrum, rotated_pga, rotated_spectrum
 from .writing import write_csv
 
 __all__ = [
     "MAX_SAMPLES",
     "Motion",
+    "PulseMatch",
+    "ResponseSpectrum",
+    "along",
+    "arias_intensity",
+    "bandpass",
+    "baseline_piecewise",
+    "baseline_polynomial",
     "cosine_pulse",
+    "cumulative_absolute_velocity",
+    "demean",
+    "detrend",
+    "displacement",
     "gabor",
     "half_sine_pulse",
     "harmonic",
+    "housner_intensity",
     "integrate",
     "mavroeidis_papageorgiou",
+    "motion_summary",
     "parse_acceleration",
     "parse_frequency",
     "parse_harmonic",
     "parse_pulse",
     "parse_time",
+    "peak_ground_displacement",
+    "peak_ground_velocity",
+    "principal",
+    "pulse_match",
     "read_motion",
     "rectangular_pulse",
+    "resample",
+    "response_spectrum",
     "ricker",
+    "rocking_measures",
+    "rotated",
+    "rotated_pga",
+    "rotated_spectrum",
+    "scale_to_pgv",
+    "scale_to_sa",
+    "significant_duration",
     "sine_pulse",
+    "strongest",
+    "taper",
+    "trim",
+    "turned",
     "write_csv",
 ]

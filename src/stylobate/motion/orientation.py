@@ -36,7 +36,8 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
     known = _azimuths(motion)
     if known is None:
         raise InputError(
-            f"the azimuths of {motion.name!r} are not stated in its file, so it cannot be turned to {wanted:g}°; turn it "
+            f"the azimuths of {motion.name!r} are not stated in its file, so it cannot be turned to {wanted:g}°; "
+            "turn it "
             "by an angle from its first component with stylobate.motion.turned."
         )
     a, b = (math.radians(one) for one in known)
