@@ -38,7 +38,7 @@ import numpy as np
 
 from . import contact as ct
 from .ground import sample
-from .jit import kernel, law, strict
+from .jit import apart, kernel, law, strict
 
 #: Lanes of a block. The same for a single run, so that it has the bits of the batch.
 LANES = 16
@@ -93,7 +93,7 @@ def contact_point(p, points, xi, lo, hi, sl, ql, sr, qr, c, s, w):
     return ct.inner_contact(xi, lo, hi, sl, ql, c, s)
 
 
-@kernel
+@apart
 def forces(drum, joint, lane):
     """Forces of all joints at t_n; brings the contact memory from t_{n−1} to t_n."""
     o = lane[0]
@@ -176,7 +176,7 @@ def forces(drum, joint, lane):
                 o.visc[l] += visc
 
 
-@kernel
+@apart
 def move(drum, joint, lane, ground, k):
     """Motion of all drums from t_n to t_{n+1} under the forces at t_n."""
     o = lane[0]
@@ -263,7 +263,7 @@ def check_finite(drum, watch):
             w.status[l] = FAILED if lost else w.status[l]
 
 
-@kernel
+@apart
 def observe(drum, joint, lane, feed, watch):
     """Look at all lanes: peaks, and certain collapses; rotations get their length back.
 

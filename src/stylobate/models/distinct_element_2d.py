@@ -16,7 +16,7 @@ from ..motion import Motion
 from ..outcome import Outcome, classify
 from ..response import Histories, Measures, Response
 from .base import Case, Model, RunOptions, ground_history
-from .lanes import run_lanes
+from .lanes import aligned_zeros, run_lanes
 
 #: Half width of the base, wide enough to be a half-plane [m].
 BASE_HALF_WIDTH = 1.0e4
@@ -161,20 +161,18 @@ class _Block:
     """A block of lanes: kernel arrays, and the way of a case into and out of them."""
 
     def __init__(self, model: DistinctElement2D, drums: int, options: RunOptions) -> None:
-        from ..kernels import distinct_element_2d as kernel
-
         self.model = model
-        self.kernel = kernel
+        self.kernel = kernel = self.its_kernel()
         self.options = options
         self.lanes = kernel.LANES
         self.chunk = kernel.CHUNK
-        types = kernel.block_types(model.points, model.damped)
-        self.drum = np.zeros(drums + 1, types[0])
-        self.joint = np.zeros(drums + 1, types[1])
-        self.lane = np.zeros(1, types[2])
-        self.ground = np.zeros(kernel.CHUNK + 1, types[3])
-        self.feed = np.zeros(1, types[4])
-        self.watch = np.zeros(1, types[5])
+        types = self.its_types()
+        self.drum = aligned_zeros(drums + 1, types[0])
+        self.joint = aligned_zeros(drums + 1, types[1])
+        self.lane = aligned_zeros(1, types[2])
+        self.ground = aligned_zeros(kernel.CHUNK + 1, types[3])
+        self.feed = aligned_zeros(1, types[4])
+        self.watch = aligned_zeros(1, types[5])
         self.watch["status"] = kernel.FREE
         self.dt = np.zeros(self.lanes)
         self.steps = np.zeros(self.lanes, dtype=np.int64)
@@ -182,10 +180,26 @@ class _Block:
         self.cases: list[Case | None] = [None] * self.lanes
         self.chunks_per_call = 1
 
+    # What differs where drums are stepped alike but their joints follow another law (the rigid block model).
+
+    def its_kernel(self):
+        """Module of kernels."""
+        from ..kernels import distinct_element_2d as kernel
+
+        return kernel
+
+    def its_types(self) -> tuple:
+        """Record types of the arrays."""
+        return self.kernel.block_types(self.model.points, self.model.damped)
+
+    def its_column(self, column: Column) -> _Packed:
+        """A column as the kernel wants it."""
+        return _pack(column, self.model)
+
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
         column, motion = case
-        packed = _pack(column, self.model)
+        packed = self.its_column(column)
         for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
             for name, values in fields.items():
                 array[name][..., lane] = values

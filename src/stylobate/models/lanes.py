@@ -11,6 +11,8 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from typing import Protocol
 
+import numpy as np
+
 from ..response import Measures
 from .base import Case
 
@@ -35,6 +37,18 @@ class LaneBlock(Protocol):
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run has ended; the lane is free afterwards."""
         ...
+
+
+#: Arrays of lanes start at a multiple of this [bytes], so that no vector straddles two lines of the cache.
+CACHE_LINE = 64
+
+
+def aligned_zeros(shape: int, dtype: np.dtype) -> np.ndarray:
+    """One-dimensional zeros that start on a line of the cache."""
+    size = shape * dtype.itemsize
+    raw = np.zeros(size + CACHE_LINE, dtype=np.uint8)
+    start = -raw.ctypes.data % CACHE_LINE
+    return raw[start : start + size].view(dtype)
 
 
 def run_lanes(
