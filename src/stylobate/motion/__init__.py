@@ -36,14 +36,17 @@ from .pulses import (
     sine_pulse,
 )
 from .readers import read_motion
-from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_time
+from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_synthetic, parse_time
 from .spectra import ResponseSpectrum, housner_intensity, response_spectrum, rotated_pga, rotated_spectrum
+from .synthesis import REGIONS, Region, fourier_target, stochastic_motion, with_directivity_pulse
 from .writing import write_csv
 
 __all__ = [
     "MAX_SAMPLES",
+    "REGIONS",
     "Motion",
     "PulseMatch",
+    "Region",
     "ResponseSpectrum",
     "along",
     "arias_intensity",
@@ -55,6 +58,7 @@ __all__ = [
     "demean",
     "detrend",
     "displacement",
+    "fourier_target",
     "gabor",
     "half_sine_pulse",
     "harmonic",
@@ -66,6 +70,7 @@ __all__ = [
     "parse_frequency",
     "parse_harmonic",
     "parse_pulse",
+    "parse_synthetic",
     "parse_time",
     "peak_ground_displacement",
     "peak_ground_velocity",
@@ -84,9 +89,11 @@ __all__ = [
     "scale_to_sa",
     "significant_duration",
     "sine_pulse",
+    "stochastic_motion",
     "strongest",
     "taper",
     "trim",
     "turned",
+    "with_directivity_pulse",
     "write_csv",
 ]

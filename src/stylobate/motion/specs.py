@@ -13,6 +13,7 @@ from ..errors import InputError
 from . import pulses
 from .harmonic import harmonic
 from .motion import Motion
+from .synthesis import stochastic_motion
 
 #: Units of acceleration that a person may type or a file may name, in m/s².
 ACCELERATION_UNITS = {
@@ -181,6 +182,33 @@ def parse_pulse(
         length = max(default_length, alone)
     motion = PULSES[key](found["frequency"], amplitude, length)
     return (motion, math.isnan(found["acceleration"])) if allow_unknown else motion
+
+
+def parse_synthetic(text: str) -> Motion:
+    """A simulated motion as typed: ``greece,6.5Mw,20km`` or ``greece,6.5Mw,20km,seed=3`` (region, magnitude, distance).
+
+    Raises
+    ------
+    InputError
+        The text cannot be understood; the message shows how to write it.
+    """
+    example = "greece,6.5Mw,20km,seed=3"
+    region, *parts = [part.strip() for part in text.split(",")]
+    found: dict[str, float] = {}
+    for part in parts:
+        match = re.fullmatch(
+            r"(?P<seed>seed)\s*=\s*(?P<number>\d{1,18})|(?P<value>\d+\.?\d*|\.\d+)\s*(?P<unit>mw|km)", part.lower()
+        )
+        if match is None:
+            raise InputError(f"--synthetic {text!r}: {part!r} is not understood; write it as {example!r}.")
+        key = match["seed"] or match["unit"]
+        if key in found:
+            raise InputError(f"--synthetic {text!r} holds two values of {key}; write it as {example!r}.")
+        found[key] = int(match["number"]) if match["seed"] else float(match["value"])
+    for key, word in (("mw", "magnitude such as 6.5Mw"), ("km", "distance such as 20km")):
+        if key not in found:
+            raise InputError(f"--synthetic {text!r} holds no {word}; write it as {example!r}.")
+    return stochastic_motion(found["mw"], found["km"] * 1e3, region.lower(), seed=int(found.get("seed", 0)))
 
 
 def _parts(parts: list[str], text: str, option: str, example: str) -> dict[str, float]:
