@@ -103,7 +103,7 @@ def describe(response: Response, motion: Motion, files: list[Path]) -> None:
     m, column = response.measures, response.column
     sentence = m.outcome.sentence
     if m.reason:
-        sentence += f" {m.reason}"
+        sentence += f" Reason: {m.reason}."
     if not m.decided:
         sentence += " The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
     facts = {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -13,6 +14,9 @@ from ..errors import InputError
 from ..response import Response
 from .histories import describe
 from .style import BLACK, BROWN, SAND, WIDTH, styled
+
+#: Width that the words over a panel take [inch].
+WORDS = 0.66
 
 
 @styled
@@ -29,8 +33,8 @@ def draw_filmstrip(
     ----------
     response : Response
     instants : sequence of float, optional
-        [s]; the nearest recorded states are drawn. By default six: at rest, spread from the first clear motion to
-        the end, and at the largest displacement before a collapse.
+        [s]; the nearest recorded states are drawn. By default up to eight: at rest, at the largest
+        displacement in each fifth of the clear motion and before a collapse, and at the end.
     magnification : float, optional
         Factor on all displacements; by default 1, or a round number that makes small ones visible.
     title : str, optional
@@ -43,15 +47,19 @@ def draw_filmstrip(
     floor = min(0.0, *(bottom for *_, bottom in spans))
     widths = [high - low for low, high, _, _ in spans]
     height = max(response.column.height, *(top for _, _, top, _ in spans)) - floor
-    # One scale for all panels: as wide as the page, or less if the strip would become too high.
-    scale = min(WIDTH / (sum(widths) * 1.05), 3.2 / (1.05 * height))
+    # One scale for all panels: as large as the page allows, with room for each panel's words.
+    scale = 3.2 / (1.05 * height)
+    while sum(max(scale * width, WORDS) for width in widths) > 0.96 * WIDTH and scale * height > 0.2:
+        scale *= 0.98
+    widths = [max(width, WORDS / scale) for width in widths]
     figure = Figure(figsize=(WIDTH, scale * 1.05 * height + 0.75))
     peak = float(np.nanmax(np.abs(h.top_displacement[frames])))
     unit, size, digits = ("m", 1.0, 2) if peak >= 0.1 else ("mm", 1000.0, 1)
     panels = np.ravel(figure.subplots(1, len(frames), width_ratios=widths))
-    for axes, index, shape, (low, high, _, _) in zip(panels, frames, outlines, spans):
+    for axes, index, shape, width, (low, high, _, _) in zip(panels, frames, outlines, widths, spans):
         _draw(axes, shape)
-        axes.set_xlim(low, high)
+        middle = 0.5 * (low + high)
+        axes.set_xlim(middle - 0.5 * width, middle + 0.5 * width)
         axes.set_ylim(floor - 0.03 * height, floor + 1.02 * height)
         axes.set_aspect("equal", anchor="S")
         axes.set_axis_off()
@@ -101,15 +109,29 @@ def _frames(response: Response, instants: Sequence[float] | None) -> list[int]:
         time = response.measures.collapse_time
         before = top if math.isnan(time) else np.where(h.time <= time, top, 0.0)
         peak = int(before.argmax())
-        start = int(np.argmax(before > 0.1 * before[peak])) if before[peak] > 0.0 else 0
-        spread = np.linspace(start, len(h.time) - 1, 5).round().astype(int)
-        return sorted({0, peak, *spread.tolist()})
+        last = _last_above_ground(response)
+        top[last + 1 :] = before[last + 1 :] = 0.0
+        moving = np.flatnonzero(np.abs(top[: last + 1] - top[last]) > 0.1 * before[peak])
+        start, end = (int(moving[0]), int(moving[-1])) if moving.size else (0, last)
+        start = max(start, int(np.argmax(before > 0.1 * before[peak])))
+        edges = np.linspace(start, end + 1, 6).round().astype(int)
+        spread = [low + int(top[low:high].argmax()) for low, high in pairwise(edges) if high > low]
+        apart = 0.02 * (end - start)
+        chosen = sorted({0, peak, *spread})
+        return [i for i in chosen if i == 0 or last - i > apart] + [last]
     for instant in instants:
         if not h.time[0] <= instant <= h.time[-1]:
             raise InputError(f"instant {instant:g} s is not recorded; allowed is {h.time[0]:g} to {h.time[-1]:g} s.")
     if not len(instants):
         raise InputError("no instant is given to draw; give at least one [s].")
     return [int(np.abs(h.time - instant).argmin()) for instant in instants]
+
+
+def _last_above_ground(response: Response) -> int:
+    # A model without contact of what falls with the ground lets it pass: nothing is to be seen from there on.
+    heights = response.column.centroid_heights + response.histories.drum_z
+    below = np.flatnonzero((heights < 0.0).any(axis=1))
+    return max(int(below[0]) - 1, 0) if below.size else len(heights) - 1
 
 
 def _magnification(response: Response) -> float:

@@ -84,13 +84,14 @@ def _mark_collapse(axes: Axes, responses: Sequence[tuple[Response, str]]) -> Non
         if math.isnan(time):
             continue
         axes.axvline(time, color=color, linewidth=0.8, linestyle=(0, (1, 2)))
+        early = time < 0.7 * response.histories.time[-1]
         axes.annotate(
             f"collapse {time:.2f} s",
             (time, 0.04 + 0.09 * i),
             xycoords=("data", "axes fraction"),
-            xytext=(-3, 0),
+            xytext=(3 if early else -3, 0),
             textcoords="offset points",
-            ha="right",
+            ha="left" if early else "right",
             fontsize=8.0,
             color=color,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6},
