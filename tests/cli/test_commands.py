@@ -237,7 +237,9 @@ def test_a_warning_is_one_line_on_standard_error(capsys, tmp_path):
 def test_version_and_help(capsys):
     assert call(["--version"]) == 0
     assert capsys.readouterr().out == f"stylobate {st.__version__}\n"
-    assert call(["--help"]) == 0
+    assert call([]) == 0
     out = capsys.readouterr().out
+    assert call(["--help"]) == 0
+    assert capsys.readouterr().out == out
     for name in ("run", "critical", "domain", "compare", "motion", "columns"):
         assert f"\n  {name} " in out

@@ -10,6 +10,7 @@ from hypothesis import strategies as some
 
 import stylobate as st
 from stylobate.atomic import replacing
+from stylobate.column.files import column_from_dict
 from stylobate.column.presets import preset
 from stylobate.response import ENERGY_TERMS, Histories, Measures
 
@@ -115,6 +116,15 @@ def test_two_hundred_drums_fit_in_a_file(tmp_path):
     histories = dataclasses.replace(response.histories, **dict.fromkeys(names, wide))
     response = dataclasses.replace(response, histories=histories, provenance={"column": column.to_dict()})
     assert st.Response.load(response.save(tmp_path / "tall.nc")).column == column
+
+
+def test_a_run_keeps_its_provenance(tmp_path):
+    response = st.simulate(preset("paper-monolithic"), st.harmonic(1.0, 0.25 * st.g, 1.0), st.HousnerBlock())
+    loaded = st.Response.load(response.save(tmp_path / "run.nc"))
+    assert loaded.provenance == response.provenance
+    assert loaded.measures.row() == response.measures.row()
+    assert loaded.column == column_from_dict(response.provenance["column"]) == response.column
+    assert loaded.summary() == response.summary()
 
 
 def test_files_that_are_no_responses(tmp_path):

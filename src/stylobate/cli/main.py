@@ -22,7 +22,6 @@ _UsageError: type[Exception] = next(one for one in typer.BadParameter.__mro__ if
 app = typer.Typer(
     name="stylobate",
     help="Will this freestanding ancient column stand the shaking?",
-    no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -80,10 +79,14 @@ def call(arguments: Sequence[str]) -> int:
 
 @app.callback(invoke_without_command=True)
 def _version(
+    context: typer.Context,
     version: Annotated[bool, typer.Option("--version", help="Print the version and leave.", is_eager=True)] = False,
 ) -> None:
     if version:
         typer.echo(f"stylobate {__version__}")
+        raise typer.Exit
+    if context.invoked_subcommand is None:
+        typer.echo(context.get_help())
         raise typer.Exit
 
 

@@ -317,7 +317,8 @@ class Column:
 
     def to_dict(self) -> dict:
         """Everything that defines the column, as plain values in SI units."""
-        return dataclasses.asdict(self)
+        found = dataclasses.asdict(self)
+        return found | {"drums": list(found["drums"]), "joints": list(found["joints"])}
 
     @cached_property
     def digest(self) -> str:

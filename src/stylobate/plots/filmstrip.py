@@ -117,8 +117,8 @@ def _frames(response: Response, instants: Sequence[float] | None) -> list[int]:
         edges = np.linspace(start, end + 1, 6).round().astype(int)
         spread = [low + int(top[low:high].argmax()) for low, high in pairwise(edges) if high > low]
         apart = 0.02 * (end - start)
-        chosen = sorted({0, peak, *spread})
-        return [i for i in chosen if i == 0 or last - i > apart] + [last]
+        chosen = sorted({0, peak, *spread}) if last else []
+        return [i for i in chosen if last - i > apart] + [last]
     for instant in instants:
         if not h.time[0] <= instant <= h.time[-1]:
             raise InputError(f"instant {instant:g} s is not recorded; allowed is {h.time[0]:g} to {h.time[-1]:g} s.")
