@@ -35,7 +35,7 @@ from .pulses import (
     ricker,
     sine_pulse,
 )
-from .readers import read_motion
+from .readers import Suite, read_motion, read_suite
 from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_synthetic, parse_time
 from .spectra import ResponseSpectrum, housner_intensity, response_spectrum, rotated_pga, rotated_spectrum
 from .synthesis import REGIONS, Region, fourier_target, stochastic_motion, with_directivity_pulse
@@ -48,6 +48,7 @@ __all__ = [
     "PulseMatch",
     "Region",
     "ResponseSpectrum",
+    "Suite",
     "along",
     "arias_intensity",
     "bandpass",
@@ -77,6 +78,7 @@ __all__ = [
     "principal",
     "pulse_match",
     "read_motion",
+    "read_suite",
     "rectangular_pulse",
     "resample",
     "response_spectrum",

@@ -1,5 +1,6 @@
 """Record files of any network: one registry recognises the format from the content and reads it."""
 
 from .registry import FORMATS, Format, read_motion
+from .suite import Suite, read_suite
 
-__all__ = ["FORMATS", "Format", "read_motion"]
+__all__ = ["FORMATS", "Format", "Suite", "read_motion", "read_suite"]

@@ -9,7 +9,7 @@ import numpy as np
 from ...errors import InputError
 from ..specs import TIME_UNITS, acceleration_unit
 from .numbers import read_numbers
-from .record import Component
+from .record import Component, UnstatedError
 from .source import Source
 from .steps import ROUNDING_SHARE, first_bad_step, step_of
 
@@ -176,7 +176,7 @@ def _named(
             continue
         stated = names[keys.index(axis)][1]
         if stated is None and unit is None:
-            raise InputError(_no_unit(f"{file}: column a{axis}"))
+            raise UnstatedError(_no_unit(f"{file}: column a{axis}"))
         label, size = acceleration_unit(stated or unit or "")
         if stated and unit and acceleration_unit(unit)[1] != size:
             raise InputError(f"{file}: the header says {stated!r}, but unit is given as {unit!r}; leave the unit out.")
@@ -205,10 +205,10 @@ def _bare(
             "column of acceleration, or time and up to three components, or a header such as time_s,ax_g."
         )
     if unit is None:
-        raise InputError(_no_unit(file))
+        raise UnstatedError(_no_unit(file))
     label, size = acceleration_unit(unit)
     if time is None and dt is None:
-        raise InputError(f"{file} has no time column; state the step: dt=0.01 (--dt 0.01s).")
+        raise UnstatedError(f"{file} has no time column; state the step: dt=0.01 (--dt 0.01s).")
     axes = "xyz"[: values.shape[1]]
     return (
         [Component(_scaled(values[:, i], size), np.nan, axis, vertical=axis == "z") for i, axis in enumerate(axes)],

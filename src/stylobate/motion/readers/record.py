@@ -18,6 +18,10 @@ from .steps import resampled, same_step
 OFFSET_SHARE = 0.1
 
 
+class UnstatedError(InputError):
+    """The file leaves its unit or its step open, which the caller can state."""
+
+
 @dataclass
 class Component:
     """One component of a record.

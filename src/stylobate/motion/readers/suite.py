@@ -1,0 +1,83 @@
+"""Many records at once: a folder, or a list of files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from ...errors import InputError
+from ..motion import Motion
+from .record import UnstatedError
+from .registry import read_motion
+
+#: Largest number of files looked into.
+MAX_FILES = 10_000
+
+
+@dataclass(frozen=True)
+class Suite:
+    """Records that were read, and files that were not.
+
+    Parameters
+    ----------
+    motions : tuple of Motion
+        In the order of the files.
+    refused : dict of str to str
+        Reason by file name, for files that hold no record that can be used.
+    """
+
+    motions: tuple[Motion, ...]
+    refused: dict[str, str]
+
+
+def read_suite(source: str | Path | Sequence[str | Path], unit: str | None = None, dt: float | None = None) -> Suite:
+    """Read all records of a folder, or of a list of files.
+
+    Parameters
+    ----------
+    source : path, or sequence of paths
+        A folder (its files, not those of folders in it), or files.
+    unit : str, optional
+        Unit of those files that state none.
+    dt : float, optional
+        Step of those files that have no time column [s].
+
+    Returns
+    -------
+    Suite
+
+    Raises
+    ------
+    InputError
+        No such folder, or not one file in it that can be used.
+    """
+    if isinstance(source, (str, Path)):
+        folder = Path(source)
+        if not folder.is_dir():
+            raise InputError(f"{folder} is not a folder; give a folder of records, or a list of files.")
+        paths = sorted(path for path in folder.iterdir() if path.is_file() and not path.name.startswith("."))
+    else:
+        paths = [Path(path) for path in source]
+    if len(paths) > MAX_FILES:
+        raise InputError(f"{len(paths)} files are given; allowed is up to {MAX_FILES}: split the suite.")
+    motions, refused = [], {}
+    for path in paths:
+        try:
+            motions.append(_read(path, unit, dt))
+        except InputError as error:
+            refused[path.name] = str(error)
+    if not motions:
+        first = next(iter(refused.items()), ("", "it is empty"))
+        raise InputError(f"{source} holds no record that can be used; the first reason: {first[1]}")
+    return Suite(tuple(motions), refused)
+
+
+def _read(path: Path, unit: str | None, dt: float | None) -> Motion:
+    """A file of its own unit and step, or else one with those stated."""
+    try:
+        return read_motion(path)
+    except UnstatedError:
+        if unit is None and dt is None:
+            raise
+        return read_motion(path, unit, dt)

@@ -1,0 +1,53 @@
+"""Suites of records: a folder read at once, and the table of what it does to columns."""
+
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stylobate.analysis.rocking_spectrum import rocking_block
+from stylobate.analysis.suite import suite_table
+from stylobate.constants import g
+from stylobate.errors import InputError, OutOfRangeWarning
+from stylobate.models.housner import HousnerBlock
+from stylobate.motion import half_sine_pulse, read_suite, write_csv
+
+RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
+
+
+def test_a_folder_with_a_file_that_is_no_record(tmp_path):
+    for name, size in (("b.csv", 0.3), ("a.csv", 0.1)):
+        write_csv(half_sine_pulse(1.0, size * g, 4.0), tmp_path / name)
+    (tmp_path / "README.md").write_text("# Records\n")
+    (tmp_path / "bare.txt").write_text("0.1\n-0.1\n0.1\n-0.1\n")
+    suite = read_suite(tmp_path)
+    assert [motion.name for motion in suite.motions] == ["a.csv", "b.csv"]
+    assert set(suite.refused) == {"README.md", "bare.txt"}
+    assert "--unit g" in suite.refused["bare.txt"]
+    assert len(read_suite(tmp_path, "g", 0.01).motions) == 3
+    for wrong in (tmp_path / "missing", tmp_path / "a.csv"):
+        with pytest.raises(InputError, match="not a folder"):
+            read_suite(wrong)
+    with pytest.raises(InputError, match="no record that can be used"):
+        read_suite([tmp_path / "README.md"])
+
+
+def test_the_table_holds_outcomes_and_measures(tmp_path):
+    motions = [half_sine_pulse(1.0, size * g, 12.0) for size in (0.05, 0.8)]
+    columns = [rocking_block(p, 0.1) for p in (1.0, 2.0)]
+    table = suite_table(columns, motions, HousnerBlock(), threads=1)
+    assert table["outcome"].tolist() == ["at_rest", "collapsed"] * 2
+    assert table["pga_over_g_tan_alpha"].to_numpy() == pytest.approx(np.array([0.05, 0.8] * 2) / np.tan(0.1), rel=1e-4)
+    assert table["uniform_duration_s"][0] == 0.0
+    assert {"record", "column", "pgv_m_s", "arias_m_s", "psa_1s_g", "peak_rotation_rad", "model"} <= set(table.columns)
+
+
+@pytest.mark.skipif(not RECORDS.is_dir(), reason="no folder ../shared/records with real records")
+def test_the_folder_of_real_records():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)
+        suite = read_suite(RECORDS, "g")
+    assert len(suite.motions) >= 11
+    assert any("only the vertical" in reason for reason in suite.refused.values())
+    assert any("StationXML" in reason for reason in suite.refused.values())
