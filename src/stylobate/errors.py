@@ -1,5 +1,7 @@
 """What can go wrong, as types: bad input, a failure of ours, a model beyond its declared limits."""
 
+import math
+
 
 class StylobateError(Exception):
     """Base of every error that this package raises on purpose."""
@@ -38,12 +40,10 @@ def check_range(
     remedy : str
         One clause that says what to do instead.
     """
-    import math
-
     unit_text = f" {unit}" if unit else ""
     interval = f"{'(' if open_low else '['}{low:g}, {high:g}{')' if open_high or math.isinf(high) else ']'}{unit_text}"
     tail = f"; {remedy}" if remedy else ""
-    if isinstance(value, bool) or not isinstance(value, (int, float)) and not hasattr(value, "__float__"):
+    if isinstance(value, bool) or not hasattr(value, "__float__"):
         raise InputError(f"{name} is {value!r}, not a number; allowed is {interval}{tail}.")
     try:
         number = float(value)

@@ -26,7 +26,14 @@ from ..simulate import simulate, simulate_many, thread_count
 NATIVE = Path(__file__).parents[3] / "benchmarks"
 
 #: Vectors as wide as the machine has, multiply-add contraction as in the kernels, no reordering of sums.
-FLAGS = ("-O3", "-march=native", "-ffp-contract=fast", "-fno-math-errno", "-fno-trapping-math", "-mprefer-vector-width=512")
+FLAGS = (
+    "-O3",
+    "-march=native",
+    "-ffp-contract=fast",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-mprefer-vector-width=512",
+)
 
 STEPS = 16_000
 ROUNDS = 7
@@ -39,14 +46,18 @@ def native_reference(source: str, folder: str | Path) -> Path | None:
     if compiler is None or not path.is_file():
         return None
     target = Path(folder) / path.stem
-    flags = [flag for flag in FLAGS if not (flag.startswith("-mprefer") and platform.machine() not in ("x86_64", "AMD64"))]
+    flags = [
+        flag for flag in FLAGS if not (flag.startswith("-mprefer") and platform.machine() not in ("x86_64", "AMD64"))
+    ]
     done = subprocess.run([compiler, *flags, str(path), "-o", str(target)], capture_output=True, text=True, check=False)
     if done.returncode:
         raise StylobateError(f"the native reference {source} does not compile: {done.stderr.strip().splitlines()[:1]}.")
     return target
 
 
-def bench(threads: int | None = None, *, full: bool = False, say: Callable[[str], None] = lambda _: None) -> dict[str, Any]:
+def bench(
+    threads: int | None = None, *, full: bool = False, say: Callable[[str], None] = lambda _: None
+) -> dict[str, Any]:
     """Time the kernel, one run, threads against each other, and (``full``) the domain of 768 cells of ten seconds.
 
     Parameters

@@ -10,6 +10,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -149,10 +150,7 @@ class Column:
         whole = Drum(height, bottom_width, top_width, density, section, depth)
         taper = (whole.top_width - whole.bottom_width) / drums
         widths = [whole.bottom_width + taper * i for i in range(drums)] + [whole.top_width]
-        stack = [
-            Drum(whole.height / drums, low, high, density, section, depth)
-            for low, high in zip(widths[:-1], widths[1:], strict=True)
-        ]
+        stack = [Drum(whole.height / drums, low, high, density, section, depth) for low, high in pairwise(widths)]
         return cls.of_drums(stack, joint, overrides=overrides, name=name, gravity=gravity)
 
     @classmethod
@@ -170,10 +168,8 @@ class Column:
         """A copy with the same change made to every joint, e.g. ``with_joint(friction_angle=10.0)``."""
         joints = []
         for joint in self.joints:
-            fields = {"normal_stiffness": joint.normal_stiffness, "shear_stiffness": joint.shear_stiffness}
-            fields |= {"friction_coefficient": joint.friction_coefficient, "cohesion": joint.cohesion}
-            if "friction_angle" in changes:
-                del fields["friction_coefficient"]
+            fields = dataclasses.asdict(joint)
+            del fields["friction_coefficient" if "friction_angle" in changes else "friction_angle"]
             joints.append(Joint(**(fields | changes)))
         return self.replace(joints=tuple(joints))
 

@@ -66,7 +66,9 @@ def block_types(points, damped):
     dashpots = (points if damped else 1, LANES)
 
     def fields(single, several=""):
-        return [(name, np.float64, row) for name in single.split()] + [(name, np.float64, rows) for name in several.split()]
+        return [(name, np.float64, row) for name in single.split()] + [
+            (name, np.float64, rows) for name in several.split()
+        ]
 
     return (
         np.dtype(fields("x z th c s vx vz w m i im ii hb ht b t")),
@@ -301,9 +303,7 @@ def observe(drum, joint, lane, feed, watch):
         margin = SUPPORT_MARGIN if j > 0 else 0.0
         for l in range(LANES):
             half = v.t[l]
-            ps, pq, c, s = ct.relative_pose(
-                u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l]
-            )
+            ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l])
             ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
             lo = max(ls, -half)
             hi = min(rs, half)

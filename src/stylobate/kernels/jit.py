@@ -23,9 +23,10 @@ def source_digest(folder: Path | None = None) -> str:
 
 def cache_folder(folder: Path | None = None) -> Path:
     """Folder for compiled kernels, keyed by their sources."""
-    root = os.environ.get("STYLOBATE_CACHE") or Path(
-        os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
-    ) / "stylobate"
+    root = (
+        os.environ.get("STYLOBATE_CACHE")
+        or Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "stylobate"
+    )
     return Path(root) / "kernels" / source_digest(folder)
 
 

@@ -61,9 +61,7 @@ class Model:
         """One run with histories."""
         raise NotImplementedError
 
-    def run_many(
-        self, cases: Sequence[Case], options: RunOptions, threads: int
-    ) -> Iterator[tuple[int, Measures]]:
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs; yields (index of the case, measures) as they finish, in any order."""
         raise NotImplementedError
 

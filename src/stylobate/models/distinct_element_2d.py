@@ -317,8 +317,7 @@ class _Block:
         top = drum[-1]
         return Measures(
             outcome=outcome,
-            decided=outcome is Outcome.COLLAPSED
-            or (not failed and mechanical < _barrier(case.column, slip)),
+            decided=outcome is Outcome.COLLAPSED or (not failed and mechanical < _barrier(case.column, slip)),
             collapse_time=float(watch["when"][lane]) * self.dt[lane] if watch["when"][lane] >= 0 else math.nan,
             peak_top_displacement=float(watch["top"][lane]),
             residual_top_displacement=float(top["x"][lane] - top["s"][lane] * top["ht"][lane]),
@@ -336,7 +335,9 @@ class _Block:
         if outcome is Outcome.FAILED:
             if watch["status"][lane] == self.kernel.FAILED:
                 return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
-            return f"the energy ledger is out of balance by {imbalance:.2g} of the input work; try a smaller step_factor"
+            return (
+                f"the energy ledger is out of balance by {imbalance:.2g} of the input work; try a smaller step_factor"
+            )
         if outcome is not Outcome.COLLAPSED:
             return ""
         side = "right" if watch["side"][lane] > 0 else "left"
