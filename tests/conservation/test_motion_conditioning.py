@@ -208,7 +208,8 @@ def test_turning_needs_two_components_and_known_azimuths():
 
 def test_scaling_meets_its_target(record):
     assert peak_ground_velocity(scale_to_pgv(record, 0.3)) == pytest.approx(0.3, rel=1e-2)
-    assert response_spectrum(scale_to_sa(record, 0.7, 4.0), [0.7]).psa[0] == pytest.approx(4.0, rel=1e-9)
+    # As close as states lie on a period: the peak between them is missed by up to 0.05 %.
+    assert response_spectrum(scale_to_sa(record, 0.7, 4.0), [0.7]).psa[0] == pytest.approx(4.0, rel=6e-4)
     with pytest.raises(InputError, match="zero along x"):
         scale_to_pgv(Motion(0.1, [0.0, 0.0]), 0.3)
 

@@ -148,6 +148,14 @@ def test_a_folder_and_a_missing_file_are_refused(tmp_path):
             read_motion(path)
 
 
+def test_files_that_are_too_large_are_refused_before_they_are_read(tmp_path):
+    path = tmp_path / "huge.txt"
+    with path.open("wb") as file:
+        file.truncate(100_000_001)  # no bytes on the disk
+    with pytest.raises(InputError, match="cut the record"):
+        read_motion(path)
+
+
 def test_nothing_half_written(tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
         write_csv(Motion(0.1, np.zeros(3)), tmp_path / "missing" / "motion.csv")

@@ -198,7 +198,7 @@ def knet():
     fields = [("Origin Time", "2003/07/26"), ("Lat.", "38"), ("Long.", "141"), ("Depth. (km)", "12"), ("Mag.", "6.2")]
     fields += [("Station Code", "MYG007"), ("Station Lat.", "1"), ("Station Long.", "1"), ("Station Height(m)", "1")]
     fields += [
-        ("Record Time", "2003/07/26"),
+        ("Record Time", "2003/07/26 00:13:24"),
         ("Sampling Freq(Hz)", "100Hz"),
         ("Duration Time(s)", "0"),
         ("Dir.", "N-S"),
@@ -337,6 +337,7 @@ def test_knet_counts_lose_their_zero_level_and_say_so(put):
     assert motion.acceleration == pytest.approx((WAVES[0] - WAVES[0].mean()) * 20.0, abs=0.011)
     assert motion.metadata["azimuths"] == {"x": 0.0}
     assert "zero level" in motion.processing[0]
+    assert motion.metadata["start_time"] == "2003-07-26 00:13:09"  # the record time counts 15 s of delay
 
 
 @pytest.mark.parametrize("end", ["\r\n", "\r\r\n", "\r"])

@@ -31,16 +31,16 @@ def advance(u, v, p, q, h, w, z, c11, c12, c21, c22):
 
 
 @kernel
-def peaks(a, dt, periods, z, per_period, out):
+def peaks(a, dt, periods, z, per_period, parts, out):
     """Largest |u|, |v| and |absolute acceleration| of each period; ``out`` of shape (periods, 3).
 
-    Each step is divided so that ``per_period`` states fall on a period, and into 8 parts at least, because the velocity
-    follows the input within a step; one more period of free vibration follows.
+    Each step is divided so that ``per_period`` states fall on a period, and into so many ``parts`` at least, because the
+    velocity follows the input within a step; one more period of free vibration follows.
     """
     n = a.shape[0]
     for j in range(periods.shape[0]):
         w = 2.0 * math.pi / periods[j]
-        k = max(8, math.ceil(per_period * dt / periods[j]))
+        k = max(parts, math.ceil(per_period * dt / periods[j]))
         h = dt / k
         c11, c12, c21, c22 = transition(w, z, h)
         u = v = 0.0
@@ -73,6 +73,8 @@ def rotated_peaks(ax, ay, dt, periods, z, per_period, cosine, sine, out):
         k = max(1, math.ceil(per_period * dt / periods[j]))  # for displacements
         h = dt / k
         c11, c12, c21, c22 = transition(w, z, h)
+        row = out[j]
+        least = 0.0
         ux = vx = uy = vy = 0.0
         for i in range(n - 1 + math.ceil(periods[j] / dt)):
             px = py = qx = qy = 0.0
@@ -82,5 +84,8 @@ def rotated_peaks(ax, ay, dt, periods, z, per_period, cosine, sine, out):
             for r in range(k):
                 ux, vx = advance(ux, vx, px + qx * (r * h), qx, h, w, z, c11, c12, c21, c22)
                 uy, vy = advance(uy, vy, py + qy * (r * h), qy, h, w, z, c11, c12, c21, c22)
-                for m in range(angles):
-                    out[j, m] = max(out[j, m], abs(ux * cosine[m] + uy * sine[m]))
+                if ux * ux + uy * uy > least * least:  # else no direction's peak can grow
+                    least = math.inf
+                    for m in range(angles):
+                        row[m] = max(row[m], abs(ux * cosine[m] + uy * sine[m]))
+                        least = min(least, row[m])

@@ -296,10 +296,10 @@ def scale_to_sa(motion: Motion, period: float, sa: float, damping: float = 0.05)
     damping : float
         Share of the critical damping [-].
     """
-    from .spectra import response_spectrum
+    from .spectra import pseudo_acceleration
 
     value = check_range("sa", sa, 0.0, 1e4, unit="m/s²")
-    found = float(response_spectrum(motion, [period], damping).psa[0])
+    found = float(pseudo_acceleration(motion, [period], damping)[0])
     return _scaled_to(motion, value, found, f"Sa({period:g} s, {damping:.0%}) of {value / g:g} g")
 
 

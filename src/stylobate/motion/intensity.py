@@ -12,7 +12,7 @@ from ..errors import check_range
 from .integration import absolute_integral, arias, displacement, peak_velocity, square_integral, time_above
 from .motion import Motion
 from .pulse_match import pulse_match
-from .spectra import housner_intensity, response_spectrum, rotated_pga
+from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 
 #: What a file said that belongs into a summary.
 FACTS = ("format", "stage", "unit", "station", "station_name", "network", "event", "start_time", "terms", "file")
@@ -157,7 +157,7 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
         }
     if spectrum and shaken:
         periods = [0.1, 0.2, 0.5, 1.0, 2.0, 4.0]
-        psa = response_spectrum(motion, periods).psa / g
+        psa = pseudo_acceleration(motion, periods) / g
         found["psa_5_percent_g"] = {f"{period:g} s": float(value) for period, value in zip(periods, psa)}
         found["housner_intensity_m"] = housner_intensity(motion)
     return found | {"processing": list(motion.processing)}

@@ -40,7 +40,7 @@ class PulseMatch:
 
 
 def pulse_match(
-    motion: Motion, *, component: str = "x", shortest: float = 0.1, longest: float = 10.0, per_octave: int = 12
+    motion: Motion, *, component: str = "x", shortest: float = 0.1, longest: float = 10.0, per_octave: int = 8
 ) -> PulseMatch:
     """Match the motion with symmetric and antisymmetric Ricker wavelets of all periods and places.
 

@@ -55,6 +55,8 @@ _SPELLINGS = {
     "0.1g": "g/10",
     "milli-g": "mg",
     "in/sec2": "in/s2",
+    "in/sec/sec": "in/s2",
+    "in/s/s": "in/s2",
     "ft/sec2": "ft/s2",
 }
 #: Units of time in s and of frequency in Hz.

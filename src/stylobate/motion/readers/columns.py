@@ -131,11 +131,14 @@ def _rows(lines: list[str], start: int) -> tuple[list[str], int]:
     """Lines of numbers, with the separators made blanks and decimal commas made points."""
     rows = lines[start:]
     sample = rows[0]
-    if ";" in sample:
-        decimal_comma = "," in sample and "." not in sample
-        rows = [row.replace(";", " ").replace(",", ".") if decimal_comma else row.replace(";", " ") for row in rows]
-    elif "," in sample:
-        rows = [row.replace(",", " ") for row in rows]
+    if ";" in sample or "," in sample:
+        text = "\n".join(rows)
+        if ";" in sample:
+            decimal_comma = "," in sample and "." not in sample
+            text = text.replace(";", " ").replace(",", "." if decimal_comma else ",")
+        else:
+            text = text.replace(",", " ")
+        rows = text.split("\n")
     return rows, start
 
 
@@ -143,6 +146,12 @@ def _table(rows: list[str], first: int, file: str) -> np.ndarray:
     """Numbers as a table, shape (rows, columns); blank and comment lines are skipped."""
     kept = [(i, row) for i, row in enumerate(rows) if row.strip() and not row.lstrip().startswith(("#", "%"))]
     texts = [row for _, row in kept]
+    try:
+        table = np.loadtxt(texts, dtype=np.float64, comments=None, ndmin=2)
+        if np.isfinite(table).all():
+            return table
+    except ValueError:  # numbers that touch, exponents of Fortran, or a line to be named
+        pass
     columns = len(read_numbers(texts[:1], first, file, "the first row"))
     try:
         values = read_numbers(texts, first, file, "columns of numbers")

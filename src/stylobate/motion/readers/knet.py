@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from datetime import datetime, timedelta
 
 from ...errors import InputError
 from .numbers import read_numbers
@@ -61,5 +62,13 @@ def read(source: Source) -> tuple[list[Component], dict]:
         "unit": "counts",
         "station": station if place is None else f"{station} ({place})",
         "event": header.get("origin time", ("", 0))[0] or None,
-        "start_time": header.get("record time", ("", 0))[0] or None,
+        "start_time": _first_sample(header.get("record time", ("", 0))[0]),
     }
+
+
+def _first_sample(recorded: str) -> str | None:
+    """Time of the first sample: the record time minus the trigger delay of 15 s."""
+    try:
+        return str(datetime.strptime(recorded, "%Y/%m/%d %H:%M:%S") - timedelta(seconds=15.0))
+    except (ValueError, OverflowError):
+        return recorded or None

@@ -91,13 +91,19 @@ def _parse(lines: Sequence[str], width: int | None) -> np.ndarray | None:
                 for line in map(str.rstrip, piece)
                 for i in range(0, len(line), width)
             )
-        if _STRANGE.search(text):
+        found = _floats(text)
+        if found is None and not _STRANGE.search(text):
+            text = text.replace("D", "e").replace("d", "e")
+            found = _floats(_GLUED.sub(" ", text) if width is None else text)
+        if found is None:
             return None
-        if width is None:
-            text = _GLUED.sub(" ", text)
-        try:
-            parts.append(np.array(text.replace("D", "e").replace("d", "e").split(), dtype=np.float64))
-        except ValueError:
-            return None
+        parts.append(found)
     values = np.concatenate(parts) if parts else np.empty(0)
     return values if np.isfinite(values).all() else None
+
+
+def _floats(text: str) -> np.ndarray | None:
+    try:
+        return np.array(text.split(), dtype=np.float64)
+    except ValueError:
+        return None
