@@ -9,7 +9,7 @@ import pytest
 
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
-from stylobate.motion import read_motion
+from stylobate.motion import bandpass, demean, displacement, integrate, read_motion, response_spectrum, taper
 
 RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
 pytestmark = pytest.mark.skipif(not RECORDS.is_dir(), reason="no folder ../shared/records with real records")
@@ -133,3 +133,30 @@ def test_a_file_that_ends_early_is_refused(name, tmp_path):
         return
     with pytest.raises(InputError, match=r"promises|ends within|describes|expected"):
         read_motion(path)
+
+
+def test_spectrum_of_el_centro_against_the_matrix_exponential():
+    from scipy.linalg import expm
+
+    motion = read("twocol_ElCentro1940_NS.dat", unit="g")
+    a, z = motion.acceleration, 0.05
+    for period, parts in ((0.1, 40), (0.5, 20), (2.0, 20)):
+        w, h = 2.0 * np.pi / period, motion.dt / parts
+        system = np.array([[0, 1, 0, 0], [-w * w, -2 * z * w, 1, 0], [0, 0, 0, 1], [0, 0, 0, 0]], dtype=float)
+        step, state, peak = expm(system * h), np.zeros(4), 0.0
+        for i in range(1500):  # its strong part is over after 30 s
+            state[2], state[3] = -a[i], -(a[i + 1] - a[i]) / motion.dt
+            for _ in range(parts):
+                state = step @ state
+                peak = max(peak, abs(state[0]))
+        assert response_spectrum(motion, [period], z).sd[0] == pytest.approx(peak, rel=1e-3)
+
+
+@pytest.mark.parametrize("name", ["csmip_v1_Ridgecrest2019_ChinaLake_CLC.v1", "geonet_v1a_Kaikoura2016_HSES.V1A"])
+def test_a_processed_record_returns_to_rest(name):
+    motion = bandpass(taper(demean(read(name), 5.0), 2.0), 0.05, 40.0)
+    for values in motion.components.values():
+        v, d = integrate(values, motion.dt), displacement(values, motion.dt)
+        assert abs(v[-1]) < 1e-6 * np.abs(v).max()
+        assert abs(d[-1]) < 1e-4 * np.abs(d).max()
+    assert len(motion.processing) >= 3
