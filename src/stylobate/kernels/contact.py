@@ -30,9 +30,12 @@ def face_corners(ps, pq, cr, sr, b, hb):
 
 
 @law
-def opening(sl, ql, sr, qr, w):
-    """Largest gap at the corners of the upper face that are above the lower one."""
-    return max(max(ql if sl >= -w else 0.0, qr if sr <= w else 0.0), 0.0)
+def opening(sl, ql, sr_, qr, cr, sr, w):
+    """Largest height of the upper face over the lower one within their overlap; continuous as a corner passes an edge."""
+    slope = sr / max(cr, 0.05)
+    left = ql + (max(sl, -w) - sl) * slope
+    right = qr + (min(sr_, w) - sr_) * slope
+    return max(max(left, right), 0.0)
 
 
 @law

@@ -307,7 +307,7 @@ def observe(drum, joint, lane, feed, watch):
             ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
             lo = max(ls, -half)
             hi = min(rs, half)
-            w.open[l] = max(w.open[l], ct.opening(ls, lq, rs, rq, half))
+            w.open[l] = max(w.open[l], ct.opening(ls, lq, rs, rq, c, s, half))
             # centroid of the part above, and the end of the contact on the side to which it leans, in world axes
             each = 1.0 / w.m[l]
             cx = w.x[l] * each
@@ -395,7 +395,7 @@ def joint_state(drum, l, opening, slip):
         v = drum[j]
         ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l])
         ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
-        opening[j] = ct.opening(ls, lq, rs, rq, v.t[l])
+        opening[j] = ct.opening(ls, lq, rs, rq, c, s, v.t[l])
         slip[j] = ls + u.b[l] if lq < rq else rs - u.b[l]
 
 

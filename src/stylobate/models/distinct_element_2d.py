@@ -318,7 +318,7 @@ class _Block:
         return Measures(
             outcome=outcome,
             decided=outcome is Outcome.COLLAPSED or (not failed and mechanical < _barrier(case.column, slip)),
-            collapse_time=float(watch["when"][lane]) * self.dt[lane] if watch["when"][lane] >= 0 else math.nan,
+            collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
             peak_top_displacement=float(watch["top"][lane]),
             residual_top_displacement=float(top["x"][lane] - top["s"][lane] * top["ht"][lane]),
             peak_rotation=float(watch["turn"][lane]),
@@ -327,10 +327,10 @@ class _Block:
             energy_imbalance=imbalance,
             time_step=float(self.dt[lane]),
             steps=int(self.feed["step"][0, lane]),
-            reason=self._reason(lane, outcome, imbalance),
+            reason=self._reason(lane, outcome, imbalance, opening),
         )
 
-    def _reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
+    def _reason(self, lane: int, outcome: Outcome, imbalance: float, opening: np.ndarray) -> str:
         watch = self.watch[0]
         if outcome is Outcome.FAILED:
             if watch["status"][lane] == self.kernel.FAILED:
@@ -341,9 +341,13 @@ class _Block:
         if outcome is not Outcome.COLLAPSED:
             return ""
         side = "right" if watch["side"][lane] > 0 else "left"
-        joint, drums = int(watch["which"][lane]) + 1, len(self.drum) - 1
+        lost, drums = int(watch["which"][lane]), len(self.drum) - 1
+        parted = self.joint["kn"][lost, lane] == 0.0
+        # what is lost above some joint turns about the joint that is widest open, there or higher up
+        joint = 1 + (lost if parted else lost + int(np.argmax(opening[lost:])))
         part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
-        return f"{part} overturned to the {side} about joint {joint}"
+        how = f"left the support at joint {joint}" if parted else f"overturned about joint {joint}"
+        return f"{part} {how}, to the {side}"
 
 
 @dataclass(frozen=True)
