@@ -117,7 +117,7 @@ def limit_analysis(
     dead = gravity_forces(stack, base_tilt)
     live = horizontal_forces(stack, pattern)
     check_standing(stack, dead, strength, base_tilt)
-    equilibrium = compatibility(stack)
+    equilibrium = stack.compatibility()
     facets = _Facets(stack)
     lower, forces = _static(equilibrium, dead, live, facets)
     # The crushing domain is curved: its tangents are added where the last answer left it.  (Kelley's cutting planes)
@@ -169,27 +169,6 @@ def crushing_forces(stack: BlockStack, compressive_strength: float | None) -> np
     )
 
 
-def compatibility(stack: BlockStack) -> np.ndarray:
-    """B: opening, slip and rotation of each joint from the blocks' small displacements, shape (3n, 3n).
-
-    Rows per joint: opening at the joint's middle, slip of the part above along the joint, rotation of the part above
-    relative to the part below. Bᵀ turns the joint forces (N, V, M) on the part above into forces on all blocks.
-    """
-    n = stack.n
-    matrix = np.zeros((3 * n, 3 * n))
-    for i in range(n):
-        c, s = np.cos(stack.angle[i]), np.sin(stack.angle[i])
-        for block, sign in ((i, 1.0), (i - 1, -1.0)):
-            if block < 0:
-                continue
-            arm = stack.joint[i] - stack.centroid[block]
-            rows, columns = slice(3 * i, 3 * i + 3), slice(3 * block, 3 * block + 3)
-            matrix[rows, columns] = sign * np.array(
-                [[-s, c, s * arm[1] + c * arm[0]], [c, s, -c * arm[1] + s * arm[0]], [0.0, 0.0, 1.0]]
-            )
-    return matrix
-
-
 def joint_forces(stack: BlockStack, loads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Compression N, shear V on the part above, and eccentricity of N in each joint under given loads, by equilibrium.
 
@@ -204,7 +183,7 @@ def joint_forces(stack: BlockStack, loads: np.ndarray) -> tuple[np.ndarray, np.n
     tuple of array
         [N], [N], [m], each of shape (n,); the eccentricity is NaN where N is not positive.
     """
-    forces = np.linalg.solve(compatibility(stack).T, -loads.ravel()).reshape(-1, 3)
+    forces = np.linalg.solve(stack.compatibility().T, -loads.ravel()).reshape(-1, 3)
     n = forces[:, 0]
     return n, forces[:, 1], np.where(n > 0.0, forces[:, 2] / np.where(n > 0.0, n, 1.0), np.nan)
 

@@ -15,7 +15,6 @@ from ..errors import InputError, check_range
 from ..models.block_stack import BlockStack
 from .limit import (
     check_standing,
-    compatibility,
     crushing_forces,
     gravity_forces,
     horizontal_forces,
@@ -403,7 +402,7 @@ class _Path:
         n, v, e = joint_forces(self.stack, self.dead)
         stack = self.stack
         strain = (-n / stack.normal_stiffness, -v / stack.shear_stiffness, -n * e / stack.rotational_stiffness)
-        return np.linalg.solve(compatibility(stack), np.column_stack(strain).ravel()).reshape(-1, 3)
+        return np.linalg.solve(stack.compatibility(), np.column_stack(strain).ravel()).reshape(-1, 3)
 
     def displaced(self, step: float) -> tuple[np.ndarray, float] | str:
         """Equilibrium with the top a step further."""

@@ -175,6 +175,26 @@ class BlockStack:
         moment = np.cumsum((self.mass[:, None] * self.centroid)[::-1], axis=0)[::-1]
         return mass, moment / mass[:, None]
 
+    def compatibility(self) -> np.ndarray:
+        """B: opening, slip and rotation of each joint from the blocks' small displacements, shape (3n, 3n).
+
+        Rows per joint: opening at the joint's middle, slip of the part above along the joint, rotation of the part
+        above relative to the part below. Bᵀ turns the joint forces (N, V, M) on the part above into forces on all blocks.
+        """
+        n = self.n
+        matrix = np.zeros((3 * n, 3 * n))
+        for i in range(n):
+            c, s = np.cos(self.angle[i]), np.sin(self.angle[i])
+            for block, sign in ((i, 1.0), (i - 1, -1.0)):
+                if block < 0:
+                    continue
+                arm = self.joint[i] - self.centroid[block]
+                rows, columns = slice(3 * i, 3 * i + 3), slice(3 * block, 3 * block + 3)
+                matrix[rows, columns] = sign * np.array(
+                    [[-s, c, s * arm[1] + c * arm[0]], [c, s, -c * arm[1] + s * arm[0]], [0.0, 0.0, 1.0]]
+                )
+        return matrix
+
 
 def _stiffness(joints: Sequence[Joint], area: np.ndarray, second: np.ndarray) -> dict[str, np.ndarray]:
     normal = np.array([joint.normal_stiffness for joint in joints])
