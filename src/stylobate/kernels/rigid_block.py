@@ -88,12 +88,17 @@ def forces(drum, joint, lane):
             trial = old + ks * move
             fs = shear(trial, n, e.mu[l], e.co[l])
             slip = slip + (trial - fs) / max(ks, 1.0)
-            # Work of the shear spring; a limit that slip moves lets go of part of what the compression has stored.
+            # Work of the shear spring; where slip moves the limit that n acts at, the stored energy changes with it.
+            new_right = min(b, w - slip)
+            new_left = max(-b, -w - slip)
+            if crushing:
+                new_right = min(new_right, e.lim[0, l])
+                new_left = max(new_left, -e.lim[1, l])
             moved = 0.0
             if at >= right:
-                moved = min(right, w - slip) - right
+                moved = new_right - right
             if at <= left:
-                moved = max(left, -w - slip) - left
+                moved = new_left - left
             soft = 1.0 / kn + at * at / km
             o.shear[l] += 0.5 * (old + fs) * move + n * (s + n * at / km) * moved
             e.sp[l] = slip
