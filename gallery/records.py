@@ -81,9 +81,8 @@ def draw(table):
 # Under the thirteen records of that folder neither column falls: they are what recorded shaking mostly is, not what a column
 # of this size fears, which is a pulse of a second and more. Below PGA/(g tan α) = 1 the monolith stays closed. The column of
 # drums mostly moves less than the monolith under the strong records, because it loses energy at every joint. The vertical
-# component changes the peak of a rocking column by between a few per cent and a factor of two and a half, mostly
-# but not always upward:
-# no more than other small changes of the input do, once a column of drums rocks.
+# component changes the peak of a rocking column by between a few per cent and a factor of two and a half, mostly but not
+# always upward: no more than other small changes of the input do, once a column of drums rocks.
 
 if __name__ == "__main__":
     beside = Path.cwd().parent / "shared" / "records"

@@ -1,5 +1,6 @@
 """Spectra and measures of motions against closed forms, exact to rounding where the form is exact."""
 
+import json
 import math
 
 import numpy as np
@@ -14,6 +15,7 @@ from stylobate.motion import (
     half_sine_pulse,
     harmonic,
     housner_intensity,
+    motion_summary,
     peak_ground_displacement,
     peak_ground_velocity,
     pulse_match,
@@ -183,3 +185,15 @@ def test_one_component_has_no_directions():
         rotated_spectrum(Motion(0.01, [0.0, 1.0]))
     with pytest.raises(InputError, match="no component 'z'"):
         response_spectrum(Motion(0.01, [0.0, 1.0]), component="z")
+
+
+@pytest.mark.parametrize("size", [0.0, 2.0])
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_the_summary_is_plain_values(size, count):
+    waves = [size * np.sin(np.linspace(0.0, 20.0 + i, 800)) for i in range(count)]
+    found = motion_summary(Motion(0.01, *waves))
+    text = json.dumps(found, allow_nan=False)
+    assert json.loads(text)["pga_g"]["x"] == pytest.approx(np.abs(waves[0]).max() / g)
+    assert list(found["pgv_m_s"]) == list("xyz")[:count]
+    assert ("pga_rotd100_g" in found) == (count > 1)
+    assert ("psa_5_percent_g" in found) == (size > 0.0)

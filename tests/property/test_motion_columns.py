@@ -11,7 +11,7 @@ from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import Motion, read_motion, write_csv
 
-VALUES = st.floats(-50.0, 50.0, allow_nan=False)
+VALUES = st.floats(-40.0, 40.0, allow_nan=False)
 
 
 @pytest.fixture
@@ -105,6 +105,18 @@ def test_unequal_steps_are_refused_or_resampled_on_demand(put):
 def test_an_offset_is_noticed(put):
     with pytest.warns(OutOfRangeWarning, match="mean of component x is 0.5 g"):
         read_motion(put("time_s,ax_g\n0,0.4\n1,0.6\n"))
+
+
+def test_a_peak_beyond_all_records_is_noticed(put):
+    path = put("0 100\n0.01 -200\n0.02 100\n")
+    with pytest.warns(OutOfRangeWarning, match="200 g, more than was ever recorded; check the unit"):
+        read_motion(path, unit="g")
+    assert read_motion(path, unit="gal").pga == pytest.approx(2.0)
+
+
+def test_columns_that_are_not_accelerations_are_left_out_and_said(put):
+    motion = read_motion(put("time_s,ax_g,vx\n0,1,5\n0.1,-1,5\n"))
+    assert motion.metadata["columns_left_out"] == ("vx",)
 
 
 @pytest.mark.parametrize(

@@ -67,6 +67,8 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
             one.azimuth = _comment_number(comments, f"azimuth_{axis}_deg", source.name)
     facts = {"format": "columns of text", "unit": unit_found, "stage": comments.get("stage")}
     facts |= {key: comments[key] for key in ("station", "network", "event", "start_time", "terms") if key in comments}
+    if names is not None and (other := [name for name, _ in names if name not in ("t", "x", "y", "z")]):
+        facts["columns_left_out"] = tuple(other)
     if titles:
         facts["header"] = tuple(titles[:MAX_TITLE_LINES])
     if time is not None and abs(time[0]) > 0.0:

@@ -156,5 +156,5 @@ def _facts(text: list[str]) -> dict:
     for pattern in ("earthquake", "rcrd of|record of"):
         named = [line for line in stated if re.search(pattern, line, re.IGNORECASE)]
         if named and "event" not in facts:
-            facts["event"] = re.split(r"\s{2,}", named[0].strip())[0]
+            facts["event"] = re.split(r"\s{3,}", named[0].strip())[0]
     return facts

@@ -17,6 +17,9 @@ from .steps import resampled, same_step
 #: A mean beyond this share of the peak is not an earthquake: an instrument's offset was left in.
 OFFSET_SHARE = 0.1
 
+#: A peak beyond every recorded one [g]: the unit is wrong.
+LARGEST_PEAK = 5.0
+
 
 class UnstatedError(InputError):
     """The file leaves its unit or its step open, which the caller can state."""
@@ -166,6 +169,7 @@ def assemble(
     values = {axis: one.values[: min(lengths)] for axis, one in zip(axes, used)}
     for axis, one in zip(axes, used):
         processing += [f"{axis}: {text}" for text in one.processing]
+    _warn_of_peak(values, name)
     _warn_of_offset(values, name)
     facts = metadata | {
         "azimuths": {axis: one.azimuth for axis, one in zip(axes, used)},
@@ -199,6 +203,17 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
             return near[0]
     labels = ", ".join(f"{i} ({one.label or 'no label'})" for i, one in enumerate(components, 1))
     raise InputError(f"{name} has no component {wanted!r}; it holds {labels}: give a number or a label.")
+
+
+def _warn_of_peak(values: dict[str, np.ndarray], name: str) -> None:
+    for axis, array in values.items():
+        peak = float(np.abs(array).max(initial=0.0)) / g
+        if peak > LARGEST_PEAK:
+            warnings.warn(
+                f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit.",
+                OutOfRangeWarning,
+                stacklevel=4,
+            )
 
 
 def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
