@@ -14,11 +14,14 @@ __version__ = "0.1.0"
 if TYPE_CHECKING:
     from .analysis.critical import critical_amplitude
     from .analysis.domain import collapse_domain
+    from .analysis.limit import limit_analysis
+    from .analysis.pushover import pushover
     from .column import Column, Drum, Joint
     from .constants import g
     from .errors import InputError, OutOfRangeWarning, StylobateError
     from .models.distinct_element_2d import DistinctElement2D
     from .models.housner import HousnerBlock
+    from .models.rigid_block import RigidBlock
     from .motion import Motion, harmonic
     from .motion.pulses import (
         cosine_pulse,
@@ -46,6 +49,7 @@ _HOMES = {
     "OutOfRangeWarning": "errors",
     "Outcome": "outcome",
     "Response": "response",
+    "RigidBlock": "models.rigid_block",
     "StylobateError": "errors",
     "collapse_domain": "analysis.domain",
     "cosine_pulse": "motion.pulses",
@@ -54,7 +58,9 @@ _HOMES = {
     "gabor": "motion.pulses",
     "half_sine_pulse": "motion.pulses",
     "harmonic": "motion",
+    "limit_analysis": "analysis.limit",
     "mavroeidis_papageorgiou": "motion.pulses",
+    "pushover": "analysis.pushover",
     "read_motion": "motion.readers",
     "rectangular_pulse": "motion.pulses",
     "ricker": "motion.pulses",
@@ -74,6 +80,7 @@ __all__ = [
     "OutOfRangeWarning",
     "Outcome",
     "Response",
+    "RigidBlock",
     "StylobateError",
     "collapse_domain",
     "cosine_pulse",
@@ -82,7 +89,9 @@ __all__ = [
     "gabor",
     "half_sine_pulse",
     "harmonic",
+    "limit_analysis",
     "mavroeidis_papageorgiou",
+    "pushover",
     "read_motion",
     "rectangular_pulse",
     "ricker",

@@ -11,7 +11,7 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, OutOfRangeWarning, StylobateError
-from . import bench, columns, compare, critical, domain, motion, run
+from . import bench, columns, compare, critical, domain, limit, motion, pushover, run
 from .console import Interrupted
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
@@ -29,6 +29,8 @@ app = typer.Typer(
 app.command("run")(run.run)
 app.command("critical")(critical.critical)
 app.command("domain")(domain.domain)
+app.command("pushover")(pushover.pushover)
+app.command("limit")(limit.limit)
 app.command("compare")(compare.compare)
 app.command("motion")(motion.motion)
 app.command("columns")(columns.columns)

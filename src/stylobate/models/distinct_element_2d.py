@@ -182,7 +182,7 @@ class _Block:
 
     # What differs where drums are stepped alike but their joints follow another law (the rigid block model).
 
-    def its_kernel(self):
+    def its_kernel(self) -> Any:
         """Module of kernels."""
         from ..kernels import distinct_element_2d as kernel
 

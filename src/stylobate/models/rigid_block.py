@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar
+from typing import Any, ClassVar, cast
 
 import numpy as np
 
@@ -148,7 +148,11 @@ class RigidBlock(Model):
 class _RigidBlocks(_Block):
     """A block of lanes of this model: drums as the distinct elements step them, joints as interfaces."""
 
-    def its_kernel(self):
+    def __init__(self, model: RigidBlock, drums: int, options: RunOptions) -> None:
+        self.crushing = model.compressive_strength is not None
+        super().__init__(cast(Any, model), drums, options)
+
+    def its_kernel(self) -> Any:
         """Module of kernels."""
         from ..kernels import rigid_block as kernel
 
@@ -156,11 +160,11 @@ class _RigidBlocks(_Block):
 
     def its_types(self) -> tuple:
         """Record types of the arrays."""
-        return self.kernel.block_types(self.model.compressive_strength is not None, self.model.damped)
+        return self.kernel.block_types(self.crushing, self.model.damped)
 
     def its_column(self, column: Column) -> _Packed:
         """A column as the kernel wants it."""
-        return _pack(column, self.model)
+        return _pack(column, cast(Any, self.model))
 
 
 @lru_cache(maxsize=4096)

@@ -7,6 +7,7 @@ from .filmstrip import draw_filmstrip
 from .histories import draw_comparison, draw_histories
 from .joints import draw_joints
 from .motion import draw_motion
+from .pushover import draw_mechanism, draw_pushover
 from .spectra import draw_spectra
 from .style import save
 
@@ -19,7 +20,9 @@ __all__ = [
     "draw_filmstrip",
     "draw_histories",
     "draw_joints",
+    "draw_mechanism",
     "draw_motion",
+    "draw_pushover",
     "draw_spectra",
     "save",
 ]

@@ -1,0 +1,130 @@
+"""``stylobate pushover``: the equilibrium path of a column under growing horizontal forces."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import options as o
+
+if TYPE_CHECKING:
+    from ..analysis.pushover import PushoverResult
+
+Pattern = Annotated[
+    str | None,
+    typer.Option("--pattern", metavar="P,P,…", help="Relative force on each drum, bottom to top; by mass by default."),
+]
+Tilt = Annotated[str, typer.Option("--tilt", metavar="DEGREES", help="Tilt of the base, downhill to the right.")]
+Strength = Annotated[
+    str | None,
+    typer.Option("--compressive-strength", metavar="PA", help="Strength of the joints; unlimited by default."),
+]
+
+
+def pushover(
+    column: o.ColumnName,
+    to: Annotated[
+        str | None, typer.Option("--to", metavar="M", help="Displacement of the top at which to stop, in metres.")
+    ] = None,
+    control: Annotated[
+        str, typer.Option("--control", metavar="WAY", help="displacement or arc-length.")
+    ] = "displacement",
+    linear: Annotated[bool, typer.Option("--linear", help="Equilibrium in the undisplaced state.")] = False,
+    pattern: Pattern = None,
+    tilt: Tilt = "0",
+    compressive_strength: Strength = None,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Pushover curve of a column of rigid blocks.
+
+    Its weight, then horizontal forces over the peak and down to zero.
+    """
+    from ..analysis.limit import limit_analysis
+    from ..analysis.pushover import pushover as follow
+    from ..column.files import load_column
+    from ..models.block_stack import BlockStack
+    from . import console
+
+    o.the_threads(threads)
+    stone = load_column(column)
+    loads = the_loads(pattern, tilt, compressive_strength)
+    far = None if to is None else number("--to", to)
+    with console.folder(out) as folder:
+        path = follow(stone, control=control, geometric=not linear, to=far, **loads)
+        summary, files = summarize(path), []
+        if folder is not None:
+            from .. import plots
+
+            limit = limit_analysis(stone, **loads).multiplier
+            figure = plots.draw_pushover(BlockStack.of_column(stone), path, limit, stone.name)
+            files = [
+                path.save(folder / "pushover.csv"),
+                console.write_json(folder / "pushover.json", summary),
+                *plots.save(figure, folder / "pushover"),
+            ]
+            summary["files"] = [str(file) for file in files]
+    if as_json:
+        console.emit(summary)
+        return
+    facts = {
+        "column": stone.name,
+        "collapse multiplier": f"{path.collapse_multiplier:.4g} g",
+        "displacement at the peak": console.length(path.peak_displacement),
+        "ultimate displacement": console.length(path.ultimate_displacement),
+        "governing joint": str(path.governing_joint),
+        "end of the path": path.stop,
+    }
+    console.say(f"The column gives way at {path.collapse_multiplier:.4g} g.", facts, files)
+
+
+def summarize(path: PushoverResult) -> dict:
+    """The JSON object of ``stylobate pushover``."""
+    import math
+
+    from ..analysis.pushover import STATES
+
+    ultimate = path.ultimate_displacement
+    return {
+        "collapse_multiplier_g": path.collapse_multiplier,
+        "peak_displacement_m": path.peak_displacement,
+        "ultimate_displacement_m": ultimate if math.isfinite(ultimate) else None,
+        "governing_joint": path.governing_joint,
+        "complete": path.complete,
+        "stop": path.stop,
+        "steps": len(path.multiplier),
+        "curve": {"displacement_m": path.displacement.tolist(), "multiplier_g": path.multiplier.tolist()},
+        "mechanism": mechanism_rows(path.mechanism),
+        "joint_states": [[STATES[state] for state in step] for step in path.states[[path.peak, -1]]],
+    }
+
+
+def mechanism_rows(mechanism) -> list[dict]:
+    """One row per drum: x, z and rotation for a unit horizontal movement of the drum that moves most."""
+    return [
+        {"drum": i + 1, "x": float(x), "z": float(z), "rotation_rad_per_m": float(turn)}
+        for i, (x, z, turn) in enumerate(mechanism)
+    ]
+
+
+def number(option: str, text: str) -> float:
+    """A number as typed after an option."""
+    from ..errors import InputError
+
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(f"{option} is {text!r}; allowed is a number, in SI units, such as 0.5.") from None
+
+
+def the_loads(pattern: str | None, tilt: str, compressive_strength: str | None) -> dict:
+    """Arguments of the analyses that the options describe."""
+    return {
+        "pattern": None if pattern is None else [number("--pattern", one) for one in pattern.split(",")],
+        "base_tilt": number("--tilt", tilt),
+        "compressive_strength": (
+            None if compressive_strength is None else number("--compressive-strength", compressive_strength)
+        ),
+    }

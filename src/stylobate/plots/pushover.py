@@ -1,0 +1,103 @@
+"""The pushover curve, and the mechanism drawn beside it: which joint gives way, and how."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+from matplotlib.ticker import MaxNLocator
+
+from ..analysis.limit import LimitResult
+from ..analysis.pushover import PushoverResult
+from ..models.block_stack import BlockStack
+from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, styled, zero_line
+
+
+@styled
+def draw_pushover(stack: BlockStack, path: PushoverResult, limit: float | None = None, title: str = "") -> Figure:
+    """Load multiplier over the displacement of the top, and the column where the path ends.
+
+    Parameters
+    ----------
+    stack : BlockStack
+    path : PushoverResult
+    limit : float, optional
+        Multiplier of the limit analysis [g], drawn as a line.
+    title : str
+    """
+    figure = Figure(figsize=(WIDTH, 3.6))
+    curve, picture = figure.subplots(1, 2, width_ratios=(2.2, 1.0))
+    zero_line(curve)
+    curve.plot(path.displacement, path.multiplier, color=BLACK, label="rigid blocks")
+    if limit is not None:
+        curve.axhline(limit, color=BLUE, linestyle="-.", label=f"limit analysis, {limit:.4g} g")
+    curve.plot(
+        path.peak_displacement,
+        path.collapse_multiplier,
+        marker="o",
+        color=RED,
+        linestyle="none",
+        label=f"peak, {path.collapse_multiplier:.4g} g",
+    )
+    if np.isfinite(path.ultimate_displacement):
+        curve.plot(
+            path.ultimate_displacement,
+            0.0,
+            marker="s",
+            color=RED,
+            linestyle="none",
+            label=f"ultimate displacement, {path.ultimate_displacement:.3g} m",
+        )
+    curve.set(xlabel="displacement of the top [m]", ylabel="load multiplier [g]", title=title)
+    curve.set_xlim(left=0.0)
+    curve.set_ylim(top=1.2 * path.collapse_multiplier)
+    curve.grid(True)
+    curve.legend(loc="lower left")
+    # The elastic branch is a thousandth of the whole: it needs its own axes.
+    inset = curve.inset_axes((0.6, 0.66, 0.38, 0.3))
+    near = path.displacement <= 6.0 * path.peak_displacement
+    inset.plot(1e3 * path.displacement[near], path.multiplier[near], color=BLACK)
+    inset.set(xlim=(0.0, None), ylim=(0.0, None), xlabel="[mm]")
+    inset.tick_params(labelsize=7)
+    # A state in which the mechanism is plain to see and still standing: half way to the end.
+    half = int(np.searchsorted(path.displacement, 0.5 * path.displacement[-1]))
+    _draw_blocks(picture, stack, path.position[min(half, len(path.position) - 1)], {path.governing_joint})
+    picture.set_title(f"joint {path.governing_joint} governs")
+    return figure
+
+
+@styled
+def draw_mechanism(stack: BlockStack, found: LimitResult, title: str = "") -> Figure:
+    """The mechanism of the limit analysis, its velocities drawn as a displacement of a tenth of the height."""
+    figure = Figure(figsize=(0.6 * WIDTH, 4.4))
+    axes = figure.subplots()
+    _draw_blocks(axes, stack, found.mechanism * 0.1 * stack.top[1], {item.joint for item in found.active}, linear=True)
+    modes = ", ".join(dict.fromkeys(f"joint {item.joint} {item.mode}" for item in found.active[:3]))
+    axes.set_title(title or f"{found.multiplier:.4g} g: {modes}{' …' if len(found.active) > 3 else ''}")
+    return figure
+
+
+def _draw_blocks(
+    axes: Axes, stack: BlockStack, position: np.ndarray, joints: set[int], *, linear: bool = False
+) -> None:
+    """Blocks where they stood (outline) and where they are (filled); the joints that give way in red."""
+    for outline, centre, (x, z, turn) in zip(stack.outlines, stack.centroid, position, strict=True):
+        c, s = (1.0, turn) if linear else (np.cos(turn), np.sin(turn))
+        moved = centre + [x, z] + (outline - centre) @ np.array([[c, s], [-s, c]])
+        axes.add_patch(Polygon(outline, fill=False, edgecolor=GREY, linewidth=0.5, linestyle=(0, (2, 2))))
+        axes.add_patch(Polygon(moved, facecolor=SAND, edgecolor=BROWN, linewidth=0.8))
+    for joint in joints:
+        low = position[joint - 2] if joint > 1 else np.zeros(3)
+        centre = stack.centroid[joint - 2] if joint > 1 else np.zeros(2)
+        c, s = (1.0, low[2]) if linear else (np.cos(low[2]), np.sin(low[2]))
+        along = np.array([np.cos(stack.angle[joint - 1]), np.sin(stack.angle[joint - 1])])
+        ends = stack.joint[joint - 1] + 0.5 * stack.width[joint - 1] * np.array([-along, along])
+        place = centre + low[:2] + (ends - centre) @ np.array([[c, s], [-s, c]])
+        axes.plot(*place.T, color=RED, linewidth=2.0, solid_capstyle="butt")
+    axes.axhline(0.0, color=BLACK, linewidth=0.8)
+    axes.set_aspect("equal")
+    axes.autoscale_view()
+    axes.margins(0.08)
+    axes.xaxis.set_major_locator(MaxNLocator(2))
+    axes.set(xlabel="x [m]", ylabel="z [m]")
