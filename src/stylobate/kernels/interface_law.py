@@ -37,7 +37,7 @@ def crushed(delta, psi, reach, e, kn, km, crushing):
     1/(f_c A). Solves e = reach (1 − n/(f_c A)) with n = k (δ − e ψ), k the stiffness at the toe.  # Eq. (B6)
     """
     allowed = e
-    for _ in range(8):
+    for _ in range(24):
         k = 1.0 / (1.0 / kn + allowed * allowed / km)
         limit = reach * (1.0 - crushing * k * delta) / (1.0 - reach * crushing * k * psi)
         allowed = max(min(limit, e), 0.0)
