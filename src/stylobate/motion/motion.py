@@ -189,13 +189,11 @@ class Motion:
 
 
 def _checked(value: np.ndarray, label: str, name: str) -> np.ndarray:
-    # Arrays that are already read-only float64 were checked when they were made: scaled copies share them.
+    # Arrays of ours (read-only, in one piece) are shared between motions; anything else is copied.
     if isinstance(value, np.ndarray) and value.dtype == np.float64 and not value.flags.writeable and value.ndim == 1:
-        return value
-    try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError(f"component {label} of {name!r} is not an array of numbers.") from None
+        array = value if value.flags.c_contiguous and value.flags.owndata else value.copy()
+    else:
+        array = _copied(value, label, name)
     if array.ndim != 1 or array.size < 2:
         raise InputError(f"component {label} of {name!r} has shape {array.shape}; give at least 2 samples in one row.")
     if array.size > MAX_SAMPLES:
@@ -208,6 +206,13 @@ def _checked(value: np.ndarray, label: str, name: str) -> np.ndarray:
         )
     array.flags.writeable = False
     return array
+
+
+def _copied(value: np.ndarray, label: str, name: str) -> np.ndarray:
+    try:
+        return np.array(value, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError(f"component {label} of {name!r} is not an array of numbers.") from None
 
 
 def integrate(values: np.ndarray, dt: float) -> np.ndarray:

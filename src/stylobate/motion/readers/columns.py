@@ -8,17 +8,18 @@ import numpy as np
 
 from ...errors import InputError
 from ..specs import TIME_UNITS, acceleration_unit
-from .numbers import read_numbers
+from .numbers import PIECE, count_numbers, read_numbers
 from .record import Component, UnstatedError
 from .source import Source
 from .steps import ROUNDING_SHARE, first_bad_step, step_of
 
 #: Lines of text that may stand above the numbers.
 MAX_TITLE_LINES = 60
+COLUMNS = "columns of numbers"
 _COMMENT = ("#", "%", "!", "//", ";", "*", "'", '"#')
 _FIELD = re.compile(r"""["']?\s*(?P<name>[^()\[\]"']*?)\s*(?:[(\[]\s*(?P<unit>[^)\]]*)\s*[)\]])?\s*["']?""")
 _AXES = {"ax": "x", "ay": "y", "az": "z", "a": "x", "acc": "x", "accel": "x", "acceleration": "x"}
-_NUMERIC = re.compile(r"[\s\d.eEdD+\-,;]*\d[\s\d.eEdD+\-,;]*")
+_NUMERIC = re.compile(r"[\s.eEdD+\-,;]*\d[\s\d.eEdD+\-,;]*")
 
 
 def recognises(source: Source) -> bool:
@@ -155,21 +156,28 @@ def _table(rows: list[str], first: int, file: str) -> np.ndarray:
     except ValueError:  # numbers that touch, exponents of Fortran, or a line to be named
         pass
     columns = len(read_numbers(texts[:1], first, file, "the first row"))
-    try:
-        values = read_numbers(texts, first, file, "columns of numbers")
-    except InputError:
-        for index, row in kept:  # with the line as the file counts it
-            read_numbers([row], first + index, file, "columns of numbers")
-        raise
-    if len(values) != columns * len(texts) or any(len(row.split()) > columns for row in texts):
-        for index, row in kept:
-            found = len(read_numbers([row], first + index, file, "columns of numbers"))
-            if found != columns:
-                raise InputError(
-                    f"{file}, line {first + index + 1}: {found} numbers where the rows above have {columns}; "
-                    "every row needs the same columns."
-                )
+    values = _parts(kept, texts, first, file)
+    counts = [count_numbers(row) for row in texts]
+    for (index, _), found in zip(kept, counts):
+        if found != columns:
+            raise InputError(
+                f"{file}, line {first + index + 1}: {found} numbers where the rows above have {columns}; "
+                "every row needs the same columns."
+            )
     return values.reshape(-1, columns)
+
+
+def _parts(kept: list[tuple[int, str]], texts: list[str], first: int, file: str) -> np.ndarray:
+    """All numbers in a row; a line that holds none is named as the file counts it."""
+    found = []
+    for start in range(0, len(texts), PIECE):
+        try:
+            found.append(read_numbers(texts[start : start + PIECE], first, file, COLUMNS))
+        except InputError:
+            for index, row in kept[start : start + PIECE]:
+                read_numbers([row], first + index, file, COLUMNS)
+            raise
+    return np.concatenate(found)
 
 
 def _named(

@@ -33,6 +33,10 @@ _STATION = re.compile(r"code:\s*(?P<network>[^-\s]+)-(?P<station>\S+)\s*(?P<name
 _UNKNOWN = -999.0
 
 
+#: Headers stand within so many characters of a line.
+WIDTH = 160
+
+
 def recognises(source: Source) -> bool:
     """Whether the first lines carry the blocks of the COSMOS format."""
     return "integer-header values follow" in source.head and "format v" in source.head
@@ -70,12 +74,12 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
         count = int(found["count"])
         comments = lines[at + 1 : at + 1 + count]
         at += 1 + count
-    block = _BLOCK.match(lines[at]) if at < len(lines) else None
+    block = _BLOCK.match(lines[at][:WIDTH]) if at < len(lines) else None
     if block is None:
         shown = lines[at].strip()[:40] if at < len(lines) else "the end of the file"
         raise InputError(f"{file}, line {at + 1}: expected the line that announces the samples, found {shown!r}.")
     end = next((i for i in range(at + 1, len(lines)) if _END.match(lines[i])), len(lines))
-    stop = next((i for i in range(at + 1, end) if _BLOCK.match(lines[i])), end)
+    stop = next((i for i in range(at + 1, end) if _BLOCK.match(lines[i][:WIDTH])), end)
     if "acc" not in block["what"].lower():
         raise InputError(
             f"{file}, line {at + 1}: the block holds {block['what'].strip()!r}, not acceleration; "

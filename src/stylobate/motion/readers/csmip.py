@@ -32,6 +32,10 @@ _RATE = re.compile(r"\bat\s+(?P<rate>[\d.]+)\s+(?:pts|points|samples)/sec", re.I
 HEADER_LINES = {1: (13, 7, 7), 2: (25, 7, 13)}
 
 
+#: Headers stand within so many characters of a line.
+WIDTH = 160
+
+
 def recognises(source: Source) -> bool:
     """Whether the first lines say that this is a volume 1 or 2 of CSMIP."""
     first = source.head[:200].lstrip()
@@ -75,7 +79,7 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
     first = start + text_lines + integer_lines + real_lines
     label = next((found["label"] for line in text if (found := _CHANNEL.match(line))), "")
     facts = _facts(text)
-    block = next((i for i in range(first - 2, min(first + 3, end)) if _BLOCK.match(lines[i])), None)
+    block = next((i for i in range(first - 2, min(first + 3, end)) if _BLOCK.match(lines[i][:WIDTH])), None)
     if block is None:
         component = _pairs(lines, first, end, text, file)
     else:
@@ -88,7 +92,7 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
 def _samples(lines: list[str], block: int, end: int, text: list[str], file: str) -> Component:
     """Samples at equal steps under a line that says how many, how far apart and in which unit."""
     header = lines[block]
-    found = _BLOCK.match(header)
+    found = _BLOCK.match(header[:WIDTH])
     assert found is not None
     if found["what"].lower() != "accel":
         raise InputError(
@@ -96,7 +100,7 @@ def _samples(lines: list[str], block: int, end: int, text: list[str], file: str)
             "give the file of accelerations."
         )
     count = check_count(float(found["count"]), file, block + 1)
-    following = next((i for i in range(block + 1, end) if _BLOCK.match(lines[i])), end)
+    following = next((i for i in range(block + 1, end) if _BLOCK.match(lines[i][:WIDTH])), end)
     values = read_numbers(
         lines[block + 1 : following], block + 1, file, "accelerations", count=count, width=fortran_width(header)
     )

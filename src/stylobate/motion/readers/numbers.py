@@ -16,6 +16,10 @@ _FORTRAN = re.compile(r"\(\s*(?:\d*[pP]\s*,?\s*)?(\d*)\s*[feigFEIG](\d+)(?:\.\d+
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
 
 
+#: Lines that are turned into numbers at once.
+PIECE = 5000
+
+
 def fortran_width(text: str) -> int | None:
     """Width of a field in a Fortran format such as ``(8f10.6)`` found in ``text``, or None."""
     found = _FORTRAN.search(text)
@@ -27,6 +31,11 @@ def first_number(text: str) -> float | None:
     """First number in ``text``, or None."""
     found = _NUMBER.search(text)
     return float(found.group()) if found else None
+
+
+def count_numbers(line: str) -> int:
+    """How many numbers a line holds that is known to hold nothing else, also where they touch."""
+    return len(_GLUED.sub(" ", line).split())
 
 
 def read_numbers(
@@ -61,15 +70,26 @@ def read_numbers(
         fixed = _parse(lines, width)
         values = fixed if fixed is not None else values
     if values is None:
-        for index, line in enumerate(lines):
-            if _parse([line], None) is None and (width is None or _parse([line], width) is None):
-                shown = line.strip()
-                shown = shown if len(shown) <= 40 else shown[:40] + "…"
-                raise InputError(
-                    f"{file}, line {first + index + 1}: expected numbers ({what}), found {shown!r}; "
-                    "mend or remove that line."
-                )
-        raise InputError(f"{file}, from line {first + 1}: expected numbers ({what}); mend the file.")
+        index = next(
+            (
+                start + k
+                for start in range(0, len(lines), PIECE)
+                if not _reads(lines[start : start + PIECE], width)
+                for k, line in enumerate(lines[start : start + PIECE])
+                if not _reads([line], width)
+            ),
+            None,
+        )
+        if index is None:  # each line can be read in one way or the other, but not all in the same
+            raise InputError(
+                f"{file}, lines {first + 1} to {first + len(lines)}: expected numbers ({what}) of one layout; the file is "
+                "damaged, fetch it again."
+            )
+        shown = lines[index].strip()
+        shown = shown if len(shown) <= 40 else shown[:40] + "…"
+        raise InputError(
+            f"{file}, line {first + index + 1}: expected numbers ({what}), found {shown!r}; mend or remove that line."
+        )
     if count is not None and len(values) != count:
         raise InputError(
             f"{file}, lines {first + 1} to {first + len(lines)}: the header promises {count} numbers ({what}), "
@@ -78,11 +98,15 @@ def read_numbers(
     return values
 
 
+def _reads(lines: Sequence[str], width: int | None) -> bool:
+    return _parse(lines, None) is not None or (width is not None and _parse(lines, width) is not None)
+
+
 def _parse(lines: Sequence[str], width: int | None) -> np.ndarray | None:
     """Numbers of the lines, or None if something there is no finite number. In pieces, so that memory stays small."""
     parts = []
-    for start in range(0, len(lines), 5000):
-        piece = lines[start : start + 5000]
+    for start in range(0, len(lines), PIECE):
+        piece = lines[start : start + PIECE]
         if width is None:
             text = "\n".join(piece)
         else:

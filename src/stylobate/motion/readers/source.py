@@ -13,8 +13,8 @@ from ..motion import MAX_SAMPLES
 #: Larger files are refused before they are read [bytes]; three components of an hour at 200 Hz take some 30 MB.
 MAX_BYTES = 100_000_000
 
-#: No record has longer lines [characters].
-MAX_LINE = 1_000_000
+#: No record has longer lines [characters]; the patterns that look for headers stay quick.
+MAX_LINE = 2_000
 
 _PACKED = {
     b"\x1f\x8b": "gzip",
