@@ -101,14 +101,7 @@ STANDING = {
 }
 
 
-# Known shortcoming: ``decided`` looks at the energy alone, so that a column already past its tipping point, or a drum that
-# slides on almost without friction, counts as standing for good.
-KNOWN = {"monolith", "slippery lid"}
-
-
-@pytest.mark.parametrize(
-    "case", [pytest.param(case, marks=pytest.mark.xfail(strict=True)) if case in KNOWN else case for case in STANDING]
-)
+@pytest.mark.parametrize("case", STANDING)
 def test_a_decided_column_that_stands_goes_on_standing(case):
     now, later = continued(*STANDING[case])
     decided = now["decided"] & ~now["collapsed"]

@@ -30,7 +30,8 @@ from scipy.optimize import brentq
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.distinct_element_2d import DistinctElement2D, _Block, contact_points
+from stylobate.models.distinct_element_2d import DistinctElement2D, contact_points
+from stylobate.models.drum_block import DrumBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate, simulate_many
 
@@ -119,7 +120,7 @@ def test_sliding_under_a_rectangular_pulse_is_newmarks():
 
 def release(column, tilt, model, duration):
     """Rotation of a monolith let go from a tilt on its left corner, that corner closed by the weight: time, rotation."""
-    block = _Block(model, 1, RunOptions(tail=duration - QUIET.duration))
+    block = DrumBlock(model, 1, RunOptions(tail=duration - QUIET.duration))
     block.load(0, Case(column, QUIET))
     half, height, weight = 0.5 * column.base_width, column.centroid_height, column.mass * column.gravity
     c, s = math.cos(tilt), math.sin(tilt)

@@ -1,5 +1,7 @@
 """Plane distinct elements: smaller steps change few verdicts, and more contact points converge."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -24,7 +26,7 @@ def test_halving_the_step_changes_few_verdicts_of_a_domain():
     column = preset("paper-monolithic")
     cells = [collapsed_cells(column, DistinctElement2D(step_factor=factor)) for factor in (0.4, 0.2, 0.1)]
     counts = [int(one.sum()) for one in cells]
-    changed = [int((a != b).sum()) for a, b in zip(cells[:-1], cells[1:], strict=True)]
+    changed = [int((a != b).sum()) for a, b in pairwise(cells)]
     assert min(counts) > 30
     assert max(changed) <= 0.06 * len(cells[0])
     assert abs(counts[2] - counts[1]) <= 0.06 * counts[1]
@@ -48,9 +50,9 @@ def test_smooth_motion_converges_with_the_square_of_the_step():
 def static_moment(column, points, turn):
     """Moment of the base joint about its middle for a rotation of the column under constant weight [N m]."""
     from stylobate.models.base import Case, RunOptions
-    from stylobate.models.distinct_element_2d import _Block
+    from stylobate.models.drum_block import DrumBlock
 
-    block = _Block(DistinctElement2D(points=points), 1, RunOptions())
+    block = DrumBlock(DistinctElement2D(points=points), 1, RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     weight, zc = column.joint_weights[0], column.centroid_height
     low, high = -1e-3, 1.0
@@ -88,7 +90,7 @@ def test_contact_points_integrate_the_section(points):
         xi, share = contact_points(section, points)
         assert share.min() > 0.0
         assert share.sum() == pytest.approx(1.0, rel=1e-12)
-        assert xi[0] == -1.0 and xi[-1] == 1.0
+        assert list(xi[[0, -1]]) == [-1.0, 1.0]
         if points > 2:
             assert share @ xi**2 == pytest.approx(second, rel=1e-12)
 
@@ -105,9 +107,9 @@ def test_largest_stable_step_is_sharp():
         DistinctElement2D(time_step=1.01 * stable).step_for(column)
     # the limit is taken away by hand: beyond it the same push grows without bound
     from stylobate.models.base import Case, RunOptions
-    from stylobate.models.distinct_element_2d import _Block
+    from stylobate.models.drum_block import DrumBlock
 
-    block = _Block(model, column.n, RunOptions())
+    block = DrumBlock(model, column.n, RunOptions())
     block.load(0, Case(column, push))
     block.lane["dt"][0, 0] = block.dt[0] = 1.02 * stable
     block.drum["vx"][-1, 0] = 1e-9

@@ -18,7 +18,8 @@ from ..column import preset
 from ..constants import g
 from ..errors import StylobateError
 from ..models.base import Case, RunOptions
-from ..models.distinct_element_2d import DistinctElement2D, _Block
+from ..models.distinct_element_2d import DistinctElement2D
+from ..models.drum_block import DrumBlock
 from ..motion import Motion, harmonic
 from ..simulate import simulate, simulate_many, thread_count
 
@@ -111,7 +112,7 @@ def _kernel(model: DistinctElement2D) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         program = native_reference("native_dem2d.cpp", folder)
         for round_ in range(ROUNDS + 1):
-            block = _Block(model, column.n, RunOptions(until_end=True))
+            block = DrumBlock(model, column.n, RunOptions(until_end=True))
             for lane in range(block.lanes):
                 block.load(lane, Case(column, motion))
             started = time.thread_time()

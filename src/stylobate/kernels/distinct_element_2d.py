@@ -79,8 +79,8 @@ def block_types(points, damped):
         np.dtype(fields("ax az")),
         np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor")),
         np.dtype(
-            [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side")]
-            + fields("amax vmax top open turn wmax m x z px")
+            [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side", "parted", "about")]
+            + fields("amax vmax top open turn wmax wide m x z px")
         ),
     )
 
@@ -279,7 +279,8 @@ def observe(drum, joint, lane, feed, watch):
     w = watch[0]
     top = drum[drums]
     for l in range(LANES):
-        w.top[l] = max(w.top[l], abs(top.x[l] - top.s[l] * top.ht[l]))
+        # peaks of a column that stands: they end with its collapse
+        w.top[l] = max(w.top[l], abs(top.x[l] - top.s[l] * top.ht[l])) if w.when[l] < 0 else w.top[l]
         w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
         w.m[l] = 0.0
         w.x[l] = 0.0
@@ -291,7 +292,7 @@ def observe(drum, joint, lane, feed, watch):
             fix = 1.5 - 0.5 * (u.c[l] * u.c[l] + u.s[l] * u.s[l])
             u.c[l] *= fix
             u.s[l] *= fix
-            w.turn[l] = max(w.turn[l], abs(u.th[l]))
+            w.turn[l] = max(w.turn[l], abs(u.th[l])) if w.when[l] < 0 else w.turn[l]
             w.m[l] += u.m[l]
             w.x[l] += u.m[l] * u.x[l]
             w.z[l] += u.m[l] * u.z[l]
@@ -307,7 +308,8 @@ def observe(drum, joint, lane, feed, watch):
             ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
             lo = max(ls, -half)
             hi = min(rs, half)
-            w.open[l] = max(w.open[l], ct.opening(ls, lq, rs, rq, c, s, half))
+            opening = ct.opening(ls, lq, rs, rq, c, s, half)
+            w.open[l] = max(w.open[l], opening) if w.when[l] < 0 else w.open[l]
             # centroid of the part above, and the end of the contact on the side to which it leans, in world axes
             each = 1.0 / w.m[l]
             cx = w.x[l] * each
@@ -327,6 +329,10 @@ def observe(drum, joint, lane, feed, watch):
             w.when[l] = f.step[l] if hit else w.when[l]
             w.which[l] = j if hit else w.which[l]
             w.side[l] = (1 if cx > middle else -1) if hit else w.side[l]
+            w.parted[l] = (1 if parted else 0) if hit else w.parted[l]
+            wider = (w.when[l] == f.step[l]) & (opening > w.wide[l])
+            w.wide[l] = opening if wider else w.wide[l]
+            w.about[l] = j if wider else w.about[l]
             keep = 0.0 if parted else 1.0  # a joint that has parted does not close again
             e.kn[l] *= keep
             e.ks[l] *= keep

@@ -36,11 +36,14 @@ class RunOptions:
         Wanted time between recorded states of a single run [s]; the nearest multiple of the step is used.
     until_end : bool
         Go on after a collapse is certain.
+    until_rest : bool
+        Go on after the motion until everything lies still (models that follow a collapse to the ground).
     """
 
     tail: float = 0.0
     output_interval: float = 0.01
     until_end: bool = False
+    until_rest: bool = False
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, ClassVar, cast
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from ..errors import InputError, OutOfRangeWarning, check_range
 from ..motion import Motion
 from ..response import Measures, Response
 from .base import Case, Model, RunOptions
-from .distinct_element_2d import BASE_HALF_WIDTH, _Block, _histories, _Packed
+from .drum_block import BASE_HALF_WIDTH, DrumBlock, PackedColumn, histories
 from .lanes import run_lanes
 
 
@@ -118,11 +118,27 @@ class RigidBlock(Model):
             )
         return self.time_step
 
+    # -- what a block of lanes needs -----------------------------------------------------------------------------
+
+    def kernel(self) -> Any:
+        """Module of kernels."""
+        from ..kernels import rigid_block
+
+        return rigid_block
+
+    def record_types(self) -> tuple:
+        """Record types of the kernel's arrays."""
+        return self.kernel().block_types(self.compressive_strength is not None, self.damped)
+
+    def pack(self, column: Column) -> PackedColumn:
+        """A column as the kernel wants it."""
+        return _pack(column, self)
+
     # -- runs ----------------------------------------------------------------------------------------------------
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, through the same kernel as a batch."""
-        block = _RigidBlocks(self, column.n, options)
+        block = DrumBlock(self, column.n, options)
         block.load(0, Case(column, motion))
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
@@ -132,7 +148,7 @@ class RigidBlock(Model):
             states.append(block.snapshot(0))
         measures = block.collect(0)
         provenance = {"time_step_s": block.dt[0]}
-        return Response(column, _histories(column, motion, states), measures, self.name, provenance)
+        return Response(column, histories(motion, states), measures, self.name, provenance)
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
@@ -141,34 +157,12 @@ class RigidBlock(Model):
             by_drums.setdefault(case.column.n, []).append(index)
         for drums, indices in by_drums.items():
             some = [cases[index] for index in indices]
-            for k, measures in run_lanes(lambda drums=drums: _RigidBlocks(self, drums, options), some, threads):
+            for k, measures in run_lanes(lambda drums=drums: DrumBlock(self, drums, options), some, threads):
                 yield indices[k], measures
 
 
-class _RigidBlocks(_Block):
-    """A block of lanes of this model: drums as the distinct elements step them, joints as interfaces."""
-
-    def __init__(self, model: RigidBlock, drums: int, options: RunOptions) -> None:
-        self.crushing = model.compressive_strength is not None
-        super().__init__(cast(Any, model), drums, options)
-
-    def its_kernel(self) -> Any:
-        """Module of kernels."""
-        from ..kernels import rigid_block as kernel
-
-        return kernel
-
-    def its_types(self) -> tuple:
-        """Record types of the arrays."""
-        return self.kernel.block_types(self.crushing, self.model.damped)
-
-    def its_column(self, column: Column) -> _Packed:
-        """A column as the kernel wants it."""
-        return _pack(column, cast(Any, self.model))
-
-
 @lru_cache(maxsize=4096)
-def _pack(column: Column, model: RigidBlock) -> _Packed:
+def _pack(column: Column, model: RigidBlock) -> PackedColumn:
     n, drums, area = column.n, column.drums, column.joint_areas
     kn, km, ks = joint_stiffness(column)
 
@@ -223,7 +217,7 @@ def _pack(column: Column, model: RigidBlock) -> _Packed:
         "shear": 0.0,
         "visc": 0.0,
     }
-    return _Packed((drum_fields, joint_fields, lane_fields), model.step_for(column))
+    return PackedColumn((drum_fields, joint_fields, lane_fields), model.step_for(column))
 
 
 def _half_widths(column: Column) -> tuple[np.ndarray, np.ndarray]:

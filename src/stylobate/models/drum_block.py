@@ -1,0 +1,273 @@
+"""A block of lanes of stacked drums: kernel arrays, the way of a case into them, and of its results out of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..motion import Motion
+from ..outcome import Outcome, classify
+from ..response import Histories, Measures
+from .base import Case, RunOptions, ground_history
+from .lanes import aligned_zeros
+from .standing import lowest_barrier, stands_for_good
+
+#: Half width of the base, wide enough to be a half-plane [m].
+BASE_HALF_WIDTH = 1.0e4
+
+#: A run has failed when its ledger misses more than this share of the largest input work, …
+LARGEST_IMBALANCE = 0.25
+
+#: … or of this share of the energy that overturns the column, if the input work is even smaller than that.
+SMALL_ENERGY = 1.0e-3
+
+#: Calls of the kernel per run.
+CALLS_PER_RUN = 100
+
+
+@dataclass(frozen=True)
+class PackedColumn:
+    """A column as the kernel wants it."""
+
+    fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
+    step: float
+
+
+class DrumBlock:
+    """See :class:`stylobate.models.lanes.LaneBlock`.
+
+    Parameters
+    ----------
+    model : DrumModel
+        Gives the module of kernels, the record types and the packed column.
+    drums : int
+        Number of drums of every column in this block.
+    options : RunOptions
+    """
+
+    def __init__(self, model: Any, drums: int, options: RunOptions) -> None:
+        self.model = model
+        self.kernel = kernel = model.kernel()
+        self.options = options
+        self.lanes = kernel.LANES
+        self.chunk = kernel.CHUNK
+        types = model.record_types()
+        self.drum = aligned_zeros(drums + 1, types[0])
+        self.joint = aligned_zeros(drums + 1, types[1])
+        self.lane = aligned_zeros(1, types[2])
+        self.ground = aligned_zeros(kernel.CHUNK + 1, types[3])
+        self.feed = aligned_zeros(1, types[4])
+        self.watch = aligned_zeros(1, types[5])
+        self.watch["status"] = kernel.FREE
+        self.dt = np.zeros(self.lanes)
+        self.steps = np.zeros(self.lanes, dtype=np.int64)
+        self.start = np.zeros((self.lanes, 6))
+        self.cases: list[Case | None] = [None] * self.lanes
+        self.chunks_per_call = 1
+
+    def load(self, lane: int, case: Case) -> None:
+        """Start a case in a lane."""
+        column, motion = case
+        packed = self.model.pack(column)
+        for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
+            for name, values in fields.items():
+                array[name][..., lane] = values
+        self.joint["dn"][..., lane] = self.joint["ds"][..., lane] = 0.0
+        duration = motion.duration + self.options.tail
+        chunks = max(1, math.ceil(duration / (self.chunk * packed.step)))
+        steps = chunks * self.chunk
+        dt = duration / steps
+        self.lane["dt"][0, lane] = dt
+        x, z = motion.samples, motion.z_samples
+        feed, watch = self.feed[0], self.watch[0]
+        feed["x"][lane] = x.ctypes.data
+        feed["z"][lane] = 0 if z is None else z.ctypes.data
+        feed["last"][lane] = len(x) - 1
+        feed["step"][lane] = 0
+        feed["end"][lane] = steps
+        feed["ratio"][lane] = dt / motion.dt
+        feed["factor"][lane] = motion.factor
+        for name in watch.dtype.names:
+            watch[name][lane] = 0
+        watch["status"][lane] = self.kernel.RUNNING
+        watch["follow"][lane] = self.options.until_end
+        watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
+        watch["amax"][lane] = motion.pga
+        watch["vmax"][lane] = 0.0 if z is None else _peak(z) * abs(motion.factor)
+        # velocities half a step before the start, of drums that do not move yet in a base that may
+        self.drum["vx"][1:, lane] = 0.5 * dt * motion.factor * x[0]
+        self.drum["vz"][1:, lane] = 0.0 if z is None else 0.5 * dt * motion.factor * z[0]
+        self.dt[lane] = dt
+        self.steps[lane] = steps
+        self.cases[lane] = case
+        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
+        self.start[lane] = self.energies(lane)
+
+    def advance(self, chunks: int | None = None) -> None:
+        """Advance all lanes by some chunks of steps."""
+        count = self.chunks_per_call if chunks is None else chunks
+        self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
+
+    def is_over(self, lane: int) -> bool:
+        """Whether the lane's run has ended."""
+        return self.watch["status"][0, lane] != self.kernel.RUNNING
+
+    def time(self, lane: int) -> float:
+        """Time of the lane's present state [s]."""
+        return float(self.feed["step"][0, lane]) * self.dt[lane]
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        case = self.cases[lane]
+        assert case is not None
+        place = self.time(lane) / case.motion.dt
+        ground = np.zeros(1, self.ground.dtype)
+        ground["ax"][0, lane] = _sample(case.motion.samples, place) * case.motion.factor
+        if case.motion.z_samples is not None:
+            ground["az"][0, lane] = _sample(case.motion.z_samples, place) * case.motion.factor
+        # the forces at the present positions, found as the next step will find them, on a copy
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = self.dt[lane]
+        self.kernel.forces(self.drum, joint, state)
+        out = np.empty(6)
+        self.kernel.ledger(self.drum, joint, state, ground, 0, self.dt[lane], lane, out)
+        return out
+
+    def residual_acceleration(self, lane: int) -> float:
+        """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
+        joint, state = self.joint.copy(), self.lane.copy()
+        self.kernel.forces(self.drum, joint, state)
+        d = {name: self.drum[name][1:, lane] for name in ("im", "ii", "b")}
+        net = {name: joint[name][:, lane] for name in ("fx", "fz", "mu_", "ml")}
+        ax = (net["fx"][:-1] - net["fx"][1:]) * d["im"]
+        az = (net["fz"][:-1] - net["fz"][1:]) * d["im"] - state["g"][0, lane]
+        turn = (net["mu_"][:-1] - net["ml"][1:]) * d["ii"] * d["b"]
+        return float(np.abs(np.concatenate((ax, az, turn))).max())
+
+    def snapshot(self, lane: int) -> dict[str, Any]:
+        """Everything that a history keeps of the present state."""
+        drum, joints = self.drum, len(self.drum) - 1
+        opening, slip = np.empty(joints), np.empty(joints)
+        self.kernel.joint_state(drum, lane, opening, slip)
+        bottom, top = drum[1], drum[-1]
+        return {
+            "time": self.time(lane),
+            "x": drum["x"][1:, lane].copy(),
+            "z": drum["z"][1:, lane].copy(),
+            "rotation": drum["th"][1:, lane].copy(),
+            "opening": opening,
+            "slip": slip,
+            "base": bottom["x"][lane] + bottom["s"][lane] * bottom["hb"][lane],
+            "top": top["x"][lane] - top["s"][lane] * top["ht"][lane],
+            "energy": self.energies(lane),
+        }
+
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run is over."""
+        case = self.cases[lane]
+        assert case is not None
+        watch, drum = self.watch[0], self.drum
+        status = watch["status"][lane]
+        now = self.energies(lane)
+        change = now - self.start[lane]
+        largest = max(float(watch["wmax"][lane]), float(self.start[lane, 3]))
+        imbalance, balanced = ledger_balance(change, largest, case.column)
+        opening, slip = np.empty(case.column.n), np.empty(case.column.n)
+        self.kernel.joint_state(drum, lane, opening, slip)
+        collapsed = status == self.kernel.COLLAPSED
+        failed = status == self.kernel.FAILED or not balanced
+        widths = case.column.joint_widths
+        outcome = classify(
+            collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
+        )
+        mechanical = float(change[1] + change[2] + change[3])
+        top = drum[-1]
+        return Measures(
+            outcome=outcome,
+            decided=outcome is Outcome.COLLAPSED
+            or (not failed and stands_for_good(case.column, drum, lane, slip, mechanical)),
+            collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
+            peak_top_displacement=float(watch["top"][lane]),
+            residual_top_displacement=float(top["x"][lane] - top["s"][lane] * top["ht"][lane]),
+            peak_rotation=float(watch["turn"][lane]),
+            peak_joint_opening=float(watch["open"][lane]),
+            residual_joint_slip=float(np.abs(slip).max()),
+            energy_imbalance=imbalance,
+            time_step=float(self.dt[lane]),
+            steps=int(self.feed["step"][0, lane]),
+            reason=self.reason(lane, outcome, imbalance),
+        )
+
+    def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
+        """Why a run failed, or what happened in a collapse; empty for a column that stands."""
+        watch = self.watch[0]
+        if outcome is Outcome.FAILED:
+            if watch["status"][lane] == self.kernel.FAILED:
+                return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
+            return f"the energy ledger is out of balance by {imbalance:.2g} of the input work; try a smaller step_factor"
+        if outcome is not Outcome.COLLAPSED:
+            return ""
+        side = "right" if watch["side"][lane] > 0 else "left"
+        parted = bool(watch["parted"][lane])
+        # what is lost above some joint turns about the joint that is widest open, there or higher up
+        joint = 1 + int(watch["which" if parted else "about"][lane])
+        drums = len(self.drum) - 1
+        part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
+        how = f"left the support at joint {joint}" if parted else f"overturned about joint {joint}"
+        return f"{part} {how}, to the {side}"
+
+
+def ledger_balance(change: np.ndarray, largest: float, column: Column) -> tuple[float, bool]:
+    """Energy that a ledger misses relative to the largest input work so far, and whether the run can be believed.
+
+    Parameters
+    ----------
+    change : array
+        Input, kinetic, gravitational, elastic, friction, viscous: since the start [J], shape (6,).
+    largest : float
+        Largest input work so far, or the elastic energy at rest if that is larger [J].
+    column : Column
+    """
+    missing = abs(float(change[0] - change[1:].sum()))
+    allowed = LARGEST_IMBALANCE * max(largest, SMALL_ENERGY * lowest_barrier(column))
+    return missing / largest, missing <= allowed
+
+
+def histories(motion: Motion, states: list[dict[str, Any]]) -> Histories:
+    """Histories from the snapshots of a run."""
+    stack = {key: np.array([state[key] for state in states]) for key in states[0]}
+    energy = stack["energy"]
+    acceleration, displacement = ground_history(motion, stack["time"])
+    return Histories(
+        time=stack["time"],
+        drum_x=stack["x"] - stack["x"][0],
+        drum_z=stack["z"] - stack["z"][0],
+        drum_rotation=stack["rotation"],
+        joint_opening=stack["opening"],
+        joint_slip=stack["slip"] - stack["slip"][0],
+        base_displacement=stack["base"],
+        top_displacement=stack["top"],
+        ground_acceleration=acceleration,
+        ground_displacement=displacement,
+        energy={
+            "input": energy[:, 0],
+            "kinetic": energy[:, 1],
+            "gravitational": energy[:, 2] - energy[0, 2],
+            "elastic": energy[:, 3] - energy[0, 3],
+            "friction": energy[:, 4] - energy[0, 4],
+            "viscous": energy[:, 5] - energy[0, 5],
+        },
+    )
+
+
+def _sample(values: np.ndarray, place: float) -> float:
+    """Linear between samples, zero after the last one."""
+    i = min(int(place), len(values) - 2)
+    return float(values[i] + (values[i + 1] - values[i]) * (place - i)) if place <= len(values) - 1 else 0.0
+
+
+def _peak(values: np.ndarray) -> float:
+    return float(np.abs(values).max())
