@@ -111,7 +111,7 @@ def test_one_cosine_without_impact(w, printed):
 
 
 def test_one_sine_nonlinear_edges():
-    # α = 0.25, e = 0.9, ω/p = 2: overturns from 1.225, safe again from 2.325, overturns without impact from 2.358 g tan α.
+    # α = 0.25, e = 0.9, ω/p = 2, in g tan α: overturns from 1.225, safe again from 2.325, without impact from 2.358.
     column = prism(0.25)
     omega = 2.0 * column.frequency_parameter
     ratios = np.arange(1.150, 2.450, 0.0025)

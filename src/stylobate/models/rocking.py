@@ -137,7 +137,7 @@ def imbalance(input_work: float, accounted: float, largest: float) -> float:
 
 
 def remaining_peak(motion: Motion) -> np.ndarray:
-    """Largest |sample| from each sample on, then zero: what is left of a motion, before its factor, shape (steps + 1,)."""
+    """Largest |sample| from each sample on, then zero: what is left without the factor, shape (steps + 1,)."""
     return np.append(np.maximum.accumulate(np.abs(motion.samples)[::-1])[::-1], 0.0)
 
 

@@ -141,7 +141,7 @@ def run_single(
             if solver.status == "failed" or not np.all(np.isfinite(solver.y)):
                 failure = f"the solver could not go on at t = {solver.t:.4f} s: {message or 'the state is not finite'}"
                 break
-            t0, t1, (x, v, work) = solver.t_old, solver.t, solver.y
+            t0, t1, (x, v, work) = state["t"], float(solver.t), solver.y
             steps += 1
             smallest = min(smallest, t1 - t0)
             if x < 0.0:

@@ -1,0 +1,288 @@
+"""Rigid beam: every drum a rigid beam, every joint a moment–rotation law; the paper's model, with sliding added."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from ..column import Column
+from ..errors import InputError, check_range
+from ..kernels import moment_law
+from ..motion import Motion
+from ..response import Measures, Response
+from .base import Case, Model, RunOptions
+from .housner import warn, warn_vertical
+from .lanes import run_lanes
+from .rigid_beam_equations import BeamMatrices
+from .rocking import RockingBlock
+
+if TYPE_CHECKING:
+    from .rigid_beam_lanes import Loop
+
+LAWS = ("winkler", "bilinear", "trilinear", "housner")
+
+#: Step times ω_max: default, and the limit beyond which the method is unstable (2√2).
+STEP_FACTOR = 1.5
+STABLE = 2.8
+
+
+@dataclass(frozen=True)
+class RigidBeam(Model):
+    """Drums as rigid beams that rotate, joints as moment–rotation laws; small rotations, no vertical freedom.
+
+    Parameters
+    ----------
+    moment_law : {"winkler", "bilinear", "trilinear", "housner"}
+        ``winkler``: elastic bed without tension. ``bilinear``, ``trilinear``: the paper's. ``housner``: rigid until M_u,
+        impacts with restitution; one drum only.
+    xi : float
+        ξ: plateau of the tri-linear law over M_u, in (0, 1] [-].
+    second_order : {"geometric", "law"}
+        Where the weight's loss of lever arm stands: in the equations of motion, or in a falling branch of the law.
+    rotation : {"relative", "absolute"}
+        What the law is in: the joint's rotation, or the rotation of the drum above (the paper's wording).
+    idealisation : {"true", "prism"}
+        Drums as they are, or prisms of their mean width (the paper).
+    critical_angle : {"stack", "drum"}
+        α of the laws' branches: of all that stands on the joint as one body, or of the drum above it alone (the paper).
+    sliding : bool
+        A slip at every joint, elastic up to Mohr–Coulomb's limit.
+    stiffness_damping : float
+        β: a closed joint of stiffness K resists its velocity by βK [s].
+    restitution : float, optional
+        For ``housner``: velocity after an impact over the one before; Housner's own by default.
+    initial_rotation : float
+        Rotation of the whole column about its base joint from which it is let go at rest, counter-clockwise [rad].
+    time_step : float, optional
+        [s]. By default 1.5/ω_max, ω_max of the column with all joints closed, at most the motion's step and 0.01/p.
+    solver : {"fixed", "adaptive"}
+        Of single runs: the batch's Runge–Kutta method of order 4, or SciPy's adaptive one of order 8 (slow for many drums).
+
+    Raises
+    ------
+    InputError
+        A value outside its range, or options that contradict each other.
+
+    Notes
+    -----
+    Equations F3 and R1 to R8 of the theory page. *Collapsed* means that the part above some joint is lost: its centroid
+    is beyond the edge of the joint, moves outward, and its weight has a larger moment about that edge than the strongest
+    acceleration left in the motion (for joints between drums, 1 g more, because the drum below can move) could set against
+    it; with ``second_order="law"`` the same of the joint's own moment. Or that a drum has turned by a right angle. At the
+    end, without input, also that the column is past its lowest barrier and has less energy than it takes to come back.
+
+    References
+    ----------
+    Baraldi, Sarhosis and Milani; Housner 1963.
+    """
+
+    moment_law: str = "winkler"
+    xi: float = 1.0
+    second_order: str = "geometric"
+    rotation: str = "relative"
+    idealisation: str = "true"
+    critical_angle: str = "stack"
+    sliding: bool = False
+    stiffness_damping: float = 0.0
+    restitution: float | None = None
+    initial_rotation: float = 0.0
+    time_step: float | None = None
+    solver: str = "fixed"
+
+    name: ClassVar[str] = "rigid-beam"
+    title: ClassVar[str] = "rigid beam model"
+    references: ClassVar[tuple[str, ...]] = ("baraldi", "housner1963")
+
+    def __post_init__(self) -> None:
+        for key, allowed in (
+            ("moment_law", LAWS),
+            ("second_order", ("geometric", "law")),
+            ("rotation", ("relative", "absolute")),
+            ("idealisation", ("true", "prism")),
+            ("critical_angle", ("stack", "drum")),
+            ("solver", ("fixed", "adaptive")),
+        ):
+            if getattr(self, key) not in allowed:
+                raise InputError(f"{key} is {getattr(self, key)!r}; allowed are {', '.join(allowed)}.")
+        check_range("xi", self.xi, 0.0, 1.0, open_low=True, remedy="1 is the bi-linear law")
+        check_range("stiffness_damping", self.stiffness_damping, 0.0, 1.0, unit="s")
+        check_range("initial_rotation", self.initial_rotation, -1.0, 1.0, unit="rad")
+        if self.restitution is not None:
+            check_range("restitution", self.restitution, 0.0, 1.0, remedy="leave it out for Housner's own value")
+        if self.time_step is not None:
+            check_range("time_step", self.time_step, 0.0, 1.0, unit="s", open_low=True)
+        housner = self.moment_law == "housner"
+        if self.xi != 1.0 and self.moment_law != "trilinear":
+            raise InputError(
+                f"xi = {self.xi:g} is for moment_law=trilinear, not {self.moment_law}; leave one of them out."
+            )
+        if self.restitution is not None and not housner:
+            raise InputError(
+                f"restitution = {self.restitution:g} is for moment_law=housner, not {self.moment_law}: "
+                "the other laws have no impact; leave it out, or use stiffness_damping."
+            )
+        if self.rotation == "absolute" and self.sliding:
+            raise InputError(
+                "rotation=absolute and sliding=true contradict each other: use rotation=relative with sliding."
+            )
+        if housner and (self.sliding or self.stiffness_damping > 0.0):
+            raise InputError(
+                "moment_law=housner is rigid and has no sliding or stiffness_damping; use bilinear or winkler."
+            )
+
+    @classmethod
+    def paper(cls, **changes) -> RigidBeam:
+        """As the paper has it: prisms of mean width, falling branch in the law with each drum's own α, no damping.
+
+        The paper prints neither ξ nor whether it used two lines or three; ξ = 1 here. Keywords change single options.
+        """
+        settings: dict[str, Any] = {
+            "moment_law": "bilinear", "second_order": "law", "rotation": "absolute", "idealisation": "prism",
+            "critical_angle": "drum",
+        }  # fmt: skip
+        return cls(**(settings | changes))
+
+    # -- the column as the model sees it ---------------------------------------------------------------------------
+
+    def idealised(self, column: Column) -> Column:
+        """The column with prisms of mean width, if the model is to see them."""
+        return column.as_prism() if self.idealisation == "prism" else column
+
+    def critical_angles(self, column: Column) -> np.ndarray:
+        """α_i of the laws' branches [rad], shape (n,); ``column`` idealised."""
+        matrices = BeamMatrices(column)
+        if self.critical_angle == "drum":
+            height = column.centroid_heights - column.joint_heights
+        else:
+            height = matrices.overturning * column.gravity / column.joint_weights
+        return np.arctan2(0.5 * column.joint_widths, height)
+
+    def joints(self, column: Column) -> np.ndarray:
+        """The five numbers of each joint's law, shape (5, n), see ``kernels/moment_law.py``; ``column`` idealised."""
+        stiffness = np.array([joint.normal_stiffness for joint in column.joints]) * column.joint_second_moments
+        ultimate = column.joint_weights * 0.5 * column.joint_widths  # Baraldi et al., Eq. 6
+        fall = ultimate / self.critical_angles(column)
+        none = np.zeros(column.n)
+        law = self.second_order == "law"
+        if self.moment_law == "winkler":
+            # N = k_n A φ_d d/2, for a rectangle and for a circle
+            opening = column.joint_weights * 0.5 * column.joint_widths * column.joint_second_moments
+            opening = opening / (stiffness * column.joint_areas * (0.5 * column.joint_widths) ** 2)
+            return np.array([stiffness, ultimate, opening, none, -fall if law else none])
+        if law:  # min(K|φ|, ξ M_u, M_u (1 − |φ|/α))
+            return np.array([stiffness, self.xi * ultimate, none, ultimate, -fall])
+        # the same, less what gravity does in the equations of motion: min(K|φ|, M_u (ξ + |φ|/α), M_u)
+        rise = fall if self.moment_law == "trilinear" and self.xi < 1.0 else none
+        return np.array([stiffness, self.xi * ultimate, rise, ultimate, none])
+
+    def bed(self, column: Column) -> tuple[float, ...] | bool | None:
+        """What the law of lines or of the bed is chosen by, see ``kernels/moment_law.py``."""
+        if self.moment_law != "winkler":
+            return None
+        return moment_law.circle() if column.section == "circular" else True
+
+    def opening_rotations(self, column: Column) -> np.ndarray:
+        """Rotation at which each joint leaves its elastic branch [rad], shape (n,); ``column`` idealised."""
+        k, m1, s1, m2, s2 = self.joints(column)
+        return s1 if self.moment_law == "winkler" else np.minimum(m1 / (k - s1), m2 / (k - s2))
+
+    def stable_step(self, column: Column) -> float:
+        """Largest stable time step [s]; ``column`` idealised."""
+        return STABLE / self._highest(column)
+
+    def step_for(self, column: Column, motion: Motion) -> float:
+        """Time step [s]; ``column`` idealised."""
+        if self.time_step is not None:
+            return self.time_step
+        return min(STEP_FACTOR / self._highest(column), motion.dt, 0.01 / column.frequency_parameter)
+
+    def _highest(self, column: Column) -> float:
+        shear = None
+        if self.sliding:
+            shear = np.array([joint.shear_stiffness for joint in column.joints]) * column.joint_areas
+        relative = self.rotation == "relative"
+        return BeamMatrices(column).highest_frequency(self.joints(column)[0], 0.0, relative, shear)
+
+    def block(self, column: Column) -> RockingBlock:
+        """For ``housner``: the beam of one drum as a rocking block; rotation about the middle of its base."""
+        seen = self.idealised(column)
+        inertia = float(BeamMatrices(seen).mass[0, 0])
+        arm, height = 0.5 * seen.base_width, seen.centroid_height
+        alpha = arm / height if self.second_order == "geometric" else math.atan2(arm, height)
+        e = max(0.0, seen.restitution) if self.restitution is None else self.restitution
+        return RockingBlock(
+            p=math.sqrt(seen.mass * seen.gravity * arm / (inertia * alpha)),
+            alpha=alpha, restitution=e, inertia=inertia, gravity=seen.gravity, half_width=arm, height=seen.height,
+            centroid_height=height, linear=True,
+        )  # fmt: skip
+
+    # -- Model -----------------------------------------------------------------------------------------------------
+
+    def check(self, column: Column, motion: Motion) -> None:
+        """Refuse what cannot be computed; warn outside the declared limits."""
+        seen = self.idealised(column)
+        if self.moment_law == "housner" and column.n > 1:
+            raise InputError(
+                f"moment_law=housner is for one drum, and {column.name!r} has {column.n}; "
+                "use bilinear, trilinear or winkler."
+            )
+        if self.time_step is not None:
+            largest = 0.2 / seen.frequency_parameter if self.moment_law == "housner" else self.stable_step(seen)
+            if self.time_step > largest:
+                raise InputError(
+                    f"time_step is {self.time_step:g} s; allowed is up to {largest:.3g} s for this column, "
+                    "or leave it out."
+                )
+        if abs(self.initial_rotation) >= seen.slenderness:
+            raise InputError(
+                f"initial_rotation is {self.initial_rotation:g} rad; allowed is less than the slenderness "
+                f"{seen.slenderness:.4g} rad, beyond which the column falls by itself."
+            )
+        opening = float(self.opening_rotations(seen).max())
+        if self.moment_law != "housner" and opening > 0.1 * float(self.critical_angles(seen).min()):
+            warn(
+                f"the joints of {column.name!r} open only at {opening:.3g} rad, more than a tenth of the critical angle: "
+                "the beam is for stiff joints; raise normal_stiffness."
+            )
+        if motion.lateral is not None:
+            warn(f"the second horizontal component of {motion.name!r} is left out: {self.name} is a plane model.")
+        warn_vertical(column, motion)
+
+    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories."""
+        if self.moment_law == "housner":
+            from .rocking_single import run_single
+
+            histories, measures = run_single(self.block(column), motion, options, self.initial_rotation)
+        elif self.solver == "adaptive":
+            from .rigid_beam_adaptive import run_adaptive
+
+            histories, measures = run_adaptive(self, column, motion, options)
+        else:
+            from .rigid_beam_lanes import run_one
+
+            histories, measures = run_one(self, column, motion, options)
+        return Response(column, histories, measures, self.name, {})
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs through blocks of lanes."""
+        if self.moment_law == "housner":
+            from .rocking_lanes import RockingLanes
+
+            vertical = any(case.motion.z_samples is not None for case in cases)
+            step, start = self.time_step, self.initial_rotation
+            yield from run_lanes(lambda: RockingLanes(self.block, options, start, step, vertical), cases, threads)
+            return
+        from .rigid_beam_lanes import BeamLanes, loop_for
+
+        alike: dict[Loop, list[int]] = {}
+        for index, case in enumerate(cases):
+            alike.setdefault(loop_for(self, case), []).append(index)
+        for loop, indices in alike.items():
+            some = [cases[index] for index in indices]
+            for k, measures in run_lanes(lambda loop=loop: BeamLanes(self, loop, options), some, threads):
+                yield indices[k], measures

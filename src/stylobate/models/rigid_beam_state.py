@@ -1,0 +1,193 @@
+"""The rigid beam between its equations and its results: a column packed once, energies, verdict, measures, histories."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ..column import Column
+from ..kernels import moment_law
+from ..motion import Motion
+from ..outcome import Outcome, classify
+from ..response import Histories, Measures
+from .base import ground_history
+from .rigid_beam_equations import BeamMatrices
+from .rocking import imbalance
+
+if TYPE_CHECKING:
+    from .rigid_beam import RigidBeam
+
+#: A run whose ledger is out of balance by more than this share of the input work has failed.
+LARGEST_IMBALANCE = 0.25
+
+
+@dataclass(frozen=True, eq=False)
+class PackedBeam:
+    """Everything about a column that the rigid beam needs, computed once; see the model for the meaning of the names."""
+
+    model: RigidBeam
+    seen: Column
+    matrices: BeamMatrices
+    joints: np.ndarray
+    bed: tuple[float, ...] | bool | None
+    alpha: np.ndarray
+    opening: np.ndarray
+    shear: np.ndarray
+    barriers: np.ndarray
+
+    @property
+    def geometric(self) -> bool:
+        """Whether gravity stands in the equations of motion."""
+        return self.model.second_order == "geometric"
+
+    @property
+    def ultimate(self) -> np.ndarray:
+        """M_u of each joint [N m], shape (n,)."""
+        return self.seen.joint_weights * 0.5 * self.seen.joint_widths
+
+    def joint_rotations(self, theta: np.ndarray) -> np.ndarray:
+        """φ_i = θ_i − θ_{i−1} along the last axis."""
+        return np.diff(theta, axis=-1, prepend=0.0)
+
+    def energies(self, theta, omega, slip, slip_rate, plastic) -> np.ndarray:
+        """Kinetic, gravitational and elastic energy of one state, upright at rest zero [J].
+
+        Parameters
+        ----------
+        theta, omega, slip, slip_rate, plastic : array, shape (n,)
+            Rotations towards +x, their velocities, slips, their velocities and plastic parts.
+        """
+        weight = self.seen.gravity * self.matrices.load
+        if self.model.sliding:
+            q = np.concatenate((omega, slip_rate))
+            kinetic = 0.5 * q @ self.matrices.sliding_mass @ q
+        else:
+            kinetic = 0.5 * omega @ self.matrices.mass @ omega
+        gravitational = 0.0
+        if self.geometric:
+            below = np.concatenate(([0.0], theta[:-1]))
+            gravitational = -0.5 * weight @ theta**2 - self.seen.joint_weights @ (slip * below)
+        elastic = moment_law.stored(self.joint_rotations(theta), self.joints, self.bed).sum()
+        elastic += 0.5 * self.shear @ (slip - plastic) ** 2
+        return np.array([kinetic, gravitational, elastic])
+
+    def verdict(self, theta, slip, energy: float) -> tuple[bool, bool]:
+        """Whether the column is lost and whether that is decided, when no input is left.  # Eq. (R9)
+
+        Below the lowest barrier a column cannot change sides: inside it stands for ever, outside it falls.
+        """
+        shortened = np.maximum(0.0, 1.0 - 2.0 * np.abs(slip) / self.seen.joint_widths)
+        phi = self.joint_rotations(theta)
+        if energy >= float((self.barriers * shortened**2).min()):
+            return False, False
+        if self.geometric:
+            inside = self.ultimate * shortened @ np.abs(phi) >= self.seen.gravity * self.matrices.load @ theta**2
+        else:
+            inside = bool(np.all(np.abs(theta if self.model.rotation == "absolute" else phi) <= self.alpha))
+        return not inside, True
+
+    def lift(self, phi: np.ndarray) -> np.ndarray:
+        """Gap of each joint at the edge that opens [m]."""
+        size = np.abs(phi)
+        return np.where(size > self.opening, self.seen.joint_widths * (size - np.sqrt(size * self.opening)), 0.0)
+
+
+@lru_cache(64)
+def packed(model: RigidBeam, column: Column) -> PackedBeam:
+    """The column as the model sees it."""
+    seen = model.idealised(column)
+    matrices = BeamMatrices(seen)
+    joints, bed, alpha = model.joints(seen), model.bed(seen), model.critical_angles(seen)
+    shear = np.array([joint.shear_stiffness for joint in seen.joints]) * seen.joint_areas
+    # Energy that overturns the part above each joint alone: no way over several joints is lower.  # Eq. (R9)
+    weight = seen.gravity * matrices.overturning if model.second_order == "geometric" else np.zeros(seen.n)
+    ultimate = seen.joint_weights * 0.5 * seen.joint_widths
+    summit = ultimate / weight if model.second_order == "geometric" else alpha
+    phi = np.linspace(0.0, 1.0, 401)[:, None] * summit
+    barriers = (moment_law.stored(phi, joints[:, None, :], bed) - 0.5 * weight * phi**2).max(axis=0)
+    return PackedBeam(model, seen, matrices, joints, bed, alpha, model.opening_rotations(seen), shear, barriers)
+
+
+def measures_of(beam: PackedBeam, found: dict) -> Measures:
+    """Measures from the facts of a run.
+
+    ``found``: theta, slip (at the end, shape (n,)), energy (mechanical), imbalance, lost (joint from 1, 0: none), side,
+    time of collapse, end, failure, top, residual, turn, opening, step, steps.
+    """
+    column = beam.seen
+    failure = found["failure"]
+    if not failure and not found["imbalance"] <= LARGEST_IMBALANCE:
+        failure = (
+            f"the energy ledger is out of balance by {found['imbalance']:.2g} of the input work; shorten the time_step"
+        )
+    collapsed, decided = (True, True) if found["lost"] else beam.verdict(found["theta"], found["slip"], found["energy"])
+    widths = column.joint_widths
+    outcome = classify(
+        collapsed, bool(failure), found["opening"] / float(widths.min()), float((np.abs(found["slip"]) / widths).max())
+    )
+    reason = failure
+    if outcome is Outcome.COLLAPSED:
+        reason = "beyond the lowest barrier when the input ends"
+        if found["lost"]:
+            joint, n = found["lost"], column.n
+            part = "the whole column" if joint == 1 else f"drums {joint} to {n}" if joint < n else f"drum {n}"
+            reason = f"{part} overturns to the {'right' if found['side'] > 0 else 'left'} over joint {joint}"
+    time = found["time"] if found["lost"] else found["end"]
+    return Measures(
+        outcome=outcome,
+        decided=decided and not failure,
+        collapse_time=time if outcome is Outcome.COLLAPSED else math.nan,
+        peak_top_displacement=found["top"],
+        residual_top_displacement=found["residual"],
+        peak_rotation=found["turn"],
+        peak_joint_opening=found["opening"],
+        residual_joint_slip=float(np.abs(found["slip"]).max()),
+        energy_imbalance=found["imbalance"],
+        time_step=found["step"],
+        steps=found["steps"],
+        reason=reason,
+    )
+
+
+def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) -> Histories:
+    """Histories from the recorded states.
+
+    Parameters
+    ----------
+    time : array, shape (T,)
+    theta, slip : array, shape (T, n)
+        Rotations towards +x [rad] and slips [m].
+    ledger : array, shape (T, 6)
+        Input, kinetic, gravitational, elastic, friction, viscous [J].
+    """
+    column = beam.seen
+    phi = beam.joint_rotations(theta)
+    lever = beam.matrices.lever
+    base = np.cumsum(slip, axis=1)
+    x = theta @ lever.T + base
+    # Seconds of small angles: the drums sink as they tilt and rise as their joints open.
+    z = np.cumsum(0.5 * beam.lift(phi), axis=1) - 0.5 * theta**2 @ lever.T
+    a_g, u_g = ground_history(motion, time)
+    names = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
+    return Histories(
+        time=time,
+        drum_x=x - x[0],
+        drum_z=z - z[0],
+        drum_rotation=-theta,
+        joint_opening=beam.lift(phi),
+        joint_slip=slip,
+        base_displacement=slip[:, 0],
+        top_displacement=base[:, -1] + (theta - theta[0]) @ column.heights,
+        ground_acceleration=a_g,
+        ground_displacement=u_g,
+        energy={name: ledger[:, k] for k, name in enumerate(names)},
+    )
+
+
+def ledger_imbalance(ledger: np.ndarray, largest: float) -> float:
+    """Share of the input work that the ledger cannot account for [-]; ``ledger`` as in :func:`histories_of`, one row."""
+    return imbalance(float(ledger[0]), float(ledger[1:].sum()), largest)
