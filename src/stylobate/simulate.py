@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import platform
 import time
@@ -18,6 +19,10 @@ from .response import Measures, Response
 if TYPE_CHECKING:
     import pandas
 
+    from .column.assembly import Assembly
+    from .models.distinct_element_2d import DistinctElement2D
+    from .response.assembly_response import AssemblyResponse
+
 
 def simulate(
     column: Column,
@@ -27,6 +32,7 @@ def simulate(
     tail: float = 0.0,
     output_interval: float = 0.01,
     until_end: bool = False,
+    until_rest: bool = False,
 ) -> Response:
     """Shake one column once and record what happens.
 
@@ -42,6 +48,8 @@ def simulate(
         Time between recorded states [s].
     until_end : bool
         Go on after the collapse is certain.
+    until_rest : bool
+        Go on until everything lies still, on the ground if need be (``DistinctElement2D``).
 
     Returns
     -------
@@ -52,7 +60,7 @@ def simulate(
     InputError
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
-    options = _options(tail, output_interval, until_end)
+    options = _options(tail, output_interval, until_end, until_rest)
     model.check(column, motion)
     started = time.perf_counter()
     response = model.run(column, motion, options)
@@ -74,6 +82,44 @@ def simulate(
         "machine": platform.machine(),
     }
     return response.with_provenance(provenance, wall)
+
+
+def simulate_assembly(
+    assembly: Assembly,
+    motion: Motion,
+    model: DistinctElement2D | None = None,
+    *,
+    tail: float = 0.0,
+    output_interval: float = 0.01,
+    until_rest: bool = False,
+) -> AssemblyResponse:
+    """Shake any set of blocks once and record what happens.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion : Motion
+    model : DistinctElement2D, optional
+    tail, output_interval, until_rest
+        As in :func:`simulate`.
+    """
+    from .models.assembly_2d import run_assembly
+    from .models.distinct_element_2d import DistinctElement2D
+
+    model = DistinctElement2D() if model is None else model
+    options = _options(tail, output_interval, True, until_rest)
+    started = time.perf_counter()
+    response = run_assembly(assembly, motion, model, options)
+    provenance = {
+        "version": __version__,
+        "model": model.name,
+        "parameters": model.parameters(),
+        "assembly_digest": assembly.digest,
+        "motion": motion.name,
+        "motion_digest": motion.digest,
+    }
+    wall = time.perf_counter() - started
+    return dataclasses.replace(response, provenance=response.provenance | provenance, wall_time=wall)
 
 
 def simulate_iter(
@@ -157,9 +203,10 @@ def thread_count(threads: int | None) -> int:
     return int(check_range("threads", threads, 1, 1024, remedy="leave it out to use all cores"))
 
 
-def _options(tail: float, output_interval: float, until_end: bool) -> RunOptions:
+def _options(tail: float, output_interval: float, until_end: bool, until_rest: bool = False) -> RunOptions:
     return RunOptions(
         check_range("tail", tail, 0.0, 1e4, unit="s"),
         check_range("output interval", output_interval, 0.0, 1e3, unit="s", open_low=True),
         until_end,
+        until_rest,
     )

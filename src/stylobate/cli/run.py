@@ -27,6 +27,9 @@ def run(
     vertical: o.Vertical = "on",
     tail: o.Tail = "0s",
     until_end: Annotated[bool, typer.Option("--until-end", help="Go on after the collapse is certain.")] = False,
+    until_rest: Annotated[
+        bool, typer.Option("--until-rest", help="Go on until everything lies still, on the ground if need be (dem2d).")
+    ] = False,
     output_interval: Annotated[
         str, typer.Option("--output-interval", metavar="TIME", help="Time between recorded states.")
     ] = "0.01s",
@@ -67,6 +70,7 @@ def run(
             tail=o.the_tail(tail),
             output_interval=parse_time(output_interval),
             until_end=until_end,
+            until_rest=until_rest,
         )
         files = [] if folder is None else write(response, shaking, folder)
     summary = response.summary()

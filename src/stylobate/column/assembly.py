@@ -1,0 +1,345 @@
+"""An assembly: any set of convex blocks in the plane, with dry joints where faces touch, on a ground or fixed blocks."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import warnings
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..constants import g as STANDARD_GRAVITY
+from ..errors import InputError, OutOfRangeWarning, check_range
+from .column import Column
+from .joint import Joint
+
+MAX_BLOCKS = 400
+
+MAX_VERTICES = 24
+
+#: Faces touch when they are this close, as a share of the smaller block's size, and parallel to this angle [rad].
+TOUCHING, PARALLEL = 1e-5, 1e-4
+
+#: Blocks may overlap by this share of the smaller block's size: rounding, not geometry.
+OVERLAPPING = 1e-7
+
+#: Half width and depth of the ground, far enough to be a half-plane [m].
+FAR_AWAY = 1.0e4
+
+
+@dataclass(frozen=True)
+class Block:
+    """A rigid block: a convex polygon of constant thickness.
+
+    Parameters
+    ----------
+    vertices : sequence of (float, float)
+        Corners (x, z), counter-clockwise [m]; clockwise ones are turned round, and that is said.
+    density : float
+        [kg/m³]
+    name : str
+    depth : float
+        Thickness across the plane [m].
+    fixed : bool
+        Moves with the ground: a support.
+    surface : Joint, optional
+        Law of the contacts with blocks that come before it; the assembly's if left out.
+    solid : (float, float, float, float), optional
+        Mass [kg], inertia about the centroid [kg m²] and centroid (x, z) [m] where the solid is no prism of the polygon
+        (a round drum).
+
+    Raises
+    ------
+    InputError
+        No convex polygon, or a value outside its range.
+    """
+
+    vertices: tuple[tuple[float, float], ...]
+    density: float
+    name: str = "block"
+    depth: float = 1.0
+    fixed: bool = False
+    surface: Joint | None = None
+    solid: tuple[float, float, float, float] | None = None
+
+    def __post_init__(self) -> None:
+        who = f"block {self.name!r}"
+        try:
+            corners = np.array(self.vertices, dtype=float)
+        except (TypeError, ValueError):
+            corners = np.empty(0)
+        if corners.ndim != 2 or corners.shape[-1] != 2 or not 3 <= len(corners) <= MAX_VERTICES:
+            raise InputError(f"{who} needs 3 to {MAX_VERTICES} vertices, each a pair of numbers x, z [m].")
+        if not np.isfinite(corners).all() or np.abs(corners).max() > 2.0 * FAR_AWAY:
+            raise InputError(f"{who} has a vertex that is not finite or beyond {FAR_AWAY:g} m; use SI units.")
+        density = check_range(f"density of {who}", self.density, 0.0, 1e5, unit="kg/m³", open_low=not self.fixed)
+        depth = check_range(f"depth of {who}", self.depth, 0.0, 1e3, unit="m", open_low=True)
+        size = float(np.ptp(corners, axis=0).max())
+        sides = np.roll(corners, -1, axis=0) - corners
+        short = np.hypot(sides[:, 0], sides[:, 1]) <= 1e-9 * size
+        if short.any():
+            k = int(short.argmax())
+            raise InputError(f"{who} has vertex {k + 1} twice in succession; leave one of them out.")
+        area = _area(corners)
+        if abs(area) <= 1e-9 * size * size:
+            raise InputError(f"{who} has no area; give vertices that do not lie on one line.")
+        if area < 0.0:
+            corners, area = corners[::-1], -area
+            warnings.warn(
+                f"the vertices of {who} run clockwise; they are turned round.", OutOfRangeWarning, stacklevel=3
+            )
+        sides = np.roll(corners, -1, axis=0) - corners
+        after = np.roll(sides, -1, axis=0)
+        turns = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
+        angle = np.arctan2(turns, (sides * after).sum(axis=1))
+        if turns.min() < -1e-12 * size * size or angle.sum() > 2.0 * math.pi + 1e-6:
+            k = (int(turns.argmin()) + 1) % len(corners)
+            raise InputError(
+                f"{who} is not convex at vertex ({corners[k, 0]:g}, {corners[k, 1]:g}); split it into convex blocks."
+            )
+        object.__setattr__(self, "vertices", tuple((float(x), float(z)) for x, z in corners))
+        object.__setattr__(self, "density", density)
+        object.__setattr__(self, "depth", depth)
+
+    @cached_property
+    def corners(self) -> np.ndarray:
+        """Vertices [m], shape (k, 2)."""
+        return np.array(self.vertices)
+
+    @cached_property
+    def properties(self) -> tuple[float, float, float, float]:
+        """Mass [kg], inertia about the centroid [kg m²], centroid x and z [m]."""
+        if self.solid is not None:
+            return self.solid
+        origin = self.corners.mean(axis=0)
+        p = self.corners - origin
+        q = np.roll(p, -1, axis=0)
+        cross = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+        area = 0.5 * cross.sum()
+        centre = ((p + q) * cross[:, None]).sum(axis=0) / (6.0 * area)
+        second = float((cross * (p * p + p * q + q * q).sum(axis=1)).sum()) / 12.0
+        mass = self.density * self.depth * area
+        inertia = self.density * self.depth * second - mass * float(centre @ centre)
+        return float(mass), float(inertia), float(origin[0] + centre[0]), float(origin[1] + centre[1])
+
+    @property
+    def size(self) -> float:
+        """Larger side of the box around the block [m]."""
+        return float(np.ptp(self.corners, axis=0).max())
+
+
+class FaceJoint(NamedTuple):
+    """Two faces that touch: blocks by number, faces by the number of the vertex they start at."""
+
+    lower: int
+    upper: int
+    lower_face: int
+    upper_face: int
+    law: Joint
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Blocks, the law of their contacts, and the ground.
+
+    Parameters
+    ----------
+    blocks : sequence of Block
+    joint : Joint
+        Law of all contacts, unless a block has its own.
+    name : str
+    gravity : float
+        [m/s²]
+    ground : float, optional
+        Level of the ground, a half-plane [m]; None for none (fixed blocks are the only support).
+    overrides : sequence of (str, str, Joint)
+        Laws of the joints between two blocks, by their names.
+
+    Raises
+    ------
+    InputError
+        Blocks overlap, lie in the ground, share a name, or none of them can move.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        A block touches nothing: it will fall.
+    """
+
+    blocks: tuple[Block, ...]
+    joint: Joint
+    name: str = "assembly"
+    gravity: float = STANDARD_GRAVITY
+    ground: float | None = 0.0
+    overrides: tuple[tuple[str, str, Joint], ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "blocks", tuple(self.blocks))
+        object.__setattr__(self, "overrides", tuple(self.overrides))
+        check_range("gravity", self.gravity, 0.0, 100.0, unit="m/s²")
+        if not 1 <= len(self.blocks) <= MAX_BLOCKS:
+            raise InputError(f"the assembly has {len(self.blocks)} blocks; allowed is 1 to {MAX_BLOCKS}.")
+        names = [block.name for block in self.blocks]
+        twice = next((name for name in names if names.count(name) > 1), None)
+        if twice is not None:
+            raise InputError(f"two blocks are called {twice!r}; give every block a name of its own.")
+        if all(block.fixed for block in self.blocks):
+            raise InputError(f"no block of {self.name!r} can move; leave fixed = true out for at least one.")
+        for one, other, _ in self.overrides:
+            missing = next((name for name in (one, other) if name not in names and name != "ground"), None)
+            if missing is not None:
+                raise InputError(f"a joint_override names block {missing!r}, which does not exist; correct its name.")
+        touched = self._contacts[1]
+        for i, block in enumerate(self.bodies):
+            if not block.fixed and i not in touched:
+                warnings.warn(f"block {block.name!r} touches nothing: it will fall.", OutOfRangeWarning, stacklevel=3)
+
+    @cached_property
+    def bodies(self) -> tuple[Block, ...]:
+        """The ground, if there is one, and the blocks."""
+        if self.ground is None:
+            return self.blocks
+        far, top = FAR_AWAY, self.ground
+        box = ((-far, top - far), (far, top - far), (far, top), (-far, top))
+        return (Block(box, 0.0, "ground", fixed=True), *self.blocks)
+
+    @property
+    def joints(self) -> tuple[FaceJoint, ...]:
+        """Pairs of faces that touch."""
+        return self._contacts[0]
+
+    @cached_property
+    def _contacts(self) -> tuple[tuple[FaceJoint, ...], set[int]]:
+        """Pairs of faces that touch, and all bodies that touch another one."""
+        laws = {frozenset((one, other)): law for one, other, law in self.overrides}
+        bodies = self.bodies
+        low = np.array([block.corners.min(axis=0) for block in bodies])
+        high = np.array([block.corners.max(axis=0) for block in bodies])
+        found: list[FaceJoint] = []
+        leaning: set[int] = set()
+        for i, a in enumerate(bodies):
+            for j in range(i + 1, len(bodies)):
+                b = bodies[j]
+                near = TOUCHING * min(a.size, b.size)
+                if (a.fixed and b.fixed) or (low[i] > high[j] + near).any() or (low[j] > high[i] + near).any():
+                    continue
+                gap = separation(a.corners, b.corners)
+                if gap < -OVERLAPPING * min(a.size, b.size) - 1e-15 * max(np.abs(b.corners).max(), 1.0):
+                    where = "lies in the ground" if a.name == "ground" else f"and block {a.name!r} overlap"
+                    raise InputError(
+                        f"block {b.name!r} {where} by {1000.0 * -gap:.3g} mm; move one of them or correct its vertices."
+                    )
+                if gap > near:
+                    continue
+                leaning |= {i, j}
+                faces = _touching_faces(a.corners, b.corners, near)
+                if faces is not None:
+                    law = laws.get(frozenset((a.name, b.name))) or b.surface or self.joint
+                    found.append(FaceJoint(i, j, *faces, law))
+        return tuple(found), leaning
+
+    def to_dict(self) -> dict:
+        """Everything that defines the assembly, as plain values in SI units."""
+        return asdict(self)
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of :meth:`to_dict`."""
+        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
+
+
+def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Assembly:
+    """A column as an assembly: the base is body 0, drum i is body i.
+
+    Parameters
+    ----------
+    column : Column
+    steps : sequence of (float, float)
+        Width and height of the fixed steps under the column, from the top down [m]; the ground lies below the last.
+        None: the base is a half-plane.
+    """
+    blocks, level = [], 0.0
+    for i, (width, height) in enumerate(steps):
+        width = check_range(f"width of step {i + 1}", width, 0.0, FAR_AWAY, unit="m", open_low=True)
+        height = check_range(f"height of step {i + 1}", height, 0.0, FAR_AWAY, unit="m", open_low=True)
+        blocks.append(_box(f"step {i + 1}", width, level - height, level))
+        level -= height
+    drums = []
+    for i, (drum, z) in enumerate(zip(column.drums, column.joint_heights)):
+        b, t, top = 0.5 * drum.bottom_width, 0.5 * drum.top_width, z + drum.height
+        # the depth of the bed: a round drum's mean thickness across its width
+        depth = drum.depth if not drum.circular else 0.25 * math.pi * drum.mean_width
+        drums.append(
+            Block(
+                ((-b, z), (b, z), (t, top), (-t, top)),
+                drum.density,
+                f"drum {i + 1}",
+                depth,
+                surface=column.joints[i],
+                solid=(drum.mass, drum.inertia, 0.0, float(column.centroid_heights[i])),
+            )
+        )
+    if not steps:
+        return Assembly(tuple(drums), column.joints[0], column.name, column.gravity, 0.0)
+    # body 0 is what the column stands on; the ground and further steps come after the drums
+    far = _box("ground", 2.0 * FAR_AWAY, level - FAR_AWAY, level)
+    return Assembly((blocks[0], *drums, *blocks[1:], far), column.joints[0], column.name, column.gravity, None)
+
+
+def _box(name: str, width: float, low: float, high: float) -> Block:
+    b = 0.5 * width
+    return Block(((-b, low), (b, low), (b, high), (-b, high)), 0.0, name, fixed=True)
+
+
+def separation(a: np.ndarray, b: np.ndarray) -> float:
+    """Largest distance between two convex polygons along a face normal [m]; negative: they overlap by that depth."""
+    best = -math.inf
+    for p, q in ((a, b), (b, a)):
+        side = np.roll(p, -1, axis=0) - p
+        normal = np.stack((side[:, 1], -side[:, 0]), axis=1) / np.hypot(side[:, 0], side[:, 1])[:, None]
+        best = max(best, float(((q[None] - p[:, None]) @ normal[:, :, None]).min(axis=1).max()))
+    return best
+
+
+def _touching_faces(a: np.ndarray, b: np.ndarray, near: float) -> tuple[int, int] | None:
+    best, found = 0.0, None
+    for i in range(len(a)):
+        p, along = a[i], a[(i + 1) % len(a)] - a[i]
+        length = math.hypot(along[0], along[1])
+        t = along / length
+        for k in range(len(b)):
+            q, r = b[k] - p, b[(k + 1) % len(b)] - p
+            side = r - q
+            if not side @ t < 0.0 or abs(t[0] * side[1] - t[1] * side[0]) > PARALLEL * math.hypot(*side):
+                continue
+            if max(abs(t[0] * q[1] - t[1] * q[0]), abs(t[0] * r[1] - t[1] * r[0])) > 2.0 * near:
+                continue
+            over = min(length, float(q @ t)) - max(0.0, float(r @ t))
+            if over > max(best, near):
+                best, found = over, (i, k)
+    return found
+
+
+def _area(corners: np.ndarray) -> float:
+    p = corners - corners[0]
+    q = np.roll(p, -1, axis=0)
+    return 0.5 * float((p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum())
+
+
+def read_assembly(path: str | Path) -> Assembly:
+    """Read an assembly file (TOML).
+
+    Raises
+    ------
+    InputError
+        The file cannot be read or does not describe an assembly; the message names the block and the remedy.
+    """
+    from .assembly_files import read
+
+    return read(path)

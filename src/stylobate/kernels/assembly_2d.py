@@ -1,0 +1,521 @@
+"""Any set of convex bodies in the plane: joints between faces that touch, an elastic bed between all other pairs.
+
+A joint follows the law of the column's joints (``contact.py``), in the same order of arithmetic as the lanes of
+``distinct_element_2d.py``. It hands over to the bed (``narrow_phase.py``) by a weight that is a function of the relative
+rotation and of the overlap alone, so that no force jumps; once the weight has reached zero the joint is gone.
+
+Legend (positions at t_n, velocities at t_{n−1/2})::
+
+    body[i]     x z th c s      centroid [m], rotation [rad], its cosine and sine
+                vx vz w         velocities [m/s], [rad/s]
+                m im ii i       mass, inverses of mass and inertia (0 where fixed), inertia
+                fx fz mo        force [N], moment about the centroid [N m]
+                r travel        largest distance of a corner from the centroid, way since the boxes were made [m]
+                kn ks mu        bed of this body as the one with the higher number in a pair: k_n, k_s [N/m³], tan φ [-]
+                depth           thickness across the plane [m]
+                first count     its corners in ``corner``
+    joint[j]    lower upper     bodies; the face of the lower one is the frame
+                lc ls uc us     direction of the face in the frame of the lower, of the upper body
+                ht wl wr        lower centroid to its face; from the centroid's foot to the face's left and right end [m]
+                hb bl br        the same of the upper body
+                kn ks co mu     per length of overlap                                           [N/m²], [N/m²], [N/m], [-]
+                fs fn dn ds     of each contact point: spring and dashpot forces                [N]
+                over width      overlap, the smaller face                                       [m]
+                weight          1 joint, 0 bed, between them both                               [-]
+                live            0: the faces have parted for good
+    pairs       bodies that may touch; link[a, b] their joint or −1
+    memory[a, b]   shear force of their bed, its normal and tangential dashpot forces [N]
+    now         dt last         step, and the last one taken [s]: while bodies may strike each other, or a joint hands
+                                over (``loose`` > 0), a step is taken in ``finer`` equal parts
+                g beta alpha local        gravity, damping (as in the lanes)
+                eta calm        restitution of the bed: F is larger by eta while it closes, smaller while it opens; below
+                                the speed ``calm`` [m/s] in proportion to it
+                work shear visc px pz     as in the lanes
+                deepest         largest depth of the bed seen [m];  touched  first step with a foreign contact, −1
+                step pairs failed         steps done, number of pairs, 1: a state is no number
+"""
+
+import math
+
+import numpy as np
+
+from . import contact as ct
+from . import distinct_element_2d as lanes
+from . import narrow_phase as near
+from .broad_phase import make_boxes, sweep
+from .ground import sample
+from .jit import kernel, law, strict
+
+#: A joint acts alone up to a relative rotation of 35°, the bed alone from 50° on.
+ROTATION_FROM, ROTATION_TO = math.cos(math.radians(35.0)), math.cos(math.radians(50.0))
+
+#: The same for the overlap, as a share of the smaller face.
+OVERLAP_FROM, OVERLAP_TO = 0.05, 0.01
+
+CHUNK = lanes.CHUNK
+
+MOST = near.MOST
+
+
+def types(points):
+    """Record types (body, joint, now)."""
+
+    def fields(names, shape=()):
+        return [(name, np.float64, shape) for name in names.split()]
+
+    def counts(names):
+        return [(name, np.int64) for name in names.split()]
+
+    body = fields("x z th c s vx vz w m i im ii fx fz mo r travel kn ks mu depth") + counts("first count")
+    joint = (
+        counts("lower upper live")
+        + fields("lc ls uc us ht wl wr hb bl br kn ks co mu over width weight")
+        + fields("fs fn dn ds", (points,))
+    )
+    now = (
+        fields("dt last g beta alpha local eta calm work shear visc px pz skin deepest")
+        + counts("step pairs touched failed loose finer")
+        + fields("xi sh", (points,))
+    )
+    return np.dtype(body), np.dtype(joint), np.dtype(now)
+
+
+@law
+def handover(c, over, width):
+    """Weight of the joint's law: 1 up to 35° or down to 5 % of overlap, 0 from 50° or 1 % on, linear between."""
+    turned = (c - ROTATION_TO) / (ROTATION_FROM - ROTATION_TO)
+    left = (over - OVERLAP_TO * width) / ((OVERLAP_FROM - OVERLAP_TO) * width)
+    return min(max(min(turned, left), 0.0), 1.0)
+
+
+@kernel
+def joint_forces(body, joint, now):
+    """Forces of all joints at t_n; brings their contact memory from t_{n−1} to t_n (as ``forces`` of the lanes)."""
+    o = now[0]
+    dt = o.last
+    beta = o.beta
+    damped = beta > 0.0
+    for i in range(body.shape[0]):
+        body[i].fx = 0.0
+        body[i].fz = 0.0
+        body[i].mo = 0.0
+    for j in range(joint.shape[0]):
+        e = joint[j]
+        if e.live == 0:
+            continue
+        points = e.fs.shape[0]
+        u = body[e.upper]
+        v = body[e.lower]
+        wl = v.w
+        wu = u.w
+        ht = e.ht
+        cl = v.c * e.lc - v.s * e.ls
+        sl = v.s * e.lc + v.c * e.ls
+        cu = u.c * e.uc - u.s * e.us
+        su = u.s * e.uc + u.c * e.us
+        ps, pq, c, s = ct.relative_pose(u.x, u.z, cu, su, v.x, v.z, cl, sl, ht)
+        left_s, left_q, _, _ = ct.face_corners(ps, pq, c, s, e.bl, e.hb)
+        _, _, right_s, right_q = ct.face_corners(ps, pq, c, s, e.br, e.hb)
+        lo = max(left_s, -e.wl)
+        hi = min(right_s, e.wr)
+        over = max(hi - lo, 0.0)
+        e.over = over
+        weight = handover(c, over, e.width)
+        e.weight = weight
+        if weight == 0.0:
+            e.live = 0
+            # what the springs still hold is lost with them
+            for p in range(points):
+                e.fs[p] = 0.0
+                e.fn[p] = 0.0
+                e.dn[p] = 0.0
+                e.ds[p] = 0.0
+            continue
+        dvx = u.vx - v.vx
+        dvz = u.vz - v.vz
+        vs = cl * dvx + sl * dvz
+        vq = cl * dvz - sl * dvx
+        kn = e.kn * over
+        ks = e.ks * over
+        co = e.co * over
+        mu = e.mu
+        sum_s = 0.0
+        sum_q = 0.0
+        upper = 0.0
+        lower = 0.0
+        shear = 0.0
+        visc = 0.0
+        for p in range(points):
+            share = o.sh[p]
+            if p == 0:
+                at_s, at_q, gap, ns, nq = ct.left_contact(left_s, left_q, c, s, e.wl)
+            elif p == points - 1:
+                at_s, at_q, gap, ns, nq = ct.right_contact(right_s, right_q, c, s, e.wr)
+            else:
+                at_s, at_q, gap, ns, nq = ct.inner_contact(o.xi[p], lo, hi, left_s, left_q, c, s)
+            vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, wu, wl)
+            ka = kn * share
+            ksa = ks * share
+            old = e.fs[p]
+            fn = ct.normal_force(ka, gap)
+            cohesion = co * share if fn > 0.0 else 0.0
+            if damped:
+                dn = max(-beta * ka * vn, -fn) if fn > 0.0 else 0.0
+                limit = mu * (fn + dn) + cohesion
+                fs = ct.shear_force(old, ksa, vt * dt, limit)
+                ds = min(max(-beta * ksa * vt, -limit - fs), limit - fs)
+                visc -= 0.5 * dt * ((dn + e.dn[p]) * vn + (ds + e.ds[p]) * vt)
+                e.dn[p] = dn
+                e.ds[p] = ds
+                fn_all = fn + dn
+                fs_all = fs + ds
+            else:
+                fs = ct.shear_force(old, ksa, vt * dt, mu * fn + cohesion)
+                fn_all = fn
+                fs_all = fs
+            e.fs[p] = fs
+            e.fn[p] = fn
+            shear -= 0.5 * (old + fs) * vt * dt
+            fa = fn_all * ns + fs_all * nq
+            fb = fn_all * nq - fs_all * ns
+            sum_s += fa
+            sum_q += fb
+            upper += (at_s - ps) * fb - (at_q - pq) * fa
+            lower += at_s * fb - (at_q + ht) * fa
+        if weight < 1.0:
+            sum_s *= weight
+            sum_q *= weight
+            upper *= weight
+            lower *= weight
+            shear *= weight
+            visc *= weight
+        fx = cl * sum_s - sl * sum_q
+        fz = sl * sum_s + cl * sum_q
+        u.fx += fx
+        u.fz += fz
+        u.mo += upper
+        v.fx -= fx
+        v.fz -= fz
+        v.mo -= lower
+        o.shear += shear
+        o.visc += visc
+
+
+@law
+def place(b, corner, x, z):
+    """Corners of a body in world axes; returns their number."""
+    for k in range(b.count):
+        cx = corner[b.first + k, 0]
+        cz = corner[b.first + k, 1]
+        x[k] = b.x + b.c * cx - b.s * cz
+        z[k] = b.z + b.s * cx + b.c * cz
+    return b.count
+
+
+@kernel
+def bed_forces(body, corner, joint, now, pairs, link, memory, real, whole):
+    """Forces of the bed at t_n between all pairs that may touch, where no joint acts alone."""
+    o = now[0]
+    dt = o.last
+    xa, za, xb, zb, px, pz, qx, qz = real
+    from_b, q_from = whole
+    o.loose = 0
+    for k in range(o.pairs):
+        i = pairs[k, 0]
+        h = pairs[k, 1]
+        j = link[i, h]
+        share = 1.0
+        if j >= 0 and joint[j].live != 0:
+            share = 1.0 - joint[j].weight
+            if share == 0.0:
+                memory[i, h, :] = 0.0
+                continue
+        o.loose += 1
+        a = body[i]
+        b = body[h]
+        na = place(a, corner, xa, za)
+        nb = place(b, corner, xb, zb)
+        n = near.clip(xb, zb, nb, xa, za, na, px, pz, from_b, qx, qz, q_from)
+        if n == 0:
+            memory[i, h, :] = 0.0
+            continue
+        area, cx, cz, gx, gz = near.measure(px, pz, from_b, n)
+        chord = math.sqrt(gx * gx + gz * gz)
+        if not chord > 0.0:
+            memory[i, h, :] = 0.0
+            continue
+        if o.touched < 0 and j < 0:
+            o.touched = o.step
+        # the part of b's outline in a: its right-hand normal points out of b; n points from a to b
+        nx = -gz / chord
+        nz = gx / chord
+        depth = min(a.depth, b.depth)
+        kn = share * b.kn * depth
+        ks = share * b.ks * depth * chord
+        o.deepest = max(o.deepest, area / chord)
+        rx = cx - b.x
+        rz = cz - b.z
+        lx = cx - a.x
+        lz = cz - a.z
+        ux = (b.vx - b.w * rz) - (a.vx - a.w * lz)
+        uz = (b.vz + b.w * rx) - (a.vz + a.w * lx)
+        vn = ux * nx + uz * nz
+        vt = ux * nz - uz * nx
+        fn = kn * area
+        # closing (vn < 0) stiffer, opening softer; and the dashpots of the joints
+        dn = max(fn * o.eta * min(max(-vn / o.calm, -1.0), 1.0) - o.beta * kn * chord * vn, -fn)
+        limit = b.mu * (fn + dn)
+        old = memory[i, h, 0]
+        fs = ct.shear_force(old, ks, vt * dt, limit)
+        ds = min(max(-o.beta * ks * vt, -limit - fs), limit - fs)
+        o.shear -= 0.5 * (old + fs) * vt * dt
+        o.visc -= 0.5 * ((dn + memory[i, h, 1]) * vn + (ds + memory[i, h, 2]) * vt) * dt
+        memory[i, h, 0] = fs
+        memory[i, h, 1] = dn
+        memory[i, h, 2] = ds
+        fx = (fn + dn) * nx + (fs + ds) * nz
+        fz = (fn + dn) * nz - (fs + ds) * nx
+        b.fx += fx
+        b.fz += fz
+        b.mo += rx * fz - rz * fx
+        a.fx -= fx
+        a.fz -= fz
+        a.mo -= lx * fz - lz * fx
+
+
+@kernel
+def move(body, now, gx, gz, gx1, gz1, dt):
+    """Motion of all bodies over the next step ``dt``, with the ground's acceleration at its two ends.
+
+    As ``move`` of the lanes; where the step changes, velocities in the middle of steps are half of both apart. Returns
+    the longest way since the boxes were made.
+    """
+    o = now[0]
+    kick = 0.5 * (o.last + dt)
+    o.last = dt
+    o.px = 0.0
+    o.pz = 0.0
+    half = 0.5 * o.alpha * kick
+    damped = o.alpha > 0.0 or o.local > 0.0
+    farthest = 0.0
+    for i in range(body.shape[0]):
+        u = body[i]
+        if u.im == 0.0:
+            continue
+        vx = u.vx
+        vz = u.vz
+        w = u.w
+        ax = u.fx * u.im - gx
+        az = u.fz * u.im - gz - o.g
+        aw = u.mo * u.ii
+        m = u.m
+        if damped:
+            local = o.local
+            ax -= local * abs(ax) * np.sign(vx)
+            az -= local * abs(az) * np.sign(vz)
+            aw -= local * abs(aw) * np.sign(w)
+            nx = (vx * (1.0 - half) + ax * kick) / (1.0 + half)
+            nz = (vz * (1.0 - half) + az * kick) / (1.0 + half)
+            nw = (w * (1.0 - half) + aw * kick) / (1.0 + half)
+            mx = 0.5 * (vx + nx)
+            mz = 0.5 * (vz + nz)
+            mw = 0.5 * (w + nw)
+            o.visc += o.alpha * kick * (m * (mx * mx + mz * mz) + u.i * mw * mw)
+        else:
+            nx = vx + ax * kick
+            nz = vz + az * kick
+            nw = w + aw * kick
+        u.vx = nx
+        u.vz = nz
+        u.w = nw
+        u.x += nx * dt
+        u.z += nz * dt
+        u.th += nw * dt
+        c, s = ct.turn(u.c, u.s, nw * dt)
+        u.c = c
+        u.s = s
+        o.px += m * nx
+        o.pz += m * nz
+        u.travel += (abs(nx) + abs(nz) + u.r * abs(nw)) * dt
+        farthest = max(farthest, u.travel)
+    o.work -= (0.5 * (gx + gx1) * o.px + 0.5 * (gz + gz1) * o.pz) * dt
+    return farthest
+
+
+@kernel
+def renew_pairs(body, corner, now, box, order, pairs):
+    """Make the boxes and the list of pairs anew."""
+    o = now[0]
+    make_boxes(body, corner, o.skin, box)
+    o.pairs = sweep(body, box, order, pairs)
+
+
+@kernel
+def may_come_loose(body, corner, joint, now, box, order, pairs, link, real, time):
+    """Whether bodies that are not joined may touch, or a joint may hand over, within a time at twice today's speeds."""
+    o = now[0]
+    fastest = 0.0
+    for i in range(body.shape[0]):
+        u = body[i]
+        fastest = max(fastest, math.sqrt(u.vx * u.vx + u.vz * u.vz) + u.r * abs(u.w) + o.g * time)
+    keep = o.skin
+    o.skin = keep + 4.0 * fastest * time
+    renew_pairs(body, corner, now, box, order, pairs)
+    o.skin = keep
+    xa, za, xb, zb, _, _, _, _ = real
+    for k in range(o.pairs):
+        if link[pairs[k, 0], pairs[k, 1]] < 0:
+            a = body[pairs[k, 0]]
+            b = body[pairs[k, 1]]
+            na = place(a, corner, xa, za)
+            nb = place(b, corner, xb, zb)
+            closing = math.hypot(b.vx - a.vx, b.vz - a.vz) + a.r * abs(a.w) * min(a.im, 1.0) + b.r * abs(b.w)
+            gap = max(near.separation(xa, za, na, xb, zb, nb), near.separation(xb, zb, nb, xa, za, na))
+            if gap < 2.0 * (closing + o.g * time) * time:
+                return True
+    for j in range(joint.shape[0]):
+        e = joint[j]
+        u = body[e.upper]
+        v = body[e.lower]
+        ps, pq, c, s = ct.relative_pose(u.x, u.z, u.c, u.s, v.x, v.z, v.c, v.s, e.ht)
+        left_s, _, _, _ = ct.face_corners(ps, pq, c, s, e.bl, e.hb)
+        _, _, right_s, _ = ct.face_corners(ps, pq, c, s, e.br, e.hb)
+        over = min(right_s, e.wr) - max(left_s, -e.wl)
+        dvx = u.vx - v.vx
+        dvz = u.vz - v.vz
+        slip, _ = ct.contact_velocity(
+            ps, 0.0, 0.0, 1.0, ps, pq, e.ht, v.c * dvx + v.s * dvz, v.c * dvz - v.s * dvx, u.w, v.w
+        )
+        turning = abs(u.w - v.w)
+        more = 2.0 * (abs(slip) + turning * e.width + o.g * time) * time
+        if handover(c - 2.0 * abs(s) * turning * time, over - more, e.width) < 1.0:
+            return True
+    return False
+
+
+@strict
+def settle_lengths(body, now):
+    """Rotations get their length back; bodies whose state is no number or far away are reported."""
+    for i in range(body.shape[0]):
+        u = body[i]
+        fix = 1.5 - 0.5 * (u.c * u.c + u.s * u.s)
+        u.c *= fix
+        u.s *= fix
+        if not (abs(u.x) + abs(u.z) + abs(u.th) < lanes.FAR) and u.im > 0.0:
+            now[0].failed = 1
+
+
+@kernel
+def look(body, now, drum, stack_joint, lane, feed, watch):
+    """Look at a column as the lanes do: peaks, and certain collapses (first lane)."""
+    for i in range(body.shape[0]):
+        u = body[i]
+        d = drum[i]
+        d.x[0] = u.x
+        d.z[0] = u.z
+        d.th[0] = u.th
+        d.c[0] = u.c
+        d.s[0] = u.s
+        d.vx[0] = u.vx
+        d.vz[0] = u.vz
+        d.w[0] = u.w
+    lane[0].work[0] = now[0].work
+    feed[0].step[0] = now[0].step
+    lanes.observe(drum, stack_joint, lane, feed, watch)
+
+
+@kernel
+def advance(
+    body, corner, joint, now, box, order, pairs, link, memory, real, whole, motion, ground, factor, ratio, stack, chunks
+):
+    """Advance by ``chunks`` × CHUNK steps.
+
+    ``motion`` holds the addresses of the samples along x and z (0: none) and the index of the last one; ``stack`` the
+    arrays of the lanes through which a column is looked at (drums none: no column).
+    """
+    o = now[0]
+    drum, stack_joint, lane, feed, watch = stack
+    for _ in range(chunks):
+        for k in range(CHUNK + 1):
+            at = (o.step + k) * ratio
+            ground[k, 0] = factor * sample(motion[0], motion[2], at) if motion[0] != 0 else 0.0
+            ground[k, 1] = factor * sample(motion[1], motion[2], at) if motion[1] != 0 else 0.0
+        for k in range(CHUNK):
+            parts = o.finer if o.loose > 0 else 1
+            x0 = ground[k, 0]
+            z0 = ground[k, 1]
+            dx = (ground[k + 1, 0] - x0) / parts
+            dz = (ground[k + 1, 1] - z0) / parts
+            for q in range(parts):
+                joint_forces(body, joint, now)
+                bed_forces(body, corner, joint, now, pairs, link, memory, real, whole)
+                farthest = move(
+                    body, now, x0 + q * dx, z0 + q * dz, x0 + (q + 1) * dx, z0 + (q + 1) * dz, o.dt / parts
+                )
+                if farthest > 0.5 * o.skin:
+                    renew_pairs(body, corner, now, box, order, pairs)
+            o.step += 1
+        if drum.shape[0] > 0:
+            look(body, now, drum, stack_joint, lane, feed, watch)
+        settle_lengths(body, now)
+        if o.failed != 0:
+            break
+
+
+@strict
+def ledger(body, corner, joint, now, pairs, link, memory, real, whole, gx, gz, out):
+    """Ledger at t_n, after the forces there: input, kinetic, gravitational, elastic, friction, viscous [J].
+
+    Velocities are brought to the whole step; middle three absolute (as ``ledger`` of the lanes).
+    """
+    o = now[0]
+    dt = o.last
+    kinetic = 0.0
+    height = 0.0
+    elastic = 0.0
+    stored = 0.0
+    for i in range(body.shape[0]):
+        u = body[i]
+        if u.im == 0.0:
+            continue
+        vx = u.vx + 0.5 * dt * (u.fx * u.im - gx)
+        vz = u.vz + 0.5 * dt * (u.fz * u.im - gz - o.g)
+        w = u.w + 0.5 * dt * u.mo * u.ii
+        kinetic += 0.5 * (u.m * (vx * vx + vz * vz) + u.i * w * w)
+        height += u.m * o.g * u.z
+    for j in range(joint.shape[0]):
+        e = joint[j]
+        if e.live != 0:
+            for p in range(e.fs.shape[0]):
+                length = e.over * o.sh[p]
+                if length > 0.0:
+                    elastic += e.weight * 0.5 * e.fn[p] ** 2 / (e.kn * length)
+                    stored += e.weight * 0.5 * e.fs[p] ** 2 / (e.ks * length)
+    xa, za, xb, zb, px, pz, qx, qz = real
+    from_b, q_from = whole
+    for k in range(o.pairs):
+        i = pairs[k, 0]
+        h = pairs[k, 1]
+        j = link[i, h]
+        share = 1.0 - joint[j].weight if j >= 0 and joint[j].live != 0 else 1.0
+        if share == 0.0:
+            continue
+        a = body[i]
+        b = body[h]
+        na = place(a, corner, xa, za)
+        nb = place(b, corner, xb, zb)
+        n = near.clip(xb, zb, nb, xa, za, na, px, pz, from_b, qx, qz, q_from)
+        if n == 0:
+            continue
+        _, _, _, gx_, gz_ = near.measure(px, pz, from_b, n)
+        chord = math.sqrt(gx_ * gx_ + gz_ * gz_)
+        if chord > 0.0:
+            depth = min(a.depth, b.depth)
+            elastic += 0.5 * share * b.kn * depth * near.depth_square(px, pz, n, gx_ / chord, gz_ / chord)
+            stored += 0.5 * memory[i, h, 0] ** 2 / (share * b.ks * depth * chord)
+    out[0] = o.work
+    out[1] = kinetic
+    out[2] = height
+    out[3] = elastic + stored
+    out[4] = o.shear - stored
+    out[5] = o.visc

@@ -1,0 +1,124 @@
+"""What happened to a column, in plain words: what fell, about which joint, to which side, when, and what still stands."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..column import Column
+from .measures import Measures
+from .response import Histories
+
+#: A drum has fallen when its centroid is lower than at the start by this share of its height …
+DROP = 0.5
+
+#: … or when it has turned by more than this [rad].
+TURNED = math.radians(45.0)
+
+#: Drums move as one body while their rotations differ by less than this share of the lost joint's rotation.
+AS_ONE = 0.1
+
+
+@dataclass(frozen=True)
+class Mechanism:
+    """How a column came down, or how it stands.
+
+    Parameters
+    ----------
+    fallen : tuple of int
+        Numbers of the drums that have fallen, from 1 at the base.
+    fell_at : tuple of float
+        When each of them had [s].
+    fell_to : tuple of str
+        ``left`` or ``right`` for each of them: where its centroid is at the end, relative to where it stood.
+    joint : int
+        Joint about which the part that was lost first turned, or at which it left its support; 0 without a collapse.
+    as_one_body : bool
+        Whether the part above that joint still moved as one body when the collapse became certain.
+    standing : tuple of int
+        Drums that have not fallen.
+    offsets : tuple of float
+        Residual offset of each standing drum relative to the ground [m].
+    rotations : tuple of float
+        Residual rotation of each standing drum [rad].
+    at_rest : bool, optional
+        Whether everything lies still at the end; None if the run cannot tell.
+    """
+
+    fallen: tuple[int, ...]
+    fell_at: tuple[float, ...]
+    fell_to: tuple[str, ...]
+    joint: int
+    as_one_body: bool
+    standing: tuple[int, ...]
+    offsets: tuple[float, ...]
+    rotations: tuple[float, ...]
+    at_rest: bool | None = None
+
+    def describe(self) -> str:
+        """The mechanism in one or two sentences."""
+        n = len(self.fallen) + len(self.standing)
+        if not self.fallen and not self.joint:
+            largest = max((abs(offset) for offset in self.offsets), default=0.0)
+            return f"All {n} drums stand; the largest residual offset is {1000.0 * largest:.3g} mm."
+        words = []
+        if self.joint:
+            what = "The column" if self.joint == 1 else f"The part above joint {self.joint}"
+            how = "as one body" if self.as_one_body else "and broke up"
+            words.append(f"{what} overturned {how} about joint {self.joint}.")
+        if self.fallen:
+            sides = ", ".join(
+                f"{self.fell_to.count(side)} to the {side}" for side in ("left", "right") if side in self.fell_to
+            )
+            words.append(
+                f"{len(self.fallen)} of {n} drums fell ({sides}), the first at {min(self.fell_at):.2f} s, "
+                f"the last at {max(self.fell_at):.2f} s."
+            )
+        if self.standing:
+            largest = max(abs(offset) for offset in self.offsets)
+            words.append(f"{len(self.standing)} stand, offset by up to {1000.0 * largest:.3g} mm.")
+        if self.at_rest is False:
+            words.append("Not all lies still yet.")
+        return " ".join(words)
+
+
+def find_mechanism(
+    column: Column, histories: Histories, measures: Measures, joint: int, at_rest: bool | None = None
+) -> Mechanism:
+    """Read the mechanism from the histories of a run.
+
+    Parameters
+    ----------
+    column : Column
+    histories : Histories
+    measures : Measures
+    joint : int
+        Joint, from 1 at the base, at which the first part was lost; 0 without a collapse.
+    at_rest : bool, optional
+    """
+    h, n = histories, column.n
+    down = (h.drum_z < -DROP * column.heights) | (np.abs(h.drum_rotation) > TURNED)
+    fallen = np.flatnonzero(down[-1])
+    # fallen for good: the last time it was up, and the state after
+    when = [float(h.time[int(np.flatnonzero(~down[:, i])[-1]) + 1]) for i in fallen]
+    standing = [i for i in range(n) if i not in set(fallen.tolist())]
+    whole = False
+    if joint:
+        k = int(np.searchsorted(h.time, measures.collapse_time))
+        turn = h.drum_rotation[min(k, len(h.time) - 1)]
+        relative = abs(turn[joint - 1] - (turn[joint - 2] if joint > 1 else 0.0))
+        above = turn[joint - 1 :]
+        whole = bool(float(np.ptp(above)) < AS_ONE * relative)
+    return Mechanism(
+        fallen=tuple(int(i) + 1 for i in fallen),
+        fell_at=tuple(when),
+        fell_to=tuple("right" if h.drum_x[-1, i] > 0.0 else "left" for i in fallen),
+        joint=joint,
+        as_one_body=whole,
+        standing=tuple(i + 1 for i in standing),
+        offsets=tuple(float(h.drum_x[-1, i]) for i in standing),
+        rotations=tuple(float(h.drum_rotation[-1, i]) for i in standing),
+        at_rest=at_rest,
+    )
