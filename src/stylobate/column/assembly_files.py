@@ -1,0 +1,84 @@
+"""Assembly files (TOML): blocks by their vertices, materials, supports."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from ..constants import g as STANDARD_GRAVITY
+from ..errors import InputError
+from .assembly import Assembly, Block
+from .files import JointTable
+from .joint import Joint
+from .toml import Table, parse_toml, read_table
+
+
+class BlockTable(Table):
+    """``[[block]]``: corners in m, counter-clockwise."""
+
+    name: str | None = None
+    vertices: list[list[float]]
+    density: float | None = None
+    depth: float | None = None
+    fixed: bool = False
+    surface: JointTable | None = None
+
+
+class BetweenTable(Table):
+    """``[[joint_override]]``: the law between two blocks by name; ``ground`` is the ground."""
+
+    between: list[str]
+    normal_stiffness: float
+    shear_stiffness: float
+    friction_angle: float | None = None
+    friction_coefficient: float | None = None
+    cohesion: float = 0.0
+
+
+class AssemblyTable(Table):
+    """An assembly file."""
+
+    name: str | None = None
+    density: float | None = None
+    depth: float = 1.0
+    gravity: float = STANDARD_GRAVITY
+    ground: float | bool = 0.0
+    joint: JointTable
+    block: list[BlockTable]
+    joint_override: list[BetweenTable] | None = None
+
+
+def is_assembly(path: str | Path) -> bool:
+    """Whether a TOML file describes an assembly: it has blocks."""
+    return "block" in parse_toml(path)
+
+
+def read(path: str | Path) -> Assembly:
+    """See :func:`stylobate.column.assembly.read_assembly`."""
+    table = read_table(path, AssemblyTable)
+    try:
+        return _assembly(table, Path(path).stem)
+    except InputError as error:
+        raise InputError(f"{path}: {error}") from None
+
+
+def _assembly(table: AssemblyTable, default_name: str) -> Assembly:
+    blocks = []
+    for i, one in enumerate(table.block):
+        name = one.name if one.name is not None else f"block {i + 1}"
+        density = one.density if one.density is not None else table.density
+        if density is None and not one.fixed:
+            raise InputError(f"block {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        corners = tuple(tuple(corner) for corner in one.vertices)
+        surface = None if one.surface is None else Joint(**one.surface.model_dump())
+        depth = one.depth if one.depth is not None else table.depth
+        blocks.append(Block(corners, density or 0.0, name, depth, one.fixed, surface))  # pyright: ignore[reportArgumentType]
+    overrides = []
+    for one in table.joint_override or []:
+        if len(one.between) != 2:
+            raise InputError(f"a joint_override is between {len(one.between)} blocks; name two, e.g. ['a', 'b'].")
+        overrides.append((*one.between, Joint(**one.model_dump(exclude={"between"}))))
+    if table.ground is True:
+        raise InputError("ground is true; give its level in m, or false for none.")
+    ground = None if table.ground is False else float(table.ground)
+    joint = Joint(**table.joint.model_dump())
+    return Assembly(tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides))
