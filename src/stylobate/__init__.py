@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from .errors import InputError, OutOfRangeWarning, StylobateError
     from .models.distinct_element_2d import DistinctElement2D
     from .models.housner import HousnerBlock
+    from .models.rigid_beam import RigidBeam
     from .models.rigid_block import RigidBlock
     from .motion import Motion, harmonic
     from .motion.pulses import (
@@ -49,6 +50,7 @@ _HOMES = {
     "OutOfRangeWarning": "errors",
     "Outcome": "outcome",
     "Response": "response",
+    "RigidBeam": "models.rigid_beam",
     "RigidBlock": "models.rigid_block",
     "StylobateError": "errors",
     "collapse_domain": "analysis.domain",
@@ -80,6 +82,7 @@ __all__ = [
     "OutOfRangeWarning",
     "Outcome",
     "Response",
+    "RigidBeam",
     "RigidBlock",
     "StylobateError",
     "collapse_domain",

@@ -12,6 +12,7 @@ from .base import Model
 #: Name: module of this package and class in it.
 MODELS = {
     "housner": ("housner", "HousnerBlock"),
+    "rigid-beam": ("rigid_beam", "RigidBeam"),
     "rigid-block": ("rigid_block", "RigidBlock"),
     "dem2d": ("distinct_element_2d", "DistinctElement2D"),
 }
