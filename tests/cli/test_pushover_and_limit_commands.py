@@ -1,0 +1,52 @@
+"""The commands pushover and limit: JSON, files, exit codes."""
+
+import json
+
+import pytest
+
+from stylobate.cli.main import call
+
+
+def test_pushover_writes_curve_and_figure(tmp_path, capsys):
+    assert call(["pushover", "paper-12-drums", "--json", "--out", str(tmp_path)]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["collapse_multiplier_g"] == pytest.approx(0.2046, rel=5e-3)
+    assert found["ultimate_displacement_m"] == pytest.approx(1.012, abs=2e-3)
+    assert found["governing_joint"] == 1
+    assert len(found["mechanism"]) == 12
+    assert len(found["curve"]["multiplier_g"]) == found["steps"]
+    names = {"pushover.csv", "pushover.json", "pushover.png", "pushover.svg"}
+    assert {file.name for file in tmp_path.iterdir()} == names
+
+
+def test_limit_writes_the_mechanism(tmp_path, capsys):
+    assert call(["limit", "paper-monolithic", "--json", "--out", str(tmp_path)]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["collapse_multiplier_g"] == pytest.approx(0.2046, rel=5e-4)
+    assert found["upper_bound_g"] == pytest.approx(found["lower_bound_g"], abs=1e-6)
+    assert found["active_joints"][0]["mode"] == "rocking right"
+    assert (tmp_path / "limit.png").stat().st_size > 5000
+
+
+def test_without_json_people_get_sentences(capsys):
+    assert call(["limit", "paper-monolithic"]) == 0
+    assert "0.2046 g" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["pushover", "paper-12-drums", "--to", "-0.1"], "control displacement"),
+        (["pushover", "paper-12-drums", "--pattern", "1,2,3"], "3 values for 12 drums"),
+        (["pushover", "paper-12-drums", "--compressive-strength", "1000"], "crushes under"),
+        (["pushover", "paper-12-drums", "--control", "force"], "allowed are displacement"),
+        (["limit", "paper-12-drums", "--tilt", "50"], "lower the tilt"),
+        (["limit", "paper-12-drums", "--tilt", "steep"], "--tilt"),
+        (["limit", "no-such-column"], "no-such-column"),
+    ],
+)
+def test_bad_input_is_one_sentence_and_exit_2(arguments, words, capsys):
+    assert call(arguments) == 2
+    shown = capsys.readouterr()
+    assert words in shown.err
+    assert shown.out == ""
