@@ -51,11 +51,11 @@ def draw_pushover(stack: BlockStack, path: PushoverResult, limit: float | None =
         )
     curve.set(xlabel="displacement of the top [m]", ylabel="load multiplier [g]", title=title)
     curve.set_xlim(left=0.0)
-    curve.set_ylim(top=1.2 * path.collapse_multiplier)
+    curve.set_ylim(top=1.9 * path.collapse_multiplier)
     curve.grid(True)
     curve.legend(loc="lower left")
     # The elastic branch is a thousandth of the whole: it needs its own axes.
-    inset = curve.inset_axes((0.6, 0.66, 0.38, 0.3))
+    inset = curve.inset_axes((0.6, 0.7, 0.38, 0.28))
     near = path.displacement <= 6.0 * path.peak_displacement
     inset.plot(1e3 * path.displacement[near], path.multiplier[near], color=BLACK)
     inset.set(xlim=(0.0, None), ylim=(0.0, None), xlabel="[mm]")
