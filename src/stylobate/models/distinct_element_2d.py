@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -11,18 +10,18 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..column import Column
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, check_range
 from ..motion import Motion
-from ..response import Measures, Response
-from .base import Case, Model, RunOptions
-from .drum_block import BASE_HALF_WIDTH, DrumBlock, PackedColumn, histories
-from .lanes import run_lanes
+from ..response import Response
+from .base import Case, RunOptions
+from .drum_block import DrumBlock, PackedColumn, drum_fields, lane_fields
+from .stepped_drums import SteppedDrums
 
 MAX_POINTS = 32
 
 
-@dataclass(frozen=True)
-class DistinctElement2D(Model):
+@dataclass(frozen=True, kw_only=True)
+class DistinctElement2D(SteppedDrums):
     """Rigid drums with contact points on every joint: penalty springs, no tension, Coulomb friction.
 
     Parameters
@@ -64,66 +63,19 @@ class DistinctElement2D(Model):
 
     points: int = 2
     block_modulus: float | None = None
-    step_factor: float = 0.4
-    time_step: float | None = None
-    stiffness_damping: float = 0.0
-    mass_damping: float = 0.0
     start: str = "static"
     restitution: float | None = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if isinstance(self.points, bool) or int(self.points) != self.points or not 2 <= self.points <= MAX_POINTS:
             raise InputError(f"points is {self.points!r}; allowed is a whole number from 2 to {MAX_POINTS}.")
         if self.block_modulus is not None:
             check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
-        check_range(
-            "step_factor", self.step_factor, 0.0, 1.0, open_low=True, open_high=True, remedy="0.4 is the default"
-        )
-        if self.time_step is not None:
-            check_range("time_step", self.time_step, 0.0, 1.0, unit="s", open_low=True)
-        check_range("stiffness_damping", self.stiffness_damping, 0.0, 1.0, unit="s")
-        check_range("mass_damping", self.mass_damping, 0.0, 1e3, unit="1/s")
         if self.start not in ("static", "settle"):
             raise InputError(f"start is {self.start!r}; allowed are static, settle.")
         if self.restitution is not None:
             check_range("restitution", self.restitution, 0.0, 1.0)
-
-    @property
-    def damped(self) -> bool:
-        """Whether any damping acts during the run."""
-        return self.stiffness_damping > 0.0 or self.mass_damping > 0.0
-
-    # -- before the run ------------------------------------------------------------------------------------------
-
-    def check(self, column: Column, motion: Motion) -> None:
-        """Refuse an unstable step; say what a plane model leaves out."""
-        self.step_for(column)
-        if motion.lateral is not None:
-            import warnings
-
-            warnings.warn(
-                f"the second horizontal component of {motion.name!r} is left out: dem2d is a plane model.",
-                OutOfRangeWarning,
-                stacklevel=3,
-            )
-
-    def step_for(self, column: Column) -> float:
-        """Time step for a column [s].
-
-        Raises
-        ------
-        InputError
-            The step asked for is above the largest stable one.
-        """
-        stable = _stable_step(column, self)
-        if self.time_step is None:
-            return self.step_factor * stable
-        if self.time_step >= stable:
-            raise InputError(
-                f"time_step is {self.time_step:g} s; the largest stable step for this column is {stable:.4g} s: "
-                f"give at most {0.9 * stable:.3g} s, or leave it out."
-            )
-        return self.time_step
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
@@ -146,89 +98,40 @@ class DistinctElement2D(Model):
         state = _settled(column, self)
         return replace(packed, fields=(drum | state["drum"], joint | state["joint"], lane))
 
-    # -- one run -------------------------------------------------------------------------------------------------
+    def stable_step(self, column: Column) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return _stable_step(column, self)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories, through the same kernel as a batch; what comes loose is followed by another one."""
+        """One run with histories; what comes loose is followed to the ground if asked for."""
         if options.until_end or options.until_rest:
             from .collapse_2d import follow
 
             return follow(column, motion, self, options)
-        block = DrumBlock(self, column.n, options)
-        block.load(0, Case(column, motion))
-        chunks = math.ceil(block.steps[0] / block.chunk)
-        stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
-        residual = block.residual_acceleration(0)
-        states = [block.snapshot(0)]
-        while not block.is_over(0):
-            block.advance(stride)
-            states.append(block.snapshot(0))
-        provenance = {"time_step_s": block.dt[0], "residual_acceleration_at_start_m_s2": residual}
-        measures = block.collect(0)
-        return Response(column, histories(motion, states), measures, self.name, provenance)
-
-    # -- many runs -----------------------------------------------------------------------------------------------
-
-    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
-        by_drums: dict[int, list[int]] = {}
-        for index, case in enumerate(cases):
-            by_drums.setdefault(case.column.n, []).append(index)
-        for drums, indices in by_drums.items():
-            some = [cases[index] for index in indices]
-            for k, measures in run_lanes(lambda drums=drums: DrumBlock(self, drums, options), some, threads):
-                yield indices[k], measures
+        return super().run(column, motion, options)
 
 
 @lru_cache(maxsize=4096)
 def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
     n = column.n
-    drums = column.drums
-    below = lambda values, base: np.concatenate(([base], values))  # noqa: E731
-    centroid = np.array([drum.centroid_height for drum in drums])
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     width, area = column.joint_widths, column.joint_areas
-    closure = column.joint_weights / (kn * area)
     xi, share = contact_points(column.section, model.points)
-    drum_fields = {
-        "x": np.zeros(n + 1),
-        "z": below(column.centroid_heights - np.cumsum(closure), 0.0),
-        "th": np.zeros(n + 1),
-        "c": np.ones(n + 1),
-        "s": np.zeros(n + 1),
-        "vx": np.zeros(n + 1),
-        "vz": np.zeros(n + 1),
-        "w": np.zeros(n + 1),
-        "m": below(column.masses, 0.0),
-        "i": below(column.inertias, 0.0),
-        "im": below(1.0 / column.masses, 0.0),
-        "ii": below(1.0 / column.inertias, 0.0),
-        "hb": below(centroid, 0.0),
-        "ht": below(column.heights - centroid, 0.0),
-        "b": below(np.array([drum.bottom_width / 2 for drum in drums]), 0.0),
-        "t": below(np.array([drum.top_width / 2 for drum in drums]), BASE_HALF_WIDTH),
-    }
-    above = lambda values: np.concatenate((values, [0.0]))  # noqa: E731
+
+    def under_air(values: np.ndarray) -> np.ndarray:  # behind the topmost joint stands one without force
+        return np.concatenate((values, [0.0]))
+
     joint_fields = {
-        "kn": above(kn * area / width),
-        "ks": above(ks * area / width),
-        "co": above(np.array([joint.cohesion for joint in column.joints]) * area / width),
-        "mu": above(np.array([joint.tan_phi for joint in column.joints])),
+        "kn": under_air(kn * area / width),
+        "ks": under_air(ks * area / width),
+        "co": under_air(np.array([joint.cohesion for joint in column.joints]) * area / width),
+        "mu": under_air(np.array([joint.tan_phi for joint in column.joints])),
         "fs": np.zeros((n + 1, model.points)),
         "over": np.zeros(n + 1),
     }
-    lane_fields = {
-        "g": column.gravity,
-        "beta": model.stiffness_damping,
-        "alpha": model.mass_damping,
-        "local": 0.0,
-        "work": 0.0,
-        "shear": 0.0,
-        "visc": 0.0,
-        "xi": xi,
-        "sh": share,
-    }
-    return PackedColumn((drum_fields, joint_fields, lane_fields), model.step_for(column))
+    drums = drum_fields(column, column.joint_weights / (kn * area))
+    lanes = lane_fields(column, model) | {"xi": xi, "sh": share}
+    return PackedColumn((drums, joint_fields, lanes), model.step_for(column))
 
 
 #: Local damping while settling, the residual acceleration at which a column has settled [m/s²], and the most chunks.

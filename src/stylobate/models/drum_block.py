@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ..column import Column
 from ..motion import Motion
 from ..outcome import Outcome, classify
 from ..response import Histories, Measures
@@ -34,6 +35,35 @@ class PackedColumn:
 
     fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
     step: float
+
+
+def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
+    """Fields of the drums, the base first: upright, at rest, each joint closed by ``closure`` [m], shape (n,)."""
+    centroid = np.array([drum.centroid_height for drum in column.drums])
+    n = column.n + 1
+
+    def on_base(values: np.ndarray | list[float], base: float = 0.0) -> np.ndarray:
+        return np.concatenate(([base], values))
+
+    at_rest = {name: np.zeros(n) for name in ("x", "th", "s", "vx", "vz", "w")}
+    return at_rest | {
+        "z": on_base(column.centroid_heights - np.cumsum(closure)),
+        "c": np.ones(n),
+        "m": on_base(column.masses),
+        "i": on_base(column.inertias),
+        "im": on_base(1.0 / column.masses),
+        "ii": on_base(1.0 / column.inertias),
+        "hb": on_base(centroid),
+        "ht": on_base(column.heights - centroid),
+        "b": on_base([drum.bottom_width / 2 for drum in column.drums]),
+        "t": on_base([drum.top_width / 2 for drum in column.drums], BASE_HALF_WIDTH),
+    }
+
+
+def lane_fields(column: Column, model: Any) -> dict[str, Any]:
+    """Fields of a lane at the start of a run."""
+    sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
+    return sums | {"g": column.gravity, "beta": model.stiffness_damping, "alpha": model.mass_damping}
 
 
 class DrumBlock:
@@ -207,7 +237,9 @@ class DrumBlock:
         if outcome is Outcome.FAILED:
             if watch["status"][lane] == self.kernel.FAILED:
                 return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
-            return f"the energy ledger is out of balance by {imbalance:.2g} of the input work; try a smaller step_factor"
+            return (
+                f"the energy ledger is out of balance by {imbalance:.2g} of the input work; try a smaller step_factor"
+            )
         if outcome is not Outcome.COLLAPSED:
             return ""
         side = "right" if watch["side"][lane] > 0 else "left"

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -12,16 +11,14 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..column import Column
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, check_range
 from ..motion import Motion
-from ..response import Measures, Response
-from .base import Case, Model, RunOptions
-from .drum_block import BASE_HALF_WIDTH, DrumBlock, PackedColumn, histories
-from .lanes import run_lanes
+from .drum_block import BASE_HALF_WIDTH, PackedColumn, drum_fields, lane_fields
+from .stepped_drums import SteppedDrums
 
 
-@dataclass(frozen=True)
-class RigidBlock(Model):
+@dataclass(frozen=True, kw_only=True)
+class RigidBlock(SteppedDrums):
     """Rigid drums with three coordinates each, joined by interfaces with compression, shear and moment at one place.
 
     Parameters
@@ -55,36 +52,19 @@ class RigidBlock(Model):
     name: ClassVar[str] = "rigid-block"
     title: ClassVar[str] = "rigid blocks with interfaces"
     references: ClassVar[tuple[str, ...]] = ("baraldi",)
-    #: The columns start closed by their static weight.
-    start: ClassVar[str] = "static"
-
     compressive_strength: float | None = None
     step_factor: float = 0.2
-    time_step: float | None = None
-    stiffness_damping: float = 0.0
-    mass_damping: float = 0.0
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if self.compressive_strength is not None:
             check_range("compressive_strength", self.compressive_strength, 0.0, 1e12, unit="Pa", open_low=True)
-        check_range(
-            "step_factor", self.step_factor, 0.0, 1.0, open_low=True, open_high=True, remedy="0.2 is the default"
-        )
-        if self.time_step is not None:
-            check_range("time_step", self.time_step, 0.0, 1.0, unit="s", open_low=True)
-        check_range("stiffness_damping", self.stiffness_damping, 0.0, 1.0, unit="s")
-        check_range("mass_damping", self.mass_damping, 0.0, 1e3, unit="1/s")
-
-    @property
-    def damped(self) -> bool:
-        """Whether any damping acts during the run."""
-        return self.stiffness_damping > 0.0 or self.mass_damping > 0.0
 
     # -- before the run ------------------------------------------------------------------------------------------
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse an unstable step and joints that crush under the weight; say what a plane model leaves out."""
-        self.step_for(column)
+        super().check(column, motion)
         if self.compressive_strength is not None:
             stress = column.joint_weights / column.joint_areas
             worst = int(np.argmax(stress))
@@ -93,30 +73,6 @@ class RigidBlock(Model):
                     f"joint {worst + 1} crushes under the column's own weight: compressive_strength is "
                     f"{self.compressive_strength:g} Pa; allowed is above {stress[worst]:.4g} Pa."
                 )
-        if motion.lateral is not None:
-            warnings.warn(
-                f"the second horizontal component of {motion.name!r} is left out: rigid-block is a plane model.",
-                OutOfRangeWarning,
-                stacklevel=3,
-            )
-
-    def step_for(self, column: Column) -> float:
-        """Time step for a column [s].
-
-        Raises
-        ------
-        InputError
-            The step asked for is above the largest stable one.
-        """
-        stable = stable_step(column, self.stiffness_damping)
-        if self.time_step is None:
-            return self.step_factor * stable
-        if self.time_step >= stable:
-            raise InputError(
-                f"time_step is {self.time_step:g} s; the largest stable step for this column is {stable:.4g} s: "
-                f"give at most {0.9 * stable:.3g} s, or leave it out."
-            )
-        return self.time_step
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
@@ -134,65 +90,21 @@ class RigidBlock(Model):
         """A column as the kernel wants it."""
         return _pack(column, self)
 
-    # -- runs ----------------------------------------------------------------------------------------------------
-
-    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories, through the same kernel as a batch."""
-        block = DrumBlock(self, column.n, options)
-        block.load(0, Case(column, motion))
-        chunks = math.ceil(block.steps[0] / block.chunk)
-        stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
-        states = [block.snapshot(0)]
-        while not block.is_over(0):
-            block.advance(stride)
-            states.append(block.snapshot(0))
-        measures = block.collect(0)
-        provenance = {"time_step_s": block.dt[0]}
-        return Response(column, histories(motion, states), measures, self.name, provenance)
-
-    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
-        by_drums: dict[int, list[int]] = {}
-        for index, case in enumerate(cases):
-            by_drums.setdefault(case.column.n, []).append(index)
-        for drums, indices in by_drums.items():
-            some = [cases[index] for index in indices]
-            for k, measures in run_lanes(lambda drums=drums: DrumBlock(self, drums, options), some, threads):
-                yield indices[k], measures
+    def stable_step(self, column: Column) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return stable_step(column, self.stiffness_damping)
 
 
 @lru_cache(maxsize=4096)
 def _pack(column: Column, model: RigidBlock) -> PackedColumn:
-    n, drums, area = column.n, column.drums, column.joint_areas
+    n, area = column.n, column.joint_areas
     kn, km, ks = joint_stiffness(column)
-
-    def on_base(values: Sequence[float] | np.ndarray, base: float = 0.0) -> np.ndarray:
-        return np.concatenate(([base], values))
 
     def under_air(values: Sequence[float] | np.ndarray) -> np.ndarray:
         return np.concatenate((values, [0.0]))
 
-    centroid = np.array([drum.centroid_height for drum in drums])
     half = np.array([min(low, high) for low, high in zip(*_half_widths(column), strict=True)])
     limits = np.broadcast_to(under_air(half)[:, None], (n + 1, 2 if model.compressive_strength is not None else 1))
-    drum_fields = {
-        "x": np.zeros(n + 1),
-        "z": on_base(column.centroid_heights - np.cumsum(column.joint_weights / kn)),
-        "th": np.zeros(n + 1),
-        "c": np.ones(n + 1),
-        "s": np.zeros(n + 1),
-        "vx": np.zeros(n + 1),
-        "vz": np.zeros(n + 1),
-        "w": np.zeros(n + 1),
-        "m": on_base(column.masses),
-        "i": on_base(column.inertias),
-        "im": on_base(1.0 / column.masses),
-        "ii": on_base(1.0 / column.inertias),
-        "hb": on_base(centroid),
-        "ht": on_base(column.heights - centroid),
-        "b": on_base([drum.bottom_width / 2 for drum in drums]),
-        "t": on_base([drum.top_width / 2 for drum in drums], BASE_HALF_WIDTH),
-    }
     strength = model.compressive_strength
     joint_fields = {
         "kn": under_air(kn),
@@ -208,16 +120,8 @@ def _pack(column: Column, model: RigidBlock) -> PackedColumn:
         "fs": np.zeros(n + 1),
         "lim": limits,
     }
-    lane_fields = {
-        "g": column.gravity,
-        "beta": model.stiffness_damping,
-        "alpha": model.mass_damping,
-        "local": 0.0,
-        "work": 0.0,
-        "shear": 0.0,
-        "visc": 0.0,
-    }
-    return PackedColumn((drum_fields, joint_fields, lane_fields), model.step_for(column))
+    drums = drum_fields(column, column.joint_weights / kn)
+    return PackedColumn((drums, joint_fields, lane_fields(column, model)), model.step_for(column))
 
 
 def _half_widths(column: Column) -> tuple[np.ndarray, np.ndarray]:
