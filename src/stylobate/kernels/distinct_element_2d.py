@@ -415,6 +415,17 @@ def running_lanes(watch):
 
 
 @kernel
+def close_chunk(drum, joint, lane, feed, watch):
+    """What follows every chunk of steps: running lanes are that much further on, and all are looked at."""
+    for l in range(LANES):
+        if watch[0].status[l] == RUNNING:
+            feed[0].step[l] += CHUNK
+    check_finite(drum, watch)
+    observe(drum, joint, lane, feed, watch)
+    end_runs(lane, feed, watch)
+
+
+@kernel
 def advance(drum, joint, lane, ground, feed, watch, chunks):
     """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
     before = running_lanes(watch)
@@ -425,9 +436,4 @@ def advance(drum, joint, lane, ground, feed, watch, chunks):
         for k in range(CHUNK):
             forces(drum, joint, lane)
             move(drum, joint, lane, ground, k)
-        for l in range(LANES):
-            if watch[0].status[l] == RUNNING:
-                feed[0].step[l] += CHUNK
-        check_finite(drum, watch)
-        observe(drum, joint, lane, feed, watch)
-        end_runs(lane, feed, watch)
+        close_chunk(drum, joint, lane, feed, watch)

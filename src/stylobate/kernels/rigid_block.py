@@ -190,10 +190,5 @@ def advance(drum, joint, lane, ground, feed, watch, chunks):
         for k in range(CHUNK):
             forces(drum, joint, lane)
             plane.move(drum, joint, lane, ground, k)
-        for l in range(LANES):
-            if watch[0].status[l] == RUNNING:
-                feed[0].step[l] += CHUNK
-        plane.check_finite(drum, watch)
-        plane.observe(drum, joint, lane, feed, watch)
-        plane.end_runs(lane, feed, watch)
+        plane.close_chunk(drum, joint, lane, feed, watch)
         peak_opening(joint, watch)
