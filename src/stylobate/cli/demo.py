@@ -15,6 +15,9 @@ from .run import describe as describe_run
 
 FOLDER = Path("demo")
 
+#: Time after the shaking, in which most columns come near enough to rest for a verdict [s].
+TAIL = 5.0
+
 
 def demo(folder: Path = FOLDER) -> None:
     """Compute and draw; the last line printed is the folder of the figures."""
@@ -35,7 +38,7 @@ def demo(folder: Path = FOLDER) -> None:
         for name in PRESETS:
             column = preset(name)
             shaking = harmonic(1.0, 0.3 * g, 10.0)
-            response = simulate(column, shaking, model)
+            response = simulate(column, shaking, model, tail=TAIL)
             files = [response.save(folder / f"{name}.nc")]
             files += plots.save(plots.draw_histories(response), folder / f"{name}-histories")
             files += plots.save(plots.draw_filmstrip(response), folder / f"{name}-filmstrip")
@@ -52,7 +55,7 @@ def demo(folder: Path = FOLDER) -> None:
         print()
         for name in PRESETS:
             with console.progress(name) as progress:
-                domain = collapse_domain(preset(name), model, frequencies, amplitudes, 10.0, progress=progress)
+                domain = collapse_domain(preset(name), model, frequencies, amplitudes, 10.0, tail=TAIL, progress=progress)
             if not domain.complete:
                 raise console.Interrupted("interrupted; the domain is not drawn.")
             files = [domain.save(folder / f"{name}-domain.nc"), domain.save(folder / f"{name}-domain.csv")]
