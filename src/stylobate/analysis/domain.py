@@ -19,6 +19,7 @@ from ..constants import g
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
 from ..motion import harmonic
+from ..outcome import Outcome
 from . import verdicts as v
 
 if TYPE_CHECKING:
@@ -161,6 +162,16 @@ class Domain:
                 },
             )
         }
+        outcomes = [-1 if row is None else Outcome[row["outcome"].upper()] for row in self.rows]
+        variables["outcome"] = (
+            dims,
+            np.array(outcomes, dtype=np.int8).reshape(self.shape),
+            {
+                "long_name": "outcome of the run, -1 where it was not made",
+                "flag_values": np.array([int(one) for one in Outcome], dtype=np.int8),
+                "flag_meanings": " ".join(one.label for one in Outcome),
+            },
+        )
         for name, (unit, meaning) in _GRIDS.items():
             variables[name] = (dims, self.grid(name), {"units": unit, "long_name": meaning})
         variables["column"] = ((), json.dumps(self.column.to_dict()))
@@ -195,6 +206,46 @@ class Domain:
             else:
                 self.table.to_csv(partial, index=False)
         return target
+
+    @classmethod
+    def load(cls, path: str | Path) -> Domain:
+        """Read a domain written by :meth:`save` as netCDF; steps, time steps and reasons of the runs are not in it.
+
+        Raises
+        ------
+        InputError
+            The file cannot be read, or holds no domain.
+        """
+        import xarray
+
+        from ..column.files import column_from_dict
+
+        try:
+            with xarray.open_dataset(path, engine="h5netcdf") as data:
+                data.load()
+            verdicts = np.array(v.VERDICTS, dtype=object)[data["verdict"].values.ravel()]
+            outcomes = data["outcome"].values.ravel()
+            grids = {name: data[name].values.ravel() for name in _GRIDS}
+            column = column_from_dict(json.loads(str(data["column"].values)))
+            provenance = json.loads(str(data["provenance"].values))
+            axes = data["frequency"].values, data["amplitude"].values
+            model, wall = str(data.attrs["model"]), float(data.attrs["wall_s"])
+        except (OSError, KeyError, ValueError) as error:
+            raise InputError(
+                f"{path} is no domain that can be read ({error}); give a domain.nc of this package."
+            ) from None
+        rows: list[dict | None] = [
+            None
+            if verdict == v.NOT_RUN
+            else {
+                "outcome": Outcome(int(outcome)).label,
+                "collapsed": Outcome(int(outcome)) is Outcome.COLLAPSED,
+                "decided": verdict in (v.STANDS, v.COLLAPSED),
+                **{name: _or_none(name, float(grid[i])) for name, grid in grids.items()},
+            }
+            for i, (verdict, outcome) in enumerate(zip(verdicts, outcomes))
+        ]
+        return cls(column, model, *axes, rows, wall, provenance)
 
 
 def collapse_domain(
@@ -241,8 +292,8 @@ def collapse_domain(
     InputError
         An impossible grid, a folder that cannot be used, or input that the model refuses.
     """
-    f = _axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
-    a = _axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
+    f = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
+    a = grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
     if len(f) * len(a) > MAX_CELLS:
         raise InputError(f"the domain has {len(f)} × {len(a)} cells; allowed is up to {MAX_CELLS}: give fewer.")
     # One sine per frequency; its scaled copies share the samples.
@@ -271,7 +322,8 @@ def collapse_domain(
     return domain
 
 
-def _axis(name: str, values: Sequence[float] | np.ndarray, low: float, high: float, unit: str) -> np.ndarray:
+def grid_axis(name: str, values: Sequence[float] | np.ndarray, low: float, high: float, unit: str) -> np.ndarray:
+    """One side of a grid, checked: finite, inside (low, high], rising; shape (values,)."""
     try:
         axis = np.array(values, dtype=float)
     except (TypeError, ValueError):
@@ -283,6 +335,19 @@ def _axis(name: str, values: Sequence[float] | np.ndarray, low: float, high: flo
     if (np.diff(axis) <= 0.0).any():
         raise InputError(f"{name} must rise from value to value; sort them and leave doubles out.")
     return axis
+
+
+def cell_edges(centres: np.ndarray) -> np.ndarray:
+    """Edges of the cells around the given values: half-way between neighbours."""
+    if len(centres) == 1:
+        half = 0.1 * abs(centres[0]) or 0.5
+        return np.array([centres[0] - half, centres[0] + half])
+    middle = 0.5 * (centres[1:] + centres[:-1])
+    return np.array([2.0 * centres[0] - middle[0], *middle, 2.0 * centres[-1] - middle[-1]])
+
+
+def _or_none(name: str, value: float) -> float | None:
+    return None if name == "collapse_time_s" and np.isnan(value) else value
 
 
 def _boundary(find: Any, domain: Domain) -> np.ndarray:

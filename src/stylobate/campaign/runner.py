@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +11,7 @@ from typing import Any
 
 from .. import __version__
 from ..models.base import Case, Model
+from ..response import Measures
 from ..simulate import simulate_iter
 from .ledger import Ledger
 
@@ -66,32 +67,71 @@ def run_campaign(
         What decides the results besides the version and the model's parameters, e.g. the column's digest.
     """
     started = time.perf_counter()
-    book = Ledger(ledger, _full_key(model, tail, key or {})) if ledger is not None else None
     rows: list[dict | None] = [None] * len(cases)
-    done = 0
-    for number, row in (book.rows() if book else {}).items():
-        rows[number] = row
-        done += 1
-    todo = [number for number, row in enumerate(rows) if row is None]
-    interrupted = False
+    done, interrupted = 0, False
+    if progress:
+        progress(0, len(cases))
     try:
-        if progress:
-            progress(done, len(cases))
-        with closing(simulate_iter([cases[i] for i in todo], model, tail=tail, threads=threads)) as finished:
-            for index, measures in finished:
-                row = measures.row()
-                rows[todo[index]] = row
+        with closing(finished_runs(cases, model, tail=tail, threads=threads, ledger=ledger, key=key)) as finished:
+            for number, row in finished:
+                rows[number] = row
                 done += 1
-                if book:
-                    book.record(todo[index], row)
                 if progress:
                     progress(done, len(cases))
     except KeyboardInterrupt:
         interrupted = True
+    return CampaignResult(rows, interrupted, time.perf_counter() - started)
+
+
+def finished_runs(
+    cases: Sequence[Case],
+    model: Model,
+    *,
+    tail: float = 0.0,
+    threads: int | None = None,
+    ledger: str | Path | None = None,
+    key: Mapping[str, Any] | None = None,
+    keep: Callable[[Measures], dict] = Measures.row,
+) -> Generator[tuple[int, dict], None, None]:
+    """Yield (number of the case, what is kept of it): first the runs that the ledger holds, then the others.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        Asked for one by one, so that it can make them as they are needed.
+    model, tail, threads, ledger, key
+        As in :func:`run_campaign`.
+    keep : callable
+        What of a run goes into the ledger and to the caller.
+    """
+    book = Ledger(ledger, _full_key(model, tail, key or {})) if ledger is not None else None
+    try:
+        known = book.rows() if book else {}
+        yield from known.items()
+        todo = _Others(cases, known)
+        with closing(simulate_iter(todo, model, tail=tail, threads=threads)) as finished:
+            for index, measures in finished:
+                number, row = todo.numbers[index], keep(measures)
+                if book:
+                    book.record(number, row)
+                yield number, row
     finally:
         if book:
             book.close()
-    return CampaignResult(rows, interrupted, time.perf_counter() - started)
+
+
+class _Others(Sequence):
+    """The cases that are not known yet."""
+
+    def __init__(self, cases: Sequence[Case], known: Mapping[int, Any]) -> None:
+        self.cases = cases
+        self.numbers = [number for number in range(len(cases)) if number not in known]
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.cases[self.numbers[index]]
 
 
 def _full_key(model: Model, tail: float, key: Mapping[str, Any]) -> dict[str, Any]:

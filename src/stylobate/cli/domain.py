@@ -12,7 +12,9 @@ from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.domain import Domain
+    from ..analysis.probability import CollapseProbability
     from ..campaign.study import Study
+    from ..column.imperfections import Imperfection
 
 
 def domain(
@@ -30,6 +32,23 @@ def domain(
     tail: Annotated[
         str | None, typer.Option("--tail", metavar="TIME", help="Go on for this long after each motion; 0s.")
     ] = None,
+    replicates: Annotated[
+        str | None, typer.Option("--replicates", metavar="N", help="Slightly different columns in every cell.")
+    ] = None,
+    imperfection: Annotated[
+        str | None,
+        typer.Option(
+            "--imperfection",
+            metavar="SIZE|NAME=SIZE,…",
+            help="How different: 1%, or geometry=1%,friction=5%,stiffness=20%,amplitude=1%,phase=0.1.",
+        ),
+    ] = None,
+    seed: Annotated[
+        str | None, typer.Option("--seed", metavar="N", help="Of the variations; the same seed, the same columns.")
+    ] = None,
+    half_step: Annotated[
+        bool, typer.Option("--half-step", help="Run it again with half of the time step and count what differs.")
+    ] = False,
     settings: o.Settings = None,
     threads: o.Threads = None,
     out: o.Out = None,
@@ -37,13 +56,25 @@ def domain(
 ) -> None:
     """Safe-unsafe domain over frequency and amplitude.
 
-    With --out, a domain that was interrupted goes on where it was.
+    With --replicates, the probability of collapse over columns that differ a little. With --out, a domain that was
+    interrupted goes on where it was.
     """
     from ..analysis.domain import collapse_domain
     from . import console
 
     count = o.the_threads(threads)
     study = _study(what, model, frequencies, amplitudes, duration, tail, settings)
+    if replicates is not None:
+        if half_step:
+            raise InputError("--half-step is for a domain without --replicates; give one of the two.")
+        population = the_population(replicates, imperfection, seed)
+        run_probability(study, population, count, out, as_json)
+        return
+    for option, value in (("--imperfection", imperfection), ("--seed", seed)):
+        if value is not None:
+            raise InputError(
+                f"{option} is for variations of the column; give --replicates as well, e.g. --replicates 20."
+            )
     with console.folder(out) as folder:
         with console.progress("cells") as progress:
             result = collapse_domain(
@@ -59,15 +90,27 @@ def domain(
             )
         if not result.complete:
             raise console.Interrupted(_what_is_kept(result, folder))
-        files = [] if folder is None else write(result, folder)
-    summary = result.summary() | {"files": [str(file) for file in files]}
+        summary = result.summary()
+        if half_step:
+            from ..analysis.step_sensitivity import compare_steps
+
+            grid = (study.frequencies, study.amplitudes, study.duration)
+            with console.progress("cells, half step") as progress:
+                pair = compare_steps(
+                    study.column, study.model, *grid, domain=result, tail=study.tail, threads=count, progress=progress
+                )
+            summary["half_step"] = pair.summary()
+        files = [] if folder is None else write(result, folder, summary)
     if as_json:
-        console.emit(summary)
-    else:
-        describe(result, files)
+        console.emit(summary | {"files": [str(file) for file in files]})
+        return
+    describe(result, files)
+    if half_step:
+        step = summary["half_step"]
+        print(f"With half of the time step {step['differing']} of {step['comparable']} verdicts are different ones.")
 
 
-def write(result: Domain, folder: Path) -> list[Path]:
+def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
     """Summary and figure, beside the files of the domain itself."""
     from .. import plots
     from . import console
@@ -76,8 +119,114 @@ def write(result: Domain, folder: Path) -> list[Path]:
         folder / "domain.nc",
         folder / "domain.csv",
         *plots.save(plots.draw_domain(result), folder / "domain"),
-        console.write_json(folder / "domain.json", result.summary()),
+        console.write_json(folder / "domain.json", summary),
     ]
+
+
+def run_probability(study: Study, population: dict, threads: int, out: Path | None, as_json: bool) -> None:
+    """The domain with many variations in every cell."""
+    from ..analysis.probability import collapse_probability
+    from . import console
+
+    with console.folder(out) as folder:
+        with console.progress("runs") as progress:
+            result = collapse_probability(
+                study.column,
+                study.model,
+                study.frequencies,
+                study.amplitudes,
+                study.duration,
+                **population,
+                tail=study.tail,
+                threads=threads,
+                progress=progress,
+                out=folder,
+            )
+        summary = result.summary()
+        if not result.complete:
+            where = (
+                "nothing is kept: with --out DIR it would go on from there"
+                if folder is None
+                else (f"they are kept in {folder}: the same command goes on from there")
+            )
+            raise console.Interrupted(f"interrupted after {summary['runs']} of {result.codes.size} runs; {where}.")
+        files = []
+        if folder is not None:
+            from .. import plots
+
+            files = [
+                folder / "probability.nc",
+                folder / "probability.csv",
+                *plots.save(plots.draw_probability(result), folder / "probability"),
+                console.write_json(folder / "probability.json", summary),
+            ]
+    if as_json:
+        console.emit(summary | {"files": [str(file) for file in files]})
+    else:
+        describe_probability(result, files)
+
+
+def describe_probability(result: CollapseProbability, files: list[Path]) -> None:
+    """Print the probabilities for people."""
+    from . import console
+
+    s = result.summary()
+    sentence = (
+        f"Of {s['cells']} cells, all variations stand in {s['all_stand']} and all collapse in {s['all_collapse']}; "
+        f"{s['some_collapse']} are uncertain."
+    )
+    if s["undecided"] or s["failed"]:
+        sentence += f" {s['undecided']} runs are undecided and {s['failed']} failed; they are not counted as collapse."
+    facts = {
+        "column": result.column.name,
+        "model": result.model,
+        "variations": f"{result.replicates}, seed {result.seed}",
+        "imperfections": ", ".join(f"{key} ±{value:g}" for key, value in s["imperfection"].items() if value),
+        "time": f"{result.wall_time:.1f} s",
+    }
+    if s["band_width_median_g"] is not None:
+        width = f"{s['band_width_median_g']:.3g} g (median), up to {s['band_width_largest_g']:.3g} g"
+        facts["uncertain band"] = width
+    if s["band_open_frequencies"]:
+        facts["band open at the top"] = f"at {s['band_open_frequencies']} of {len(result.frequencies)} frequencies"
+    console.say(sentence, facts, files)
+
+
+def the_population(replicates: str, imperfection: str | None, seed: str | None) -> dict:
+    """Arguments of ``collapse_probability`` that the options describe."""
+    for option, text in (("--replicates", replicates), ("--seed", seed)):
+        if text is not None and not text.isdecimal():
+            raise InputError(f"{option} is {text!r}; allowed is a whole number, such as 20.")
+    return {
+        "replicates": int(replicates),
+        "imperfection": None if imperfection is None else the_imperfection(imperfection),
+        "seed": int(seed or 0),
+    }
+
+
+def the_imperfection(text: str) -> Imperfection:
+    """Sizes of the imperfections as typed: one for geometry, friction and stiffness, or by name (others none)."""
+    from ..column.imperfections import Imperfection
+
+    names = Imperfection.__dataclass_fields__
+    example = "--imperfection 1% or --imperfection geometry=1%,friction=5%"
+    if "=" not in text:
+        return Imperfection.of_size(_share(text, example))
+    sizes = dict.fromkeys(names, 0.0)
+    for part in text.split(","):
+        name, _, size = part.partition("=")
+        if name.strip() not in names:
+            raise InputError(f"--imperfection names {name.strip()!r}; names are {', '.join(names)}, e.g. {example}.")
+        sizes[name.strip()] = _share(size, example)
+    return Imperfection(**sizes)
+
+
+def _share(text: str, example: str) -> float:
+    number, percent = text.strip().removesuffix("%"), text.strip().endswith("%")
+    try:
+        return float(number) / (100.0 if percent else 1.0)
+    except ValueError:
+        raise InputError(f"{text!r} is no size of imperfections; write it as {example}.") from None
 
 
 def describe(result: Domain, files: list[Path]) -> None:

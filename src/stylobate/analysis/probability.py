@@ -1,0 +1,450 @@
+"""Probability of collapse over frequency and amplitude: many slightly different columns in every cell, not one coin toss.
+
+Near the boundary a verdict hangs on what no survey knows: a per cent of a drum's width, of friction, of stiffness. The
+same population of columns goes through every cell; what is counted is how many of them collapse.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import time
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import NormalDist
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import __version__
+from ..atomic import replacing
+from ..campaign.ledger import discard
+from ..campaign.runner import Progress, finished_runs
+from ..column import Column
+from ..column.imperfections import Imperfection, imperfect_columns
+from ..constants import g
+from ..errors import InputError, check_range
+from ..models.base import Case, Model
+from ..motion import Motion, harmonic
+from ..response import Measures
+from . import verdicts as v
+from .domain import MAX_CELLS, PROGRESS_FILE, cell_edges, grid_axis
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+#: Largest number of variations, and of runs in all.
+MAX_REPLICATES, MAX_RUNS = 10_000, 20_000_000
+
+#: Starts of a motion that are told apart, so that all variations share these samples.
+PHASES = 9
+
+#: Kinds of cells, from the verdicts of their runs.
+SAFE, UNCERTAIN, UNSAFE, UNKNOWN = "all stand", "some collapse", "all collapse", "no verdict"
+KINDS = (SAFE, UNCERTAIN, UNSAFE, UNKNOWN)
+
+
+@dataclass(frozen=True, eq=False)
+class CollapseProbability:
+    """Verdicts of all variations in all cells.
+
+    Parameters
+    ----------
+    column : Column
+        The one that the variations are around.
+    model : str
+    frequencies : array
+        [Hz], shape (F,).
+    amplitudes : array
+        [m/s²], shape (A,).
+    codes : array of int8
+        Index into ``verdicts.VERDICTS`` of each run, shape (F, A, replicates).
+    peaks : array of float32
+        Peak top displacement relative to the base of each run [m], same shape; NaN where there is none.
+    imperfection : Imperfection
+    seed : int
+    confidence : float
+        Level of the intervals, e.g. 0.95.
+    wall_time : float
+        [s]
+    provenance : dict
+        What reproduces it; plain values.
+    """
+
+    column: Column
+    model: str
+    frequencies: np.ndarray
+    amplitudes: np.ndarray
+    codes: np.ndarray
+    peaks: np.ndarray
+    imperfection: Imperfection
+    seed: int
+    confidence: float
+    wall_time: float
+    provenance: dict
+
+    @property
+    def replicates(self) -> int:
+        """Number of variations."""
+        return self.codes.shape[2]
+
+    @property
+    def complete(self) -> bool:
+        """Whether every run was made; False after an interrupt."""
+        return not (self.codes == v.VERDICTS.index(v.NOT_RUN)).any()
+
+    def count(self, verdict: str) -> np.ndarray:
+        """Runs with that verdict in each cell, shape (F, A)."""
+        return (self.codes == v.VERDICTS.index(verdict)).sum(axis=2)
+
+    @property
+    def frequency(self) -> np.ndarray:
+        """Share of the runs that collapse, NaN where all failed, shape (F, A). Undecided runs count as not collapsed.
+
+        Left out, they would make it too large: a collapse decides a run, standing needs time.
+        """
+        collapsed, trials = self.count(v.COLLAPSED), self._trials
+        return np.divide(collapsed, trials, out=np.full(trials.shape, np.nan), where=trials > 0)
+
+    @property
+    def interval(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lower and upper confidence limit of the probability of collapse, each of shape (F, A).
+
+        The lower one as if every undecided run had come to stand, the upper one as if it had collapsed.
+        """
+        collapsed, undecided = self.count(v.COLLAPSED), self.count(v.UNDECIDED)
+        low, _ = wilson_interval(collapsed, self._trials, self.confidence)
+        return low, wilson_interval(collapsed + undecided, self._trials, self.confidence)[1]
+
+    @property
+    def kinds(self) -> np.ndarray:
+        """Kind of each cell, shape (F, A); runs that failed are left out.
+
+        All stand; all collapse; some collapse (and others stand or are undecided); no verdict: none collapses and some
+        are undecided, or more than half are undecided, or all failed.
+        """
+        collapsed, stands, others = (self.count(one) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
+        return np.select(
+            [
+                2 * others > self._trials,
+                (stands + others == 0) & (collapsed > 0),
+                collapsed > 0,
+                (others == 0) & (stands > 0),
+            ],
+            [UNKNOWN, UNSAFE, UNCERTAIN, SAFE],
+            default=UNKNOWN,
+        )
+
+    @property
+    def band(self) -> tuple[np.ndarray, np.ndarray]:
+        """The uncertain band: lowest amplitude at which any collapses, highest at which any does not [m/s²], each (F,).
+
+        NaN in the first where none collapses, in the second where all do. Where the second is the largest amplitude of
+        the grid, the band goes on beyond it. First above second: no uncertain cell.
+        """
+        low, high = np.full(len(self.frequencies), np.nan), np.full(len(self.frequencies), np.nan)
+        others = self.count(v.STANDS) + self.count(v.UNDECIDED) > 0
+        for i, (falls, stays) in enumerate(zip(self.count(v.COLLAPSED) > 0, others)):
+            if falls.any():
+                low[i] = self.amplitudes[np.argmax(falls)]
+            if stays.any():
+                high[i] = self.amplitudes[::-1][np.argmax(stays[::-1])]
+        return low, high
+
+    @property
+    def band_width(self) -> np.ndarray:
+        """Width of the uncertain band [m/s²], shape (F,): 0 without one, NaN where none collapses or its top is not seen.
+
+        Each end lies half-way to the next amplitude, so that one uncertain cell is one step of the grid wide.
+        """
+        low, high = self.band
+        edges = cell_edges(self.amplitudes)
+        lower, upper = edges[:-1], edges[1:]
+        width = np.full(len(low), np.nan)
+        for i in np.flatnonzero(~np.isnan(low) & ~self.band_is_open):
+            first = lower[np.searchsorted(self.amplitudes, low[i])]
+            last = -np.inf if np.isnan(high[i]) else upper[np.searchsorted(self.amplitudes, high[i])]
+            width[i] = max(0.0, last - first)
+        return width
+
+    @property
+    def band_is_open(self) -> np.ndarray:
+        """Whether some collapse, and some do not even at the largest amplitude, shape (F,)."""
+        low, high = self.band
+        return ~np.isnan(low) & (high >= self.amplitudes[-1])
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per cell: counts by verdict, frequency of collapse and its confidence limits."""
+        import pandas
+
+        low, high = self.interval
+        f, a = np.meshgrid(self.frequencies, self.amplitudes / g, indexing="ij")
+        data = {"frequency_hz": f, "amplitude_g": a}
+        data |= {one.replace(" ", "_"): self.count(one) for one in v.VERDICTS}
+        data |= {"collapse_frequency": self.frequency, "confidence_low": low, "confidence_high": high}
+        return pandas.DataFrame({name: values.ravel() for name, values in data.items()})
+
+    def summary(self) -> dict:
+        """The JSON object of ``stylobate domain --replicates N``."""
+        runs = v.count(np.array(v.VERDICTS, dtype=object)[self.codes])
+        kinds = self.kinds
+        width = self.band_width / g
+        seen = width[np.isfinite(width)]
+        return {
+            "cells": int(kinds.size),
+            "replicates": self.replicates,
+            "imperfection": dataclasses.asdict(self.imperfection),
+            "seed": self.seed,
+            "confidence": self.confidence,
+            "all_stand": int((kinds == SAFE).sum()),
+            "some_collapse": int((kinds == UNCERTAIN).sum()),
+            "all_collapse": int((kinds == UNSAFE).sum()),
+            "no_verdict": int((kinds == UNKNOWN).sum()),
+            "band_width_median_g": float(np.median(seen)) if seen.size else None,
+            "band_width_largest_g": float(seen.max()) if seen.size else None,
+            "band_open_frequencies": int(self.band_is_open.sum()),
+            "amplitude_step_g": float(np.diff(self.amplitudes).max() / g) if len(self.amplitudes) > 1 else None,
+            "runs": int(self.codes.size - runs[v.NOT_RUN]),
+            "collapsed": runs[v.COLLAPSED],
+            "stands": runs[v.STANDS],
+            "undecided": runs[v.UNDECIDED],
+            "failed": runs[v.FAILED],
+            "not_run": runs[v.NOT_RUN],
+            "uplift_g": self.column.uplift_acceleration / g,
+            "wall_s": self.wall_time,
+            "model": self.model,
+            "version": __version__,
+        }
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Verdict and peak of every run, frequency of collapse and confidence limits, with units."""
+        import xarray
+
+        cells, runs = ("frequency", "amplitude"), ("frequency", "amplitude", "replicate")
+        low, high = self.interval
+        level = f"{100.0 * self.confidence:g} % confidence limit (Wilson)"
+        flags = {
+            "long_name": "verdict of the run",
+            "flag_values": np.arange(len(v.VERDICTS), dtype=np.int8),
+            "flag_meanings": " ".join(one.replace(" ", "_") for one in v.VERDICTS),
+        }
+        peak = {"units": "m", "long_name": "largest top displacement relative to the base"}
+        share = {"units": "1", "long_name": "share of the runs that collapse; undecided ones do not count as collapsed"}
+        return xarray.Dataset(
+            {
+                "verdict": (runs, self.codes, flags),
+                "peak_top_displacement_m": (runs, self.peaks, peak),
+                "collapse_frequency": (cells, self.frequency, share),
+                "confidence_low": (cells, low, {"units": "1", "long_name": f"lower {level}"}),
+                "confidence_high": (cells, high, {"units": "1", "long_name": f"upper {level}"}),
+                "column": ((), json.dumps(self.column.to_dict())),
+                "provenance": ((), json.dumps(self.provenance, default=str)),
+            },
+            {
+                "frequency": ("frequency", self.frequencies, {"units": "Hz"}),
+                "amplitude": ("amplitude", self.amplitudes, {"units": "m s-2"}),
+                "amplitude_g": ("amplitude", self.amplitudes / g, {"units": "g"}),
+            },
+            {"model": self.model, "version": __version__, "seed": self.seed, "confidence": self.confidence},
+        )
+
+    def save(self, path: str | Path) -> Path:
+        """Write netCDF (``.nc``, every run) or a table (``.csv``, every cell); whole or not at all.
+
+        Raises
+        ------
+        InputError
+            Another ending, or a folder that cannot be written to.
+        """
+        target = Path(path)
+        if target.suffix not in (".nc", ".csv"):
+            raise InputError(f"{target} ends in {target.suffix!r}; it is saved as .nc (netCDF) or .csv (table).")
+        with replacing(target) as partial:
+            if target.suffix == ".nc":
+                self.to_xarray().to_netcdf(partial, engine="h5netcdf")
+            else:
+                self.table.to_csv(partial, index=False)
+        return target
+
+    @property
+    def _trials(self) -> np.ndarray:
+        return self.count(v.COLLAPSED) + self.count(v.STANDS) + self.count(v.UNDECIDED)
+
+
+def collapse_probability(
+    column: Column,
+    model: Model,
+    frequencies: Sequence[float] | np.ndarray,
+    amplitudes: Sequence[float] | np.ndarray,
+    duration: float = 10.0,
+    *,
+    replicates: int = 20,
+    imperfection: Imperfection | None = None,
+    seed: int = 0,
+    confidence: float = 0.95,
+    tail: float = 0.0,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    out: str | Path | None = None,
+) -> CollapseProbability:
+    """Run many slightly different columns under harmonic base motions of all frequencies and amplitudes.
+
+    Parameters
+    ----------
+    column, model, frequencies, amplitudes, duration, tail, threads, progress
+        As in :func:`stylobate.collapse_domain`.
+    replicates : int
+        Number of variations of the column; each goes through every cell.
+    imperfection : Imperfection, optional
+        ±1 % of geometry, friction and stiffness by default.
+    seed : int
+        The same seed gives the same columns.
+    confidence : float
+        Level of the intervals.
+    out : path, optional
+        Folder that keeps finished runs until all are there, and then holds ``probability.nc`` and ``probability.csv``.
+
+    Returns
+    -------
+    CollapseProbability
+        After an interrupt (Ctrl-C) it holds the runs that are finished, and ``complete`` is False.
+
+    Raises
+    ------
+    InputError
+        An impossible grid, number, folder, or input that the model refuses.
+
+    Notes
+    -----
+    Runs that failed or are undecided are counted apart. Failed ones are left out; undecided ones are never a collapse,
+    and the upper confidence limit allows for all of them having become one. The interval is for the probability over the
+    stated population, and has nothing to say about the model being right.
+    """
+    started = time.perf_counter()
+    f = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
+    a = grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
+    number = _whole("replicates", replicates, 1, MAX_REPLICATES)
+    _whole("seed", seed, 0, 2**63 - 1)
+    check_range("confidence", confidence, 0.0, 1.0, open_low=True, open_high=True, remedy="0.95 is the default")
+    size = Imperfection() if imperfection is None else imperfection
+    if len(f) * len(a) > MAX_CELLS or len(f) * len(a) * number > MAX_RUNS:
+        raise InputError(
+            f"{len(f)} × {len(a)} cells with {number} replicates are {len(f) * len(a) * number} runs; allowed is up to "
+            f"{MAX_CELLS} cells and {MAX_RUNS} runs: give fewer."
+        )
+    cases = _Cases(column, f, a, float(duration), number, size, seed)
+    key = {
+        "column": column.digest,
+        "frequencies": f.tolist(),
+        "amplitudes": a.tolist(),
+        "duration": float(duration),
+        "replicates": number,
+        "imperfection": dataclasses.asdict(size),
+        "seed": seed,
+    }
+    ledger = None if out is None else Path(out) / PROGRESS_FILE
+    if ledger is not None and not ledger.parent.is_dir():
+        raise InputError(f"folder {ledger.parent} does not exist; create it first.")
+    codes = np.full(len(cases), v.VERDICTS.index(v.NOT_RUN), dtype=np.int8)
+    peaks = np.full(len(cases), np.nan, dtype=np.float32)
+    done = 0
+    try:
+        runs = finished_runs(cases, model, tail=tail, threads=threads, ledger=ledger, key=key, keep=_kept)
+        with closing(runs) as finished:
+            for index, kept in finished:
+                codes[index] = v.VERDICTS.index(kept["verdict"])
+                peaks[index] = np.nan if kept["peak"] is None else kept["peak"]
+                done += 1
+                if progress:
+                    progress(done, len(cases))
+    except KeyboardInterrupt:
+        pass
+    provenance = {
+        **key,
+        "column": column.to_dict(),
+        "column_digest": column.digest,
+        "model": model.name,
+        "parameters": model.parameters(),
+        "references": [*model.references, "wilson1927"],
+        "tail": tail,
+        "version": __version__,
+    }
+    shape = (len(f), len(a), number)
+    found = CollapseProbability(
+        column, model.name, f, a, codes.reshape(shape), peaks.reshape(shape), size, seed, confidence,
+        time.perf_counter() - started, provenance,
+    )  # fmt: skip
+    if ledger is not None and found.complete:
+        found.save(ledger.parent / "probability.nc")
+        found.save(ledger.parent / "probability.csv")
+        discard(ledger)
+    return found
+
+
+def wilson_interval(successes: Any, trials: Any, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+    """Confidence limits of a probability from counts; 0 and 1 where there is no trial.
+
+    Parameters
+    ----------
+    successes, trials : array of int
+    confidence : float
+
+    References
+    ----------
+    Wilson 1927: the probabilities p with (successes/trials − p)² ≤ z² p (1 − p)/trials.
+    """
+    k, n = np.asarray(successes, dtype=float), np.asarray(trials, dtype=float)
+    z2 = NormalDist().inv_cdf(0.5 + 0.5 * confidence) ** 2
+    centre = (k + 0.5 * z2) / (n + z2)
+    half = np.sqrt(z2) / (n + z2) * np.sqrt(np.divide(k * (n - k), n, out=np.zeros_like(n), where=n > 0) + 0.25 * z2)
+    low = np.where(k == 0, 0.0, np.maximum(0.0, centre - half))
+    return low, np.where(k == n, 1.0, np.minimum(1.0, centre + half))
+
+
+class _Cases(Sequence):
+    """Cases in the order (frequency, amplitude, variation), made when asked for: columns and samples are shared."""
+
+    def __init__(
+        self, column: Column, f: np.ndarray, a: np.ndarray, duration: float, number: int, size: Imperfection, seed: int
+    ) -> None:
+        self.shape = (len(f), len(a), number)
+        self.amplitudes = a
+        self.columns = imperfect_columns(column, size, number, seed)
+        stream = np.random.default_rng([seed, 1])
+        self.factors = 1.0 + size.amplitude * stream.uniform(-1.0, 1.0, number)
+        starts = size.phase * np.linspace(-1.0, 1.0, PHASES) if size.phase else np.zeros(1)
+        self.start = stream.integers(0, len(starts), number)
+        self.units = [[_sine(float(one), duration, float(start)) for start in starts] for one in f]
+
+    def __len__(self) -> int:
+        return int(np.prod(self.shape))
+
+    def __getitem__(self, index: Any) -> Case:
+        if not 0 <= index < len(self):
+            raise IndexError(index)
+        i, j, k = np.unravel_index(index, self.shape)
+        motion = self.units[i][self.start[k]].scaled(float(self.amplitudes[j] * self.factors[k]))
+        return Case(self.columns[k], motion)
+
+
+def _sine(frequency: float, duration: float, start: float) -> Motion:
+    unit = harmonic(frequency, 1.0, duration)
+    if not start:
+        return unit
+    cycles = np.arange(unit.steps) * unit.dt * frequency
+    return unit.replace(acceleration=np.sin(2.0 * np.pi * (cycles + start)))
+
+
+def _kept(measures: Measures) -> dict:
+    peak = measures.peak_top_displacement
+    return {"verdict": v.verdict(measures.row()), "peak": float(peak) if np.isfinite(peak) else None}
+
+
+def _whole(name: str, value: Any, low: int, high: int) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+        raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
+    return int(value)

@@ -1,0 +1,215 @@
+"""Probability of collapse: the confidence interval, the population of columns, and counts that never flatter."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis import verdicts as v
+from stylobate.analysis.domain import Domain
+from stylobate.analysis.probability import (
+    SAFE,
+    UNCERTAIN,
+    UNKNOWN,
+    UNSAFE,
+    CollapseProbability,
+    collapse_probability,
+    wilson_interval,
+)
+from stylobate.analysis.step_sensitivity import compare_steps, halved_step
+from stylobate.campaign import runner
+from stylobate.column import preset
+from stylobate.column.imperfections import Imperfection, imperfect_columns
+
+CODES = {letter: v.VERDICTS.index(one) for letter, one in zip("SCUFN", v.VERDICTS)}
+GRID = (np.array([0.5, 1.0]), np.linspace(0.15, 0.45, 4) * st.g, 6.0)
+
+
+def probability(cells, amplitudes=(0.1, 0.2, 0.3, 0.4)):
+    """One frequency per line, one word of verdicts per cell: S stands, C collapsed, U undecided, F failed, N not run."""
+    codes = np.array([[[CODES[one] for one in cell] for cell in line.split()] for line in cells], dtype=np.int8)
+    return CollapseProbability(
+        preset("paper-monolithic"), "dem2d", np.arange(1.0, len(cells) + 1.0), np.array(amplitudes) * st.g, codes,
+        np.zeros(codes.shape, np.float32), Imperfection(), 0, 0.95, 1.0, {},
+    )  # fmt: skip
+
+
+def test_wilson_s_interval_solves_its_own_equation():
+    k, n = np.array([1, 5, 9, 30]), np.array([10, 10, 10, 40])
+    z2 = 1.959963984540054**2
+    for p in wilson_interval(k, n, 0.95):
+        np.testing.assert_allclose((k / n - p) ** 2, z2 * p * (1 - p) / n, rtol=1e-12)
+
+
+def test_wilson_s_interval_at_its_ends():
+    z2 = 1.959963984540054**2
+    low, high = wilson_interval(np.array([0, 10, 0]), np.array([10, 10, 0]))
+    np.testing.assert_allclose(low, [0.0, 10 / (10 + z2), 0.0])
+    np.testing.assert_allclose(high, [z2 / (10 + z2), 1.0, 1.0])
+
+
+def test_wilson_s_interval_covers_as_often_as_it_says():
+    from math import comb
+
+    n = 20
+    low, high = wilson_interval(np.arange(n + 1), np.full(n + 1, n))
+    coverage = []
+    for p in np.linspace(0.02, 0.98, 97):
+        weight = np.array([comb(n, k) * p**k * (1 - p) ** (n - k) for k in range(n + 1)])
+        coverage.append(weight[(low <= p) & (p <= high)].sum())
+    assert np.mean(coverage) == pytest.approx(0.95, abs=0.01)
+    assert min(coverage) > 0.83
+
+
+def test_kinds_of_cells_and_the_band():
+    found = probability(["SSSS SSSC SCCC CCCC", "SSSS SSUS SUUU SSSS", "SSSS CSSS SSSS CCCS", "CCCF FFFF CCCC CCCC"])
+    assert found.kinds.tolist() == [
+        [SAFE, UNCERTAIN, UNCERTAIN, UNSAFE],
+        [SAFE, UNKNOWN, UNKNOWN, SAFE],
+        [SAFE, UNCERTAIN, SAFE, UNCERTAIN],
+        [UNSAFE, UNKNOWN, UNSAFE, UNSAFE],
+    ]
+    low, high = (one / st.g for one in found.band)
+    np.testing.assert_allclose(low, [0.2, np.nan, 0.2, 0.1])
+    np.testing.assert_allclose(high, [0.3, 0.4, 0.4, np.nan])
+    np.testing.assert_allclose(found.band_width / st.g, [0.2, np.nan, np.nan, 0.0], atol=1e-12)
+    assert found.band_is_open.tolist() == [False, False, True, False]
+    summary = found.summary()
+    assert summary["band_width_median_g"] == pytest.approx(0.1)
+    assert summary["band_open_frequencies"] == 1
+    assert summary["all_stand"] + summary["some_collapse"] + summary["all_collapse"] + summary["no_verdict"] == 16
+
+
+def test_what_is_undecided_or_failed_is_no_collapse_and_widens_the_interval():
+    found = probability(["CSSS CSSU CSSF FFFF"])
+    np.testing.assert_allclose(found.frequency[0], [0.25, 0.25, 1 / 3, np.nan])
+    low, high = found.interval
+    assert low[0, 1] == low[0, 0]
+    assert high[0, 1] > high[0, 0]
+    np.testing.assert_allclose([low[0, 2], high[0, 2]], np.ravel(wilson_interval([1], [3])))
+    assert (low[0, 3], high[0, 3]) == (0.0, 1.0)
+    assert found.summary()["collapsed"] == 3
+    assert found.summary()["failed"] == 5
+    assert found.table["undecided"].tolist() == [0, 1, 0, 0]
+
+
+def test_imperfect_columns_stay_within_their_sizes_and_use_them():
+    column, size = preset("paper-12-drums"), Imperfection(geometry=0.01, friction=0.05, stiffness=0.2)
+    found = imperfect_columns(column, size, 60, seed=3)
+    for name, width in (("heights", 0.01), ("joint_widths", 0.01)):
+        ratio = np.array([getattr(one, name) for one in found]) / getattr(column, name) - 1.0
+        assert np.abs(ratio).max() <= width * (1 + 1e-12)
+        assert np.abs(ratio).max() > 0.9 * width
+    friction = np.array([[joint.tan_phi for joint in one.joints] for one in found]) / 0.7 - 1.0
+    assert 0.045 < np.abs(friction).max() <= 0.05
+    ratios = [one.joints[4].normal_stiffness / one.joints[4].shear_stiffness for one in found]
+    np.testing.assert_allclose(ratios, 2.0)
+    tapers = [one.drums[0].top_width / one.drums[0].bottom_width for one in found]
+    np.testing.assert_allclose(tapers, column.drums[0].top_width / column.drums[0].bottom_width)
+
+
+def test_a_seed_means_the_same_columns_whatever_their_number():
+    column = preset("paper-12-drums")
+    few, many = (imperfect_columns(column, Imperfection(), number, seed=5) for number in (2, 7))
+    assert [one.digest for one in few] == [one.digest for one in many[:2]]
+    assert len({one.digest for one in [*many, *imperfect_columns(column, Imperfection(), 7, seed=6)]}) == 14
+    (same,) = imperfect_columns(column, Imperfection.of_size(0.0), 1, seed=5)
+    assert same.replace(name=column.name) == column
+
+
+@pytest.mark.parametrize("field", ["geometry", "friction", "stiffness", "amplitude", "phase"])
+def test_an_impossible_imperfection_is_refused(field):
+    with pytest.raises(st.InputError, match=field):
+        Imperfection(**{field: 0.95})
+
+
+def test_without_imperfections_every_variation_has_the_verdict_of_the_domain():
+    column = preset("paper-monolithic")
+    domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
+    found = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, imperfection=Imperfection.of_size(0.0))
+    names = np.array(v.VERDICTS, dtype=object)[found.codes]
+    assert (names == domain.verdicts[..., None]).all()
+    assert (found.summary()["some_collapse"], found.summary()["runs"]) == (0, 24)
+    np.testing.assert_allclose(found.peaks[..., 0], domain.grid("peak_top_displacement_m"), rtol=1e-6)
+
+
+def test_threads_and_seed_decide_nothing_but_what_they_should():
+    column, size = preset("paper-monolithic"), Imperfection(0.05, 0.0, 0.0, 0.05, 0.2)
+    runs = [
+        collapse_probability(
+            column, st.HousnerBlock(), *GRID, replicates=8, imperfection=size, seed=seed, threads=threads
+        )
+        for seed, threads in ((1, 1), (1, 2), (2, 1))
+    ]
+    np.testing.assert_array_equal(runs[0].peaks, runs[1].peaks)
+    assert (runs[0].peaks != runs[2].peaks).any()
+    assert np.unique(runs[0].peaks[0, 1]).size > 4
+
+
+def test_phase_starts_the_sine_elsewhere_and_shares_its_samples():
+    from stylobate.analysis.probability import PHASES, _Cases
+
+    f, a, _ = GRID
+    cases = _Cases(preset("paper-monolithic"), f, a, 6.0, 40, Imperfection(0.0, 0.0, 0.0, phase=0.25), 0)
+    motions = [cases[i].motion for i in range(40)]
+    starts = sorted({float(one.samples[0]) for one in motions})
+    assert starts[0] == pytest.approx(-1.0)
+    assert starts[-1] == pytest.approx(1.0)
+    assert len({id(one.samples) for one in motions}) <= PHASES
+    assert motions[0].duration == pytest.approx(6.0)
+
+
+def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
+    column = preset("paper-monolithic")
+    whole = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4)
+    asked, real = [], runner.simulate_iter
+
+    def stopping(cases, *args, **kwargs):
+        asked.append(len(cases))
+        for n, item in enumerate(real(cases, *args, **kwargs)):
+            if len(asked) == 1 and n == 9:
+                raise KeyboardInterrupt
+            yield item
+
+    monkeypatch.setattr(runner, "simulate_iter", stopping)
+    first = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4, out=tmp_path)
+    assert not first.complete
+    assert first.summary()["not_run"] == 23
+    second = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4, out=tmp_path)
+    assert asked == [32, 23]
+    np.testing.assert_array_equal(second.peaks, whole.peaks)
+    assert {path.name for path in tmp_path.iterdir()} == {"probability.nc", "probability.csv"}
+
+
+def test_half_of_a_step_is_half_and_the_verdicts_are_counted():
+    column = preset("paper-monolithic")
+    motion = st.harmonic(1.0, 3.0, 6.0)
+    model = halved_step(st.DistinctElement2D(), column, motion)
+    assert model.step_for(column) == pytest.approx(0.5 * st.DistinctElement2D().step_for(column))
+    beam = st.RigidBeam(idealisation="prism")
+    half = halved_step(beam, column, motion)
+    assert half.time_step == pytest.approx(0.5 * beam.step_for(column.as_prism(), motion))
+    with pytest.raises(st.InputError, match="time_step"):
+        halved_step(st.HousnerBlock(), column, motion)
+    pair = compare_steps(column, st.HousnerBlock(time_step=0.004), *GRID)
+    assert pair.halved.provenance["parameters"]["time_step"] == 0.002
+    assert pair.summary()["differing"] == 0
+    assert pair.summary()["comparable"] == int(pair.comparable.sum()) > 5
+
+
+def test_a_domain_is_read_back_from_its_file(tmp_path):
+    domain = st.collapse_domain(preset("paper-monolithic"), st.HousnerBlock(), *GRID)
+    found = Domain.load(domain.save(tmp_path / "domain.nc"))
+    np.testing.assert_array_equal(found.verdicts, domain.verdicts)
+    np.testing.assert_array_equal(found.first_collapse, domain.first_collapse)
+    for kept, row in zip(found.rows, domain.rows):
+        assert kept == {key: row[key] for key in kept}
+    assert found.column == domain.column
+    assert json.dumps(found.provenance) == json.dumps(domain.provenance)
+    assert found.wall_time == domain.wall_time
+    with pytest.raises(st.InputError, match="no domain"):
+        Domain.load(tmp_path / "none.nc")
+    part = dataclasses.replace(domain, rows=[None, *domain.rows[1:]])
+    assert Domain.load(part.save(tmp_path / "part.nc")).verdicts[0, 0] == v.NOT_RUN
