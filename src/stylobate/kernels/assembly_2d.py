@@ -29,7 +29,7 @@ Legend (positions at t_n, velocities at t_{n−1/2})::
                                 over (``loose`` > 0), a step is taken in ``finer`` equal parts
                 g beta alpha local        gravity, damping (as in the lanes)
                 eta calm        restitution of the bed: F is larger by eta while it closes, smaller while it opens; below
-                                the speed ``calm`` [m/s] in proportion to it
+                                the speed ``calm`` [m/s] in proportion to it; ``dull`` is the same of the joints
                 work shear visc px pz     as in the lanes
                 deepest         largest depth of the bed seen [m];  touched  first step with a foreign contact, −1
                 step pairs failed         steps done, number of pairs, 1: a state is no number
@@ -73,7 +73,7 @@ def types(points):
         + fields("fs fn dn ds", (points,))
     )
     now = (
-        fields("dt last g beta alpha local eta calm work shear visc px pz skin deepest")
+        fields("dt last g beta alpha local eta dull calm work shear visc px pz skin deepest")
         + counts("step pairs touched failed loose finer")
         + fields("xi sh", (points,))
     )
@@ -94,7 +94,7 @@ def joint_forces(body, joint, now):
     o = now[0]
     dt = o.last
     beta = o.beta
-    damped = beta > 0.0
+    damped = beta > 0.0 or o.dull > 0.0
     for i in range(body.shape[0]):
         body[i].fx = 0.0
         body[i].fz = 0.0
@@ -160,7 +160,8 @@ def joint_forces(body, joint, now):
             fn = ct.normal_force(ka, gap)
             cohesion = co * share if fn > 0.0 else 0.0
             if damped:
-                dn = max(-beta * ka * vn, -fn) if fn > 0.0 else 0.0
+                dn = fn * o.dull * min(max(-vn / o.calm, -1.0), 1.0) - beta * ka * vn
+                dn = max(dn, -fn) if fn > 0.0 else 0.0
                 limit = mu * (fn + dn) + cohesion
                 fs = ct.shear_force(old, ksa, vt * dt, limit)
                 ds = min(max(-beta * ksa * vt, -limit - fs), limit - fs)

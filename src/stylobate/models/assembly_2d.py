@@ -48,8 +48,8 @@ class Engine:
     duration : float
         For which the ground moves, and after [s]; the step divides it.
     restitution : float
-        Share of the closing speed that contacts of the bed give back: 1 is elastic. Joints have none: what they lose,
-        they lose by sliding.
+        Share of the closing speed that contacts of the bed give back: 1 is elastic. Joints have none while the ground
+        moves, and in a column that may still stand: what they lose, they lose by sliding.
     """
 
     def __init__(
@@ -99,8 +99,8 @@ class Engine:
         self.now["dt"] = self.now["last"] = self.dt
         x, z = self.motion.samples, self.motion.z_samples
         self.addresses = np.array([x.ctypes.data, 0 if z is None else z.ctypes.data, len(x) - 1])
-        self._push()
         self.renew_pairs()
+        self._push()
 
     def renew_pairs(self) -> None:
         """Search anew for pairs that may touch."""
@@ -112,11 +112,15 @@ class Engine:
                                                self.pairs, self.link, self.real, time))  # fmt: skip
 
     def _push(self) -> None:
+        """Velocities half a step before the start, of bodies that do not move yet, whatever accelerates them."""
         x, z, factor = self.motion.samples, self.motion.z_samples, self.motion.factor
-        free = self.body["im"] > 0.0
-        self.body["vx"][free] = 0.5 * self.dt * factor * x[0]
-        self.body["vz"][free] = 0.0 if z is None else 0.5 * self.dt * factor * z[0]
-        self.body["w"][free] = 0.0
+        for name in ("vx", "vz", "w"):
+            self.body[name] = 0.0
+        forces, free = self.present()[0], self.body["im"] > 0.0
+        up = self.assembly.gravity + (0.0 if z is None else factor * z[0])
+        self.body["vx"][free] = -0.5 * self.dt * (forces["fx"] * forces["im"] - factor * x[0])[free]
+        self.body["vz"][free] = -0.5 * self.dt * (forces["fz"] * forces["im"] - up)[free]
+        self.body["w"][free] = -0.5 * self.dt * (forces["mo"] * forces["ii"])[free]
 
     def advance(self, chunks: int) -> None:
         """Advance by some chunks of steps."""
@@ -333,6 +337,8 @@ def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, o
     while not engine.failed:
         left = engine.chunks - int(engine.now["step"][0]) // engine.kernel.CHUNK
         still = engine.at_rest()
+        if left <= 0:
+            engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
         if left <= 0 and (not options.until_rest or still or engine.time > engine.duration + LONGEST_WAIT):
             break
         engine.advance(min(every, left) if left > 0 else every)

@@ -1,0 +1,144 @@
+"""Joints and the elastic bed: nothing jumps where one hands over to the other; columns keep their bits until then."""
+
+import math
+
+import numpy as np
+import pytest
+
+from stylobate.column import Column, Joint, preset
+from stylobate.column.assembly import Assembly, Block, of_column
+from stylobate.constants import g
+from stylobate.models.assembly_2d import Engine
+from stylobate.models.base import RunOptions
+from stylobate.models.collapse_2d import _ColumnRun, follow
+from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.motion import Motion, harmonic
+from stylobate.simulate import simulate
+
+STILL = Motion(1.0, np.zeros(2))
+SMOOTH = Joint(1e9, 5e8, friction_coefficient=0.0)
+
+
+def box(x0, x1, z0, z1, name, **fields):
+    return Block(((x0, z0), (x1, z0), (x1, z1), (x0, z1)), 2000.0, name, **fields)
+
+
+def forces_along(engine, path):
+    """Force and moment on the last body at every pose (x, z, angle) of a path that is gone through once."""
+    found = np.empty((len(path), 3))
+    engine.start(1e-9)
+    for k, (x, z, angle) in enumerate(path):
+        b = engine.body
+        b["x"][-1], b["z"][-1], b["th"][-1], b["c"][-1], b["s"][-1] = x, z, angle, math.cos(angle), math.sin(angle)
+        engine.renew_pairs()
+        engine.kernel.joint_forces(b, engine.joint, engine.now)
+        engine.kernel.bed_forces(
+            b,
+            engine.corner,
+            engine.joint,
+            engine.now,
+            engine.pairs,
+            engine.link,
+            engine.memory,
+            engine.real,
+            engine.whole,
+        )
+        found[k] = b["fx"][-1], b["fz"][-1], b["mo"][-1]
+    return found
+
+
+def overturning(steps, depth=1e-4):
+    """The upper of two blocks turns about the lower one's right corner from 20° to 70°, pressed on it by ``depth``."""
+    angle = -np.radians(np.linspace(20.0, 70.0, steps))
+    # its lower face passes `depth` under the corner (0.5, 1); the corner touches it 0.2 from the middle
+    along = np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    up = np.stack((-np.sin(angle), np.cos(angle)), axis=1)
+    centre = np.array([0.5, 1.0]) - 0.2 * along + (0.5 - depth) * up
+    return np.column_stack((centre, angle))
+
+
+def sliding_off(steps, depth=1e-4):
+    """The upper block slides over the edge of the lower one until its faces part."""
+    return np.column_stack((np.linspace(0.7, 1.05, steps), np.full(steps, 1.5 - depth), np.zeros(steps)))
+
+
+@pytest.mark.parametrize("path", [overturning, sliding_off])
+def test_no_jump_where_a_joint_hands_over(path):
+    blocks = (box(-0.5, 0.5, 0.0, 1.0, "lower", fixed=True), box(-0.5, 0.5, 1.0, 2.0, "upper"))
+    assembly = Assembly(blocks, SMOOTH, ground=None)
+    jumps, weights = [], None
+    for steps in (4_000, 8_000, 16_000):
+        engine = Engine(assembly, DistinctElement2D(), STILL, 1.0)
+        assert len(engine.joint) == 1
+        force = forces_along(engine, path(steps))
+        weights = engine.joint["weight"][0]
+        jumps.append(np.abs(np.diff(force, axis=0)).max() / np.abs(force).max())
+    assert weights == 0.0  # the joint is gone at the end of the path
+    assert jumps[2] < 0.3 * jumps[0]  # a jump would not shrink with the steps
+    assert jumps[2] < 2e-3
+
+
+def test_no_jump_on_a_slow_path_over_an_edge():
+    """A tilted block slides over the corner of a fixed one, from face to side: corner to edge, corner to corner."""
+    jumps = []
+    for steps in (8_000, 16_000, 32_000):
+        blocks = (box(-1.0, 0.0, -1.0, 0.0, "edge", fixed=True), box(2.0, 3.0, 2.0, 3.0, "block"))
+        with pytest.warns(UserWarning, match="will fall"):
+            engine = Engine(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D(), STILL, 1.0)
+        turn = np.linspace(0.0, 0.5 * math.pi, steps)
+        radius = 0.5 * math.sqrt(2.0)
+        # round the corner (0, 0), pressed in by 0.5 mm, turning on the way
+        angle = 0.25 * math.pi - turn + 7e-4 * np.sin(8.0 * turn)
+        path = np.column_stack(((radius - 5e-4) * np.sin(turn), (radius - 5e-4) * np.cos(turn), angle))
+        force = forces_along(engine, path)
+        assert (np.hypot(force[:, 0], force[:, 1]) > 0.0).mean() > 0.05
+        jumps.append(np.abs(np.diff(force, axis=0)).max() / np.abs(force).max())
+    assert jumps[2] < 0.3 * jumps[0]
+
+
+@pytest.mark.parametrize("name", ["paper-12-drums", "paper-monolithic"])
+@pytest.mark.parametrize("model", [DistinctElement2D(), DistinctElement2D(points=3, stiffness_damping=1e-5)])
+def test_until_something_comes_loose_every_bit_is_that_of_the_joints_alone(name, model):
+    column, motion = preset(name), harmonic(1.0, 0.35 * g, 3.0)
+    alone = simulate(column, motion, model)
+    followed = simulate(column, motion, model, until_end=True)
+    assert not alone.collapsed
+    assert alone.measures == followed.measures
+    assert followed.provenance["first_foreign_contact_s"] is None
+    for field in ("time", "drum_x", "drum_z", "drum_rotation", "joint_slip", "top_displacement"):
+        assert np.array_equal(getattr(alone.histories, field), getattr(followed.histories, field))
+
+
+def test_the_engine_has_the_joints_of_the_lanes():
+    """The engine of assemblies alone, from the start: a column's motion to rounding."""
+    column, motion = preset("paper-12-drums"), harmonic(1.0, 0.15 * g, 2.0)
+    model = DistinctElement2D(start="settle")
+    lanes = simulate(column, motion, model)
+    run = _ColumnRun(column, motion, model, RunOptions(), ())
+    run.loose = True
+    run.advance(run.engine.chunks)
+    x = run.engine.body["x"][1:]
+    assert x == pytest.approx(lanes.drum_x[-1] + run.engine.body["x"][0], abs=1e-11)
+    assert np.abs(lanes.drum_x).max() > 1e-6
+
+
+def test_a_column_becomes_an_assembly():
+    column = preset("paper-12-drums")
+    assembly = of_column(column)
+    assert len(assembly.joints) == column.n
+    assert sum(block.properties[0] for block in assembly.blocks) == pytest.approx(column.mass)
+    stepped = of_column(column, steps=((1.5, 0.3), (2.1, 0.3)))
+    assert [block.name for block in stepped.bodies if block.fixed] == ["step 1", "step 2", "ground"]
+    assert len(stepped.joints) == column.n
+
+
+def test_a_column_on_a_narrow_step_falls_past_its_edge():
+    joint = Joint(1e9, 5e8, friction_coefficient=0.7)
+    column = Column.tapered(height=2.0, bottom_width=0.4, top_width=0.4, drums=2, density=2000.0, joint=joint)
+    motion = harmonic(0.8, 0.5 * g, 2.0)
+    options = RunOptions(until_rest=True, output_interval=0.02)
+    response = follow(column, motion, DistinctElement2D(mass_damping=0.1), options, steps=((0.8, 0.5),))
+    assert response.collapsed
+    heights = column.centroid_heights + response.drum_z[-1]
+    assert heights.min() < -0.2  # below the top of the step
+    assert response.provenance["mechanism"]["at_rest"]

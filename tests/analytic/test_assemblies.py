@@ -1,0 +1,199 @@
+"""Assemblies with a known end: a dropped block, a tower, dominoes, an incline, a portal, Milankovitch's arch."""
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from stylobate.column import Joint, preset
+from stylobate.column.assembly import Assembly, Block
+from stylobate.constants import g
+from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.motion import Motion, harmonic
+from stylobate.simulate import simulate, simulate_assembly
+
+JOINT = Joint(1e9, 5e8, friction_coefficient=0.7)
+DENSITY = 2000.0
+
+
+def still(duration):
+    return Motion(0.01, np.zeros(int(duration / 0.01) + 1))
+
+
+def box(x, z, width, height, name, angle=0.0, **fields):
+    """A block by the middle of its lower face and its angle."""
+    c, s = math.cos(angle), math.sin(angle)
+    local = np.array([[-width / 2, 0.0], [width / 2, 0.0], [width / 2, height], [-width / 2, height]])
+    corners = local @ np.array([[c, s], [-s, c]]) + (x, z)
+    return Block(tuple((float(p), float(q)) for p, q in corners), DENSITY, name, **fields)
+
+
+def static_depth(height):
+    """Closure of a bed under a block of that height [m]."""
+    return DENSITY * height * g / JOINT.normal_stiffness
+
+
+@pytest.mark.parametrize(("restitution", "rests"), [(0.3, True), (1.0, False)])
+def test_block_dropped_on_a_corner(restitution, rests):
+    with pytest.warns(UserWarning, match="'b' touches nothing"):
+        assembly = Assembly((box(0.0, 2.0, 1.0, 0.6, "b", 0.6),), JOINT)
+    model = DistinctElement2D(restitution=restitution)
+    response = simulate_assembly(assembly, still(4.0), model, until_rest=rests)
+    assert response.energy_imbalance < 0.01
+    if rests:
+        assert response.at_rest
+        upright = math.sin(response.rotation[-1, 1] + 0.6)  # lies on one of its faces
+        assert min(abs(upright), abs(abs(upright) - 1.0)) < 2e-4
+        height = 0.3 if abs(upright) < 0.5 else 0.5
+        assert height - response.z[-1, 1] < 1.5 * static_depth(2.0 * height) + 1e-4
+
+
+def test_fall_before_the_impact_is_free():
+    with pytest.warns(UserWarning, match="touches nothing"):
+        assembly = Assembly((box(0.0, 2.0, 1.0, 0.6, "b"),), JOINT)
+    response = simulate_assembly(assembly, still(0.6), output_interval=0.05)
+    assert response.z[:, 1] == pytest.approx(2.3 - 0.5 * g * response.time**2, abs=1e-6)
+
+
+def test_tower_of_twenty_stands_a_minute():
+    tower = Assembly(tuple(box(0.0, 0.5 * i, 1.0, 0.5, f"b{i}") for i in range(20)), JOINT)
+    response = simulate_assembly(tower, still(60.0), DistinctElement2D(start="settle"), output_interval=0.5)
+    assert response.at_rest
+    assert np.abs(response.x).max() < 1e-12
+    assert np.abs(response.z - response.z[0]).max() < 1e-8
+    assert np.abs(response.rotation).max() < 1e-12
+
+
+def test_dominoes_fall_in_their_order():
+    first = box(0.0, 0.2 * math.sin(0.3) / 2, 0.2, 1.0, "d0", -0.3)
+    row = (first, *(box(0.6 * i, 0.0, 0.2, 1.0, f"d{i}") for i in range(1, 6)))
+    response = simulate_assembly(
+        Assembly(row, JOINT), still(3.0), DistinctElement2D(restitution=0.3), until_rest=True, output_interval=0.005
+    )
+    assert response.fallen == tuple(f"d{i}" for i in range(6))
+    turned = np.abs(response.rotation[:, 1:] - response.rotation[0, 1:]) > 0.1
+    when = response.time[turned.argmax(axis=0)]
+    assert (np.diff(when) > 0.05).all()
+    assert (response.rotation[-1, 1:] <= 0.0).all()  # all of them to the right
+    assert response.at_rest
+    assert response.energy_imbalance < 0.01
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-4])  # 0: a joint; otherwise the bed from the start
+@pytest.mark.parametrize("friction", [19.0, 21.5, 22.5, 30.0])
+def test_inclined_plane_at_22_degrees(friction, gap):
+    slope = math.radians(22.0)
+    c, s = math.cos(slope), math.sin(slope)
+    turn = np.array([[c, s], [-s, c]])
+    plane = np.array([[-20.0, -1.0], [20.0, -1.0], [20.0, 0.0], [-20.0, 0.0]]) @ turn
+    stone = (np.array([[-0.5, 0.0], [0.5, 0.0], [0.5, 0.4], [-0.5, 0.4]]) + np.array([0.0, gap])) @ turn
+    blocks = (
+        Block(tuple(map(tuple, plane)), 0.0, "plane", fixed=True),
+        Block(tuple(map(tuple, stone)), DENSITY, "stone"),
+    )
+    joint = Joint(1e9, 5e8, friction_angle=friction)
+    if gap:
+        with pytest.warns(UserWarning, match="will fall"):
+            assembly = Assembly(blocks, joint, ground=None)
+    else:
+        assembly = Assembly(blocks, joint, ground=None)
+    assert len(assembly.joints) == (0 if gap else 1)
+    model = DistinctElement2D(restitution=0.1, stiffness_damping=1e-4)
+    response = simulate_assembly(assembly, still(1.2), model)
+    down = -((response.x[:, -1] - response.x[0, -1]) * c + (response.z[:, -1] - response.z[0, -1]) * s)
+    late = response.time > 0.3
+    found = 2.0 * np.polyfit(response.time[late], down[late], 2)[0]
+    expected = g * (s - c * math.tan(math.radians(friction)))
+    if friction < 22.0:
+        assert found == pytest.approx(expected, rel=2e-3)
+    else:
+        assert found == pytest.approx(0.0, abs=1e-3)
+        assert down[-1] < 2e-3
+
+
+def portal():
+    blocks = []
+    for side, name in ((-1.5, "left"), (1.5, "right")):
+        blocks += [box(side, 1.0 * i, 0.8, 1.0, f"{name} {i + 1}") for i in range(4)]
+    return Assembly((*blocks, box(0.0, 4.0, 3.8, 0.7, "architrave")), JOINT, "portal")
+
+
+def test_two_columns_with_an_architrave():
+    assert len(portal().joints) == 10
+    model = DistinctElement2D(restitution=0.3, mass_damping=0.5)
+    resting = simulate_assembly(portal(), still(2.0), DistinctElement2D(start="settle"))
+    assert np.abs(resting.x - resting.x[0]).max() < 1e-9
+    # mirror image: both columns carry the same
+    assert resting.z[-1, 1:5] == pytest.approx(resting.z[-1, 5:9], abs=1e-12)
+    shaken = simulate_assembly(portal(), harmonic(1.0, 0.15 * g, 4.0), model, tail=4.0)
+    assert shaken.fallen == ()
+    assert shaken.energy_imbalance < 0.01
+    brought_down = simulate_assembly(portal(), harmonic(0.5, 0.6 * g, 6.0), model, until_rest=True)
+    assert "architrave" in brought_down.fallen
+    assert brought_down.at_rest
+    assert brought_down.energy_imbalance < 0.01
+
+
+def arch(ratio, stones=40, radius=10.0):
+    """A semicircular arch of thickness t = ratio × mean radius on two fixed blocks, joints radial."""
+    t = ratio * radius
+    inner, outer = radius - 0.5 * t, radius + 0.5 * t
+    angles = np.linspace(0.0, math.pi, stones + 1)
+    blocks = []
+    for k, (a, b) in enumerate(pairwise(angles)):
+        corners = [(inner, a), (outer, a), (outer, b), (inner, b)]
+        blocks.append(Block(tuple((r * math.cos(q), r * math.sin(q)) for r, q in corners), DENSITY, f"stone {k + 1}"))
+    for side in (1.0, -1.0):
+        x = side * radius
+        blocks.append(
+            Block(((x - t, -1.0), (x + t, -1.0), (x + t, 0.0), (x - t, 0.0)), 0.0, f"abutment {side:+g}", fixed=True)
+        )
+    # no sliding, as in Milankovitch's analysis
+    return Assembly(tuple(blocks), Joint(5e10, 2.5e10, friction_coefficient=2.0), "arch", ground=None)
+
+
+@pytest.mark.parametrize(("share", "stands"), [(1.02, True), (0.98, False)])
+def test_semicircular_arch_at_the_edge_of_milankovitch_s_thickness(share, stands):
+    response = simulate_assembly(
+        arch(0.1075 * share), still(1.25), DistinctElement2D(mass_damping=1.0), output_interval=0.25
+    )
+    crown = response.z[:, 20] - response.z[0, 20]
+    if stands:
+        assert crown.min() > -0.01  # 1 % of the thickness, from being loaded at once
+        assert crown[-1] > crown.min()
+    else:
+        assert crown[-1] < -0.15
+        assert np.diff(np.diff(crown) / np.diff(response.time)).max() < 0.0  # down, faster and faster
+
+
+@pytest.mark.parametrize(
+    ("name", "frequency", "amplitude"), [("paper-monolithic", 0.5, 0.3), ("paper-12-drums", 0.66, 0.5)]
+)
+def test_a_whole_collapse_keeps_its_energy_and_comes_to_rest(name, frequency, amplitude):
+    column = preset(name)
+    response = simulate(column, harmonic(frequency, amplitude * g, 6.0), DistinctElement2D(), until_rest=True)
+    found = response.provenance["mechanism"]
+    assert response.collapsed
+    assert found["at_rest"]
+    assert found["fallen"]
+    assert response.provenance["imbalance_of_released_energy"] < 0.01
+    # a dashpot and a slip can only take energy
+    for term in ("friction", "viscous"):
+        taken = response.histories.energy[term]
+        assert np.diff(taken).min() > -1e-3 * taken.max()
+    for i, drum in enumerate(column.drums):
+        z, angle = column.centroid_heights[i] + response.drum_z[-1, i], response.drum_rotation[-1, i]
+        c, s = math.cos(angle), math.sin(angle)
+        low, high = -drum.centroid_height, drum.height - drum.centroid_height
+        b, t = 0.5 * drum.bottom_width, 0.5 * drum.top_width
+        lowest = min(z + s * p + c * q for p, q in ((-b, low), (b, low), (t, high), (-t, high)))
+        assert lowest > -1e-3  # in the ground by no more than a corner under the weight of what lies on it
+
+
+def test_standing_after_a_collapse_that_never_was():
+    response = simulate(preset("paper-12-drums"), harmonic(1.0, 0.2 * g, 2.0), DistinctElement2D(), until_rest=True)
+    found = response.provenance["mechanism"]
+    assert not found["fallen"]
+    assert found["standing"] == tuple(range(1, 13))
+    assert found["sentence"].startswith("All 12 drums stand")
