@@ -11,7 +11,7 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, OutOfRangeWarning, StylobateError
-from . import bench, columns, compare, critical, domain, limit, motion, pushover, run
+from . import animate, bench, columns, compare, critical, domain, limit, motion, pushover, run
 from .console import Interrupted
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
@@ -34,6 +34,7 @@ app.command("limit")(limit.limit)
 app.command("compare")(compare.compare)
 app.command("motion")(motion.motion)
 app.command("columns")(columns.columns)
+app.command("animate")(animate.animate)
 app.command("bench")(bench.bench)
 
 

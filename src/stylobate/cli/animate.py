@@ -1,0 +1,56 @@
+"""``stylobate animate``: a film of a response."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import InputError, check_range
+from . import options as o
+
+FORMATS = ("gif", "mp4", "html")
+
+
+def animate(
+    response: Annotated[Path, typer.Argument(metavar="RESPONSE", help="File that 'stylobate run --out' wrote.")],
+    to: Annotated[str, typer.Option("--format", metavar="gif|mp4|html", help="mp4 needs the extra 'video'.")] = "gif",
+    rate: Annotated[str, typer.Option("--fps", metavar="N", help="Frames per second.")] = "20",
+    speed: Annotated[str, typer.Option("--speed", metavar="X", help="1 is as it was, 0.5 half as fast.")] = "1",
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Draw a recorded response as a film: GIF, MP4, or an HTML page with a scrubber.
+
+    The film is written to --out, or beside the response.
+    """
+    from ..plots.animation import write_gif, write_mp4
+    from ..plots.player import write_player
+    from ..response import Response
+    from . import console
+
+    if to not in FORMATS:
+        raise InputError(f"--format is {to!r}; allowed are {', '.join(FORMATS)}.")
+    frames, pace = _number("--fps", rate, 100.0), _number("--speed", speed, 1000.0)
+    loaded = Response.load(response)
+    with console.folder(out) as folder:
+        target = (folder or response.parent) / f"{response.stem}.{to}"
+        if to == "html":
+            write_player(loaded, target, frames_per_second=frames)
+        else:
+            write = write_gif if to == "gif" else write_mp4
+            write(loaded, target, frames_per_second=frames, speed=pace)
+    duration = float(loaded.histories.time[-1])
+    if as_json:
+        console.emit({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label})
+    else:
+        console.say(loaded.outcome.sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
+
+
+def _number(option: str, text: str, high: float) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.") from None
+    return check_range(option, value, 0.0, high, open_low=True)
