@@ -44,7 +44,7 @@ from .jit import apart, kernel, law, strict
 LANES = 16
 
 #: Steps between two looks at the lanes: peaks, ends and collapses are found on this grid.
-CHUNK = 16
+CHUNK = 32
 
 RUNNING, ENDED, COLLAPSED, FAILED, FREE = range(5)
 
