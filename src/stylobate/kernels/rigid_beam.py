@@ -136,7 +136,7 @@ def stage(drum, lane, keep, weight, share, close, bed, vertical, damped):
                 s.pj[l] += (still - m) * (d.ws[l] - below.ws[l])
             if damped is not None:
                 spin = d.ws[l] - below.ws[l]
-                dash = s.beta[l] * d.k[l] * spin
+                dash = s.beta[l] * d.k[l] * (d.ws[l] - s.rel[l] * below.ws[l])
                 dash = dash * joint_closed(phi, gamma, d.k[l], d.m1[l], d.s1[l], d.m2[l], d.s2[l], bed)
                 s.pv[l] += dash * spin
                 m += dash

@@ -84,9 +84,9 @@ class BeamRates:
         viscous = 0.0
         if self.beta > 0.0:
             phi = theta if self.absolute else self.difference @ theta
-            dash = (
-                self.beta * self.beam.joints[0] * spin * moment_law.closed(phi, gamma, self.beam.joints, self.beam.bed)
-            )
+            speed = omega if self.absolute else spin
+            shut = moment_law.closed(phi, gamma, self.beam.joints, self.beam.bed)
+            dash = self.beta * self.beam.joints[0] * speed * shut
             moment = moment + dash
             viscous = dash @ spin
         torque = gamma * self.weight * theta - self.difference.T @ moment
