@@ -1,6 +1,8 @@
 """Small files in every published format: read as meant, with their traps; damaged ones are refused, never crash."""
 
 import contextlib
+import itertools
+import tracemalloc
 import warnings
 from pathlib import Path
 
@@ -439,6 +441,75 @@ def test_a_stated_unit_is_not_overruled(put):
 def test_a_step_that_contradicts_the_length_is_refused(put):
     with pytest.raises(InputError, match="disagree with the step"):
         read(put(cosmos(5000.0).replace("approx  0 secs", "approx  9 secs")))
+
+
+@pytest.mark.parametrize("name", sorted(FORMATS))
+def test_a_file_that_ends_early_is_refused(name, put):
+    lines = FORMATS[name][0].splitlines(keepends=True)
+    for share in (0.45, 0.7, 0.9):  # within a component: nothing says how many of them there should be
+        with pytest.raises(InputError):
+            read(put("".join(lines[: int(len(lines) * share)])))
+
+
+@pytest.mark.parametrize("order", list(itertools.permutations(range(4)))[1::5])
+def test_header_lines_in_any_order(order, put):
+    for text, count in ((peer_nga(), 4), (esm(), 11)):
+        lines = text.splitlines(keepends=True)
+        turned = list(range(count))
+        turned[:4] = order
+        mixed = "".join([*(lines[i] for i in turned), *lines[count:]])
+        assert read(put(mixed, "mixed")).digest == read(put(text)).digest
+
+
+def test_several_records_in_one_file_are_refused_with_the_way_to_choose(put):
+    path = put(csmip_v2() + csmip_v2())
+    with pytest.raises(InputError, match=r"holds 6 components .*component='1' \(--component 1\)"):
+        read(path)
+    assert read(path, component=4).acceleration == pytest.approx(WAVES[0] * 0.01)
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new"),
+    [
+        ("csmip_v2", "23 points of accel", "0 points of accel"),
+        ("csmip_v1", "NO. OF POINTS = 23", "NO. OF POINTS = 0"),
+        ("cosmos", "  23 acceleration", "  0 acceleration"),
+        ("smc", "        23", "         0"),
+        ("geonet", "      23", "       0"),
+        ("usc", "   23", "    0"),
+        ("peer_nga", "NPTS=   23", "NPTS=   0"),
+        ("esm", "NDATA: 23", "NDATA: 0"),
+        ("afad", "DATA : 23", "DATA : 0"),
+        ("unam", "/23/23/23/", "/0/23/23/"),
+        ("renadic", "NO. OF POINTS = 23", "NO. OF POINTS = 0"),
+        ("bhrc", "NO. OF POINTS 23", "NO. OF POINTS 0"),
+    ],
+)
+def test_empty_components_are_refused(name, old, new, put):
+    text = FORMATS[name][0]
+    assert old in text
+    with pytest.raises(InputError):
+        read(put(text.replace(old, new)))
+
+
+def test_a_promise_of_a_hundred_million_samples_takes_no_memory(put):
+    paths = [
+        put(FORMATS[name][0].replace(old, new), name)
+        for name, old, new in (
+            ("peer_nga", "NPTS=   23", "NPTS=   100000000"),
+            ("esm", "NDATA: 23", "NDATA: 19000000"),
+            ("csmip_v1", "NO. OF POINTS = 23", "NO. OF POINTS = 19000000"),
+            ("afad", "DATA : 23", "DATA : 19000000"),
+        )
+    ]
+    tracemalloc.start()
+    try:
+        for path in paths:
+            with pytest.raises(InputError, match="promises"):
+                read(path)
+        assert tracemalloc.get_traced_memory()[1] < 2_000_000
+    finally:
+        tracemalloc.stop()
 
 
 # -- fuzzing: whatever is in a file, it is read, or refused with our own error -----------------------------------------

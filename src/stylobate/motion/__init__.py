@@ -1,5 +1,6 @@
 """What shakes: ground motions, harmonic and pulse-like, recorded and simulated, and what is measured on them."""
 
+from .condition_specs import conditioned
 from .conditioning import (
     bandpass,
     baseline_piecewise,
@@ -24,7 +25,7 @@ from .intensity import (
     significant_duration,
 )
 from .motion import MAX_SAMPLES, Motion, integrate
-from .orientation import along, principal, rotated, strongest, turned
+from .orientation import along, plane_input, principal, rotated, strongest, turned
 from .pulse_match import PulseMatch, pulse_match
 from .pulses import (
     cosine_pulse,
@@ -54,6 +55,7 @@ __all__ = [
     "bandpass",
     "baseline_piecewise",
     "baseline_polynomial",
+    "conditioned",
     "cosine_pulse",
     "cumulative_absolute_velocity",
     "demean",
@@ -75,6 +77,7 @@ __all__ = [
     "parse_time",
     "peak_ground_displacement",
     "peak_ground_velocity",
+    "plane_input",
     "principal",
     "pulse_match",
     "read_motion",

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from ..constants import g
 from ..errors import InputError, check_range
 from .integration import square_integral
 from .motion import Motion
@@ -95,6 +96,40 @@ def along(motion: Motion, azimuth: float) -> Motion:
     )
 
 
+def plane_input(motion: Motion, *, vertical: bool = True) -> Motion:
+    """What a plane model takes: x and, if wished, the vertical; what is left out is said.
+
+    Parameters
+    ----------
+    motion : Motion
+    vertical : bool
+        Keep the vertical component.
+
+    Returns
+    -------
+    Motion
+        ``metadata["left_out"]`` and ``processing`` name each component that was left out, with its peak.
+    """
+    azimuths = motion.metadata.get("azimuths") or {}
+    gone: dict[str, str] = {}
+    for axis, word, values, kept in (
+        ("y", "second horizontal component", motion.lateral, False),
+        ("z", "vertical component", motion.vertical, vertical),
+    ):
+        if values is None or kept:
+            continue
+        where = "" if azimuths.get(axis) is None else f"azimuth {azimuths[axis]:g}°, "
+        gone[axis] = f"{word} ({where}peak {float(np.abs(values).max()) / g:.3g} g)"
+    if not gone:
+        return motion
+    return motion.replace(
+        lateral=None,
+        vertical=motion.z_samples if vertical else None,
+        metadata={**motion.metadata, "left_out": (*motion.metadata.get("left_out", ()), *gone.values())},
+        processing=(*motion.processing, *(f"left out: {one}" for one in gone.values())),
+    )
+
+
 def principal(motion: Motion) -> Motion:
     """Turn to the principal axes: x has the largest Arias intensity, y the smallest, and they are uncorrelated.
 
@@ -135,6 +170,11 @@ def _with(motion: Motion, x: np.ndarray, y: np.ndarray, azimuths: tuple[float, f
     return motion.replace(
         acceleration=x,
         lateral=y,
-        metadata={**motion.metadata, "azimuths": {**(motion.metadata.get("azimuths") or {}), **stated}},
+        metadata={
+            **motion.metadata,
+            "azimuths": {**(motion.metadata.get("azimuths") or {}), **stated},
+            # what the file calls its directions is no longer true of x and y
+            "labels": {axis: one for axis, one in (motion.metadata.get("labels") or {}).items() if axis == "z"},
+        },
         processing=(*motion.processing, text),
     )

@@ -6,6 +6,7 @@ import re
 
 from ...errors import InputError
 from ..specs import acceleration_unit
+from .keyed import is_numeric
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
@@ -17,6 +18,8 @@ _COUNT = (
     re.compile(r"npts\s*=\s*(?P<value>\d+)", re.IGNORECASE),
     re.compile(r"^\s*(?P<value>\d+)\s+[\d.eE+-]+\s+npts\s*,\s*dt", re.IGNORECASE),
 )
+#: Lines above the numbers, whatever their order.
+HEADER_LINES = 4
 _STEP = (
     re.compile(r"\bdt\s*=\s*(?P<value>\d*\.?\d+(?:e[+-]?\d+)?)", re.IGNORECASE),
     re.compile(r"^\s*\d+\s+(?P<value>[\d.eE+-]+)\s+npts\s*,\s*dt", re.IGNORECASE),
@@ -34,6 +37,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     lines, file = source.lines, source.name
     head = lines[:8]
     at = max(i for i, line in enumerate(head) if "npts" in line.lower() or _UNIT.search(line))
+    while at + 1 < HEADER_LINES and at + 1 < len(lines) and not is_numeric(lines[at + 1]):
+        at += 1
     count = check_count(_value(head, _COUNT), file, at + 1)
     dt = _value(head, _STEP)
     if not dt:

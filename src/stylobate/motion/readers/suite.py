@@ -31,7 +31,13 @@ class Suite:
     refused: dict[str, str]
 
 
-def read_suite(source: str | Path | Sequence[str | Path], unit: str | None = None, dt: float | None = None) -> Suite:
+def read_suite(
+    source: str | Path | Sequence[str | Path],
+    unit: str | None = None,
+    dt: float | None = None,
+    *,
+    component: str | int | None = None,
+) -> Suite:
     """Read all records of a folder, or of a list of files.
 
     Parameters
@@ -42,6 +48,8 @@ def read_suite(source: str | Path | Sequence[str | Path], unit: str | None = Non
         Unit of those files that state none.
     dt : float, optional
         Step of those files that have no time column [s].
+    component : str or int, optional
+        The one component of each file that is to be the horizontal input, as for :func:`read_motion`.
 
     Returns
     -------
@@ -64,7 +72,7 @@ def read_suite(source: str | Path | Sequence[str | Path], unit: str | None = Non
     motions, refused = [], {}
     for path in paths:
         try:
-            motions.append(_read(path, unit, dt))
+            motions.append(_read(path, unit, dt, component))
         except InputError as error:
             refused[path.name] = str(error)
     if not motions:
@@ -73,11 +81,11 @@ def read_suite(source: str | Path | Sequence[str | Path], unit: str | None = Non
     return Suite(tuple(motions), refused)
 
 
-def _read(path: Path, unit: str | None, dt: float | None) -> Motion:
+def _read(path: Path, unit: str | None, dt: float | None, component: str | int | None) -> Motion:
     """A file of its own unit and step, or else one with those stated."""
     try:
-        return read_motion(path)
+        return read_motion(path, component=component)
     except UnstatedError:
         if unit is None and dt is None:
             raise
-        return read_motion(path, unit, dt)
+        return read_motion(path, unit, dt, component=component)
