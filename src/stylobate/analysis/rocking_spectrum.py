@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,8 +14,11 @@ from ..constants import g
 from ..errors import InputError
 from ..models.base import Case
 from ..models.housner import HousnerBlock
-from ..motion import Motion
+from ..motion import Motion, pulse_match
 from ..simulate import simulate_iter
+
+if TYPE_CHECKING:
+    import pandas
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +39,10 @@ class RockingSpectrum:
         False where a block was still far from rest at the end, shape (P, A).
     motion : str
         Name of the motion.
+    pga : float
+        Its peak along x [m/s²].
+    pulse_period : float
+        Period of its strongest pulse [s]; NaN without one.
     """
 
     frequency_parameter: np.ndarray
@@ -43,6 +51,59 @@ class RockingSpectrum:
     collapsed: np.ndarray
     decided: np.ndarray
     motion: str
+    pga: float
+    pulse_period: float
+
+    @property
+    def frequency_ratio(self) -> np.ndarray:
+        """ω_g/p, frequency of the motion's strongest pulse to that of the blocks, shape (P,)."""
+        return 2.0 * np.pi / self.pulse_period / self.frequency_parameter
+
+    @property
+    def acceleration_ratio(self) -> np.ndarray:
+        """PGA/(g tan α), peak of the motion to the uplift acceleration of the blocks, shape (A,)."""
+        return self.pga / (g * np.tan(self.slenderness))
+
+    @property
+    def closed(self) -> np.ndarray:
+        """Blocks that never lifted, of bool, shape (P, A)."""
+        return self.peak_rotation == 0.0
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per block."""
+        import pandas
+
+        p, alpha = np.meshgrid(self.frequency_parameter, self.slenderness, indexing="ij")
+        omega, peak = np.meshgrid(self.frequency_ratio, self.acceleration_ratio, indexing="ij")
+        columns = {
+            "frequency_parameter_rad_s": p,
+            "slenderness_rad": alpha,
+            "omega_g_over_p": omega,
+            "pga_over_g_tan_alpha": peak,
+            "peak_rotation_rad": self.peak_rotation,
+            "peak_rotation_over_slenderness": self.ratio,
+            "collapsed": self.collapsed,
+            "decided": self.decided,
+        }
+        return pandas.DataFrame({name: values.ravel() for name, values in columns.items()})
+
+    def summary(self) -> dict:
+        """The JSON object of ``stylobate spectrum --kind rocking``."""
+        period = self.pulse_period
+        return {
+            "pga_g": self.pga / g,
+            "pulse_period_s": period,
+            "frequency_parameter_rad_s": self.frequency_parameter.tolist(),
+            "slenderness_rad": self.slenderness.tolist(),
+            "peak_rotation_over_slenderness": self.ratio.tolist(),
+            "collapsed": (self.collapsed & self.decided).tolist(),
+            "decided": self.decided.tolist(),
+            "cells": int(self.collapsed.size),
+            "collapsed_cells": int((self.collapsed & self.decided).sum()),
+            "closed_cells": int(self.closed.sum()),
+            "undecided_cells": int((~self.decided).sum()),
+        }
 
     @property
     def ratio(self) -> np.ndarray:
@@ -114,7 +175,16 @@ def rocking_spectrum(
     for i, measures in simulate_iter(cases, HousnerBlock(restitution=restitution), tail=tail, threads=threads):
         peak[i], collapsed[i], decided[i] = measures.peak_rotation, measures.collapsed, measures.decided
     shape = len(p), len(alpha)
-    return RockingSpectrum(p, alpha, peak.reshape(shape), collapsed.reshape(shape), decided.reshape(shape), motion.name)
+    return RockingSpectrum(
+        p,
+        alpha,
+        peak.reshape(shape),
+        collapsed.reshape(shape),
+        decided.reshape(shape),
+        motion.name,
+        motion.pga,
+        pulse_match(motion).period if motion.pga > 0.0 else math.nan,
+    )
 
 
 def _values(

@@ -6,11 +6,13 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
+from ..campaign.runner import Progress
 from ..column import Column
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..simulate import simulate_iter
+from .verdicts import verdict
 
 if TYPE_CHECKING:
     import pandas
@@ -18,6 +20,25 @@ if TYPE_CHECKING:
 #: Measures along x that go into the table, by their key in the summary of a motion.
 MEASURES = ("pga_g", "pgv_m_s", "arias_m_s", "cav_m_s", "duration_5_75_s", "duration_5_95_s")
 SCALARS = ("pgv_over_pga_s", "pulse_period_s", "pulse_energy_share", "housner_intensity_m")
+
+#: Intensity measures that a table holds, by column, in words and with their unit.
+INTENSITIES = {
+    "pga_g": "peak ground acceleration [g]",
+    "pgv_m_s": "peak ground velocity [m/s]",
+    "pgv_over_pga_s": "PGV/PGA [s]",
+    "arias_m_s": "Arias intensity [m/s]",
+    "cav_m_s": "cumulative absolute velocity [m/s]",
+    "duration_5_75_s": "significant duration 5–75 % [s]",
+    "duration_5_95_s": "significant duration 5–95 % [s]",
+    "pulse_period_s": "period of the strongest pulse [s]",
+    "pulse_energy_share": "energy share of the strongest pulse [-]",
+    "housner_intensity_m": "Housner intensity [m]",
+    **{f"psa_{t}s_g": f"pseudo-acceleration at {t} s, 5 % damping [g]" for t in ("0.1", "0.2", "0.5", "1", "2", "4")},
+    "pga_over_g_tan_alpha": "PGA/(g tan α) [-]",
+    "omega_g_over_p": "ω_g/p [-]",
+    "uniform_duration_s": "uniform duration above g tan α [s]",
+    "pgv_p_over_g_tan_alpha": "p PGV/(g tan α) [-]",
+}
 
 
 def suite_table(
@@ -27,6 +48,7 @@ def suite_table(
     *,
     tail: float = 0.0,
     threads: int | None = None,
+    progress: Progress | None = None,
 ) -> pandas.DataFrame:
     """Shake every column with every record.
 
@@ -40,12 +62,15 @@ def suite_table(
         Time to go on after each motion [s].
     threads : int, optional
         All cores by default.
+    progress : callable, optional
+        Called with (finished, all).
 
     Returns
     -------
     pandas.DataFrame
-        One row per column and record: outcome and measures as the JSON keys of ``stylobate run``, and the intensity
-        measures of the record along x, with those that relate it to the column.
+        One row per column and record, ``number`` that of the record: outcome and measures as the JSON keys of
+        ``stylobate run``, and the intensity measures of the record along x, with those that relate it to the column
+        (:data:`INTENSITIES`).
     """
     import pandas
 
@@ -53,12 +78,16 @@ def suite_table(
     records = [_record(motion) for motion in motions]
     rows: list[dict[str, Any]] = []
     for column in stands:
-        for motion, record in zip(motions, records, strict=True):
+        for number, (motion, record) in enumerate(zip(motions, records, strict=True), 1):
             relation = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
-            rows.append({"record": motion.name, "column": column.name} | record | relation)
+            rows.append({"number": number, "record": motion.name, "column": column.name} | record | relation)
     cases = [Case(column, motion) for column in stands for motion in motions]
-    for index, measures in simulate_iter(cases, model, tail=tail, threads=threads):
-        rows[index] |= measures.row() | {"model": model.name}
+    for done, (index, measures) in enumerate(simulate_iter(cases, model, tail=tail, threads=threads), 1):
+        row = measures.row()
+        size = row["peak_top_displacement_m"] / cases[index].column.base_width
+        rows[index] |= row | {"verdict": verdict(row), "peak_top_over_base_width": size, "model": model.name}
+        if progress:
+            progress(done, len(cases))
     return pandas.DataFrame(rows)
 
 
