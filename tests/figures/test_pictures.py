@@ -15,7 +15,7 @@ from stylobate.analysis.critical import CriticalAmplitude
 from stylobate.analysis.domain import Domain
 from stylobate.column.presets import preset
 from stylobate.plots import style
-from stylobate.plots.domain import _FILL
+from stylobate.plots.domain import FILL
 from stylobate.plots.filmstrip import _corners
 from stylobate.response import ENERGY_TERMS, Histories, Measures
 
@@ -190,11 +190,11 @@ def test_the_domain_shows_every_verdict_apart_and_its_boundary():
 
 
 def test_verdicts_differ_in_grey():
-    grey = {name: np.dot(to_rgb(fill["facecolor"]), (0.299, 0.587, 0.114)) for name, fill in _FILL.items()}
+    grey = {name: np.dot(to_rgb(fill["facecolor"]), (0.299, 0.587, 0.114)) for name, fill in FILL.items()}
     assert grey["stands"] - grey["collapsed"] > 0.4
     assert grey["undecided"] - grey["collapsed"] > 0.4
     for one in ("undecided", "failed"):
-        assert _FILL[one]["hatch"]
+        assert FILL[one]["hatch"]
 
 
 def test_a_picture_is_saved_as_png_and_svg_and_is_the_same_each_time(tmp_path):

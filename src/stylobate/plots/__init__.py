@@ -7,9 +7,13 @@ from .filmstrip import draw_filmstrip
 from .histories import draw_comparison, draw_histories
 from .joints import draw_joints
 from .motion import draw_motion
+from .probability import draw_probability
 from .pushover import draw_mechanism, draw_pushover
+from .record_verdicts import draw_record_verdicts
+from .rocking_spectrum import draw_rocking_spectrum
 from .spectra import draw_spectra
 from .style import save
+from .suite import draw_suite
 
 __all__ = [
     "draw_amplitudes",
@@ -22,7 +26,11 @@ __all__ = [
     "draw_joints",
     "draw_mechanism",
     "draw_motion",
+    "draw_probability",
     "draw_pushover",
+    "draw_record_verdicts",
+    "draw_rocking_spectrum",
     "draw_spectra",
+    "draw_suite",
     "save",
 ]

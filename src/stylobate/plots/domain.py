@@ -13,11 +13,12 @@ from matplotlib.patches import Patch
 
 from ..analysis import verdicts as v
 from ..analysis.domain import Domain
+from ..analysis.domain import cell_edges as edges_of
 from ..constants import g
 from .style import BLACK, BLUE, CYCLE, SAND, WIDTH, styled
 
 # Light where it stands, dark where it collapses: also in grey.
-_FILL = {
+FILL = {
     v.STANDS: {"facecolor": SAND, "edgecolor": "none"},
     v.COLLAPSED: {"facecolor": "#a6372f", "edgecolor": "none"},
     v.UNDECIDED: {"facecolor": "#d9d9d9", "edgecolor": "#4d4d4d", "hatch": "////", "linewidth": 0.0},
@@ -64,9 +65,9 @@ def draw_boundaries(domains: Sequence[Domain], title: str | None = None) -> Figu
 
 
 def _draw_cells(axes: Axes, domain: Domain) -> list[Patch]:
-    x, y, verdicts = _edges(domain.frequencies), _edges(domain.amplitudes / g), domain.verdicts
+    x, y, verdicts = edges_of(domain.frequencies), edges_of(domain.amplitudes / g), domain.verdicts
     handles = []
-    for one, fill in _FILL.items():
+    for one, fill in FILL.items():
         cells = [
             [(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])]
             for i, j in np.argwhere(verdicts == one)
@@ -87,7 +88,7 @@ def _draw_boundary(axes: Axes, domain: Domain, line: dict, label: str, marker: s
     if marker is not None:
         shape = {"marker": marker, "markersize": 4.5, "fillstyle": "none"}
         return axes.plot(domain.frequencies, first / g, label=label, zorder=3, **shape, **line)[0]
-    x, lower = _edges(domain.frequencies), _edges(domain.amplitudes / g)[:-1]
+    x, lower = edges_of(domain.frequencies), edges_of(domain.amplitudes / g)[:-1]
     level = np.where(np.isnan(first), np.nan, lower[np.searchsorted(domain.amplitudes, first) % len(lower)])
     axes.stairs(level, x, baseline=None, linewidth=1.6, zorder=3, **line)
     return Line2D([], [], linewidth=1.6, label=label, **line)
@@ -101,18 +102,9 @@ def _draw_static_line(axes: Axes, domain: Domain) -> Line2D:
 
 
 def _finish(axes: Axes, domain: Domain, title: str) -> None:
-    x, y = _edges(domain.frequencies), _edges(domain.amplitudes / g)
+    x, y = edges_of(domain.frequencies), edges_of(domain.amplitudes / g)
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(min(y[0], 0.95 * domain.column.uplift_acceleration / g), y[-1])
     axes.set_xlabel("frequency of the base motion [Hz]")
     axes.set_ylabel("amplitude of acceleration [g]")
     axes.set_title(title)
-
-
-def _edges(centres: np.ndarray) -> np.ndarray:
-    """Edges of the cells around the given values: half-way between neighbours."""
-    if len(centres) == 1:
-        half = 0.1 * abs(centres[0]) or 0.5
-        return np.array([centres[0] - half, centres[0] + half])
-    middle = 0.5 * (centres[1:] + centres[:-1])
-    return np.array([2.0 * centres[0] - middle[0], *middle, 2.0 * centres[-1] - middle[-1]])

@@ -1,4 +1,4 @@
-"""Response spectra of a ground motion: pseudo-acceleration of each component over the period."""
+"""Response spectra of a ground motion: pseudo-acceleration and displacement of each component over the period."""
 
 from __future__ import annotations
 
@@ -6,14 +6,20 @@ from matplotlib.figure import Figure
 
 from ..constants import g
 from ..motion import Motion
-from ..motion.spectra import response_spectrum
+from ..motion.spectra import ResponseSpectrum, response_spectrum
 from .motion import NAMES
 from .style import CYCLE, WIDTH, styled
 
 
 @styled
-def draw_spectra(motion: Motion, damping: float = 0.05, title: str | None = None) -> Figure:
-    """Pseudo-acceleration over period.
+def draw_spectra(
+    motion: Motion,
+    damping: float = 0.05,
+    title: str | None = None,
+    *,
+    spectra: dict[str, ResponseSpectrum] | None = None,
+) -> Figure:
+    """Pseudo-acceleration and relative displacement over period.
 
     Parameters
     ----------
@@ -21,19 +27,26 @@ def draw_spectra(motion: Motion, damping: float = 0.05, title: str | None = None
     damping : float
         Share of the critical damping [-].
     title : str, optional
+    spectra : dict of str to ResponseSpectrum, optional
+        By component; computed here by default.
     """
-    figure = Figure(figsize=(WIDTH, 3.4))
-    axes = figure.subplots()
-    for axis, line in zip(motion.components, CYCLE):
-        spectrum = response_spectrum(motion, damping=damping, component=axis)
-        axes.plot(spectrum.period, spectrum.psa / g, label=NAMES[axis], **line)
-    axes.set_xscale("log")
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.grid(which="both")
-    axes.set_ylim(bottom=0.0)
-    axes.margins(x=0.0)
-    axes.set_xlabel("period [s]")
-    axes.set_ylabel("pseudo-acceleration [g]")
-    axes.legend(loc="upper right")
-    axes.set_title(title or f"{motion.name}, {100.0 * damping:g} % damping")
+    found = spectra or {axis: response_spectrum(motion, damping=damping, component=axis) for axis in motion.components}
+    figure = Figure(figsize=(WIDTH, 4.6))
+    upper, lower = figure.subplots(2, 1, sharex=True)
+    for (axis, spectrum), line in zip(found.items(), CYCLE):
+        upper.plot(spectrum.period, spectrum.psa / g, label=NAMES[axis], **line)
+        lower.plot(spectrum.period, spectrum.sd, **line)
+    for axes in (upper, lower):
+        axes.set_xscale("log")
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.grid(which="both")
+        axes.set_ylim(bottom=0.0)
+        axes.margins(x=0.0)
+    upper.set_ylabel("pseudo-acceleration [g]")
+    lower.set_ylabel("relative displacement [m]")
+    lower.set_xlabel("period [s]")
+    upper.legend(loc="upper right")
+    level = next(iter(found.values())).damping
+    upper.set_title(title or f"{motion.name}, {100.0 * level:g} % damping")
+    figure.align_ylabels()
     return figure
