@@ -71,7 +71,7 @@ def with_options(command, column, tmp_path, **changes):
         ({"model": "dem2d", "set": "points=1"}, ["points is 1", "from 2"]),
         ({"model": "dem2d", "set": "points=2.5"}, ["points is '2.5'", "whole number"]),
         ({"model": "dem2d", "set": "time_step=0.1"}, ["0.1 s"]),
-        ({"harmonic": None}, ["no motion", "--harmonic, --pulse and --motion"]),
+        ({"harmonic": None}, ["no motion", "--harmonic, --pulse, --synthetic and --motion"]),
         ({"pulse": "ricker,1Hz,0.3g"}, ["--harmonic and --pulse are both given"]),
         ({"harmonic": "1Hz,0.3,10s"}, ["'0.3' has no unit", "1.0Hz,0.3g,10s"]),
         ({"harmonic": "1Hz,?g,10s"}, ["leaves the amplitude open"]),

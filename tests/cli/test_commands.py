@@ -204,7 +204,7 @@ def test_motion_tells_what_a_file_holds(command, tmp_path):
     # The velocity is V (1 − cos 2πt) with V = a/2π.
     assert result["pgv_m_s"]["x"] == pytest.approx(2 * 0.4 * st.g / (2 * math.pi), rel=1e-3)
     names = {file.name for file in (tmp_path / "out").iterdir()}
-    assert names == {"motion.json", "motion.png", "motion.svg", "spectra.png", "spectra.svg"}
+    assert names == {"motion.json", "motion.csv", "motion.png", "motion.svg", "spectra.png", "spectra.svg"}
     text = command("motion", path, "--unit", "g", "--dt", "10ms")
     assert "pga [g]" in text
     assert "x 0.4" in text

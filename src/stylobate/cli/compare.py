@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from ..errors import InputError
 from . import options as o
-
-if TYPE_CHECKING:
-    import pandas
 
 
 def compare(
@@ -19,9 +16,13 @@ def compare(
     models: Annotated[str, typer.Option("--models", metavar="A,B,C", help="Models to compare, such as housner,dem2d.")],
     harmonic: o.Harmonic = None,
     pulse: o.Pulse = None,
+    synthetic: o.Synthetic = None,
     motion: o.MotionFile = None,
     unit: o.Unit = None,
     dt: o.Step = None,
+    component: o.ComponentName = None,
+    azimuth: o.Azimuth = None,
+    condition: o.Condition = None,
     scale: o.Scale = None,
     pga: o.Pga = None,
     vertical: o.Vertical = "on",
@@ -59,10 +60,11 @@ def compare(
     chosen = [o.the_model(name, _settings_of(name, names, settings)) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
     result: dict[str, Any] = {"models": names}
+    said: dict[str, str] = {}
     if over_domain:
         if frequencies is None or amplitudes is None:
             raise InputError("a domain needs both --frequencies and --amplitudes; give both.")
-        if harmonic or pulse or motion:
+        if harmonic or pulse or synthetic or motion:
             raise InputError("both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
         with console.folder(out) as folder, console.progress("cells") as progress:
@@ -76,8 +78,12 @@ def compare(
             harmonic=harmonic,
             pulse=pulse,
             file=motion,
+            synthetic=synthetic,
             unit=unit,
             dt=dt,
+            component=component,
+            azimuth=azimuth,
+            condition=condition,
             scale=scale,
             pga=pga,
             vertical=vertical,
@@ -85,13 +91,15 @@ def compare(
         with console.folder(out) as folder, console.progress("models") as progress:
             comparison = compare_models(stone, shaking, chosen, tail=after, progress=progress)
             files = [] if folder is None else _write_histories(comparison, folder)
-        table = comparison.table
-        result |= {"motion": shaking.name, "runs": [response.summary() for response in comparison.responses]}
+        table, said = comparison.table, o.input_lines(shaking)
+        result |= o.input_facts(shaking) | {"runs": [response.summary() for response in comparison.responses]}
     result["files"] = [str(file) for file in files]
     if as_json:
         console.emit(result)
     else:
-        print(_table(table))
+        for name, text in said.items():
+            print(f"{name}: {text}")
+        console.print_table(table)
         if files:
             print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
 
@@ -109,29 +117,19 @@ def _settings_of(name: str, names: list[str], settings: list[str] | None) -> lis
 
 def _write_histories(comparison: Any, folder: Path) -> list[Path]:
     from .. import plots
+    from . import console
 
-    files = [_write_table(comparison.table, folder / "comparison.csv")]
+    files = [console.write_table(comparison.table, folder / "comparison.csv")]
     files += [response.save(folder / f"response-{response.model}.nc") for response in comparison.responses]
     return files + plots.save(plots.draw_comparison(comparison.responses), folder / "comparison")
 
 
 def _write_domains(comparison: Any, folder: Path) -> list[Path]:
     from .. import plots
+    from . import console
 
-    files = [_write_table(comparison.table, folder / "comparison.csv")]
+    files = [console.write_table(comparison.table, folder / "comparison.csv")]
     for one in comparison.domains:
         files.append(one.save(folder / f"domain-{one.model}.nc"))
         files += plots.save(plots.draw_domain(one), folder / f"domain-{one.model}")
     return files + plots.save(plots.draw_boundaries(comparison.domains), folder / "comparison")
-
-
-def _write_table(table: pandas.DataFrame, path: Path) -> Path:
-    from ..atomic import replacing
-
-    with replacing(path) as partial:
-        table.to_csv(partial, index=False)
-    return path
-
-
-def _table(table: pandas.DataFrame) -> str:
-    return table.to_string(index=False, na_rep="-", float_format=lambda value: f"{value:.4g}")

@@ -8,7 +8,10 @@ import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Interrupted(Exception):
@@ -42,6 +45,26 @@ def write_json(path: Path, value: Any) -> Path:
     with replacing(path) as partial:
         partial.write_text(as_json(value, indent=2) + "\n", encoding="utf-8")
     return path
+
+
+def write_table(table: pandas.DataFrame, path: Path) -> Path:
+    """Write a table as CSV, whole or not at all."""
+    from ..atomic import replacing
+
+    with replacing(path) as partial:
+        table.to_csv(partial, index=False)
+    return path
+
+
+def print_table(table: pandas.DataFrame, digits: int = 4) -> None:
+    """Print a table for people."""
+    print(table.to_string(index=False, na_rep="-", float_format=lambda value: f"{value:.{digits}g}"))
+
+
+def print_refused(refused: Mapping[str, str]) -> None:
+    """Say which files of a suite were not used, and why."""
+    for name, reason in refused.items():
+        print(f"not used: {name}: {reason}")
 
 
 def folder(out: Path | None) -> AbstractContextManager[Path | None]:

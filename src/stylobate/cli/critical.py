@@ -12,6 +12,9 @@ from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.critical import CriticalAmplitude
+    from ..column import Column
+    from ..models.base import Model
+    from ..motion import Suite
 
 
 def critical(
@@ -26,9 +29,13 @@ def critical(
     pulse: Annotated[
         str | None, typer.Option("--pulse", metavar="KIND,F,?g[,T]", help="Pulse, such as ricker,1.0Hz,?g.")
     ] = None,
-    motion: o.MotionFile = None,
+    synthetic: o.Synthetic = None,
+    motion: o.MotionFiles = None,
     unit: o.Unit = None,
     dt: o.Step = None,
+    component: o.ComponentName = None,
+    azimuth: o.Azimuth = None,
+    condition: o.Condition = None,
     vertical: o.Vertical = "on",
     tail: o.Tail = "0s",
     settings: o.Settings = None,
@@ -38,18 +45,26 @@ def critical(
 ) -> None:
     """Smallest amplitude that collapses a column.
 
-    The amplitude of a record is its horizontal peak.
+    The amplitude of a record or a simulated motion is its horizontal peak; a folder of records is run on one grid.
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..column.files import load_column
     from ..motion.specs import parse_acceleration, parse_harmonic, parse_pulse
     from . import console
 
-    o.check_one_motion(harmonic, pulse, motion, unit, dt)
+    o.check_one_motion(harmonic, pulse, motion, unit, dt, synthetic, component)
     grid = [parse_acceleration(text) for text in (start, stop, step)]
     amplitude_grid(*grid)
     stone = load_column(column)
     how = o.the_model(model, settings)
+    after, count = o.the_tail(tail), o.the_threads(threads)
+    if o.is_suite(motion):
+        suite = o.of_each(
+            o.the_suite(motion or [], unit, dt, component),
+            lambda one: o.plane(o.shaped(one, azimuth, condition), vertical),
+        )
+        over_suite(stone, suite, how, grid, after, count, out, as_json)
+        return
     nominal: float | None = 1.0
     if harmonic is not None:
         shaking, unknown = parse_harmonic(harmonic, allow_unknown=True)
@@ -58,21 +73,22 @@ def critical(
         length = alone.metadata["pulse_length"] + 20.0 / stone.frequency_parameter
         shaking, unknown = parse_pulse(pulse, length, allow_unknown=True)
     else:
-        shaking, unknown, nominal = o.the_record(motion, unit, dt), True, None
+        shaking, unknown, nominal = o.the_record(motion, unit, dt, component, synthetic), True, None
     if not unknown:
         raise InputError(
             f"the motion {harmonic or pulse!r} states its amplitude, which is what is looked for; write ?g for it."
         )
-    shaking = o.with_vertical(shaking, vertical)
-    after, count = o.the_tail(tail), o.the_threads(threads)
+    shaking = o.plane(o.shaped(shaking, azimuth, condition), vertical)
+    if condition:
+        nominal = None  # the peak that the conditioned motion has
     with console.folder(out) as folder:
         with console.progress("amplitudes") as progress:
             result = critical_amplitude(
                 stone, shaking, how, *grid, nominal=nominal, tail=after, threads=count, progress=progress
             )
-        summary, files = result.summary(), []
+        summary, files = result.summary() | o.input_facts(shaking), []
         if folder is not None:
-            files = write(result, folder)
+            files = write(result, summary, folder)
             summary["files"] = [str(file) for file in files]
     if as_json:
         console.emit(summary)
@@ -80,18 +96,51 @@ def critical(
         describe(result, files)
 
 
-def write(result: CriticalAmplitude, folder: Path) -> list[Path]:
-    """Table, summary and figure."""
-    from .. import plots
-    from ..atomic import replacing
+def over_suite(
+    column: Column,
+    suite: Suite,
+    model: Model,
+    grid: list[float],
+    tail: float,
+    threads: int,
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """The critical amplitude under each record of a folder."""
+    from ..analysis.critical_suite import critical_suite
     from . import console
 
-    table = folder / "critical.csv"
-    with replacing(table) as partial:
-        result.table.to_csv(partial, index=False)
+    with console.folder(out) as folder:
+        with console.progress("runs") as progress:
+            result = critical_suite(column, suite.motions, model, *grid, tail=tail, threads=threads, progress=progress)
+        summary, files = result.summary() | {"refused": suite.refused}, []
+        if folder is not None:
+            from .. import plots
+
+            files = [
+                console.write_table(result.table, folder / "critical.csv"),
+                console.write_table(result.runs, folder / "runs.csv"),
+                console.write_json(folder / "critical.json", summary),
+                *plots.save(plots.draw_record_verdicts(result), folder / "critical"),
+            ]
+            summary["files"] = [str(file) for file in files]
+    if as_json:
+        console.emit(summary)
+        return
+    console.print_table(result.table)
+    console.print_refused(suite.refused)
+    if files:
+        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+
+
+def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
+    """Table, summary and figure."""
+    from .. import plots
+    from . import console
+
     return [
-        table,
-        console.write_json(folder / "critical.json", result.summary()),
+        console.write_table(result.table, folder / "critical.csv"),
+        console.write_json(folder / "critical.json", summary),
         *plots.save(plots.draw_amplitudes(result), folder / "critical"),
     ]
 
@@ -117,6 +166,7 @@ def describe(result: CriticalAmplitude, files: list[Path]) -> None:
     facts = {
         "column": result.column.name,
         "motion": result.motion.name if result.motion.factor != 1.0 else f"{result.motion.name.split(',')[0]}, ? g",
+        **{name: text for name, text in o.input_lines(result.motion).items() if name != "motion"},
         "model": result.model,
         "grid": f"{low:g} to {high:g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }

@@ -11,7 +11,7 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, OutOfRangeWarning, StylobateError
-from . import animate, bench, columns, compare, critical, domain, limit, motion, pushover, run
+from . import animate, bench, columns, compare, critical, domain, limit, motion, pushover, run, spectrum, suite
 from .console import Interrupted
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
@@ -32,7 +32,9 @@ app.command("domain")(domain.domain)
 app.command("pushover")(pushover.pushover)
 app.command("limit")(limit.limit)
 app.command("compare")(compare.compare)
+app.command("suite")(suite.suite)
 app.command("motion")(motion.motion)
+app.command("spectrum")(spectrum.spectrum)
 app.command("columns")(columns.columns)
 app.command("animate")(animate.animate)
 app.command("bench")(bench.bench)

@@ -11,37 +11,45 @@ from . import options as o
 
 
 def motion(
-    file: Annotated[Path, typer.Argument(metavar="FILE", help="Record of a ground motion.")],
+    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Record, or the files of its components.")],
     unit: o.Unit = None,
     dt: o.Step = None,
+    component: o.ComponentName = None,
+    azimuth: o.Azimuth = None,
+    condition: o.Condition = None,
+    scale: o.Scale = None,
+    pga: o.Pga = None,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
     """What the record of a ground motion holds.
 
-    Format, unit as found, step, duration, and the peaks of each component.
+    Format, unit as found, step, duration, and the peaks of each component; with --out, pictures, and the motion as
+    columns of text.
     """
     from ..motion.intensity import motion_summary
     from . import console
 
     o.the_threads(threads)  # reading has one thread
-    found = o.the_record(file, unit, dt)
-    summary, files = motion_summary(found), []
+    found = o.scaled(o.shaped(o.the_record(files, unit, dt, component), azimuth, condition), scale, pga)
+    summary, written = motion_summary(found), []
     with console.folder(out) as folder:
         if folder is not None:
             from .. import plots
+            from ..motion.writing import write_csv
 
-            files = [
+            written = [
                 console.write_json(folder / "motion.json", summary),
+                write_csv(found, folder / "motion.csv"),
                 *plots.save(plots.draw_motion(found), folder / "motion"),
                 *plots.save(plots.draw_spectra(found), folder / "spectra"),
             ]
-            summary = summary | {"files": [str(one) for one in files]}
+            summary = summary | {"files": [str(one) for one in written]}
     if as_json:
         console.emit(summary)
     else:
-        console.say(found.describe(), _facts(summary), files)
+        console.say(found.describe(), _facts(summary), written)
 
 
 _UNITS = {"_deg": " [degrees]", "_m_s": " [m/s]", "_g": " [g]", "_m": " [m]", "_s": " [s]"}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -19,9 +20,13 @@ def run(
     model: o.ModelName,
     harmonic: o.Harmonic = None,
     pulse: o.Pulse = None,
-    motion: o.MotionFile = None,
+    synthetic: o.Synthetic = None,
+    motion: o.MotionFiles = None,
     unit: o.Unit = None,
     dt: o.Step = None,
+    component: o.ComponentName = None,
+    azimuth: o.Azimuth = None,
+    condition: o.Condition = None,
     scale: o.Scale = None,
     pga: o.Pga = None,
     vertical: o.Vertical = "on",
@@ -40,7 +45,7 @@ def run(
 ) -> None:
     """Shake one column once.
 
-    Prints the outcome; with --out, writes histories and figures.
+    Prints the outcome; with --out, writes histories and figures. A folder of records is one run after the other.
     """
     from ..column.files import load_column
     from ..motion.specs import parse_time
@@ -48,40 +53,73 @@ def run(
     from . import console
 
     o.the_threads(threads)  # a single run has one thread
-    o.check_one_motion(harmonic, pulse, motion, unit, dt)
+    o.check_one_motion(harmonic, pulse, motion, unit, dt, synthetic, component)
     stone = load_column(column)
     how = o.the_model(model, settings)
-    shaking = o.the_motion(
-        stone,
-        harmonic=harmonic,
-        pulse=pulse,
-        file=motion,
-        unit=unit,
-        dt=dt,
-        scale=scale,
-        pga=pga,
-        vertical=vertical,
-    )
-    with console.folder(out) as folder:
-        response = simulate(
-            stone,
-            shaking,
-            how,
-            tail=o.the_tail(tail),
-            output_interval=parse_time(output_interval),
-            until_end=until_end,
-            until_rest=until_rest,
+    if o.is_suite(motion):
+        suite = o.of_each(
+            o.the_suite(motion or [], unit, dt, component),
+            lambda one: o.plane(o.scaled(o.shaped(one, azimuth, condition), scale, pga), vertical),
         )
-        files = [] if folder is None else write(response, shaking, folder)
-    summary = response.summary()
-    if folder is not None:
-        files.append(folder / "run.json")
+        motions, refused = suite.motions, suite.refused
+    else:
+        shaking = o.the_motion(
+            stone,
+            harmonic=harmonic,
+            pulse=pulse,
+            file=motion,
+            synthetic=synthetic,
+            unit=unit,
+            dt=dt,
+            component=component,
+            azimuth=azimuth,
+            condition=condition,
+            scale=scale,
+            pga=pga,
+            vertical=vertical,
+        )
+        motions, refused = (shaking,), None
+    following = {
+        "tail": o.the_tail(tail),
+        "output_interval": parse_time(output_interval),
+        "until_end": until_end,
+        "until_rest": until_rest,
+    }
+    summaries, found = [], []
+    with console.folder(out) as folder:
+        for one in motions:
+            response = simulate(stone, one, how, **following)
+            place = folder if folder is None or refused is None else folder / safe_name(one.name, found)
+            summary, files = conclude(response, one, place)
+            summaries.append(summary)
+            found.append(place)
+            if not as_json:
+                describe(response, one, files)
+    if as_json:
+        console.emit(summaries[0] if refused is None else {"runs": summaries, "refused": refused})
+    else:
+        console.print_refused(refused or {})
+
+
+def conclude(response: Response, motion: Motion, folder: Path | None) -> tuple[dict, list[Path]]:
+    """Summary of a run, and its files where a folder is given."""
+    from . import console
+
+    summary = response.summary() | o.input_facts(motion)
+    if folder is None:
+        return summary, []
+    with console.folder(folder):
+        files = [*write(response, motion, folder), folder / "run.json"]
         summary["files"] = [str(file) for file in files]
         console.write_json(files[-1], summary)
-    if as_json:
-        console.emit(summary)
-    else:
-        describe(response, shaking, files)
+    return summary, files
+
+
+def safe_name(name: str, taken: Sequence[Path | None]) -> str:
+    """Name of a folder for a record: its own, without what file systems dislike, numbered if it is taken."""
+    plain = "".join(one if one.isalnum() or one in "-_." else "_" for one in name.split(",")[0]).strip("._") or "record"
+    used = {path.name for path in taken if path is not None}
+    return next(one for one in (plain, *(f"{plain}-{i}" for i in range(2, len(used) + 3))) if one not in used)
 
 
 def write(response: Response, motion: Motion, folder: Path) -> list[Path]:
@@ -112,7 +150,7 @@ def describe(response: Response, motion: Motion, files: list[Path]) -> None:
         sentence += " The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
     facts = {
         "column": f"{column.name}, {column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high",
-        "motion": motion.describe(),
+        **o.input_lines(motion),
         "model": f"{response.model}, step {m.time_step:.3g} s, {m.steps} steps, {response.wall_time:.2f} s",
     }
     if m.collapsed:

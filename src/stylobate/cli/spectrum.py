@@ -1,0 +1,181 @@
+"""``stylobate spectrum``: what a motion does to oscillators of all periods, or to rocking blocks of all sizes."""
+
+from __future__ import annotations
+
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from ..errors import InputError
+from . import options as o
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..motion import Motion
+
+
+def spectrum(
+    files: Annotated[
+        list[Path] | None, typer.Argument(metavar="[MOTION]...", help="Record, or the files of its components.")
+    ] = None,
+    kind: Annotated[str, typer.Option("--kind", metavar="KIND", help="response or rocking.")] = "response",
+    harmonic: o.Harmonic = None,
+    pulse: o.Pulse = None,
+    synthetic: o.Synthetic = None,
+    unit: o.Unit = None,
+    dt: o.Step = None,
+    component: o.ComponentName = None,
+    azimuth: o.Azimuth = None,
+    condition: o.Condition = None,
+    scale: o.Scale = None,
+    pga: o.Pga = None,
+    vertical: o.Vertical = "on",
+    damping: Annotated[
+        str | None, typer.Option("--damping", metavar="SHARE", help="Of a response spectrum; 0.05 by default.")
+    ] = None,
+    periods: Annotated[
+        str | None, typer.Option("--periods", metavar="T:T:N", help="Of a response spectrum [s], such as 0.02:10:120.")
+    ] = None,
+    sizes: Annotated[
+        str | None, typer.Option("--p", metavar="P:P:N", help="Of a rocking spectrum [rad/s], such as 0.8:8:64.")
+    ] = None,
+    slendernesses: Annotated[
+        str | None, typer.Option("--alpha", metavar="A:A:N", help="Of a rocking spectrum [rad], such as 0.05:0.4:64.")
+    ] = None,
+    restitution: Annotated[
+        str | None, typer.Option("--restitution", metavar="E", help="Of a rocking spectrum; Housner's by default.")
+    ] = None,
+    tail: Annotated[
+        str | None, typer.Option("--tail", metavar="TIME", help="Of a rocking spectrum: go on after the motion.")
+    ] = None,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Response spectrum, or rocking spectrum of a motion.
+
+    Peaks of linear oscillators over their period, or of Housner's blocks over their size p and slenderness α.
+    """
+    from ..motion.specs import parse_harmonic, parse_pulse
+    from . import console
+
+    if kind not in ("response", "rocking"):
+        raise InputError(f"--kind is {kind!r}; allowed is response or rocking.")
+    _only_for(kind, "response", {"--damping": damping, "--periods": periods})
+    _only_for(kind, "rocking", {"--p": sizes, "--alpha": slendernesses, "--restitution": restitution, "--tail": tail})
+    count = o.the_threads(threads)
+    o.check_one_motion(harmonic, pulse, files, unit, dt, synthetic, component)
+    if harmonic is not None:
+        motion = parse_harmonic(harmonic)
+    elif pulse is not None:
+        motion = parse_pulse(pulse)
+    else:
+        motion = o.the_record(files, unit, dt, component, synthetic)
+    motion = o.scaled(o.shaped(motion, azimuth, condition), scale, pga)
+    if kind == "rocking":
+        motion = o.plane(motion, vertical)
+        blocks = {
+            "frequency_parameters": _values("--p", sizes, geometric=True),
+            "slendernesses": _values("--alpha", slendernesses),
+            "restitution": None if restitution is None else o.number("--restitution", restitution),
+            "tail": o.the_tail(tail or "0s"),
+            "threads": count,
+        }
+        compute = partial(rocking, motion, blocks)
+    else:
+        share = 0.05 if damping is None else o.number("--damping", damping)
+        compute = partial(response, motion, _values("--periods", periods, geometric=True), share)
+    with console.folder(out) as folder:
+        result, said, written = compute(folder)
+        result = {"kind": kind, **o.input_facts(motion), **result}
+        if folder is not None:
+            written.append(console.write_json(folder / "spectrum.json", result))
+            result["files"] = [str(file) for file in written]
+    if as_json:
+        console.emit(result)
+    else:
+        lines = o.input_lines(motion)
+        console.say(lines.pop("motion"), lines | said, written)
+
+
+def response(
+    motion: Motion, periods: np.ndarray | None, damping: float, folder: Path | None
+) -> tuple[dict[str, Any], dict[str, str], list[Path]]:
+    """Response spectrum of every component, and over all horizontal directions where there are two."""
+    from ..constants import g
+    from ..motion.spectra import response_spectrum, rotated_spectrum
+    from . import console
+
+    spectra = {axis: response_spectrum(motion, periods, damping, component=axis) for axis in motion.components}
+    first = next(iter(spectra.values()))
+    columns: dict[str, Any] = {"period_s": first.period}
+    for axis, one in spectra.items():
+        columns |= {f"sd_{axis}_m": one.sd, f"sv_{axis}_m_s": one.sv, f"sa_{axis}_g": one.sa / g}
+        columns |= {f"psv_{axis}_m_s": one.psv, f"psa_{axis}_g": one.psa / g}
+    if motion.y_samples is not None:
+        rotated = rotated_spectrum(motion, (50.0, 100.0), periods, damping)
+        columns |= {"psa_rotd50_g": rotated[50.0] / g, "psa_rotd100_g": rotated[100.0] / g}
+    result = {"damping": damping} | {key: values.tolist() for key, values in columns.items()}
+    said = {}
+    for axis, one in spectra.items():
+        top = int(one.psa.argmax())
+        said[f"largest PSA, {axis}"] = f"{one.psa[top] / g:.3g} g at {one.period[top]:.3g} s"
+    files = []
+    if folder is not None:
+        import pandas
+
+        from .. import plots
+
+        files = [
+            console.write_table(pandas.DataFrame(columns), folder / "spectrum.csv"),
+            *plots.save(plots.draw_spectra(motion, spectra=spectra), folder / "spectrum"),
+        ]
+    return result, said, files
+
+
+def rocking(
+    motion: Motion, blocks: dict[str, Any], folder: Path | None
+) -> tuple[dict[str, Any], dict[str, str], list[Path]]:
+    """Rocking spectrum along x, with the vertical component where it is on."""
+    from ..analysis.rocking_spectrum import rocking_spectrum
+    from . import console
+
+    found = rocking_spectrum(motion, **blocks)
+    summary, files = found.summary(), []
+    said = {
+        "blocks": f"{summary['cells']}: {summary['closed_cells']} stay closed, "
+        f"{summary['collapsed_cells']} overturn, {summary['undecided_cells']} end far from rest (try --tail 5s)",
+        "strongest pulse": f"{found.pulse_period:.3g} s",
+    }
+    if folder is not None:
+        from .. import plots
+
+        files = [
+            console.write_table(found.table, folder / "spectrum.csv"),
+            *plots.save(plots.draw_rocking_spectrum(found), folder / "spectrum"),
+        ]
+    return summary, said, files
+
+
+def _only_for(kind: str, needed: str, given: dict[str, str | None]) -> None:
+    for option, value in given.items():
+        if value is not None and kind != needed:
+            raise InputError(f"{option} belongs to --kind {needed}, and --kind is {kind}; leave it out.")
+
+
+def _values(option: str, text: str | None, *, geometric: bool = False) -> np.ndarray | None:
+    """Numbers as typed: first:last:number, evenly spaced, or in equal ratios."""
+    import numpy as np
+
+    if text is None:
+        return None
+    parts = text.split(":")
+    if len(parts) != 3 or not parts[2].isdecimal() or not 1 <= int(parts[2]) <= 1000:
+        raise InputError(f"{option} is {text!r}; write first:last:number with a number from 1 to 1000.")
+    low, high, count = o.number(option, parts[0]), o.number(option, parts[1]), int(parts[2])
+    if not 0.0 < low <= high < np.inf or (count > 1 and low == high):
+        raise InputError(f"{option} is {text!r}; both ends must be positive and the first below the last.")
+    return np.geomspace(low, high, count) if geometric else np.linspace(low, high, count)

@@ -1,0 +1,103 @@
+"""``stylobate suite``: what every record of a folder does to a column."""
+
+from __future__ import annotations
+
+from collections import Counter
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import options as o
+
+#: Columns of the table that are printed.
+SHOWN = (
+    "number",
+    "record",
+    "pga_g",
+    "pgv_m_s",
+    "pga_over_g_tan_alpha",
+    "verdict",
+    "outcome",
+    "peak_top_displacement_m",
+)
+
+
+def suite(
+    column: o.ColumnName,
+    sources: Annotated[list[Path], typer.Argument(metavar="DIR|FILE...", help="Folders of records, or records.")],
+    model: o.ModelName,
+    also: Annotated[
+        list[str] | None, typer.Option("--also", metavar="COLUMN", help="A further column; may be repeated.")
+    ] = None,
+    against: Annotated[
+        str, typer.Option("--against", metavar="MEASURE", help="Measure of the records on the axis of the figure.")
+    ] = "pgv_m_s",
+    unit: o.Unit = None,
+    dt: o.Step = None,
+    component: o.ComponentName = None,
+    azimuth: o.Azimuth = None,
+    condition: o.Condition = None,
+    scale: o.Scale = None,
+    pga: o.Pga = None,
+    vertical: o.Vertical = "on",
+    tail: o.Tail = "0s",
+    settings: o.Settings = None,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Shake a column with every record of a folder.
+
+    A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them.
+    """
+    from ..analysis.suite import INTENSITIES, suite_table
+    from ..column.files import load_column
+    from ..errors import InputError
+    from . import console
+
+    workers, after = o.the_threads(threads), o.the_tail(tail)
+    if against not in INTENSITIES:
+        raise InputError(f"--against is {against!r}; allowed is {', '.join(INTENSITIES)}.")
+    stones = [load_column(name) for name in (column, *(also or ()))]
+    names = [stone.name for stone in stones]
+    if len(set(names)) < len(names):
+        raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
+    how = o.the_model(model, settings)
+    records = o.of_each(
+        o.the_suite(sources, unit, dt, component),
+        lambda one: o.plane(o.scaled(o.shaped(one, azimuth, condition), scale, pga), vertical),
+    )
+    with console.folder(out) as folder:
+        with console.progress("runs") as progress:
+            table = suite_table(stones, records.motions, how, tail=after, threads=workers, progress=progress)
+        counts = {name: Counter(rows["verdict"]) for name, rows in table.groupby("column", sort=False)}
+        result = {
+            "runs": table.astype(object).where(table.notna(), None).to_dict("records"),
+            "verdicts": counts,
+            "inputs": [o.input_facts(motion) for motion in records.motions],
+            "refused": records.refused,
+            "model": how.name,
+        }
+        files = []
+        if folder is not None:
+            from .. import plots
+
+            files = [
+                console.write_table(table, folder / "suite.csv"),
+                console.write_json(folder / "suite.json", result),
+                *plots.save(plots.draw_suite(table, against), folder / "suite"),
+            ]
+            result["files"] = [str(file) for file in files]
+    if as_json:
+        console.emit(result)
+        return
+    for name, rows in table.groupby("column", sort=False):
+        print(f"{name} under {len(rows)} records: {', '.join(f'{n} {one}' for one, n in counts[name].items())}.")
+        console.print_table(rows.filter(list(SHOWN)), digits=3)
+    for motion in records.motions:
+        if left_out := o.input_facts(motion)["left_out"]:
+            print(f"left out of {motion.name}: {'; '.join(left_out)}")
+    console.print_refused(records.refused)
+    if files:
+        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
