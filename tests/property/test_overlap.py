@@ -101,7 +101,8 @@ def a_pair(rng, kind, tilt, depth):
 def test_overlap_is_that_of_a_brute_force_search(seed, kind, tilt, depth):
     rng = np.random.default_rng(seed)
     for _ in range(40):  # 10 000 pairs in all
-        a, b = a_pair(rng, kind, rng.uniform(-1.0, 1.0) * 10.0**tilt, 10.0**depth)
+        angle = rng.uniform(-1.0, 1.0) * 10.0**tilt
+        a, b = a_pair(rng, kind, angle, 10.0**depth)
         area, centre, chord, outline = kernel_overlap(a, b)
         expected, expected_centre = brute_overlap(a, b)
         assert area == pytest.approx(expected, rel=1e-6, abs=1e-13)
@@ -112,7 +113,9 @@ def test_overlap_is_that_of_a_brute_force_search(seed, kind, tilt, depth):
         other, _, opposite, _ = kernel_overlap(b, a)
         assert other == pytest.approx(area, rel=1e-6, abs=1e-13)
         if area < 0.1 * min(polygon_area(a), polygon_area(b)):  # the outlines cross, none lies in the other
-            assert chord == pytest.approx(-opposite, abs=1e-9)
+            # where faces cross at a small angle, rounding moves the crossing by itself over the angle
+            sharp = 1.0 if kind != "faces" else max(abs(angle), 1e-10)
+            assert chord == pytest.approx(-opposite, abs=1e-9 + 4e-15 / sharp)
 
 
 def test_the_oracle_sees_overlaps_and_gaps():

@@ -98,7 +98,7 @@ class Block:
         after = np.roll(sides, -1, axis=0)
         turns = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
         angle = np.arctan2(turns, (sides * after).sum(axis=1))
-        if turns.min() < -1e-12 * size * size or angle.sum() > 2.0 * math.pi + 1e-6:
+        if turns.min() < -1e-12 * size * size or float(angle.sum()) > 2.0 * math.pi + 1e-6:
             k = (int(turns.argmin()) + 1) % len(corners)
             raise InputError(
                 f"{who} is not convex at vertex ({corners[k, 0]:g}, {corners[k, 1]:g}); split it into convex blocks."

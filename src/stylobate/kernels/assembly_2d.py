@@ -408,8 +408,8 @@ def settle_lengths(body, now):
 
 @kernel
 def look(body, now, drum, stack_joint, lane, feed, watch):
-    """Look at a column as the lanes do: peaks, and certain collapses (first lane)."""
-    for i in range(body.shape[0]):
+    """Look at a column, the first bodies, as the lanes do: peaks, and certain collapses (first lane)."""
+    for i in range(drum.shape[0]):
         u = body[i]
         d = drum[i]
         d.x[0] = u.x

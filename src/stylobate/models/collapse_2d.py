@@ -21,8 +21,8 @@ from .distinct_element_2d import DistinctElement2D
 from .drum_block import DrumBlock, histories, ledger_balance
 from .standing import stands_for_good
 
-#: The lanes go on as long as nothing can come loose within this time [s].
-AHEAD = 0.01
+#: The lanes go on for as long as nothing can come loose: the longest of these times [s].
+AHEAD = (0.08, 0.04, 0.02, 0.01)
 
 
 def follow(
@@ -89,7 +89,7 @@ class _ColumnRun:
         engine.now["xi"], engine.now["sh"] = block.lane["xi"][0, :, 0], block.lane["sh"][0, :, 0]
         engine.stack = (block.drum, block.joint, block.lane, block.feed, block.watch)
         engine.start(model.step_for(column))
-        self.loose = False
+        self.loose, self.safe = False, 0
         self.take_over()
         self.start = block.start[0].copy()
         self.resting = False
@@ -114,19 +114,33 @@ class _ColumnRun:
                 self.engine.now["dull"] = self.engine.now["eta"] if self.collapsed else 0.0
                 self.engine.advance(chunks)
                 return
-            piece = min(chunks, max(1, int(AHEAD / (self.block.chunk * self.engine.dt))))
+            if self.block.is_over(0):  # the lanes end with the motion; what goes on after it is the engine's
+                self.take_over()
+                self.loose = True
+                continue
+            if self.safe <= 0:
+                self.look_ahead()
+                continue
+            piece = min(chunks, self.safe)
             before = int(self.block.feed["step"][0, 0])
             self.block.advance(piece)
             chunks -= (int(self.block.feed["step"][0, 0]) - before) // self.block.chunk
-            self.take_over()
-            # the lanes end with the motion; what goes on after it is the engine's
-            self.loose = self.engine.may_come_loose(AHEAD) or self.block.is_over(0)
-            if self.loose:
-                self.engine.renew_pairs()
+            self.safe -= piece
+
+    def look_ahead(self) -> None:
+        """How many chunks the lanes can go on alone; none: the engine takes over."""
+        self.take_over()
+        length = self.block.chunk * self.engine.dt
+        time = next((time for time in AHEAD if not self.engine.may_come_loose(time)), 0.0)
+        self.safe = max(1, int(time / length)) if time > 0.0 else 0
+        if time == 0.0:
+            self.engine.renew_pairs()
+            self.loose = True
 
     def chunks_left(self) -> int:
         """Chunks until the end of the motion and its tail."""
-        return self.engine.chunks - int(self.engine.now["step"][0]) // self.engine.kernel.CHUNK
+        step = self.engine.now["step"][0] if self.loose else self.block.feed["step"][0, 0]
+        return self.engine.chunks - int(step) // self.engine.kernel.CHUNK
 
     @property
     def collapsed(self) -> bool:
@@ -140,11 +154,11 @@ class _ColumnRun:
             return True
         if self.chunks_left() > 0:
             return False
+        self.resting = engine.at_rest()
         return not options.until_rest or self.resting or engine.time > engine.duration + LONGEST_WAIT
 
     def state(self) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
-        self.resting = self.engine.at_rest()
         if not self.loose:
             return self.block.snapshot(0)
         engine, drum = self.engine, self.block.drum
@@ -159,7 +173,9 @@ class _ColumnRun:
         measures = self.measures(states[-1], found)
         watch, engine = self.block.watch[0], self.engine
         joint = 1 + int(watch["which" if watch["parted"][0] else "about"][0]) if self.collapsed else 0
-        mechanism = find_mechanism(self.column, found, measures, joint, self.resting)
+        mechanism = find_mechanism(
+            self.column, found, measures, joint, self.resting if self.options.until_rest else None
+        )
         touched = int(engine.now["touched"][0])
         provenance = {
             "time_step_s": engine.dt,
@@ -202,6 +218,6 @@ class _ColumnRun:
             residual_joint_slip=float(np.abs(slip).max()),
             energy_imbalance=imbalance,
             time_step=engine.dt,
-            steps=int(engine.now["step"][0]),
+            steps=int((engine.now["step"] if self.loose else self.block.feed["step"][0])[0]),
             reason=self.block.reason(0, outcome, imbalance),
         )

@@ -113,6 +113,9 @@ class Response:
             "peak_opening_per_joint_m": _finite(np.abs(self.histories.joint_opening).max(axis=0)),
             "residual_slip_per_joint_m": _finite(self.histories.joint_slip[-1]),
         }
+        mechanism = self.provenance.get("mechanism")
+        if mechanism is not None:
+            joints["mechanism"] = mechanism
         version = self.provenance.get("version", "")
         return row | joints | {"wall_s": self.wall_time, "model": self.model, "version": version}
 
