@@ -31,8 +31,9 @@ def shaken(amplitude: float, vertical: bool = False) -> Motion:
 def test_same_bits_for_any_order_and_number_of_threads(model):
     cases = []
     for k in range(40):
-        motion = shaken((0.15 + 0.01 * k) * g, vertical=k % 5 == 0)
-        cases.append(Case(stack(1 + k % 2, "circular" if k % 3 == 0 else "rectangular"), motion))
+        motion = shaken((0.15 + 0.01 * k) * g, vertical=k % 5 == 0 and not model.sliding)
+        section = "circular" if k % 3 == 0 and not model.sliding else "rectangular"
+        cases.append(Case(stack(1 + k % 2, section), motion))
     reference = dict(simulate_iter(cases, model, threads=1))
     threaded = dict(simulate_iter(cases, model, threads=2))
     order = np.random.default_rng(1).permutation(len(cases))
@@ -45,16 +46,15 @@ def test_same_bits_for_any_order_and_number_of_threads(model):
 
 
 @pytest.mark.parametrize(
-    "model",
+    ("model", "vertical"),
     [
-        RigidBeam(),
-        RigidBeam(moment_law="trilinear", xi=0.9, stiffness_damping=1e-4),
-        RigidBeam(moment_law="bilinear", second_order="law"),
-        RigidBeam(sliding=True, stiffness_damping=1e-4),
-        RigidBeam.paper(),
+        (RigidBeam(), False),
+        (RigidBeam(moment_law="trilinear", xi=0.9, stiffness_damping=1e-4), True),
+        (RigidBeam(moment_law="bilinear", second_order="law"), False),
+        (RigidBeam(sliding=True, stiffness_damping=1e-4), True),
+        (RigidBeam.paper(), True),
     ],
 )
-@pytest.mark.parametrize("vertical", [False, True])
 def test_fixed_step_agrees_with_the_adaptive_one(model, vertical):
     # The adaptive one uses full matrices: the sweeps through the tridiagonal matrix are checked as well.
     column = stack(3, "circular").with_joint(friction_coefficient=0.17) if model.sliding else stack(3, "circular")

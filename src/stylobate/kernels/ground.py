@@ -7,7 +7,7 @@ Whoever passes an address keeps the array alive.
 from numba import types
 from numba.extending import intrinsic
 
-from .jit import kernel, law
+from .jit import apart, law
 
 
 @intrinsic
@@ -36,7 +36,7 @@ def sample(address, last, position):
     return value
 
 
-@kernel
+@apart
 def fill_ground(out, rows, addresses, lasts, factors, starts, ratios, offset):
     """Write the acceleration of every lane at consecutive half steps.
 

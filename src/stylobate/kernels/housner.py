@@ -9,8 +9,8 @@ import math
 
 import numpy as np
 
-from .ground import fill_ground, load
-from .jit import kernel, law
+from .ground import load
+from .jit import apart, kernel, law
 
 #: Runs that one call advances together.
 LANES = 64
@@ -23,13 +23,13 @@ ALPHA, P2, E, STEP, LEFT, SIN_A, COS_A, X_EVENT = (row * LANES for row in range(
 X_OLD, V_OLD, WORK_OLD, COLLAPSE, IMPACTS = (row * LANES for row in range(16, 21))
 ROWS = 21
 
-# Rows of the table of whole numbers, one column per lane: shared arrays, their last index, half steps done.
+# Rows of the table of whole numbers, one column per lane: motion at half steps, its last index, half steps done.
 A_ADDRESS, AV_ADDRESS, REMAIN_ADDRESS, LAST, DONE = range(5)
 WHOLE = 5
 
 # Rows of the table of numbers that are looked at once per chunk, one column per lane.
-A_FACTOR, AV_FACTOR, RATIO, A_REMAIN, GAMMA_MIN = range(5)
-REAL = 5
+FACTOR, A_REMAIN, GAMMA_MIN = range(3)
+REAL = 3
 
 TERMS = 8
 
@@ -216,7 +216,23 @@ def point_of_no_return(alpha, remaining, lightest, linear):
     return alpha + (pull if linear else math.atan(pull))
 
 
-@kernel
+@apart
+def fill(out, rows, addresses, lasts, starts, factors, offset):
+    """Write the input of every lane at consecutive half steps: row r and lane l at ``r * LANES + l``.
+
+    ``addresses`` of arrays that hold the motions at the half steps of the runs, the last value (index ``lasts``) zero;
+    address 0 stands for no motion. ``starts``: half steps done; ``offset`` is added to every value.
+    """
+    for r in range(rows):
+        row = out[r * LANES : (r + 1) * LANES]
+        for l in range(LANES):
+            value = offset
+            if addresses[l] != 0:
+                value += factors[l] * load(addresses[l], min(starts[l] + r, lasts[l]))
+            row[l] = value
+
+
+@apart
 def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
     """Advance all lanes by up to ``chunks`` × CHUNK steps; lanes that are over stand still.
 
@@ -236,17 +252,16 @@ def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
                 continue
             alive += 1
             if s[COLLAPSE + l] < 0.0:
-                i = min(int(whole[DONE, l] * real[RATIO, l] + 1e-9), whole[LAST, l] + 1)
-                remaining = abs(real[A_FACTOR, l]) * load(whole[REMAIN_ADDRESS, l], i)
+                remaining = abs(real[FACTOR, l]) * load(whole[REMAIN_ADDRESS, l], min(whole[DONE, l], whole[LAST, l]))
                 if remaining != real[A_REMAIN, l]:
                     real[A_REMAIN, l] = remaining
                     s[X_EVENT + l] = point_of_no_return(s[ALPHA + l], remaining, real[GAMMA_MIN, l], linear)
         if alive == 0:
             return
         rows = 2 * CHUNK + 1
-        fill_ground(a, rows, whole[A_ADDRESS], whole[LAST], real[A_FACTOR], whole[DONE], real[RATIO], 0.0)
+        fill(a, rows, whole[A_ADDRESS], whole[LAST], whole[DONE], real[FACTOR], 0.0)
         if vertical:
-            fill_ground(g, rows, whole[AV_ADDRESS], whole[LAST], real[AV_FACTOR], whole[DONE], real[RATIO], 1.0)
+            fill(g, rows, whole[AV_ADDRESS], whole[LAST], whole[DONE], real[FACTOR], 1.0)
         for j in range(CHUNK):
             row = 2 * j * LANES
             row1, row2, row3 = row + LANES, row + 2 * LANES, row + 3 * LANES

@@ -11,7 +11,6 @@ import numpy as np
 
 from ..column import Column
 from ..errors import InputError, check_range
-from ..kernels import moment_law
 from ..motion import Motion
 from ..response import Measures, Response
 from .base import Case, Model, RunOptions
@@ -58,7 +57,7 @@ class RigidBeam(Model):
     initial_rotation : float
         Rotation of the whole column about its base joint from which it is let go at rest, counter-clockwise [rad].
     time_step : float, optional
-        [s]. By default 1.5/ω_max, ω_max of the column with all joints closed, at most the motion's step and 0.01/p.
+        [s]. By default 1.5/ω_max, ω_max of the column with all joints closed, at most 4 samples of the motion and 0.01/p.
     solver : {"fixed", "adaptive"}
         Of single runs: the batch's Runge–Kutta method of order 4, or SciPy's adaptive one of order 8 (slow for many drums).
 
@@ -183,6 +182,8 @@ class RigidBeam(Model):
         """What the law of lines or of the bed is chosen by, see ``kernels/moment_law.py``."""
         if self.moment_law != "winkler":
             return None
+        from ..kernels import moment_law
+
         return moment_law.circle() if column.section == "circular" else True
 
     def opening_rotations(self, column: Column) -> np.ndarray:
@@ -191,16 +192,15 @@ class RigidBeam(Model):
         return s1 if self.moment_law == "winkler" else np.minimum(m1 / (k - s1), m2 / (k - s2))
 
     def stable_step(self, column: Column) -> float:
-        """Largest stable time step [s]; ``column`` idealised."""
-        return STABLE / self._highest(column)
+        """Largest time step that is not refused [s]; ``column`` idealised."""
+        return STABLE / self.highest_rate(column)
 
-    def step_for(self, column: Column, motion: Motion) -> float:
-        """Time step [s]; ``column`` idealised."""
-        if self.time_step is not None:
-            return self.time_step
-        return min(STEP_FACTOR / self._highest(column), motion.dt, 0.01 / column.frequency_parameter)
+    def longest_step(self, column: Column) -> float:
+        """Time step for a column under a motion that is sampled finely enough [s]; ``column`` idealised."""
+        return self.time_step or min(STEP_FACTOR / self.highest_rate(column), 0.01 / column.frequency_parameter)
 
-    def _highest(self, column: Column) -> float:
+    def highest_rate(self, column: Column) -> float:
+        """Highest rate of the column with all joints closed, ω_max or faster where damped [1/s]; ``column`` idealised."""
         shear = None
         if self.sliding:
             shear = np.array([joint.shear_stiffness for joint in column.joints]) * column.joint_areas

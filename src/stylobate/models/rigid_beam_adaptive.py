@@ -142,9 +142,7 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
     lightest = lightest_weight(motion, column.gravity)
     start = beam.energies(*rates.split(y), rates.plastic)
     # a plastic slip is held during a step: keep the steps short enough to follow the joints' vibration
-    largest = (
-        model.step_for(beam.seen, motion) * 2.0 if model.sliding else min(0.02 / beam.seen.frequency_parameter, end)
-    )
+    largest = beam.step_for(motion) * 2.0 if model.sliding else min(0.02 / beam.seen.frequency_parameter, end)
     solver = DOP853(rates, 0.0, y, end, rtol=RELATIVE_TOLERANCE, atol=ABSOLUTE_TOLERANCE, max_step=largest)
     times = np.append(np.arange(max(1, round(end / options.output_interval))) * options.output_interval, end)
     friction, written, steps, smallest, failure, worst = 0.0, 1, 0, math.inf, "", 0.0

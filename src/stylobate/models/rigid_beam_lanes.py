@@ -38,7 +38,7 @@ class Loop(NamedTuple):
 def loop_for(model: RigidBeam, case: Case) -> Loop:
     """The loop that a case needs."""
     beam = packed(model, case.column)
-    step = model.step_for(beam.seen, case.motion)
+    step = beam.step_for(case.motion)
     steps = 2 ** max(0, min(round(math.log2(kernel.MOST_STEPS)), math.floor(math.log2(LOOK / step))))
     vertical = case.motion.z_samples is not None
     return Loop(case.column.n, steps, model.sliding, beam.bed, vertical, model.stiffness_damping > 0.0)
@@ -78,7 +78,7 @@ class BeamLanes:
         for name in ("x", "xs"):
             self.drum[name][1:-1, lane] = theta * seen.centroid_heights
         duration = motion.duration + self.options.tail
-        chunks = max(1, math.ceil(duration / (self.loop.steps * model.step_for(seen, motion)) - 1e-9))
+        chunks = max(1, math.ceil(duration / (self.loop.steps * beam.step_for(motion)) - 1e-9))
         steps = chunks * self.loop.steps
         dt = duration / steps
         self.dt[lane] = dt
@@ -102,7 +102,7 @@ class BeamLanes:
         watch["pga"][lane], watch["until"][lane] = motion.pga, motion.duration
         watch["gmin"][lane] = lightest_weight(motion, seen.gravity)
         self.calls = max(1, chunks // CALLS_PER_RUN)
-        self.start[lane] = self._energies(lane)
+        self.start[lane] = self._energies(lane) if model.initial_rotation else 0.0
 
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by a share of a run."""
@@ -142,7 +142,10 @@ class BeamLanes:
 
     def ledger(self, lane: int) -> np.ndarray:
         """Input, kinetic, gravitational, elastic, friction, viscous [J], since the start."""
-        change = self._energies(lane) - self.start[lane]
+        return self._ledger(lane, self._energies(lane))
+
+    def _ledger(self, lane: int, energies: np.ndarray) -> np.ndarray:
+        change = energies - self.start[lane]
         work, fric, visc = (float(self.lane[name][0, lane]) for name in ("work", "fric", "visc"))
         return np.array([work, *change, fric, visc])
 
@@ -153,13 +156,14 @@ class BeamLanes:
         beam = loaded[1]
         watch = {name: self.watch[name][0, lane] for name in kernel.WATCH.names or ()}
         theta, _, slip, _, _ = self.state(lane)
+        energies = self._energies(lane)
         failed = watch["status"] == kernel.FAILED
         return measures_of(
             beam,
             {
                 "theta": theta, "slip": slip,
-                "energy": float(self._energies(lane).sum()),
-                "imbalance": ledger_imbalance(self.ledger(lane), float(watch["wmax"])),
+                "energy": float(energies.sum()),
+                "imbalance": ledger_imbalance(self._ledger(lane, energies), float(watch["wmax"])),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
                 "time": float(watch["when"]) * self.dt[lane], "end": self.time(lane),
                 "failure": f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else "",

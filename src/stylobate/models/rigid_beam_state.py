@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 #: A run whose ledger is out of balance by more than this share of the input work has failed.
 LARGEST_IMBALANCE = 0.25
 
+#: Samples of the motion that a step may pass over.
+MOST_SAMPLES = 4
+
 
 @dataclass(frozen=True, eq=False)
 class PackedBeam:
@@ -38,6 +41,11 @@ class PackedBeam:
     opening: np.ndarray
     shear: np.ndarray
     barriers: np.ndarray
+    longest_step: float
+
+    def step_for(self, motion: Motion) -> float:
+        """Time step under a motion [s]."""
+        return self.model.time_step or min(self.longest_step, MOST_SAMPLES * motion.dt)
 
     @property
     def geometric(self) -> bool:
@@ -109,7 +117,10 @@ def packed(model: RigidBeam, column: Column) -> PackedBeam:
     summit = ultimate / weight if model.second_order == "geometric" else alpha
     phi = np.linspace(0.0, 1.0, 401)[:, None] * summit
     barriers = (moment_law.stored(phi, joints[:, None, :], bed) - 0.5 * weight * phi**2).max(axis=0)
-    return PackedBeam(model, seen, matrices, joints, bed, alpha, model.opening_rotations(seen), shear, barriers)
+    opening = model.opening_rotations(seen)
+    return PackedBeam(
+        model, seen, matrices, joints, bed, alpha, opening, shear, barriers, model.longest_step(seen)
+    )  # fmt: skip
 
 
 def measures_of(beam: PackedBeam, found: dict) -> Measures:

@@ -136,6 +136,20 @@ def imbalance(input_work: float, accounted: float, largest: float) -> float:
     return abs(input_work - accounted) / largest if largest > 0.0 else 0.0
 
 
+def half_steps(samples: np.ndarray, dt: float, step: float, steps: int) -> np.ndarray:
+    """A motion at the half steps of its run, then zero, shape (2 steps + 2,): linear between samples, without its factor.
+
+    The step that ends with the motion sees the last sample, the one that starts there sees zero: both are given half of
+    it, which keeps the impulse.
+    """
+    last = len(samples) - 1
+    position = np.arange(2 * steps + 2) * (0.5 * step / dt)
+    out = np.interp(position, np.arange(last + 1), samples)
+    out[position > last - 1e-9] = 0.5 * samples[last]
+    out[position > last + 1e-9] = 0.0
+    return out
+
+
 def remaining_peak(motion: Motion) -> np.ndarray:
     """Largest |sample| from each sample on, then zero: what is left without the factor, shape (steps + 1,)."""
     return np.append(np.maximum.accumulate(np.abs(motion.samples)[::-1])[::-1], 0.0)

@@ -12,10 +12,15 @@ from ..kernels import housner as kernel
 from ..motion import Motion
 from ..response import Measures
 from .base import Case, RunOptions
-from .rocking import REST, RockingBlock, imbalance, lightest_weight, remaining_peak
+from .rocking import REST, RockingBlock, half_steps, imbalance, lightest_weight, remaining_peak
 
 #: Chunks of steps between two looks of the interpreter: some milliseconds.
 CHUNKS = 8
+
+#: Motions at half steps that a block keeps.
+MOST_TABLES = 256
+
+Tables = tuple[np.ndarray, np.ndarray | None, np.ndarray]
 
 #: Default step over 1/p, and the number of samples of the motion it may pass over.
 STEP_SHARE = 0.01
@@ -60,9 +65,9 @@ class RockingLanes:
         self.row("SIDE")[:] = 1.0
         self.linear = False
         self.coefficients = kernel.trigonometry(False)
-        self.cases: list[tuple[Case, RockingBlock, np.ndarray, int] | None] = [None] * n
+        self.cases: list[tuple[Case, RockingBlock, Tables, int] | None] = [None] * n
         self.blocks: dict[int, tuple[Column, RockingBlock]] = {}
-        self.remains: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+        self.tables: dict[tuple[int, float, float], tuple[np.ndarray, Tables]] = {}
 
     def row(self, name: str) -> np.ndarray:
         """A row of the state by its name in the kernel."""
@@ -74,9 +79,10 @@ class RockingLanes:
         block = self._block(column)
         step_wanted = self.time_step or STEP_SHARE / block.p
         steps, step = steps_of(motion, step_wanted)
+        shaken = steps
         steps += math.ceil(self.options.tail / step - 1e-9)
-        remain = self._remaining(motion)
-        self.cases[lane] = (case, block, remain, steps)
+        tables = self._tables(motion, step, shaken)
+        self.cases[lane] = (case, block, tables, steps)
         start = abs(self.initial_rotation)
         values = {
             "X": start, "V": 0.0, "SIDE": -1.0 if self.initial_rotation > 0.0 else 1.0,
@@ -87,12 +93,9 @@ class RockingLanes:
         }  # fmt: skip
         for name, value in values.items():
             self.row(name)[lane] = value
-        z = motion.z_samples
-        self.whole[:, lane] = (
-            motion.samples.ctypes.data, 0 if z is None else z.ctypes.data, remain.ctypes.data, motion.steps - 1, 0
-        )  # fmt: skip
-        factor = motion.factor / block.gravity
-        self.real[:, lane] = (factor, factor, 0.5 * step / motion.dt, -1.0, lightest_weight(motion, block.gravity))
+        x, z, remain = (0 if table is None else table.ctypes.data for table in tables)
+        self.whole[:, lane] = (x, z, remain, 2 * shaken + 1, 0)
+        self.real[:, lane] = (motion.factor / block.gravity, -1.0, lightest_weight(motion, block.gravity))
 
     def advance(self) -> None:
         """Advance all lanes by some hundred steps."""
@@ -132,7 +135,18 @@ class RockingLanes:
                 self.linear, self.coefficients = block.linear, kernel.trigonometry(block.linear)
         return self.blocks[id(column)][1]
 
-    def _remaining(self, motion: Motion) -> np.ndarray:
-        if id(motion.samples) not in self.remains:
-            self.remains[id(motion.samples)] = (motion.samples, remaining_peak(motion))
-        return self.remains[id(motion.samples)][1]
+    def _tables(self, motion: Motion, step: float, steps: int) -> Tables:
+        """Motion along x and z and what is left of it at half steps, shared by all runs of the same samples and step."""
+        key = (id(motion.samples), motion.dt, step)
+        if key not in self.tables:
+            if len(self.tables) >= MOST_TABLES:  # lanes that run keep theirs alive
+                self.tables.clear()
+            z = motion.z_samples
+            vertical = None if z is None else half_steps(z, motion.dt, step, steps)
+            left = remaining_peak(motion)
+            at = np.minimum(
+                (np.arange(2 * steps + 2) * (0.5 * step / motion.dt) + 1e-9).astype(np.int64), len(left) - 1
+            )
+            tables = (half_steps(motion.samples, motion.dt, step, steps), vertical, left[at])
+            self.tables[key] = (motion.samples, tables)
+        return self.tables[key][1]
