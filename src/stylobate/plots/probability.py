@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
@@ -24,7 +26,7 @@ CLASSES = (
     (1.0, "over ⅔", "#a6372f"),
     (np.inf, "all", "#5a1215"),
 )
-_UNKNOWN = {"facecolor": "#d9d9d9", "edgecolor": "#4d4d4d", "hatch": "////", "linewidth": 0.0}
+_UNKNOWN: dict[str, Any] = {"facecolor": "#d9d9d9", "edgecolor": "#4d4d4d", "hatch": "////", "linewidth": 0.0}
 
 
 @styled
@@ -91,7 +93,7 @@ def _draw_cells(axes: Axes, result: CollapseProbability) -> list[Patch]:
     )
     handles = []
     for k, (_, label, color) in [*enumerate(CLASSES), (-1, (0.0, "no verdict", ""))]:
-        fill = {"facecolor": color, "edgecolor": "none"} if k >= 0 else _UNKNOWN
+        fill: dict[str, Any] = {"facecolor": color, "edgecolor": "none"} if k >= 0 else _UNKNOWN
         cells = [
             [(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])]
             for i, j in np.argwhere(class_of == k)
@@ -99,7 +101,7 @@ def _draw_cells(axes: Axes, result: CollapseProbability) -> list[Patch]:
         if cells:
             axes.add_collection(PolyCollection(cells, antialiaseds=False, zorder=1, **fill))
         if cells or k >= 0:
-            frame = {"edgecolor": "#999999", "linewidth": 0.5}
+            frame: dict[str, Any] = {"edgecolor": "#999999", "linewidth": 0.5}
             handles.append(Patch(label=label, **(frame | fill if k < 0 else fill | frame)))
     return handles
 
@@ -113,8 +115,12 @@ def _draw_band(axes: Axes, result: CollapseProbability) -> list[Line2D]:
             np.nan if np.isnan(one) or np.isnan(first) else edges[np.searchsorted(result.amplitudes, one) + 1]
             for one, first in zip(high, low)
         ]
-    shapes = []
-    for level, line, label in ((below, "-", "below: none collapses"), (above, (0, (2, 1.2)), "above: none stands")):
+    shapes: list[Line2D] = []
+    lines: list[tuple[Any, Any, str]] = [
+        (below, "-", "below: none collapses"),
+        (above, (0, (2, 1.2)), "above: all collapse"),
+    ]
+    for level, line, label in lines:
         axes.stairs(level, x, baseline=None, color=BLACK, linewidth=1.5, linestyle=line, zorder=3)
         shapes.append(Line2D([], [], color=BLACK, linewidth=1.5, linestyle=line, label=label))
     return shapes

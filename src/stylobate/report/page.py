@@ -1,0 +1,145 @@
+"""One self-contained HTML page: text, tables and figures, readable on a desk and on a phone, without any network."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+
+from ..atomic import replacing
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure on the page.
+
+    Parameters
+    ----------
+    file : path
+        PNG; it is copied into the page.
+    caption : str
+    """
+
+    file: Path
+    caption: str
+
+
+@dataclass(frozen=True)
+class Rows:
+    """A table on the page.
+
+    Parameters
+    ----------
+    header : sequence of str
+    body : sequence of sequence of str
+    caption : str
+    mark : int, optional
+        Column whose text is a verdict; its cells are marked by it.
+    """
+
+    header: Sequence[str]
+    body: Sequence[Sequence[str]]
+    caption: str = ""
+    mark: int | None = None
+
+
+@dataclass(frozen=True)
+class Section:
+    """A headed part of the page; items are paragraphs (str), pictures and tables."""
+
+    title: str
+    items: Sequence[str | Picture | Rows]
+
+
+_SIGNS = {"holds": "✓", "holds under stated choices": "≈", "does not hold": "✗"}
+
+_STYLE = """
+:root { color-scheme: light; --ink: #1a1a1a; --line: #d8d2c4; --sand: #f6f1e6; --red: #8c1c13; }
+* { box-sizing: border-box; }
+body { margin: 0; font: 16px/1.55 system-ui, sans-serif; color: var(--ink); background: #fff; }
+main { max-width: 62rem; margin: 0 auto; padding: 1rem 1.2rem 4rem; }
+h1 { font-size: 1.7rem; line-height: 1.2; margin: 1.2rem 0 .4rem; }
+h2 { font-size: 1.25rem; margin: 2.4rem 0 .6rem; padding-top: .6rem; border-top: 1px solid var(--line); }
+nav a { margin-right: 1rem; white-space: nowrap; }
+a { color: #1d4f8a; }
+figure { margin: 1.4rem 0; }
+figure img { display: block; width: 100%; height: auto; max-width: 58rem; }
+.wide { overflow-x: auto; }
+figcaption, caption { font-size: .9rem; color: #444; text-align: left; caption-side: top; padding: .3rem 0; }
+table { border-collapse: collapse; width: 100%; font-size: .86rem; line-height: 1.4; margin: 1rem 0; }
+th, td { text-align: left; vertical-align: top; padding: .4rem .5rem; border-bottom: 1px solid var(--line); }
+th { background: var(--sand); }
+td.holds, td.choices, td.fails { font-weight: 600; }
+td.choices { background: #fff5d6; } td.fails { background: #f8e0da; color: var(--red); }
+@media (max-width: 46rem) {
+  body { font-size: 15px; }
+  main { padding: .5rem .8rem 3rem; }
+  table.cards thead { display: none; }
+  table.cards tr { display: block; border: 1px solid var(--line); margin: 0 0 .8rem; }
+  table.cards td { display: block; border: 0; padding: .25rem .6rem; }
+  table.cards td::before { content: attr(data-name); display: block; font-size: .72rem; color: #666; font-weight: 400; }
+  table.cards td:empty { display: none; }
+  .wide img { width: 46rem; max-width: none; }
+}
+@media print { nav { display: none; } h2 { break-after: avoid; } figure, tr { break-inside: avoid; } }
+"""
+
+
+def write_page(path: Path, title: str, lead: Sequence[str], sections: Sequence[Section]) -> Path:
+    """Write the page, whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        The HTML file.
+    title : str
+    lead : sequence of str
+        Paragraphs at the top.
+    sections : sequence of Section
+    """
+    links = "".join(f'<a href="#s{i}">{escape(one.title)}</a> ' for i, one in enumerate(sections))
+    body = [f"<h1>{escape(title)}</h1>", *map(_paragraph, lead), f"<nav>{links}</nav>"]
+    for i, section in enumerate(sections):
+        body.append(f'<section id="s{i}"><h2>{escape(section.title)}</h2>')
+        body += [_item(item) for item in section.items]
+        body.append("</section>")
+    text = (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">'
+        f"<title>{escape(title)}</title><style>{_STYLE}</style></head>\n<body><main>\n" + "\n".join(body)
+    )
+    with replacing(path) as partial:
+        partial.write_text(text + "\n</main></body></html>\n", encoding="utf-8")
+    return path
+
+
+def _item(item: str | Picture | Rows) -> str:
+    if isinstance(item, str):
+        return _paragraph(item)
+    if isinstance(item, Picture):
+        data = base64.b64encode(item.file.read_bytes()).decode()
+        image = f'<img alt="{escape(item.caption)}" src="data:image/png;base64,{data}">'
+        return f'<figure><div class="wide">{image}</div><figcaption>{escape(item.caption)}</figcaption></figure>'
+    return _table(item)
+
+
+def _paragraph(text: str) -> str:
+    return f"<p>{escape(text)}</p>"
+
+
+def _table(rows: Rows) -> str:
+    head = "".join(f"<th>{escape(name)}</th>" for name in rows.header)
+    lines = []
+    for row in rows.body:
+        cells = []
+        for k, (name, value) in enumerate(zip(rows.header, row, strict=True)):
+            mark = ""
+            if k == rows.mark:
+                mark = {"holds": "holds", "does not hold": "fails"}.get(value, "choices")
+                value = f"{_SIGNS.get(value, '')} {value}".strip()
+            cells.append(f'<td class="{mark}" data-name="{escape(name)}">{escape(value)}</td>')
+        lines.append(f"<tr>{''.join(cells)}</tr>")
+    caption = f"<caption>{escape(rows.caption)}</caption>" if rows.caption else ""
+    return f'<table class="cards">{caption}<thead><tr>{head}</tr></thead><tbody>{"".join(lines)}</tbody></table>'

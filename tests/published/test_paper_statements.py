@@ -1,0 +1,89 @@
+"""The paper's sentences that need no time history, the table in the documentation, and the choices that are stated."""
+
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from stylobate.analysis import paper_statements as p
+from stylobate.analysis.paper_study import (
+    AMPLITUDES,
+    FREQUENCIES,
+    MODELS,
+    MONOLITH,
+    VARIANTS,
+    Grids,
+    joint_law,
+    paper_column,
+    static_values,
+)
+from stylobate.column import preset
+from stylobate.constants import g
+from stylobate.models.rigid_beam import RigidBeam
+
+TABLE = Path(__file__).parents[2] / "docs" / "paper_statements.md"
+
+
+@pytest.fixture(scope="module")
+def static():
+    return p.static_statements()
+
+
+def test_numbers_of_the_paper_that_need_no_time_history(static):
+    """Section 3: 0.205 g for both columns; the shape explains the rigid beam's 0.16 g."""
+    assert [row.verdict for row in static] == [p.HOLDS] * 3
+    values = static_values()
+    assert values["prism"] == pytest.approx(0.81 / 5.0, rel=1e-6)
+    for name in ("paper-monolithic", "paper-12-drums"):
+        assert values[f"limit, {name}, rectangular"] == pytest.approx(0.2046, abs=5e-5)
+        assert values[f"limit, {name}, circular"] == pytest.approx(0.2187, abs=5e-5)
+        assert values[f"pushover, {name}, rectangular"] == pytest.approx(0.2046, abs=5e-4)
+
+
+def test_the_table_in_the_documentation_has_them_as_they_are_now(static):
+    lines = TABLE.read_text(encoding="utf-8").splitlines()
+    for row in static:
+        assert p.markdown_row(row) in lines, f"docs/paper_statements.md is out of date: {row.sentence}"
+
+
+def test_the_thirty_cases_are_in_the_paper_s_range():
+    assert FREQUENCIES.size * AMPLITUDES.size == 30
+    assert (FREQUENCIES[0], FREQUENCIES[-1]) == (0.66, 4.0)
+    np.testing.assert_allclose(AMPLITUDES / g, [0.1, 0.2, 0.3, 0.4, 0.5])
+
+
+def test_every_variant_changes_something_of_a_model_of_the_study():
+    seen = set()
+    for label, model, change, duration in VARIANTS.values():
+        assert label in MODELS
+        seen.add((label, str(model), str(change), duration))
+    assert len(seen) == len(VARIANTS)
+    for quick in (True, False):
+        assert set(Grids.of(quick).variants) <= set(VARIANTS)
+
+
+def test_figure_3_is_what_the_paper_draws():
+    """Eq. 6 and Fig. 3: K_M φ, then ξ M_u, then M_u (1 − φ/α)."""
+    column = preset(MONOLITH)
+    seen = column.as_prism()
+    ultimate, alpha = 0.5 * seen.joint_weights[0] * seen.joint_widths[0], np.arctan(0.81 / 5.0)
+    stiffness = 5e10 * seen.joint_second_moments[0]
+    phi = np.array([-0.1, -1e-6, 1e-6, 0.01, 0.1, 1.2 * alpha])
+    lines = np.minimum(stiffness * abs(phi), ultimate * np.minimum(0.7, 1.0 - abs(phi) / alpha)) * np.sign(phi)
+    found = joint_law(RigidBeam.paper(moment_law="trilinear", xi=0.7), column, 1, phi)
+    np.testing.assert_allclose(found, lines, rtol=1e-12)
+    rigid = joint_law(RigidBeam.paper(moment_law="housner"), column, 1, phi[3:])
+    np.testing.assert_allclose(rigid, ultimate * (1.0 - phi[3:] / alpha), rtol=1e-12)
+
+
+def test_circular_columns_keep_their_widths_as_diameters():
+    column = paper_column("paper-12-drums", "circular")
+    assert column.section == "circular"
+    np.testing.assert_array_equal(column.joint_widths, preset("paper-12-drums").joint_widths)
+
+
+def test_a_row_of_the_table_survives_its_own_marks():
+    row = p.Statement("3", "a | b", "c", p.FAILS, "d")
+    assert p.markdown_row(row) == "| §3 | a \\| b | c | **does not hold** | d |  |"
+    assert dataclasses.asdict(row)["sensitivity"] == ""
