@@ -11,7 +11,7 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, OutOfRangeWarning, StylobateError
-from . import animate, bench, columns, compare, critical, domain, limit, motion, pushover, run, spectrum, suite
+from . import animate, bench, columns, compare, critical, domain, limit, motion, pushover, reproduce, run, spectrum, suite
 from .console import Interrupted
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
@@ -37,6 +37,7 @@ app.command("motion")(motion.motion)
 app.command("spectrum")(spectrum.spectrum)
 app.command("columns")(columns.columns)
 app.command("animate")(animate.animate)
+app.command("reproduce")(reproduce.reproduce)
 app.command("bench")(bench.bench)
 
 
