@@ -7,6 +7,7 @@ import pytest
 
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
+from stylobate.kernels.distinct_element_2d import CHUNK
 from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.motion import Motion
 from stylobate.simulate import simulate_many
@@ -19,8 +20,8 @@ TIME = np.arange(round(DURATION / DT) + 1) * DT
 
 
 def model_for(column: Column) -> DistinctElement2D:
-    chunks = math.ceil(DURATION / (16.0 * DistinctElement2D().step_for(column)))
-    return DistinctElement2D(time_step=DURATION / (16.0 * chunks) * (1.0 + 1e-13))
+    chunks = math.ceil(DURATION / (CHUNK * DistinctElement2D().step_for(column)))
+    return DistinctElement2D(time_step=DURATION / (CHUNK * chunks) * (1.0 + 1e-13))
 
 
 def harmonics(frequencies, amplitudes):

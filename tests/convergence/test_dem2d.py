@@ -29,7 +29,8 @@ def test_halving_the_step_changes_few_verdicts_of_a_domain():
     changed = [int((a != b).sum()) for a, b in pairwise(cells)]
     assert min(counts) > 30
     assert max(changed) <= 0.06 * len(cells[0])
-    assert abs(counts[2] - counts[1]) <= 0.06 * counts[1]
+    # cells near the boundary flip either way like coins: the net change stays within two standard deviations
+    assert abs(counts[2] - counts[1]) <= 2.0 * np.sqrt(changed[1])
 
 
 def test_smooth_motion_converges_with_the_square_of_the_step():
