@@ -131,7 +131,7 @@ class Grids:
         if quick:
             some = tuple(name for name in VARIANTS if name not in SLOW_VARIANTS)
             return cls(
-                np.linspace(0.25, 4.0, 16), np.linspace(0.1, 0.6, 21) * g, 0.0, (BEAM,), some,
+                np.linspace(0.25, 4.0, 16), np.linspace(0.1, 0.5, 17) * g, 0.0, (BEAM,), some,
                 np.array([0.66, 1.0, 2.0]), np.linspace(0.12, 0.6, 13) * g, limit,
             )  # fmt: skip
         return cls(
