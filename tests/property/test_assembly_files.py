@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from stylobate.column import Column, Joint, preset
+from stylobate.column.as_found import Imperfections, imperfect
 from stylobate.column.assembly import Assembly, Block, read_assembly
 from stylobate.column.assembly_files import is_assembly
-from stylobate.column.as_found import Imperfections, imperfect
 from stylobate.errors import InputError
 from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.motion import Motion

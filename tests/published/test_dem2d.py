@@ -36,7 +36,7 @@ def test_the_unsafe_region_of_the_drums_is_smaller_than_the_monolith_s(domains):
 
 @pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])
 def test_collapse_acceleration_grows_with_frequency(domains, name):
-    """Section 3.1: 'a collapse acceleration that increases for increasing input frequency' (in counts: verdicts alternate)."""
+    """Section 3.1: 'a collapse acceleration that increases for increasing input frequency' (here in counts)."""
     counts = domains[name].sum(axis=1)
     assert counts[0] > counts[2] >= counts[3] >= counts[4]
     assert counts[1] > counts[2]

@@ -85,12 +85,12 @@ def halved_step(model: Model, column: Column, motion: Any) -> Model:
     """
     step = getattr(model, "time_step", None)
     if step is not None:
-        return dataclasses.replace(model, time_step=0.5 * step)  # pyright: ignore[reportCallIssue]
+        return dataclasses.replace(model, time_step=0.5 * step)
     factor = getattr(model, "step_factor", None)
     if factor is not None:
-        return dataclasses.replace(model, step_factor=0.5 * factor)  # pyright: ignore[reportCallIssue]
+        return dataclasses.replace(model, step_factor=0.5 * factor)
     step_for = getattr(model, "step_for", None)
     if step_for is None:
         raise InputError(f"{model.name} chooses its steps by itself; give a time_step to compare it with half of it.")
     seen = getattr(model, "idealised", lambda one: one)(column)
-    return dataclasses.replace(model, time_step=0.5 * step_for(seen, motion))  # pyright: ignore[reportCallIssue]
+    return dataclasses.replace(model, time_step=0.5 * step_for(seen, motion))

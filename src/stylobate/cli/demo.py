@@ -55,7 +55,9 @@ def demo(folder: Path = FOLDER) -> None:
         print()
         for name in PRESETS:
             with console.progress(name) as progress:
-                domain = collapse_domain(preset(name), model, frequencies, amplitudes, 10.0, tail=TAIL, progress=progress)
+                domain = collapse_domain(
+                    preset(name), model, frequencies, amplitudes, 10.0, tail=TAIL, progress=progress
+                )
             if not domain.complete:
                 raise console.Interrupted("interrupted; the domain is not drawn.")
             files = [domain.save(folder / f"{name}-domain.nc"), domain.save(folder / f"{name}-domain.csv")]

@@ -11,7 +11,21 @@ import typer
 
 from .. import __version__
 from ..errors import InputError, OutOfRangeWarning, StylobateError
-from . import animate, bench, columns, compare, critical, domain, limit, motion, pushover, reproduce, run, spectrum, suite
+from . import (
+    animate,
+    bench,
+    columns,
+    compare,
+    critical,
+    domain,
+    limit,
+    motion,
+    pushover,
+    reproduce,
+    run,
+    spectrum,
+    suite,
+)
 from .console import Interrupted
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130

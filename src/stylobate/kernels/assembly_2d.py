@@ -450,9 +450,7 @@ def advance(
             for q in range(parts):
                 joint_forces(body, joint, now)
                 bed_forces(body, corner, joint, now, pairs, link, memory, real, whole)
-                farthest = move(
-                    body, now, x0 + q * dx, z0 + q * dz, x0 + (q + 1) * dx, z0 + (q + 1) * dz, o.dt / parts
-                )
+                farthest = move(body, now, x0 + q * dx, z0 + q * dz, x0 + (q + 1) * dx, z0 + (q + 1) * dz, o.dt / parts)
                 if farthest > 0.5 * o.skin:
                     renew_pairs(body, corner, now, box, order, pairs)
             o.step += 1

@@ -39,6 +39,9 @@ class LaneBlock(Protocol):
         ...
 
 
+#: Samples of a motion that a fixed step of the rocking models may pass over.
+MOST_SAMPLES = 4
+
 #: Arrays of lanes start at a multiple of this [bytes], so that no vector straddles two lines of the cache.
 CACHE_LINE = 64
 

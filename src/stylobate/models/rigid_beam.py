@@ -15,7 +15,7 @@ from ..motion import Motion
 from ..response import Measures, Response
 from .base import Case, Model, RunOptions
 from .housner import warn, warn_vertical
-from .lanes import run_lanes
+from .lanes import MOST_SAMPLES, run_lanes
 from .rigid_beam_equations import BeamMatrices
 from .rocking import RockingBlock
 
@@ -198,6 +198,10 @@ class RigidBeam(Model):
     def longest_step(self, column: Column) -> float:
         """Time step for a column under a motion that is sampled finely enough [s]; ``column`` idealised."""
         return self.time_step or min(STEP_FACTOR / self.highest_rate(column), 0.01 / column.frequency_parameter)
+
+    def step_for(self, column: Column, motion: Motion) -> float:
+        """Time step for a column under a motion, whose samples it may pass over by a few [s]; ``column`` idealised."""
+        return self.time_step or min(self.longest_step(column), MOST_SAMPLES * motion.dt)
 
     def highest_rate(self, column: Column) -> float:
         """Highest rate of the column with all joints closed, ω_max or faster where damped [1/s]; ``column`` idealised."""

@@ -15,6 +15,7 @@ from ..motion import Motion
 from ..outcome import Outcome, classify
 from ..response import Histories, Measures
 from .base import ground_history
+from .lanes import MOST_SAMPLES
 from .rigid_beam_equations import BeamMatrices
 from .rocking import imbalance
 
@@ -23,9 +24,6 @@ if TYPE_CHECKING:
 
 #: A run whose ledger is out of balance by more than this share of the input work has failed.
 LARGEST_IMBALANCE = 0.25
-
-#: Samples of the motion that a step may pass over.
-MOST_SAMPLES = 4
 
 
 @dataclass(frozen=True, eq=False)

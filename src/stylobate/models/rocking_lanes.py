@@ -12,6 +12,7 @@ from ..kernels import housner as kernel
 from ..motion import Motion
 from ..response import Measures
 from .base import Case, RunOptions
+from .lanes import MOST_SAMPLES
 from .rocking import REST, RockingBlock, half_steps, imbalance, lightest_weight, remaining_peak
 
 #: Chunks of steps between two looks of the interpreter: some milliseconds.
@@ -22,9 +23,8 @@ MOST_TABLES = 256
 
 Tables = tuple[np.ndarray, np.ndarray | None, np.ndarray]
 
-#: Default step over 1/p, and the number of samples of the motion it may pass over.
+#: Default step over 1/p.
 STEP_SHARE = 0.01
-MOST_SAMPLES = 4
 
 
 def steps_of(motion: Motion, wanted: float) -> tuple[int, float]:

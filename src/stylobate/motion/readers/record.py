@@ -224,7 +224,8 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
             warnings.warn(
                 f"{name}: the mean of component {axis} is {mean / g:.3g} g, {abs(mean) / peak:.0%} of its peak, "
                 "as when an "
-                "instrument's offset was left in; take it off with stylobate.motion.demean (--condition demean) unless it is meant.",
+                "instrument's offset was left in; take it off with stylobate.motion.demean (--condition demean) "
+                "unless it is meant.",
                 OutOfRangeWarning,
                 stacklevel=4,
             )
