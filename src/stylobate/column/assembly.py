@@ -103,7 +103,7 @@ class Block:
             raise InputError(
                 f"{who} is not convex at vertex ({corners[k, 0]:g}, {corners[k, 1]:g}); split it into convex blocks."
             )
-        object.__setattr__(self, "vertices", tuple((float(x), float(z)) for x, z in corners.tolist()))
+        object.__setattr__(self, "vertices", tuple(zip(corners[:, 0].tolist(), corners[:, 1].tolist(), strict=True)))
         object.__setattr__(self, "density", density)
         object.__setattr__(self, "depth", depth)
 
