@@ -83,7 +83,7 @@ class HousnerBlock(Model):
         if column.n != 1:
             raise InputError(
                 f"the model housner computes one block, and {column.name!r} has {column.n} drums; "
-                "use rigid-beam, rigid-block, dem2d or dem3d."
+                "use rigid-beam, rigid-block or dem2d."
             )
         block = self.block(column)
         if abs(self.initial_rotation) >= block.alpha:
