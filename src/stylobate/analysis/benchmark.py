@@ -87,7 +87,8 @@ def bench(
     wall = min(_timed(lambda: simulate(column, shaking, model)) for _ in range(3))
     out |= {"single_run_s": wall, "real_time_factor": shaking.duration / wall}
     say(f"1 thread against {count}")
-    motions = [harmonic(1.0, 1.0, 2.0).scaled(a * g) for a in np.linspace(0.05, 0.3, 64)]
+    unit = harmonic(1.0, 1.0, 10.0)
+    motions = [unit.scaled(a * g) for a in np.linspace(0.05, 0.3, 128)]
     one, many = (
         min(_timed(lambda n=n: simulate_many(column, motions, model, threads=n)) for _ in range(3)) for n in (1, count)
     )
