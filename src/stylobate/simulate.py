@@ -65,16 +65,17 @@ def simulate(
     started = time.perf_counter()
     response = model.run(column, motion, options)
     wall = time.perf_counter() - started
+    bed = ["feng2004"] if response.provenance.get("followed_to_the_ground") else []
     provenance = {
         "version": __version__,
         "model": model.name,
         "parameters": model.parameters(),
-        "references": list(model.references),
+        "references": [*_references(model, motion), *bed],
         "column": column.to_dict(),
         "column_digest": column.digest,
         "motion": motion.name,
         "motion_digest": motion.digest,
-        "motion_metadata": {str(key): str(value) for key, value in motion.metadata.items()},
+        "motion_metadata": _metadata(motion),
         "motion_processing": list(motion.processing),
         "tail_s": options.tail,
         "output_interval_s": options.output_interval,
@@ -114,9 +115,11 @@ def simulate_assembly(
         "version": __version__,
         "model": model.name,
         "parameters": model.parameters(),
+        "references": [*_references(model, motion), "feng2004"],
         "assembly_digest": assembly.digest,
         "motion": motion.name,
         "motion_digest": motion.digest,
+        "motion_metadata": _metadata(motion),
     }
     wall = time.perf_counter() - started
     return dataclasses.replace(response, provenance=response.provenance | provenance, wall_time=wall)
@@ -201,6 +204,15 @@ def thread_count(threads: int | None) -> int:
     if threads is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return int(check_range("threads", threads, 1, 1024, remedy="leave it out to use all cores"))
+
+
+def _references(model: Model, motion: Motion) -> list[str]:
+    # Keys of the bibliography: the model's, and those of a motion that is computed.
+    return list(dict.fromkeys([*model.references, *motion.metadata.get("references", ())]))
+
+
+def _metadata(motion: Motion) -> dict[str, str]:
+    return {str(key): str(value) for key, value in motion.metadata.items() if key != "references"}
 
 
 def _options(tail: float, output_interval: float, until_end: bool, until_rest: bool = False) -> RunOptions:

@@ -40,10 +40,15 @@ def as_json(value: Any, indent: int | None = None) -> str:
 
 def write_json(path: Path, value: Any) -> Path:
     """Write a JSON file, whole or not at all."""
+    return write_text(path, as_json(value, indent=2))
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Write a text and a line end, whole or not at all."""
     from ..atomic import replacing
 
     with replacing(path) as partial:
-        partial.write_text(as_json(value, indent=2) + "\n", encoding="utf-8")
+        partial.write_text(text + "\n", encoding="utf-8")
     return path
 
 

@@ -14,6 +14,7 @@ from ..errors import InputError, OutOfRangeWarning, StylobateError
 from . import (
     animate,
     bench,
+    cite,
     columns,
     compare,
     critical,
@@ -52,6 +53,7 @@ app.command("spectrum")(spectrum.spectrum)
 app.command("columns")(columns.columns)
 app.command("animate")(animate.animate)
 app.command("reproduce")(reproduce.reproduce)
+app.command("cite")(cite.cite)
 app.command("bench")(bench.bench)
 
 

@@ -23,6 +23,14 @@ DEFAULT_QUIET_TIME = 10.0
 #: Half length of a Ricker pulse in periods: the acceleration there is below 1e-7 of the peak.
 RICKER_HALF_LENGTH = 1.5
 
+#: Where the shape of a kind of pulse comes from, as keys of the bibliography.
+SOURCES = {
+    "ricker": ("ricker1943", "vassiliou2011"),
+    "antisymmetric ricker": ("ricker1943", "vassiliou2011"),
+    "gabor": ("gabor1946", "mavroeidis2003"),
+    "mavroeidis-papageorgiou": ("mavroeidis2003",),
+}
+
 
 def rectangular_pulse(frequency: float, amplitude: float, duration: float | None = None) -> Motion:
     """Constant acceleration for half a period.
@@ -245,4 +253,5 @@ def _pulse(
     samples[: pulse_steps + 1] = shape(np.arange(pulse_steps + 1) / pulse_steps * cycles)
     if steps > pulse_steps:
         samples[pulse_steps] *= 0.5  # the middle of the jump, where there is one
-    return Motion(dt, samples, factor=a, name=f"{kind} pulse {f:g} Hz, {a / g:g} g", metadata={"pulse_length": length})
+    facts = {"pulse_length": length, "references": SOURCES.get(kind, ())}
+    return Motion(dt, samples, factor=a, name=f"{kind} pulse {f:g} Hz, {a / g:g} g", metadata=facts)

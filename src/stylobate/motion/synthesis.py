@@ -36,6 +36,8 @@ class Region:
         Growth of the duration with distance [s/m].
     reference : str
         Where the values come from.
+    sources : tuple of str
+        The same as keys of the bibliography.
     """
 
     name: str
@@ -48,6 +50,7 @@ class Region:
     spreading: tuple[tuple[float, float], ...]
     path_duration: float
     reference: str
+    sources: tuple[str, ...] = ()
 
 
 _BAR = 1e5
@@ -66,6 +69,7 @@ REGIONS = {
             spreading=((1e3, -1.0),),
             path_duration=0.05 * _PER_KM,
             reference="Margaris and Boore (1998), stress parameter and kappa; Hatzidimitriou (1993), Q",
+            sources=("margaris1998", "hatzidimitriou1993"),
         ),
         Region(
             name="western-north-america",
@@ -78,6 +82,7 @@ REGIONS = {
             spreading=((1e3, -1.0), (40e3, -0.5)),
             path_duration=0.05 * _PER_KM,
             reference="Campbell (2003)",
+            sources=("campbell2003",),
         ),
         Region(
             name="eastern-north-america",
@@ -90,6 +95,7 @@ REGIONS = {
             spreading=((1e3, -1.0), (70e3, 0.0), (130e3, -0.5)),
             path_duration=0.05 * _PER_KM,
             reference="Campbell (2003)",
+            sources=("campbell2003",),
         ),
     )
 }
@@ -222,6 +228,7 @@ def stochastic_motion(
             "stage": "simulated",
             "region": place.name,
             "reference": place.reference,
+            "references": ("boore2003", "brune1970", "saragoni1974", *place.sources),
             "magnitude": magnitude,
             "distance_m": distance,
             "seed": seed,
@@ -283,12 +290,14 @@ def with_directivity_pulse(motion: Motion, pulse: Motion, time: float | None = N
         return None if values is None else np.pad(values, (before, after))
 
     text = f"{pulse.name} put in with its largest velocity at {(start + middle) * dt:g} s"
+    sources = (*motion.metadata.get("references", ()), *pulse.metadata.get("references", ()), "mavroeidis2003")
     return motion.replace(
         acceleration=out,
         lateral=padded(motion.lateral),
         vertical=padded(motion.vertical),
         factor=1.0,
         name=f"{motion.name} with {pulse.name}",
+        metadata={**motion.metadata, "references": tuple(dict.fromkeys(sources))},
         processing=(*motion.processing, text),
     )
 

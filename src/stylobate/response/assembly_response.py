@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..atomic import replacing
+from ..bibliography import cite_run
 from ..column.assembly import Assembly
 
 if TYPE_CHECKING:
@@ -105,6 +106,10 @@ class AssemblyResponse:
             "model": "dem2d",
             "version": self.provenance.get("version", ""),
         }
+
+    def citation(self) -> str:
+        """What to cite for this run: the package, the sources of its model, and where its motion comes from."""
+        return cite_run(self.provenance).text
 
     def to_xarray(self) -> xarray.Dataset:
         """Histories as a labelled data set with units."""

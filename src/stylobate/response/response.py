@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..bibliography import cite_run
 from ..column import Column
 from ..outcome import Outcome
 from .measures import Measures
@@ -118,6 +119,10 @@ class Response:
             joints["mechanism"] = mechanism
         version = self.provenance.get("version", "")
         return row | joints | {"wall_s": self.wall_time, "model": self.model, "version": version}
+
+    def citation(self) -> str:
+        """What to cite for this run: the package, the sources of its model, and where its motion comes from."""
+        return cite_run(self.provenance).text
 
     def with_provenance(self, provenance: dict, wall_time: float) -> Response:
         """A copy with provenance and wall time filled in (done once, by ``simulate``)."""

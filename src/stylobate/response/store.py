@@ -152,6 +152,29 @@ def load(path: str | Path) -> Response:
     )
 
 
+def read_provenance(path: str | Path) -> dict[str, Any]:
+    """Provenance of any netCDF file of this package: a response of a column or an assembly, a domain, probabilities.
+
+    Raises
+    ------
+    InputError
+        There is no such file, or it holds no provenance.
+    """
+    import xarray
+
+    try:
+        with xarray.open_dataset(path, engine="h5netcdf", decode_times=False) as data:
+            text = data.attrs["provenance"] if "provenance" in data.attrs else data["provenance"].item()
+        return dict(json.loads(str(text)))
+    except FileNotFoundError:
+        raise InputError(f"there is no file {path}.") from None
+    except (OSError, KeyError, ValueError) as error:
+        raise InputError(
+            f"{path} holds no provenance that can be read ({error}); give a netCDF file of this package, such as "
+            "response.nc."
+        ) from None
+
+
 def _measures(attributes: dict[str, Any]) -> Measures:
     values: dict[str, Any] = {field: attributes[name] for field, name in _MEASURES.items()}
     for field, value in values.items():
