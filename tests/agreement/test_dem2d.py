@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stylobate.column import Column, Joint, preset
+from stylobate.column import AsFound, Column, FoundDrum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.motion import Motion, harmonic
@@ -43,6 +43,8 @@ def mixed_cases():
                 section="circular" if k % 2 else "rectangular",
             )
         )
+        if k % 4 == 3:
+            columns[-1] = columns[-1].replace(as_found=AsFound((FoundDrum(2, 0.01, -0.5, 0.02),), 0.1 * k))
         motions.append(record.scaled(0.5 + 0.1 * k) if k % 3 == 0 else harmonic(1.0 + 0.2 * k, 0.4 * g, 1.0 + 0.1 * k))
     return columns, motions
 

@@ -263,3 +263,40 @@ def test_what_is_typed_wrong(arguments, words, refused):
     message = refused(*arguments)
     for word in words:
         assert word in message, message
+
+
+def write_found(folder, found):
+    path = folder / "found.toml"
+    path.write_text(COLUMN + "[as_found]\n" + found)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("found", "words"),
+    [
+        ("base_tilt = 12.0\n", ["not in equilibrium", "joint 1", "N m are missing"]),
+        ("[[as_found.drum]]\nindex = 3\noffset = 0.1\n", ["given drum 3 as found", "drums 1 to 2"]),
+        ("[[as_found.drum]]\nindex = 2\nchip_left = 0.9\n", ["joint 2", "no contact left"]),
+        ("[[as_found.drum]]\nindex = 2\ntlit = 0.9\n", ["tlit", "tilt"]),
+        ("base_tilt = 50.0\n", ["base_tilt is 50", "-45"]),
+    ],
+)
+def test_columns_that_cannot_be_as_found(found, words, refused, tmp_path):
+    sentence = refused("run", write_found(tmp_path, found), "--model", "dem2d", "--harmonic", "1Hz,0.1g,1s")
+    assert all(word in sentence for word in words), sentence
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        *(["run", "--model", model, "--harmonic", "1Hz,0.1g,1s"] for model in ("housner", "rigid-beam", "rigid-block")),
+        ["pushover"],
+        ["limit"],
+    ],
+    ids=" ".join,
+)
+def test_what_knows_columns_as_built_only(command, refused, tmp_path):
+    column = write_found(tmp_path, "base_tilt = 1.0\n")
+    sentence = refused(command[0], column, *command[1:])
+    assert "as found" in sentence
+    assert "dem2d" in sentence

@@ -16,7 +16,6 @@ from stylobate.analysis.domain import Domain
 from stylobate.column.presets import preset
 from stylobate.plots import style
 from stylobate.plots.domain import FILL
-from stylobate.plots.filmstrip import _corners
 from stylobate.response import ENERGY_TERMS, Histories, Measures
 
 
@@ -153,7 +152,7 @@ def test_the_film_strip_draws_rigid_drums_where_they_are():
     response = rocking()
     first = response.column.drums[0]
     moment = 40
-    corners = _corners(response, moment, 0, 1.0)
+    corners = response.outline(moment, 0)
     sides = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
     slanted = math.hypot(first.height, (first.bottom_width - first.top_width) / 2)
     np.testing.assert_allclose(sides, [first.bottom_width, slanted, first.top_width, slanted], rtol=1e-12)

@@ -6,14 +6,11 @@ import re
 import numpy as np
 import pytest
 
-from stylobate.column import Column, Joint, preset
-from stylobate.column.as_found import Imperfections, imperfect
+from stylobate.column import Joint
 from stylobate.column.assembly import Assembly, Block, read_assembly
 from stylobate.column.assembly_files import is_assembly
 from stylobate.errors import InputError
-from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.motion import Motion
-from stylobate.simulate import simulate_assembly
 
 JOINT = Joint(1e9, 5e8, friction_coefficient=0.7)
 SQUARE = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
@@ -101,69 +98,3 @@ def test_a_block_in_the_air_is_allowed_and_said():
     raised = tuple((x, z + 1.0) for x, z in SQUARE)
     with pytest.warns(UserWarning, match="'b' touches nothing: it will fall"):
         Assembly((Block(raised, 2000.0, "b"),), JOINT)
-
-
-def column():
-    return Column.tapered(
-        height=3.0, bottom_width=0.6, top_width=0.6, drums=3, density=2000.0, joint=JOINT, name="three drums"
-    )
-
-
-def test_offset_beyond_the_edge_is_refused_with_the_missing_moment():
-    Imperfections(offsets={2: 0.29}).check(column())
-    # drums 2 and 3 weigh 2 × 0.6 × 2000 × 9.81 N and stand 0.31 m off an edge at 0.30 m
-    with pytest.raises(InputError, match="at joint 2 the weight above passes 10 mm beyond") as error:
-        Imperfections(offsets={2: 0.31}).check(column())
-    assert f"{2 * 0.6 * 2000.0 * 9.81 * 0.01:.4g} N m are missing" in str(error.value)
-
-
-def test_tilt_of_the_base_is_refused_at_its_closed_form():
-    limit = math.degrees(math.atan(0.3 / 1.5))  # half the width over the height of the centroid
-    Imperfections(base_tilt=0.99 * limit).check(column())
-    with pytest.raises(InputError, match="at joint 1 the weight above passes"):
-        Imperfections(base_tilt=1.01 * limit).check(column())
-    slippery = column().with_joint(friction_angle=5.0)
-    Imperfections(base_tilt=4.9).check(slippery)
-    with pytest.raises(InputError, match="joint 1 slides"):
-        Imperfections(base_tilt=5.1).check(slippery)
-
-
-@pytest.mark.parametrize(
-    ("found", "stands"),
-    [
-        (Imperfections(offsets={2: 0.2}, chips={(1, "right"): 0.05}), True),
-        (Imperfections(chips={(1, "left"): 0.25}, base_tilt=-1.5), True),
-        (Imperfections(base_tilt=10.0), True),
-    ],
-)
-def test_what_is_in_equilibrium_stands(found, stands):
-    assembly = imperfect(column(), found)
-    assert len(assembly.joints) == 3
-    response = simulate_assembly(assembly, STILL, DistinctElement2D(start="settle"))
-    assert (response.fallen == ()) is stands
-    assert np.abs(response.x - response.x[0]).max() < 1e-7
-
-
-def test_a_chip_shortens_the_contact():
-    _, low, high = Imperfections(chips={(2, "left"): 0.1, (3, "right"): 0.2}).contacts(column())
-    assert high - low == pytest.approx([0.6, 0.5, 0.4])
-
-
-@pytest.mark.parametrize(
-    ("make", "says"),
-    [
-        (lambda: Imperfections(offsets={4: 0.1}).check(column()), "drum 4"),
-        (lambda: Imperfections(chips={(1, "top"): 0.1}), "side 'top'"),
-        (lambda: Imperfections(chips={(2, "left"): 0.7}).check(column()), "joint 2 has no contact"),
-    ],
-)
-def test_bad_imperfections(make, says):
-    with pytest.raises(InputError, match=re.escape(says)):
-        make()
-
-
-def test_a_sound_column_is_the_preset():
-    sound = imperfect(preset("paper-12-drums"), Imperfections())
-    assert sum(block.properties[0] for block in sound.blocks if not block.fixed) == pytest.approx(
-        preset("paper-12-drums").mass
-    )

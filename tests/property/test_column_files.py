@@ -22,6 +22,16 @@ def joints(draw):
 
 
 @some.composite
+def as_found(draw, n):
+    small = some.floats(-1e-4, 1e-4)
+    drums = [
+        st.FoundDrum(i, draw(small), draw(some.floats(-0.1, 0.1)), abs(draw(small)), abs(draw(small)))
+        for i in draw(some.sets(some.integers(1, n)))
+    ]
+    return st.AsFound(tuple(drums), draw(some.floats(-0.1, 0.1)))
+
+
+@some.composite
 def columns(draw):
     section = draw(some.sampled_from(["circular", "rectangular"]))
     n = draw(some.integers(1, 6))
@@ -39,7 +49,11 @@ def columns(draw):
     name = draw(some.text(some.characters(exclude_categories=["Cs"]), max_size=20))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", st.OutOfRangeWarning)
-        return st.Column(tuple(drums), tuple(draw(joints()) for _ in range(n)), name, draw(some.floats(0.1, 100.0)))
+        column = st.Column(tuple(drums), tuple(draw(joints()) for _ in range(n)), name, draw(some.floats(0.1, 100.0)))
+        try:
+            return column.replace(as_found=draw(some.none() | as_found(n)) or st.AsFound())
+        except st.InputError:  # it would not stand
+            return column
 
 
 @given(column=columns())
@@ -94,6 +108,33 @@ friction_coefficient = 0.70
 index = 2
 friction_angle = 25.0
 """
+
+
+AS_FOUND = """
+[as_found]
+base_tilt = 0.5
+
+[[as_found.drum]]
+index = 3
+offset = 0.012
+tilt = -0.4
+
+[[as_found.drum]]
+index = 5
+chip_left = 0.05
+"""
+
+
+def test_what_is_found_is_part_of_the_column(tmp_path):
+    path = tmp_path / "found.toml"
+    path.write_text(TAPERED + AS_FOUND)
+    column = read_column(path)
+    found = st.AsFound((st.FoundDrum(3, offset=0.012, tilt=-0.4), st.FoundDrum(5, chip_left=0.05)), 0.5)
+    path.write_text(TAPERED)
+    as_built = read_column(path)
+    assert column == as_built.replace(as_found=found)
+    assert column.digest != as_built.digest
+    assert "as_found" not in as_built.to_dict()
 
 
 def test_both_ways_of_stating_drums(tmp_path):

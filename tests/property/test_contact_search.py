@@ -23,13 +23,16 @@ def cross(a, b):
 
 
 class Face:
-    """One face of a drum as a segment in world axes: ends, tangent (to the right), normal (upward)."""
+    """One face of a drum as a segment in world axes: ends, tangent (to the right), normal (upward).
 
-    def __init__(self, centroid, angle, half_width, offset):
+    ``reach`` are the ways from the foot of the centroid to the left and to the right end.
+    """
+
+    def __init__(self, centroid, angle, reach, offset):
         turn = rotation(angle)
         self.tangent, self.normal = turn @ [1.0, 0.0], turn @ [0.0, 1.0]
         middle = np.asarray(centroid) + offset * self.normal
-        self.left, self.right = middle - half_width * self.tangent, middle + half_width * self.tangent
+        self.left, self.right = middle - reach[0] * self.tangent, middle + reach[1] * self.tangent
 
     def across(self, point, direction):
         """Where a ray from ``point`` along ``direction`` meets the face: share of the way left → right, or None."""
@@ -39,6 +42,12 @@ class Face:
             return None
         share = cross(point - self.left, direction) / bottom
         return share if 0.0 <= share <= 1.0 else None
+
+
+def faces(pose):
+    """The upper drum's lower face and the lower drum's upper face of a pose."""
+    upper = Face(pose["xu"], pose["au"], (pose["bl"], pose["br"]), -pose["hb"])
+    return upper, Face(pose["xl"], pose["al"], (pose["w"], pose["w"]), pose["ht"])
 
 
 def overlap_ends(upper, lower):
@@ -78,8 +87,7 @@ def joint_contacts(upper, lower, points):
 
 def expected(pose, points):
     """Force on the upper drum, its moments about the upper and about the lower centroid, fn and fs of all points."""
-    upper = Face(pose["xu"], pose["au"], pose["b"], -pose["hb"])
-    lower = Face(pose["xl"], pose["al"], pose["w"], pose["ht"])
+    upper, lower = faces(pose)
     contacts, length = joint_contacts(upper, lower, points)
     force, on_upper, on_lower = np.zeros(2), 0.0, 0.0
     fn, fs = np.zeros(points), np.zeros(points)
@@ -111,10 +119,12 @@ def kernel_forces(poses, points):
         for i, (x, angle, v, omega) in enumerate([("xl", "al", "vl", "wl"), ("xu", "au", "vu", "wu")]):
             drum["x"][i, l], drum["z"][i, l] = pose[x]
             drum["th"][i, l] = pose[angle]
-            drum["c"][i, l], drum["s"][i, l] = math.cos(pose[angle]), math.sin(pose[angle])
+            frame = pose[angle] - (pose["lean"] if i == 0 else 0.0)
+            drum["c"][i, l], drum["s"][i, l] = math.cos(frame), math.sin(frame)
             drum["vx"][i, l], drum["vz"][i, l] = pose[v]
             drum["w"][i, l] = pose[omega]
-        drum["b"][1, l], drum["hb"][1, l] = pose["b"], pose["hb"]
+        drum["fc"][0, l], drum["fs"][0, l] = math.cos(pose["lean"]), math.sin(pose["lean"])
+        drum["bl"][1, l], drum["br"][1, l], drum["hb"][1, l] = pose["bl"], pose["br"], pose["hb"]
         drum["t"][0, l], drum["ht"][0, l] = pose["w"], pose["ht"]
         joint["fs"][0, :, l] = pose["fs"][:points]
     kernel.forces(drum, joint, lane)
@@ -122,7 +132,8 @@ def kernel_forces(poses, points):
 
 
 def random_poses(seed, steep, deep):
-    """LANES poses: unequal faces, lower drum anywhere, upper one slid up to past both edges, opened up to ``steep``.
+    """LANES poses: unequal and lopsided faces, lower drum anywhere, its upper face inclined to its axes in every other
+    pose, the upper drum slid up to past both edges, opened up to ``steep``.
 
     The deepest corner of either face within the overlap is put at a gap between −deep and +deep / 4.
     """
@@ -135,7 +146,8 @@ def random_poses(seed, steep, deep):
         al = rng.uniform(-1.2, 1.2)
         opened = rng.choice([rng.uniform(-steep, steep), rng.normal(0.0, 1e-3), 0.0], p=[0.6, 0.3, 0.1])
         pose = {
-            "b": b, "w": w, "hb": rng.uniform(0.1, 2.0), "ht": rng.uniform(0.1, 2.0), "al": al, "au": al + opened,
+            "bl": b, "br": b * rng.choice([1.0, rng.uniform(0.5, 1.5)]), "lean": rng.choice([0.0, rng.uniform(-0.5, 0.5)]),
+            "w": w, "hb": rng.uniform(0.1, 2.0), "ht": rng.uniform(0.1, 2.0), "al": al, "au": al + opened,
             "xl": rng.uniform(-5.0, 5.0, 2), "xu": np.zeros(2), "vl": rng.normal(0.0, 1.0, 2),
             "vu": rng.normal(0.0, 1.0, 2), "wl": rng.normal(0.0, 2.0), "wu": rng.normal(0.0, 2.0),
             "fs": rng.normal(0.0, 2e5, 8),
@@ -143,7 +155,7 @@ def random_poses(seed, steep, deep):
         slid = rng.uniform(-1.1, 1.1) * (b * math.cos(opened) + w) * rng.choice([1.0, 0.05])
         middle = pose["xl"] + rotation(al) @ [slid, pose["ht"]]
         pose["xu"] = middle + rotation(pose["au"]) @ [0.0, pose["hb"]]
-        ends = overlap_ends(Face(pose["xu"], pose["au"], b, -pose["hb"]), Face(pose["xl"], al, w, pose["ht"]))
+        ends = overlap_ends(*faces(pose))
         if ends:
             lift = rng.uniform(-deep, 0.25 * deep) - min(ends[0][2], ends[1][2])
             pose["xu"] = pose["xu"] + lift * (rotation(al) @ [0.0, 1.0])
@@ -177,8 +189,7 @@ def test_the_poses_reach_every_kind_of_contact():
     seen = {"left upper corner": 0, "left lower corner": 0, "right upper corner": 0, "right lower corner": 0, "none": 0}
     for seed in range(40):
         for pose in random_poses(seed, math.radians(80.0), 1e-3):
-            upper = Face(pose["xu"], pose["au"], pose["b"], -pose["hb"])
-            lower = Face(pose["xl"], pose["al"], pose["w"], pose["ht"])
+            upper, lower = faces(pose)
             ends = overlap_ends(upper, lower)
             if not ends:
                 seen["none"] += 1
@@ -195,8 +206,7 @@ def test_the_poses_reach_every_kind_of_contact():
 def test_gap_is_the_distance_to_the_nearest_feature(seed):
     """Where no two corners meet, the depth of a closed contact is the plain distance of corner and segment."""
     for pose in random_poses(seed, math.radians(80.0), 1e-3):
-        upper = Face(pose["xu"], pose["au"], pose["b"], -pose["hb"])
-        lower = Face(pose["xl"], pose["al"], pose["w"], pose["ht"])
+        upper, lower = faces(pose)
         for corner, face, sign in (
             (upper.left, lower, 1.0), (upper.right, lower, 1.0), (lower.left, upper, -1.0), (lower.right, upper, -1.0),
         ):  # fmt: skip
@@ -240,7 +250,8 @@ def test_force_is_continuous_when_a_drum_slides_over_an_edge(tilt, lower_angle):
         centre = rotation(lower_angle) @ [-s, 1.0]
         corner_up = b * abs(math.sin(tilt))
         pose = {
-            "b": b, "w": w, "hb": 0.7, "ht": 1.0, "al": lower_angle, "au": lower_angle + tilt, "xl": np.zeros(2),
+            "bl": b, "br": b, "lean": 0.0, "w": w,
+            "hb": 0.7, "ht": 1.0, "al": lower_angle, "au": lower_angle + tilt, "xl": np.zeros(2),
             "vl": np.zeros(2), "vu": np.zeros(2), "wl": 0.0, "wu": 0.0, "fs": np.zeros(8),
         }  # fmt: skip
         # the lowest place of the upper face within the lower one stays at −depth

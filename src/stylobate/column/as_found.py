@@ -1,149 +1,261 @@
-"""Columns as they are found: drums offset, edges chipped, the base out of level; each is part of the geometry."""
+"""Columns as they are found: drums offset and leaning, edges chipped, the base out of level."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..constants import DEGREE
 from ..errors import InputError, check_range
-from .assembly import FAR_AWAY, Assembly, Block
-from .column import Column
+
+if TYPE_CHECKING:
+    from .column import Column
 
 #: Height of a chip as a share of its width: a spall runs steeper than 45°.
 CHIP_SLOPE = 1.5
 
 
 @dataclass(frozen=True)
-class Imperfections:
-    """What is not as it was built; drums and joints are numbered from 1 at the base.
+class FoundDrum:
+    """What is not as built at one drum.
 
     Parameters
     ----------
-    offsets : mapping of int to float
-        Offset of a drum, and of all that stands on it, along the joint under it [m], positive to the right.
-    chips : mapping of (int, str) to float
-        Width that the lower face of a drum has lost on its ``left`` or ``right`` side [m]; the stone's mass is kept.
-    base_tilt : float
-        Slope of the base, counter-clockwise positive [degrees].
-    """
-
-    offsets: Mapping[int, float] = field(default_factory=dict)
-    chips: Mapping[tuple[int, str], float] = field(default_factory=dict)
-    base_tilt: float = 0.0
-
-    def __post_init__(self) -> None:
-        for drum, value in self.offsets.items():
-            check_range(f"offset of drum {drum}", value, -10.0, 10.0, unit="m")
-        for (drum, side), value in self.chips.items():
-            if side not in ("left", "right"):
-                raise InputError(f"the chip of drum {drum} is on side {side!r}; allowed are left and right.")
-            check_range(f"chip of drum {drum}", value, 0.0, 10.0, unit="m", open_low=True)
-        check_range("base_tilt", self.base_tilt, -45.0, 45.0, unit="degrees")
-
-    def contacts(self, column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Axis of every drum, and left and right end of the contact in every joint, along the base [m], shapes (n,).
-
-        Raises
-        ------
-        InputError
-            A drum that the column does not have, or two faces that no longer touch.
-        """
-        for drum in (*self.offsets, *(drum for drum, _ in self.chips)):
-            if not 1 <= drum <= column.n:
-                raise InputError(f"an imperfection names drum {drum}; {column.name!r} has drums 1 to {column.n}.")
-        axis = np.cumsum([self.offsets.get(i + 1, 0.0) for i in range(column.n)])
-        bottom = np.array([drum.bottom_width for drum in column.drums])
-        low = axis - 0.5 * bottom + [self.chips.get((i + 1, "left"), 0.0) for i in range(column.n)]
-        high = axis + 0.5 * bottom - [self.chips.get((i + 1, "right"), 0.0) for i in range(column.n)]
-        top = np.array([drum.top_width for drum in column.drums])
-        low[1:] = np.maximum(low[1:], (axis - 0.5 * top)[:-1])
-        high[1:] = np.minimum(high[1:], (axis + 0.5 * top)[:-1])
-        parted = np.flatnonzero(high - low <= 0.0)
-        if parted.size:
-            raise InputError(
-                f"joint {parted[0] + 1} has no contact left with these offsets and chips; make them smaller there."
-            )
-        return axis, low, high
-
-    def check(self, column: Column) -> None:
-        """Refuse what cannot stand.
-
-        The weight above a joint must pass between the ends of its contact, and must not slide down a tilted base.
-
-        Raises
-        ------
-        InputError
-            The column is not in equilibrium; the message names the joint and the missing moment or force.
-        """
-        axis, low, high = self.contacts(column)
-        slope = self.base_tilt * DEGREE
-        for j in range(column.n):
-            weight = float(column.joint_weights[j])
-            mass = column.masses[j:]
-            along = float(mass @ axis[j:] / mass.sum())
-            height = float(mass @ (column.centroid_heights[j:] - column.joint_heights[j]) / mass.sum())
-            # the weight meets the joint where it points to: down the slope by its height
-            foot = along - height * math.tan(slope)
-            beyond = max(foot - high[j], low[j] - foot)
-            if beyond > 0.0:
-                raise InputError(
-                    f"{column.name!r} is not in equilibrium: at joint {j + 1} the weight above passes "
-                    f"{1000.0 * beyond:.3g} mm beyond the contact, {weight * math.cos(slope) * beyond:.4g} N m are missing; "
-                    "make the offsets, chips or the tilt smaller."
-                )
-            excess = abs(math.sin(slope)) - math.cos(slope) * column.joints[j].tan_phi
-            if excess > 0.0:
-                raise InputError(
-                    f"{column.name!r} is not in equilibrium: joint {j + 1} slides down the tilted base, "
-                    f"{weight * excess:.4g} N of friction are missing; make base_tilt smaller or the friction larger."
-                )
-
-
-def imperfect(column: Column, imperfections: Imperfections) -> Assembly:
-    """The column as found, as an assembly: drums as blocks on a fixed base.
+    drum : int
+        Number of the drum, from 1 at the base.
+    offset : float
+        Of this drum, and of all that stands on it, along the joint under it [m]; positive to the right.
+    tilt : float
+        Lean of this drum, and of all that stands on it, out of the normal of the joint under it [degrees];
+        counter-clockwise positive (the top goes to the left). The drum rests on its whole face: its bed is worn askew.
+    chip_left, chip_right : float
+        Width that its lower face has lost at an edge [m]; the mass is taken as if nothing were lost.
 
     Raises
     ------
     InputError
-        It is not in equilibrium.
+        A value outside its range.
     """
-    imperfections.check(column)
-    axis, *_ = imperfections.contacts(column)
-    slope = imperfections.base_tilt * DEGREE
-    c, s = math.cos(slope), math.sin(slope)
-    turn = np.array([[c, s], [-s, c]])
-    far = FAR_AWAY / 10.0
-    base = np.array([[-far, -far], [far, -far], [far, 0.0], [-far, 0.0]]) @ turn
-    blocks = [Block(_tuples(base), 0.0, "base", fixed=True)]
-    for i, (drum, z) in enumerate(zip(column.drums, column.joint_heights, strict=True)):
-        b, t = 0.5 * drum.bottom_width, 0.5 * drum.top_width
-        corners = []
-        for side, sign in (("left", -1.0), ("right", 1.0)):
-            chip = imperfections.chips.get((i + 1, side), 0.0)
-            rise = min(CHIP_SLOPE * chip, 0.5 * drum.height)
-            flank = (sign * (b + (t - b) * rise / drum.height), rise)
-            foot = (sign * (b - chip), 0.0)
-            pair = [foot] if chip == 0.0 else [flank, foot] if sign < 0.0 else [foot, flank]
-            corners += pair
-        corners += [(t, drum.height), (-t, drum.height)]
-        centroid = np.array([[axis[i], column.centroid_heights[i]]]) @ turn
-        depth = drum.depth if not drum.circular else 0.25 * math.pi * drum.mean_width
-        blocks.append(
-            Block(
-                _tuples((np.array(corners) + np.array([axis[i], z])) @ turn),
-                drum.density,
-                f"drum {i + 1}",
-                depth,
-                surface=column.joints[i],
-                solid=(drum.mass, drum.inertia, float(centroid[0, 0]), float(centroid[0, 1])),
+
+    drum: int
+    offset: float = 0.0
+    tilt: float = 0.0
+    chip_left: float = 0.0
+    chip_right: float = 0.0
+
+    def __post_init__(self) -> None:
+        if isinstance(self.drum, bool) or not isinstance(self.drum, (int, np.integer)) or self.drum < 1:
+            raise InputError(
+                f"a drum as found has number {self.drum!r}; allowed is a whole number from 1 (at the base)."
             )
-        )
-    return Assembly(tuple(blocks), column.joints[0], f"{column.name}, as found", column.gravity, None)
+        for name, low, high, unit in (
+            ("offset", -10.0, 10.0, "m"),
+            ("tilt", -30.0, 30.0, "degrees"),
+            ("chip_left", 0.0, 10.0, "m"),
+            ("chip_right", 0.0, 10.0, "m"),
+        ):
+            value = check_range(f"{name} of drum {self.drum}", getattr(self, name), low, high, unit=unit)
+            object.__setattr__(self, name, value)
 
 
-def _tuples(corners: np.ndarray) -> tuple[tuple[float, float], ...]:
-    return tuple((float(x), float(z)) for x, z in corners)
+@dataclass(frozen=True)
+class AsFound:
+    """What is not as built; positions are described along and normal to the base.
+
+    Parameters
+    ----------
+    drums : sequence of FoundDrum
+        Each drum at most once; drums left out are as built.
+    base_tilt : float
+        Slope of the base, counter-clockwise positive (it rises to the right) [degrees].
+
+    Raises
+    ------
+    InputError
+        A drum is given twice, or a value is outside its range.
+    """
+
+    drums: tuple[FoundDrum, ...] = ()
+    base_tilt: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "drums", tuple(sorted(self.drums, key=lambda one: one.drum)))
+        numbers = [one.drum for one in self.drums]
+        twice = next((number for number in numbers if numbers.count(number) > 1), None)
+        if twice is not None:
+            raise InputError(f"drum {twice} is given twice as found; give all of it at once.")
+        tilt = check_range("base_tilt", self.base_tilt, -45.0, 45.0, unit="degrees")
+        object.__setattr__(self, "base_tilt", tilt)
+
+    def __bool__(self) -> bool:
+        return self.base_tilt != 0.0 or any(one != FoundDrum(one.drum) for one in self.drums)
+
+    def of(self, drum: int) -> FoundDrum:
+        """What is found at a drum, numbered from 1."""
+        return next((one for one in self.drums if one.drum == drum), FoundDrum(drum))
+
+
+#: Nothing but what was built.
+AS_BUILT = AsFound()
+
+
+class Geometry(NamedTuple):
+    """A column as it stands, its joints closed; in axes along and normal to the base, from the middle of its contact.
+
+    ``foot`` [m] is where each drum's centroid projects to on its lower face, from the face's middle. ``lean`` [rad] is the
+    inclination of each joint, ``tilt`` [rad] that of a drum's axis to the normal of its lower face; ``origin`` [m] the
+    middle of the face under each drum; ``low`` and ``high`` [m] the ends of the contact along the joint, from there.
+    Shapes (n,), ``origin`` and ``centroid`` (n, 2).
+    """
+
+    foot: np.ndarray
+    tilt: np.ndarray
+    lean: np.ndarray
+    origin: np.ndarray
+    centroid: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+    def end(self, joint: int, side: int) -> np.ndarray:
+        """End of a contact, to the left (side < 0) or to the right [m], shape (2,)."""
+        place = self.high[joint] if side > 0 else self.low[joint]
+        return self.origin[joint] + place * np.array([math.cos(self.lean[joint]), math.sin(self.lean[joint])])
+
+
+def geometry(column: Column, offsets: np.ndarray | None = None) -> Geometry:
+    """Where a column's drums and contacts are.
+
+    Parameters
+    ----------
+    column : Column
+    offsets : array, optional
+        Of the drums along the joints under them [m], shape (n,); as found if left out.
+    """
+    n, found = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
+    offset = np.array([one.offset for one in found]) if offsets is None else offsets
+    tilt = np.array([one.tilt * DEGREE for one in found])
+    lean = np.concatenate(([0.0], np.cumsum(tilt)[:-1]))
+    centroid = np.array([drum.centroid_height for drum in column.drums])
+    foot = -centroid * np.sin(tilt)
+    low, high = np.empty(n), np.empty(n)
+    origins, centroids = np.empty((n, 2)), np.empty((n, 2))
+    origin = np.zeros(2)
+    for i, (drum, one) in enumerate(zip(column.drums, found, strict=True)):
+        b = 0.5 * drum.bottom_width
+        under = 0.5 * column.drums[i - 1].top_width if i else math.inf
+        low[i] = max(offset[i] - b + one.chip_left, -under)
+        high[i] = min(offset[i] + b - one.chip_right, under)
+        origins[i] = origin
+        middle = origin + offset[i] * np.array([math.cos(lean[i]), math.sin(lean[i])])
+        axis = lean[i] + tilt[i]
+        up = np.array([-math.sin(axis), math.cos(axis)])
+        centroids[i] = middle + centroid[i] * up
+        origin = middle + drum.height * up
+    return Geometry(foot, tilt, lean, origins, centroids, low, high)
+
+
+def gravity_vector(column: Column) -> np.ndarray:
+    """Acceleration of gravity along and normal to the base [m/s²], shape (2,)."""
+    slope = column.as_found.base_tilt * DEGREE
+    return -column.gravity * np.array([math.sin(slope), math.cos(slope)])
+
+
+class JointLoad(NamedTuple):
+    """What the weight above a joint exerts on it: compression and downhill shear [N], and where, along the joint [m]."""
+
+    normal: float
+    shear: float
+    place: float
+
+
+def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
+    """Load of a joint under the weight of what stands on it."""
+    mass = column.masses[joint:]
+    weight = float(mass.sum()) * gravity_vector(column)
+    arm = mass @ at.centroid[joint:] / mass.sum() - at.origin[joint]
+    along = np.array([math.cos(at.lean[joint]), math.sin(at.lean[joint])])
+    normal = np.array([-along[1], along[0]])
+    pressing = -float(weight @ normal)
+    if pressing <= 0.0:
+        return JointLoad(pressing, float(weight @ along), math.nan)
+    return JointLoad(pressing, float(weight @ along), float(arm @ along + (arm @ normal) * (weight @ along) / pressing))
+
+
+def uplift_accelerations(column: Column) -> np.ndarray:
+    """Static horizontal accelerations of the ground that open each joint of the rigid stack above it [m/s²].
+
+    Returns
+    -------
+    array, shape (n, 2)
+        Of the ground to the left (the part above turns about the right end of its contact), negative; and to the right.
+
+    Notes
+    -----
+    Weight and inertia force d × (g − a) = 0 about the end of the contact, with d from there to the centroid and the
+    acceleration a (cos β, −sin β) along and normal to a base of slope β.
+    """
+    at, weight, slope = geometry(column), gravity_vector(column), column.as_found.base_tilt * DEGREE
+    out = np.empty((column.n, 2))
+    for j in range(column.n):
+        mass = column.masses[j:]
+        centroid = mass @ at.centroid[j:] / mass.sum()
+        for k, side in enumerate((1, -1)):
+            d = centroid - at.end(j, side)
+            out[j, k] = (d[1] * weight[0] - d[0] * weight[1]) / (d[0] * math.sin(slope) + d[1] * math.cos(slope))
+    return out
+
+
+def check_as_found(column: Column) -> None:
+    """Refuse what cannot stand: the weight above each joint must pass through its contact, and not slide on it.
+
+    Raises
+    ------
+    InputError
+        A drum that the column does not have, faces that no longer touch, or no equilibrium; the message names the joint
+        and the missing moment or force.
+    """
+    name = repr(column.name)
+    for one in column.as_found.drums:
+        if one.drum > column.n:
+            raise InputError(f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.")
+    at = geometry(column)
+    parted = np.flatnonzero(at.high - at.low <= 0.0)
+    if parted.size:
+        raise InputError(f"joint {parted[0] + 1} of {name} has no contact left; make its offsets or chips smaller.")
+    for j in range(column.n):
+        load, law = joint_load(column, at, j), column.joints[j]
+        friction = law.tan_phi * load.normal + law.cohesion * column.joint_areas[j]
+        if load.normal <= 0.0 or abs(load.shear) > friction:
+            raise InputError(
+                f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "
+                f"{abs(load.shear) - max(friction, 0.0):.4g} N of friction are missing; "
+                "make the tilts smaller or the friction larger."
+            )
+        beyond = max(load.place - at.high[j], at.low[j] - load.place)
+        if beyond > 0.0:
+            raise InputError(
+                f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
+                f"the contact, {load.normal * beyond:.4g} N m are missing; make the offsets, tilts or chips smaller."
+            )
+
+
+def drum_outline(column: Column, i: int) -> np.ndarray:
+    """Corners of drum i = 0 … n−1, counter-clockwise from the lower left, from its centroid [m], shape (k, 2).
+
+    The axes are along and normal to its lower face.
+    """
+    drum, one = column.drums[i], column.as_found.of(i + 1)
+    tilt = one.tilt * DEGREE
+    c, s = math.cos(tilt), math.sin(tilt)
+    half, high = 0.5 * drum.top_width, drum.height
+    top = {side: np.array([c * side * half - s * high, s * side * half + c * high]) for side in (-1, 1)}
+    corners = []
+    for side, chip in ((-1, one.chip_left), (1, one.chip_right)):
+        edge = np.array([side * 0.5 * drum.bottom_width, 0.0])
+        flank = edge + min(CHIP_SLOPE * chip / drum.height, 0.5) * (top[side] - edge)
+        face = edge - (side * chip, 0.0)
+        corners += [face] if chip == 0.0 else [flank, face] if side < 0 else [face, flank]
+    return np.array([*corners, top[1], top[-1]]) - drum.centroid_height * np.array([-s, c])

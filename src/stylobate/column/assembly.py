@@ -16,6 +16,7 @@ import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
+from .as_found import drum_outline, geometry
 from .column import Column
 from .joint import Joint
 
@@ -255,7 +256,7 @@ class Assembly:
 
 
 def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Assembly:
-    """A column as an assembly: the base is body 0, drum i is body i.
+    """A column as it stands as an assembly: the base is body 0, drum i is body i; in axes along and normal to the base.
 
     Parameters
     ----------
@@ -270,19 +271,20 @@ def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Asse
         height = check_range(f"height of step {i + 1}", height, 0.0, FAR_AWAY, unit="m", open_low=True)
         blocks.append(_box(f"step {i + 1}", width, level - height, level))
         level -= height
-    drums = []
-    for i, (drum, z) in enumerate(zip(column.drums, column.joint_heights)):
-        b, t, top = 0.5 * drum.bottom_width, 0.5 * drum.top_width, z + drum.height
+    drums, at = [], geometry(column)
+    for i, drum in enumerate(column.drums):
+        c, s = math.cos(at.lean[i]), math.sin(at.lean[i])
+        corners = drum_outline(column, i) @ np.array([[c, s], [-s, c]]) + at.centroid[i]
         # the depth of the bed: a round drum's mean thickness across its width
         depth = drum.depth if not drum.circular else 0.25 * math.pi * drum.mean_width
         drums.append(
             Block(
-                ((-b, z), (b, z), (t, top), (-t, top)),
+                tuple((float(x), float(z)) for x, z in corners),
                 drum.density,
                 f"drum {i + 1}",
                 depth,
                 surface=column.joints[i],
-                solid=(drum.mass, drum.inertia, 0.0, float(column.centroid_heights[i])),
+                solid=(drum.mass, drum.inertia, float(at.centroid[i, 0]), float(at.centroid[i, 1])),
             )
         )
     if not steps:

@@ -17,6 +17,7 @@ import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
+from .as_found import AS_BUILT, AsFound, check_as_found, uplift_accelerations
 from .drum import Drum, section_area, section_second_moment
 from .joint import Joint
 
@@ -37,11 +38,15 @@ class Column:
     name : str
     gravity : float
         g [m/s²].
+    as_found : AsFound
+        What is not as built: offset and leaning drums, chipped edges, a base out of level. The closed-form properties
+        below are those of the column as built, but for the accelerations that open joints.
 
     Raises
     ------
     InputError
-        No drum, too many drums, or a number of joints that differs from the number of drums.
+        No drum, too many drums, a number of joints that differs from the number of drums, or a column that is not in
+        equilibrium as found.
 
     Warns
     -----
@@ -53,6 +58,7 @@ class Column:
     joints: tuple[Joint, ...]
     name: str = "column"
     gravity: float = STANDARD_GRAVITY
+    as_found: AsFound = AS_BUILT
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "drums", tuple(self.drums))
@@ -68,6 +74,8 @@ class Column:
         object.__setattr__(
             self, "gravity", check_range("gravity", self.gravity, 0.0, 100.0, unit="m/s²", open_low=True)
         )
+        if self.as_found:
+            check_as_found(self)
         wide = [i + 1 for i, drum in enumerate(self.drums) if drum.top_width > drum.bottom_width * (1 + 1e-12)]
         if wide:
             which = ", ".join(map(str, wide[:5])) + (" …" if len(wide) > 5 else "")
@@ -176,6 +184,20 @@ class Column:
     def as_prism(self) -> Column:
         """The paper's idealisation: every drum a prism of its mean width."""
         return self.replace(drums=tuple(drum.as_prism() for drum in self.drums))
+
+    def must_be_as_built(self, what: str) -> None:
+        """Refuse a column with offsets, tilts or chips where ``what`` knows none.
+
+        Raises
+        ------
+        InputError
+            The column is not as built.
+        """
+        if self.as_found:
+            raise InputError(
+                f"{what} takes columns as built, and {self.name!r} has offsets, tilts or chips as found; "
+                "use the model dem2d, or leave [as_found] out."
+            )
 
     # -- the stack -----------------------------------------------------------------------------------------------
 
@@ -295,8 +317,10 @@ class Column:
         """Static horizontal acceleration that opens each joint of the rigid stack above it [m/s²], shape (n,).
 
         A uniform acceleration a overturns the part above joint i about the edge of its contact section when
-        a (z_C − z_i) > g d_i / 2.
+        a (z_C − z_i) > g d_i / 2. As found, the smaller one of both directions.
         """
+        if self.as_found:
+            return np.abs(uplift_accelerations(self)).min(axis=1)
         out = np.empty(self.n)
         for i in range(self.n):
             mass = self.masses[i:]
@@ -313,8 +337,10 @@ class Column:
 
     def to_dict(self) -> dict:
         """Everything that defines the column, as plain values in SI units."""
-        found = dataclasses.asdict(self)
-        return found | {"drums": list(found["drums"]), "joints": list(found["joints"])}
+        plain = dataclasses.asdict(self)
+        as_found = plain.pop("as_found")
+        plain |= {"drums": list(plain["drums"]), "joints": list(plain["joints"])}
+        return plain | ({"as_found": as_found | {"drums": list(as_found["drums"])}} if self.as_found else {})
 
     @cached_property
     def digest(self) -> str:

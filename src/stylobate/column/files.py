@@ -15,6 +15,7 @@ import numpy as np
 from ..atomic import replacing
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError
+from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
 from .joint import Joint
@@ -62,6 +63,23 @@ class TaperedTable(Table):
     drums: int
 
 
+class FoundDrumTable(Table):
+    """``[[as_found.drum]]``: offset and chips in m, tilt in degrees, of the drum with that index (1 at the base)."""
+
+    index: int
+    offset: float = 0.0
+    tilt: float = 0.0
+    chip_left: float = 0.0
+    chip_right: float = 0.0
+
+
+class AsFoundTable(Table):
+    """``[as_found]``: slope of the base in degrees, and what is not as built at single drums."""
+
+    base_tilt: float = 0.0
+    drum: list[FoundDrumTable] | None = None
+
+
 class ColumnTable(Table):
     """A column file."""
 
@@ -74,6 +92,7 @@ class ColumnTable(Table):
     drum: list[DrumTable] | None = None
     joint: JointTable | None = None
     joint_override: list[OverrideTable] | None = None
+    as_found: AsFoundTable | None = None
 
 
 def load_column(text: str | Path) -> Column:
@@ -127,6 +146,7 @@ def write_column(column: Column, path: str | Path) -> Path:
     for i, joint in enumerate(column.joints):
         if joint != common:
             lines += ["", "[[joint_override]]", f"index = {i + 1}", *_joint_lines(joint)]
+    lines += _as_found_lines(column.as_found)
     target = Path(path)
     with replacing(target) as partial:
         partial.write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -137,10 +157,20 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     """The column that :meth:`Column.to_dict` described."""
     drums = tuple(Drum(**fields) for fields in data["drums"])
     joints = tuple(_one_friction(fields) for fields in data["joints"])
-    return Column(drums, joints, data["name"], data["gravity"])
+    found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
+    as_found = AsFound(tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"])
+    return Column(drums, joints, data["name"], data["gravity"], as_found)
 
 
 def _column(table: ColumnTable, default_name: str) -> Column:
+    column = _as_built(table, default_name)
+    if table.as_found is None:
+        return column
+    some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())
+    return column.replace(as_found=AsFound(some, table.as_found.base_tilt))
+
+
+def _as_built(table: ColumnTable, default_name: str) -> Column:
     if table.joint is None:
         raise InputError(
             "there is no [joint] table; add one with normal_stiffness and shear_stiffness [N/m³] "
@@ -214,6 +244,17 @@ def _joint_lines(joint: Joint) -> list[str]:
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
     return [f"{key} = {_number(value)}" for key, value in fields.items() if key != drop]
+
+
+def _as_found_lines(found: AsFound) -> list[str]:
+    if not found:
+        return []
+    lines = ["", "[as_found]", f"base_tilt = {_number(found.base_tilt)}"]
+    for one in found.drums:
+        fields = {key: value for key, value in dataclasses.asdict(one).items() if key != "drum" and value != 0.0}
+        lines += ["", "[[as_found.drum]]", f"index = {one.drum}"]
+        lines += [f"{key} = {_number(value)}" for key, value in fields.items()]
+    return lines
 
 
 def _number(value: float) -> str:

@@ -27,7 +27,7 @@ Legend (positions at t_n, velocities at t_{n−1/2})::
     memory[a, b]   shear force of their bed, its normal and tangential dashpot forces [N]
     now         dt last         step, and the last one taken [s]: while bodies may strike each other, or a joint hands
                                 over (``loose`` > 0), a step is taken in ``finer`` equal parts
-                g beta alpha local        gravity, damping (as in the lanes)
+                g gx bc bs beta alpha local   gravity, slope of the base, damping (as in the lanes)
                 eta calm        restitution of the bed: F is larger by eta while it closes, smaller while it opens; below
                                 the speed ``calm`` [m/s] in proportion to it; ``dull`` is the same of the joints
                 work shear visc px pz     as in the lanes
@@ -73,7 +73,7 @@ def types(points):
         + fields("fs fn dn ds", (points,))
     )
     now = (
-        fields("dt last g beta alpha local eta dull calm work shear visc px pz skin deepest")
+        fields("dt last g gx bc bs beta alpha local eta dull calm work shear visc px pz skin deepest")
         + counts("step pairs touched failed loose finer")
         + fields("xi sh", (points,))
     )
@@ -86,6 +86,12 @@ def handover(c, over, width):
     turned = (c - ROTATION_TO) / (ROTATION_FROM - ROTATION_TO)
     left = (over - OVERLAP_TO * width) / ((OVERLAP_FROM - OVERLAP_TO) * width)
     return min(max(min(turned, left), 0.0), 1.0)
+
+
+@law
+def face(b, c, s):
+    """Cosine and sine of the direction of a face, given in the frame of its body."""
+    return b.c * c - b.s * s, b.s * c + b.c * s
 
 
 @kernel
@@ -109,13 +115,10 @@ def joint_forces(body, joint, now):
         wl = v.w
         wu = u.w
         ht = e.ht
-        cl = v.c * e.lc - v.s * e.ls
-        sl = v.s * e.lc + v.c * e.ls
-        cu = u.c * e.uc - u.s * e.us
-        su = u.s * e.uc + u.c * e.us
+        cl, sl = face(v, e.lc, e.ls)
+        cu, su = face(u, e.uc, e.us)
         ps, pq, c, s = ct.relative_pose(u.x, u.z, cu, su, v.x, v.z, cl, sl, ht)
-        left_s, left_q, _, _ = ct.face_corners(ps, pq, c, s, e.bl, e.hb)
-        _, _, right_s, right_q = ct.face_corners(ps, pq, c, s, e.br, e.hb)
+        left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, e.bl, e.br, e.hb)
         lo = max(left_s, -e.wl)
         hi = min(right_s, e.wr)
         over = max(hi - lo, 0.0)
@@ -306,7 +309,7 @@ def move(body, now, gx, gz, gx1, gz1, dt):
         vx = u.vx
         vz = u.vz
         w = u.w
-        ax = u.fx * u.im - gx
+        ax = u.fx * u.im - gx - o.gx
         az = u.fz * u.im - gz - o.g
         aw = u.mo * u.ii
         m = u.m
@@ -378,14 +381,15 @@ def may_come_loose(body, corner, joint, now, box, order, pairs, link, real, time
         e = joint[j]
         u = body[e.upper]
         v = body[e.lower]
-        ps, pq, c, s = ct.relative_pose(u.x, u.z, u.c, u.s, v.x, v.z, v.c, v.s, e.ht)
-        left_s, _, _, _ = ct.face_corners(ps, pq, c, s, e.bl, e.hb)
-        _, _, right_s, _ = ct.face_corners(ps, pq, c, s, e.br, e.hb)
+        cl, sl = face(v, e.lc, e.ls)
+        cu, su = face(u, e.uc, e.us)
+        ps, pq, c, s = ct.relative_pose(u.x, u.z, cu, su, v.x, v.z, cl, sl, e.ht)
+        left_s, _, right_s, _ = ct.face_corners(ps, pq, c, s, e.bl, e.br, e.hb)
         over = min(right_s, e.wr) - max(left_s, -e.wl)
         dvx = u.vx - v.vx
         dvz = u.vz - v.vz
         slip, _ = ct.contact_velocity(
-            ps, 0.0, 0.0, 1.0, ps, pq, e.ht, v.c * dvx + v.s * dvz, v.c * dvz - v.s * dvx, u.w, v.w
+            ps, 0.0, 0.0, 1.0, ps, pq, e.ht, cl * dvx + sl * dvz, cl * dvz - sl * dvx, u.w, v.w
         )
         turning = abs(u.w - v.w)
         more = 2.0 * (abs(slip) + turning * e.width + o.g * time) * time
@@ -439,8 +443,9 @@ def advance(
     for _ in range(chunks):
         for k in range(CHUNK + 1):
             at = (o.step + k) * ratio
-            ground[k, 0] = factor * sample(motion[0], motion[2], at) if motion[0] != 0 else 0.0
-            ground[k, 1] = factor * sample(motion[1], motion[2], at) if motion[1] != 0 else 0.0
+            ax = factor * sample(motion[0], motion[2], at) if motion[0] != 0 else 0.0
+            az = factor * sample(motion[1], motion[2], at) if motion[1] != 0 else 0.0
+            ground[k, 0], ground[k, 1] = lanes.along_base(ax, az, o.bc, o.bs)
         for k in range(CHUNK):
             parts = o.finer if o.loose > 0 else 1
             x0 = ground[k, 0]
@@ -477,11 +482,11 @@ def ledger(body, corner, joint, now, pairs, link, memory, real, whole, gx, gz, o
         u = body[i]
         if u.im == 0.0:
             continue
-        vx = u.vx + 0.5 * dt * (u.fx * u.im - gx)
+        vx = u.vx + 0.5 * dt * (u.fx * u.im - gx - o.gx)
         vz = u.vz + 0.5 * dt * (u.fz * u.im - gz - o.g)
         w = u.w + 0.5 * dt * u.mo * u.ii
         kinetic += 0.5 * (u.m * (vx * vx + vz * vz) + u.i * w * w)
-        height += u.m * o.g * u.z
+        height += u.m * (o.g * u.z + o.gx * u.x)
     for j in range(joint.shape[0]):
         e = joint[j]
         if e.live != 0:

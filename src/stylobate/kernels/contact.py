@@ -2,10 +2,11 @@
 
 Legend (all per joint, in the frame of the lower face: s along it, q along its normal, origin in its middle)::
 
-    b, w        half width of the upper drum's lower face, of the lower drum's upper face            [m]
+    bl, br      from the foot of the upper drum's centroid to the left, right end of its lower face  [m]
+    w           half width of the lower drum's upper face                                            [m]
     hb, ht      centroid to lower face of the upper drum, centroid to upper face of the lower drum   [m]
     c, s        cosine and sine of a rotation (suffix u upper, l lower, r relative)
-    sl, ql      corner of the upper face at −b;  sr, qr  corner at +b                                [m]
+    sl, ql      left corner of the upper face;  sr, qr  right corner                                 [m]
     lo, hi      ends of the overlap of the two faces along s                                         [m]
     fn, fs      normal force (≥ 0) and tangential force on the upper drum                            [N]
 """
@@ -22,11 +23,11 @@ def relative_pose(xu, zu, cu, su, xl, zl, cl, sl, ht):
 
 
 @law
-def face_corners(ps, pq, cr, sr, b, hb):
+def face_corners(ps, pq, cr, sr, bl, br, hb):
     """Corners of the upper drum's lower face in the frame of the lower face: (s left, q left, s right, q right)."""
     ms = ps + sr * hb
     mq = pq - cr * hb
-    return ms - b * cr, mq - b * sr, ms + b * cr, mq + b * sr
+    return ms - bl * cr, mq - bl * sr, ms + br * cr, mq + br * sr
 
 
 @law

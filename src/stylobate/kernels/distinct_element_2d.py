@@ -10,14 +10,17 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
     drum[i]    x z th c s     centroid [m], rotation [rad], its cosine and sine
                vx vz w        velocities [m/s], [rad/s]
                m i im ii      mass [kg], inertia [kg m²], and their inverses
-               hb ht b t      centroid to lower and to upper face, half width of lower and of upper face [m]
+               hb ht          centroid to lower and to upper face [m]
+               bl br t        from the centroid's foot on the lower face to that face's left and right end; half width of
+                              the upper face, in whose middle the centroid's foot is [m]
+               fc fs          cosine and sine of the upper face's inclination to the lower one
     joint[j]   kn ks co       k_n, k_s, cohesion × area per length of overlap      [N/m²], [N/m²], [N/m]
                mu             tan φ
                over           length of overlap of the two faces                   [m]
                fs[p] fn[p]    shear force and elastic normal force of contact point p [N]
                dn[p] ds[p]    dashpot forces of contact point p                    [N]
                fx fz mu_ ml   force on the drum above, moments on the drums above and below about their centroids
-    lane       dt g           step [s], gravity [m/s²]
+    lane       dt g gx        step [s], gravity normal to the base and along it (down to the left) [m/s²]
                beta alpha     stiffness- and mass-proportional damping [s], [1/s]; local: Cundall's local damping [-]
                xi[p] sh[p]    place (−1 … 1) and share of the area of contact point p
                work shear visc  work of the input, of the shear springs on their surroundings reversed, of the dampers [J]
@@ -26,11 +29,13 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
     feed       x z            addresses of the samples of the lane's motion (z 0: no vertical component)
                last step end  index of the last sample, step now, last step
                ratio factor   step over sample interval, factor of the samples
+               bc bs          cosine and sine of the base's slope, along which the motion is taken
     watch      status         RUNNING, ENDED, COLLAPSED, FAILED or FREE
                follow         1: go on after a collapse
                amax           largest horizontal acceleration of the motion, and of its vertical part vmax [m/s²]
                top open turn wmax   peaks: |top displacement| [m], joint opening [m], |rotation| [rad], |input work| [J]
                when which side      collapse: step, joint, side (±1); −1 while there is none
+               stood          where the middle of the topmost face stood [m]
                m x z px       running sums over the drums above a joint
 """
 
@@ -71,16 +76,16 @@ def block_types(points, damped):
         ]
 
     return (
-        np.dtype(fields("x z th c s vx vz w m i im ii hb ht b t")),
+        np.dtype(fields("x z th c s vx vz w m i im ii hb ht bl br t fc fs")),
         np.dtype(
             fields("kn ks co mu over fx fz mu_ ml", "fs fn") + [(name, np.float64, dashpots) for name in ("dn", "ds")]
         ),
-        np.dtype(fields("dt g beta alpha local work shear visc px pz", "xi sh")),
+        np.dtype(fields("dt g gx beta alpha local work shear visc px pz", "xi sh")),
         np.dtype(fields("ax az")),
-        np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor")),
+        np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor bc bs")),
         np.dtype(
             [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side", "parted", "about")]
-            + fields("amax vmax top open turn wmax wide m x z px")
+            + fields("amax vmax stood top open turn wmax wide m x z px")
         ),
     )
 
@@ -93,6 +98,12 @@ def contact_point(p, points, xi, lo, hi, sl, ql, sr, qr, c, s, w):
     if p == points - 1:
         return ct.right_contact(sr, qr, c, s, w)
     return ct.inner_contact(xi, lo, hi, sl, ql, c, s)
+
+
+@law
+def upper_face(v, l):
+    """Cosine and sine of the direction of a drum's upper face."""
+    return v.c[l] * v.fc[l] - v.s[l] * v.fs[l], v.s[l] * v.fc[l] + v.c[l] * v.fs[l]
 
 
 @apart
@@ -111,10 +122,9 @@ def forces(drum, joint, lane):
             w = v.t[l]
             wl = v.w[l]
             wu = u.w[l]
-            cl = v.c[l]
-            sl = v.s[l]
+            cl, sl = upper_face(v, l)
             ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
-            left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+            left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, u.bl[l], u.br[l], u.hb[l])
             lo = max(left_s, -w)
             hi = min(right_s, w)
             over = max(hi - lo, 0.0)
@@ -197,7 +207,7 @@ def move(drum, joint, lane, ground, k):
             vx = u.vx[l]
             vz = u.vz[l]
             w = u.w[l]
-            ax = (e.fx[l] - a.fx[l]) * u.im[l] - g0.ax[l]
+            ax = (e.fx[l] - a.fx[l]) * u.im[l] - g0.ax[l] - o.gx[l]
             az = (e.fz[l] - a.fz[l]) * u.im[l] - g0.az[l] - o.g[l]
             aw = (e.mu_[l] - a.ml[l]) * u.ii[l]
             m = u.m[l]
@@ -237,6 +247,12 @@ def move(drum, joint, lane, ground, k):
         o.work[l] -= (mean_x * o.px[l] + mean_z * o.pz[l]) * o.dt[l]
 
 
+@law
+def along_base(ax, az, c, s):
+    """An acceleration along and normal to the base."""
+    return ax * c + az * s, az * c - ax * s
+
+
 @kernel
 def fill_ground(ground, feed, watch):
     """Acceleration of the base for the next chunk, each lane from its own motion."""
@@ -247,8 +263,9 @@ def fill_ground(ground, feed, watch):
             g = ground[k]
             if running:
                 place = (f.step[l] + k) * f.ratio[l]
-                g.ax[l] = f.factor[l] * sample(f.x[l], f.last[l], place)
-                g.az[l] = f.factor[l] * sample(f.z[l], f.last[l], place) if f.z[l] != 0 else 0.0
+                ax = f.factor[l] * sample(f.x[l], f.last[l], place)
+                az = f.factor[l] * sample(f.z[l], f.last[l], place) if f.z[l] != 0 else 0.0
+                g.ax[l], g.az[l] = along_base(ax, az, f.bc[l], f.bs[l])
             else:
                 g.ax[l] = 0.0
                 g.az[l] = 0.0
@@ -270,8 +287,9 @@ def observe(drum, joint, lane, feed, watch):
     """Look at all lanes: peaks, and certain collapses; rotations get their length back.
 
     A collapse is certain when, for the part of the column above a joint, its centroid lies beyond the end of the contact,
-    moves outward, and the moment of its weight about that end exceeds what the strongest acceleration of the motion could
-    ever set against it (for joints between drums, with SUPPORT_MARGIN on top); or when two faces no longer overlap.
+    moves outward, and the moment of its weight about that end exceeds what the strongest acceleration of the motion and
+    the slope of the base could ever set against it (for joints between drums, with SUPPORT_MARGIN on top); or when two
+    faces no longer overlap.
     """
     drums = drum.shape[0] - 1
     o = lane[0]
@@ -280,7 +298,8 @@ def observe(drum, joint, lane, feed, watch):
     top = drum[drums]
     for l in range(LANES):
         # peaks of a column that stands: they end with its collapse
-        w.top[l] = max(w.top[l], abs(top.x[l] - top.s[l] * top.ht[l])) if w.when[l] < 0 else w.top[l]
+        _, st = upper_face(top, l)
+        w.top[l] = max(w.top[l], abs(top.x[l] - st * top.ht[l] - w.stood[l])) if w.when[l] < 0 else w.top[l]
         w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
         w.m[l] = 0.0
         w.x[l] = 0.0
@@ -304,8 +323,9 @@ def observe(drum, joint, lane, feed, watch):
         margin = SUPPORT_MARGIN if j > 0 else 0.0
         for l in range(LANES):
             half = v.t[l]
-            ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l])
-            ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+            cf, sf = upper_face(v, l)
+            ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cf, sf, v.ht[l])
+            ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.bl[l], u.br[l], u.hb[l])
             lo = max(ls, -half)
             hi = min(rs, half)
             opening = ct.opening(ls, lq, rs, rq, c, s, half)
@@ -314,16 +334,17 @@ def observe(drum, joint, lane, feed, watch):
             each = 1.0 / w.m[l]
             cx = w.x[l] * each
             cz = w.z[l] * each
-            middle = v.x[l] + 0.5 * v.c[l] * (lo + hi) - v.s[l] * v.ht[l]
+            middle = v.x[l] + 0.5 * cf * (lo + hi) - sf * v.ht[l]
             side = 1.0 if cx > middle else -1.0
             end = hi if cx > middle else lo
-            end_x = v.x[l] + v.c[l] * end - v.s[l] * v.ht[l]
-            end_z = v.z[l] + v.s[l] * end + v.c[l] * v.ht[l]
+            end_x = v.x[l] + cf * end - sf * v.ht[l]
+            end_z = v.z[l] + sf * end + cf * v.ht[l]
             out = side * (cx - end_x)
             up = max(cz - end_z, 0.0)
             outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
             down = max(o.g[l] - w.vmax[l], 0.0)
-            lost = (out > 0.0) & (outward > 0.0) & (out * down > (w.amax[l] + margin) * up)
+            against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
+            lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up)
             parted = hi <= lo
             hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)
             w.when[l] = f.step[l] if hit else w.when[l]
@@ -375,11 +396,11 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
         u = drum[j + 1]
         e = joint[j]
         a = joint[j + 1]
-        vx = u.vx[l] + 0.5 * dt * ((e.fx[l] - a.fx[l]) * u.im[l] - g.ax[l])
+        vx = u.vx[l] + 0.5 * dt * ((e.fx[l] - a.fx[l]) * u.im[l] - g.ax[l] - o.gx[l])
         vz = u.vz[l] + 0.5 * dt * ((e.fz[l] - a.fz[l]) * u.im[l] - g.az[l] - o.g[l])
         w = u.w[l] + 0.5 * dt * (e.mu_[l] - a.ml[l]) * u.ii[l]
         kinetic += 0.5 * (u.m[l] * (vx * vx + vz * vz) + u.i[l] * w * w)
-        height += u.m[l] * o.g[l] * u.z[l]
+        height += u.m[l] * (o.g[l] * u.z[l] + o.gx[l] * u.x[l])
         for p in range(e.fs.shape[0]):
             area = e.over[l] * o.sh[p, l]
             if area > 0.0 and e.kn[l] > 0.0:
@@ -399,10 +420,11 @@ def joint_state(drum, l, opening, slip):
     for j in range(drum.shape[0] - 1):
         u = drum[j + 1]
         v = drum[j]
-        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], v.c[l], v.s[l], v.ht[l])
-        ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.b[l], u.hb[l])
+        cf, sf = upper_face(v, l)
+        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cf, sf, v.ht[l])
+        ls, lq, rs, rq = ct.face_corners(ps, pq, c, s, u.bl[l], u.br[l], u.hb[l])
         opening[j] = ct.opening(ls, lq, rs, rq, c, s, v.t[l])
-        slip[j] = ls + u.b[l] if lq < rq else rs - u.b[l]
+        slip[j] = ls + u.bl[l] if lq < rq else rs - u.br[l]
 
 
 @kernel

@@ -37,7 +37,14 @@ def block_types(crushing, damped):
 
     joint = fields("kn km ks co mu crush tau chi sp fs fn el gap fx fz mu_ ml")
     joint += fields("lim", 2 if crushing else 1) + fields("dn ds", 2 if damped else 1)
-    return drum, np.dtype(joint), np.dtype(fields("dt g beta alpha local work shear visc px pz")), ground, feed, watch
+    return (
+        drum,
+        np.dtype(joint),
+        np.dtype(fields("dt g gx beta alpha local work shear visc px pz")),
+        ground,
+        feed,
+        watch,
+    )
 
 
 @apart
@@ -55,7 +62,7 @@ def forces(drum, joint, lane):
             sl = v.s[l]
             ht = v.ht[l]
             w = v.t[l]
-            b = u.b[l]
+            b = u.br[l]
             hb = u.hb[l]
             kn = e.kn[l]
             km = e.km[l]
@@ -151,11 +158,11 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
         u = drum[j + 1]
         e = joint[j]
         a = joint[j + 1]
-        vx = u.vx[l] + 0.5 * dt * ((e.fx[l] - a.fx[l]) * u.im[l] - g.ax[l])
+        vx = u.vx[l] + 0.5 * dt * ((e.fx[l] - a.fx[l]) * u.im[l] - g.ax[l] - o.gx[l])
         vz = u.vz[l] + 0.5 * dt * ((e.fz[l] - a.fz[l]) * u.im[l] - g.az[l] - o.g[l])
         w = u.w[l] + 0.5 * dt * (e.mu_[l] - a.ml[l]) * u.ii[l]
         kinetic += 0.5 * (u.m[l] * (vx * vx + vz * vz) + u.i[l] * w * w)
-        height += u.m[l] * o.g[l] * u.z[l]
+        height += u.m[l] * (o.g[l] * u.z[l] + o.gx[l] * u.x[l])
         if e.kn[l] > 0.0:
             elastic += e.el[l]
             stored += 0.5 * e.fs[l] ** 2 / e.ks[l]

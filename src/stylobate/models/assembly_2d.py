@@ -73,7 +73,12 @@ class Engine:
         xi, share = contact_points("rectangular", model.points)
         now = self.now
         now["xi"], now["sh"] = xi, share
-        now["g"], now["beta"], now["alpha"] = assembly.gravity, model.stiffness_damping, model.mass_damping
+        now["bc"], now["g"], now["beta"], now["alpha"] = (
+            1.0,
+            assembly.gravity,
+            model.stiffness_damping,
+            model.mass_damping,
+        )
         e = restitution
         now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
         now["touched"], now["finer"] = -1, FINER
@@ -111,15 +116,22 @@ class Engine:
         return bool(self.kernel.may_come_loose(self.body, self.corner, self.joint, self.now, self.box, self.order,
                                                self.pairs, self.link, self.real, time))  # fmt: skip
 
+    def ground_acceleration(self, time: float) -> tuple[float, float]:
+        """Acceleration of the base along and normal to it at a time [m/s²]."""
+        motion, now, place = self.motion, self.now[0], time / self.motion.dt
+        ax = _sample(motion.samples, place) * motion.factor
+        az = 0.0 if motion.z_samples is None else _sample(motion.z_samples, place) * motion.factor
+        return ax * now["bc"] + az * now["bs"], az * now["bc"] - ax * now["bs"]
+
     def _push(self) -> None:
         """Velocities half a step before the start, of bodies that do not move yet, whatever accelerates them."""
-        x, z, factor = self.motion.samples, self.motion.z_samples, self.motion.factor
         for name in ("vx", "vz", "w"):
             self.body[name] = 0.0
         forces, free = self.present()[0], self.body["im"] > 0.0
-        up = self.assembly.gravity + (0.0 if z is None else factor * z[0])
-        self.body["vx"][free] = -0.5 * self.dt * (forces["fx"] * forces["im"] - factor * x[0])[free]
-        self.body["vz"][free] = -0.5 * self.dt * (forces["fz"] * forces["im"] - up)[free]
+        ax, az = self.ground_acceleration(0.0)
+        ax, az = ax + self.now["gx"][0], az + self.now["g"][0]
+        self.body["vx"][free] = -0.5 * self.dt * (forces["fx"] * forces["im"] - ax)[free]
+        self.body["vz"][free] = -0.5 * self.dt * (forces["fz"] * forces["im"] - az)[free]
         self.body["w"][free] = -0.5 * self.dt * (forces["mo"] * forces["ii"])[free]
 
     def advance(self, chunks: int) -> None:
@@ -158,10 +170,7 @@ class Engine:
     def energies(self) -> np.ndarray:
         """Ledger now: input, kinetic, gravitational, elastic, friction, viscous; the middle three absolute [J]."""
         body, joint, now, memory = self.present()
-        place = self.time / self.motion.dt
-        z = self.motion.z_samples
-        gx = _sample(self.motion.samples, place) * self.motion.factor
-        gz = 0.0 if z is None else _sample(z, place) * self.motion.factor
+        gx, gz = self.ground_acceleration(self.time)
         out = np.empty(6)
         self.kernel.ledger(
             body, self.corner, joint, now, self.pairs, self.link, memory, self.real, self.whole, gx, gz, out
@@ -173,9 +182,9 @@ class Engine:
         body = self.present()[0]
         free = body["im"] > 0.0
         b = body[free]
-        g = self.assembly.gravity
+        g, gx = self.now["g"][0], self.now["gx"][0]
         turn = b["mo"] * b["ii"] * b["r"]
-        return float(np.abs(np.concatenate((b["fx"] * b["im"], b["fz"] * b["im"] - g, turn))).max())
+        return float(np.abs(np.concatenate((b["fx"] * b["im"] - gx, b["fz"] * b["im"] - g, turn))).max())
 
     def settle(self, quiet: float = 1e-6, longest: int = 200_000) -> None:
         """Bring the assembly to rest under its weight with local damping.

@@ -50,15 +50,19 @@ class RunOptions:
 class Model:
     """Base of the models. A subclass is a frozen dataclass of parameters, checked where it is made.
 
-    Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography.
+    Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
+    ``takes_as_found`` says whether it computes columns that are not as built.
     """
 
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     references: ClassVar[tuple[str, ...]] = ()
+    takes_as_found: ClassVar[bool] = False
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
+        if not self.takes_as_found:
+            column.must_be_as_built(self.name)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories."""

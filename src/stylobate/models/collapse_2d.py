@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
+from ..column.as_found import drum_outline
 from ..column.assembly import of_column
 from ..motion import Motion
 from ..outcome import classify
@@ -82,11 +83,17 @@ class _ColumnRun:
         joint, drum = engine.joint, block.drum
         # the numbers of the lanes to the last bit, not those of the drawing
         joint["ht"], joint["hb"] = drum["ht"][:-1, 0], drum["hb"][1:, 0]
-        joint["bl"] = joint["br"] = drum["b"][1:, 0]
+        joint["bl"], joint["br"] = drum["bl"][1:, 0], drum["br"][1:, 0]
+        joint["lc"], joint["ls"], joint["uc"], joint["us"] = drum["fc"][:-1, 0], drum["fs"][:-1, 0], 1.0, 0.0
         joint["wl"][1:] = joint["wr"][1:] = drum["t"][1:-1, 0]
         if steps:
             drum["t"][0, 0] = joint["wl"][0]
         engine.now["xi"], engine.now["sh"] = block.lane["xi"][0, :, 0], block.lane["sh"][0, :, 0]
+        engine.now["g"], engine.now["gx"] = block.lane["g"][0, 0], block.lane["gx"][0, 0]
+        engine.now["bc"], engine.now["bs"] = block.feed["bc"][0, 0], block.feed["bs"][0, 0]
+        for i in range(column.n):
+            first, count = engine.body["first"][i + 1], engine.body["count"][i + 1]
+            engine.corner[first : first + count] = drum_outline(column, i)
         engine.stack = (block.drum, block.joint, block.lane, block.feed, block.watch)
         engine.start(model.step_for(column))
         self.loose, self.safe = False, 0
@@ -201,7 +208,7 @@ class _ColumnRun:
         largest = max(float(watch["wmax"][0]), float(self.start[3]), released)
         imbalance, balanced = ledger_balance(change, largest, column)
         failed = engine.failed or not balanced
-        slip, widths = last["slip"], column.joint_widths
+        slip, widths = last["slip"] - self.block.slip[0], column.joint_widths
         outcome = classify(
             self.collapsed, failed, float(watch["open"][0] / widths.min()), float((np.abs(slip) / widths).max())
         )

@@ -15,6 +15,7 @@ from ..motion import Motion
 from ..response import Response
 from .base import Case, RunOptions
 from .drum_block import DrumBlock, PackedColumn, drum_fields, lane_fields
+from .found_start import found_start
 from .stepped_drums import SteppedDrums
 
 MAX_POINTS = 32
@@ -60,6 +61,7 @@ class DistinctElement2D(SteppedDrums):
     name: ClassVar[str] = "dem2d"
     title: ClassVar[str] = "distinct elements in the plane"
     references: ClassVar[tuple[str, ...]] = ("baraldi", "cundall1971", "cundall1979", "psycharis2000")
+    takes_as_found: ClassVar[bool] = True
 
     points: int = 2
     block_modulus: float | None = None
@@ -130,6 +132,9 @@ def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
         "over": np.zeros(n + 1),
     }
     drums = drum_fields(column, column.joint_weights / (kn * area))
+    if column.as_found:
+        found, joint_fields["fs"] = found_start(column, kn * area / width, xi, share)
+        drums |= found
     lanes = lane_fields(column, model) | {"xi": xi, "sh": share}
     return PackedColumn((drums, joint_fields, lanes), model.step_for(column))
 

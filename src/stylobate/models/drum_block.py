@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
+from ..column.as_found import gravity_vector
+from ..constants import DEGREE
 from ..motion import Motion
 from ..outcome import Outcome, classify
 from ..response import Histories, Measures
@@ -45,6 +47,8 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     def on_base(values: np.ndarray | list[float], base: float = 0.0) -> np.ndarray:
         return np.concatenate(([base], values))
 
+    half = on_base([drum.bottom_width / 2 for drum in column.drums])
+
     at_rest = {name: np.zeros(n) for name in ("x", "th", "s", "vx", "vz", "w")}
     return at_rest | {
         "z": on_base(column.centroid_heights - np.cumsum(closure)),
@@ -55,7 +59,10 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
         "ii": on_base(1.0 / column.inertias),
         "hb": on_base(centroid),
         "ht": on_base(column.heights - centroid),
-        "b": on_base([drum.bottom_width / 2 for drum in column.drums]),
+        "bl": half,
+        "br": half,
+        "fc": np.ones(n),
+        "fs": np.zeros(n),
         "t": on_base([drum.top_width / 2 for drum in column.drums], BASE_HALF_WIDTH),
     }
 
@@ -63,7 +70,13 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
 def lane_fields(column: Column, model: Any) -> dict[str, Any]:
     """Fields of a lane at the start of a run."""
     sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
-    return sums | {"g": column.gravity, "beta": model.stiffness_damping, "alpha": model.mass_damping}
+    down = gravity_vector(column)
+    return sums | {
+        "g": float(-down[1]),
+        "gx": float(-down[0]),
+        "beta": model.stiffness_damping,
+        "alpha": model.mass_damping,
+    }
 
 
 class DrumBlock:
@@ -95,11 +108,13 @@ class DrumBlock:
         self.dt = np.zeros(self.lanes)
         self.steps = np.zeros(self.lanes, dtype=np.int64)
         self.start = np.zeros((self.lanes, 6))
+        self.slip = np.zeros((self.lanes, drums))
         self.cases: list[Case | None] = [None] * self.lanes
         self.chunks_per_call = 1
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
+        self.cases[lane] = case
         column, motion = case
         packed = self.model.pack(column)
         for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
@@ -120,19 +135,23 @@ class DrumBlock:
         feed["end"][lane] = steps
         feed["ratio"][lane] = dt / motion.dt
         feed["factor"][lane] = motion.factor
+        slope = column.as_found.base_tilt * DEGREE
+        feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
         for name in watch.dtype.names:
             watch[name][lane] = 0
         watch["status"][lane] = self.kernel.RUNNING
         watch["follow"][lane] = self.options.until_end
         watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
-        watch["amax"][lane] = motion.pga
-        watch["vmax"][lane] = 0.0 if z is None else _peak(z) * abs(motion.factor)
-        # velocities half a step before the start, of drums that do not move yet in a base that may
-        self.drum["vx"][1:, lane] = 0.5 * dt * motion.factor * x[0]
-        self.drum["vz"][1:, lane] = 0.0 if z is None else 0.5 * dt * motion.factor * z[0]
+        peak_z = 0.0 if z is None else _peak(z) * abs(motion.factor)
+        watch["amax"][lane] = motion.pga * math.cos(slope) + peak_z * abs(math.sin(slope))
+        watch["vmax"][lane] = motion.pga * abs(math.sin(slope)) + peak_z * math.cos(slope)
+        self.slip[lane, : column.n] = self.joint_state(lane)[1]
+        watch["stood"][lane] = self.top(lane)
         self.dt[lane] = dt
+        # velocities half a step before the start, of drums that do not move yet in a base that may
+        ground = self.ground_acceleration(lane, 0.0)
+        self.drum["vx"][1:, lane], self.drum["vz"][1:, lane] = 0.5 * dt * ground[0], 0.5 * dt * ground[1]
         self.steps[lane] = steps
-        self.cases[lane] = case
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
         self.start[lane] = self.energies(lane)
 
@@ -149,15 +168,31 @@ class DrumBlock:
         """Time of the lane's present state [s]."""
         return float(self.feed["step"][0, lane]) * self.dt[lane]
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+    def ground_acceleration(self, lane: int, time: float) -> np.ndarray:
+        """Acceleration of the base along and normal to it at a time [m/s²], shape (2,)."""
         case = self.cases[lane]
         assert case is not None
-        place = self.time(lane) / case.motion.dt
+        motion, place, slope = case.motion, time / case.motion.dt, case.column.as_found.base_tilt * DEGREE
+        ax = _sample(motion.samples, place) * motion.factor
+        az = 0.0 if motion.z_samples is None else _sample(motion.z_samples, place) * motion.factor
+        c, s = math.cos(slope), math.sin(slope)
+        return np.array([ax * c + az * s, az * c - ax * s])
+
+    def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Opening of every joint, and where the drum above it is along it [m], each of shape (n,)."""
+        opening, slip = np.empty(len(self.drum) - 1), np.empty(len(self.drum) - 1)
+        self.kernel.joint_state(self.drum, lane, opening, slip)
+        return opening, slip
+
+    def top(self, lane: int) -> float:
+        """Place of the middle of the topmost face along the base [m]."""
+        d = self.drum[-1]
+        return float(d["x"][lane] - (d["s"][lane] * d["fc"][lane] + d["c"][lane] * d["fs"][lane]) * d["ht"][lane])
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
         ground = np.zeros(1, self.ground.dtype)
-        ground["ax"][0, lane] = _sample(case.motion.samples, place) * case.motion.factor
-        if case.motion.z_samples is not None:
-            ground["az"][0, lane] = _sample(case.motion.z_samples, place) * case.motion.factor
+        ground["ax"][0, lane], ground["az"][0, lane] = self.ground_acceleration(lane, self.time(lane))
         # the forces at the present positions, found as the next step will find them, on a copy
         joint, state = self.joint.copy(), self.lane.copy()
         state["dt"][0, lane] = self.dt[lane]
@@ -170,19 +205,18 @@ class DrumBlock:
         """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
         joint, state = self.joint.copy(), self.lane.copy()
         self.kernel.forces(self.drum, joint, state)
-        d = {name: self.drum[name][1:, lane] for name in ("im", "ii", "b")}
+        d = {name: self.drum[name][1:, lane] for name in ("im", "ii", "bl", "br")}
         net = {name: joint[name][:, lane] for name in ("fx", "fz", "mu_", "ml")}
-        ax = (net["fx"][:-1] - net["fx"][1:]) * d["im"]
+        ax = (net["fx"][:-1] - net["fx"][1:]) * d["im"] - state["gx"][0, lane]
         az = (net["fz"][:-1] - net["fz"][1:]) * d["im"] - state["g"][0, lane]
-        turn = (net["mu_"][:-1] - net["ml"][1:]) * d["ii"] * d["b"]
+        turn = (net["mu_"][:-1] - net["ml"][1:]) * d["ii"] * np.maximum(d["bl"], d["br"])
         return float(np.abs(np.concatenate((ax, az, turn))).max())
 
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
-        drum, joints = self.drum, len(self.drum) - 1
-        opening, slip = np.empty(joints), np.empty(joints)
-        self.kernel.joint_state(drum, lane, opening, slip)
-        bottom, top = drum[1], drum[-1]
+        drum = self.drum
+        opening, slip = self.joint_state(lane)
+        bottom = drum[1]
         return {
             "time": self.time(lane),
             "x": drum["x"][1:, lane].copy(),
@@ -191,7 +225,7 @@ class DrumBlock:
             "opening": opening,
             "slip": slip,
             "base": bottom["x"][lane] + bottom["s"][lane] * bottom["hb"][lane],
-            "top": top["x"][lane] - top["s"][lane] * top["ht"][lane],
+            "top": self.top(lane),
             "energy": self.energies(lane),
         }
 
@@ -199,14 +233,13 @@ class DrumBlock:
         """Measures of a lane whose run is over."""
         case = self.cases[lane]
         assert case is not None
-        watch, drum = self.watch[0], self.drum
+        watch = self.watch[0]
         status = watch["status"][lane]
         now = self.energies(lane)
         change = now - self.start[lane]
         largest = max(float(watch["wmax"][lane]), float(self.start[lane, 3]))
         imbalance, balanced = ledger_balance(change, largest, case.column)
-        opening, slip = np.empty(case.column.n), np.empty(case.column.n)
-        self.kernel.joint_state(drum, lane, opening, slip)
+        slip = self.joint_state(lane)[1] - self.slip[lane, : case.column.n]
         collapsed = status == self.kernel.COLLAPSED
         failed = status == self.kernel.FAILED or not balanced
         widths = case.column.joint_widths
@@ -214,14 +247,13 @@ class DrumBlock:
             collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
         )
         mechanical = float(change[1] + change[2] + change[3])
-        top = drum[-1]
         return Measures(
             outcome=outcome,
             decided=outcome is Outcome.COLLAPSED
-            or (not failed and stands_for_good(case.column, drum, lane, slip, mechanical)),
+            or (not failed and stands_for_good(case.column, self.drum, lane, slip, mechanical)),
             collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
             peak_top_displacement=float(watch["top"][lane]),
-            residual_top_displacement=float(top["x"][lane] - top["s"][lane] * top["ht"][lane]),
+            residual_top_displacement=self.top(lane) - float(watch["stood"][lane]),
             peak_rotation=float(watch["turn"][lane]),
             peak_joint_opening=float(watch["open"][lane]),
             residual_joint_slip=float(np.abs(slip).max()),
@@ -280,8 +312,8 @@ def histories(motion: Motion, states: list[dict[str, Any]]) -> Histories:
         drum_rotation=stack["rotation"],
         joint_opening=stack["opening"],
         joint_slip=stack["slip"] - stack["slip"][0],
-        base_displacement=stack["base"],
-        top_displacement=stack["top"],
+        base_displacement=stack["base"] - stack["base"][0],
+        top_displacement=stack["top"] - stack["top"][0],
         ground_acceleration=acceleration,
         ground_displacement=displacement,
         energy={

@@ -80,6 +80,7 @@ class HousnerBlock(Model):
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse columns of several drums; warn outside the declared limits."""
+        super().check(column, motion)
         if column.n != 1:
             raise InputError(
                 f"the model housner computes one block, and {column.name!r} has {column.n} drums; "

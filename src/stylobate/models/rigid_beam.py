@@ -230,6 +230,7 @@ class RigidBeam(Model):
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse what cannot be computed; warn outside the declared limits."""
+        super().check(column, motion)
         seen = self.idealised(column)
         if self.moment_law == "housner" and column.n > 1:
             raise InputError(

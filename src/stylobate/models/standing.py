@@ -7,6 +7,8 @@ import math
 import numpy as np
 
 from ..column import Column
+from ..column.as_found import Geometry, geometry, gravity_vector
+from ..constants import DEGREE
 
 
 def lowest_barrier(column: Column) -> float:
@@ -29,7 +31,7 @@ def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarra
         Records of the drums, the base first (legend of the kernel).
     lane : int
     slip : array
-        Offset along each joint [m], shape (n,).
+        Along each joint since the start [m], shape (n,).
     energy : float
         Kinetic, gravitational and elastic energy above that of the column at rest [J].
 
@@ -39,8 +41,15 @@ def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarra
     barrier. And the energy is below the lowest barrier of the column put down flat with its present offsets: overturning
     as one body about the nearer end of the contact, m g (R − H); where some joint above is so slippery that it slides
     first, tan φ below the sine of the critical angle, sliding and lifting together: m g [tan φ b − H (1 − √(1 − tan² φ))].
+    On a slope H and b are measured along and across gravity, and friction is what the slope of the joint leaves of it.
     """
-    return _centroids_inside(column, drum, lane) and energy < _flat_barrier(column, slip)
+    if not _centroids_inside(column, drum, lane):
+        return False
+    offsets = np.array([column.as_found.of(i + 1).offset for i in range(column.n)]) + slip
+    flat = geometry(column, offsets)
+    # what sliding down a slope has set free is not there any more to fall back on
+    lower = float(column.masses @ ((flat.centroid - geometry(column).centroid) @ gravity_vector(column)))
+    return energy + max(lower, 0.0) < _flat_barrier(column, flat)
 
 
 def _part(column: Column, j: int) -> tuple[float, float]:
@@ -51,34 +60,46 @@ def _part(column: Column, j: int) -> tuple[float, float]:
 
 
 def _centroids_inside(column: Column, drum: np.ndarray, lane: int) -> bool:
-    x, z, c, s, ht, hb, b, t = (drum[name][:, lane] for name in ("x", "z", "c", "s", "ht", "hb", "b", "t"))
+    names = ("x", "z", "c", "s", "ht", "hb", "bl", "br", "t", "fc", "fs")
+    x, z, c, s, ht, hb, bl, br, t, fc, fs = (drum[name][:, lane] for name in names)
+    c_face, s_face = c * fc - s * fs, s * fc + c * fs
+    slope = math.tan(column.as_found.base_tilt * DEGREE)
+    plumb = x - z * slope  # places seen along gravity
     for j in range(column.n):
         mass = column.masses[j:]
-        centroid = float(mass @ x[j + 1 :] / mass.sum())
+        centroid = float(mass @ plumb[j + 1 :] / mass.sum())
+        cf, sf = c_face[j], s_face[j]
         dx, dz = x[j + 1] - x[j], z[j + 1] - z[j]
-        cosine, sine = c[j + 1] * c[j] + s[j + 1] * s[j], s[j + 1] * c[j] - c[j + 1] * s[j]
-        middle = c[j] * dx + s[j] * dz + sine * hb[j + 1]
-        low = max(middle - b[j + 1] * cosine, -t[j])
-        high = min(middle + b[j + 1] * cosine, t[j])
-        left, right = (x[j] + c[j] * end - s[j] * ht[j] for end in (low, high))
+        cosine, sine = c[j + 1] * cf + s[j + 1] * sf, s[j + 1] * cf - c[j + 1] * sf
+        foot = cf * dx + sf * dz + sine * hb[j + 1]
+        low = max(foot - bl[j + 1] * cosine, -t[j])
+        high = min(foot + br[j + 1] * cosine, t[j])
+        left, right = ((x[j] + cf * end - sf * ht[j]) - (z[j] + sf * end + cf * ht[j]) * slope for end in (low, high))
         if not left < centroid < right:
             return False
     return True
 
 
-def _flat_barrier(column: Column, slip: np.ndarray) -> float:
+def _flat_barrier(column: Column, flat: Geometry) -> float:
     """Lowest barrier of the column with its drums flat on one another, each with its offset [J]; 0 if none is left."""
-    place = np.cumsum(slip)
-    friction = np.array([joint.tan_phi for joint in column.joints])
+    down = gravity_vector(column)
+    up = -down / column.gravity
+    slope = flat.lean + column.as_found.base_tilt * DEGREE
+    friction = np.array(
+        [
+            math.tan(max(math.atan(joint.tan_phi) - abs(one), 0.0))
+            for joint, one in zip(column.joints, slope, strict=True)
+        ]
+    )
     lowest = math.inf
-    for j, drum in enumerate(column.drums):
-        mass, height = _part(column, j)
-        centroid = float(column.masses[j:] @ place[j:]) / mass
-        left, right = place[j] - drum.bottom_width / 2, place[j] + drum.bottom_width / 2
-        if j:
-            half = column.drums[j - 1].top_width / 2
-            left, right = max(left, place[j - 1] - half), min(right, place[j - 1] + half)
-        half = min(right - centroid, centroid - left)
+    for j in range(column.n):
+        mass = column.masses[j:]
+        centroid = mass @ flat.centroid[j:] / mass.sum()
+        arms = [centroid - flat.end(j, side) for side in (-1, 1)]
+        # across gravity, from the left and to the right end, and along it
+        inside = [arms[0][0] * up[1] - arms[0][1] * up[0], arms[1][1] * up[0] - arms[1][0] * up[1]]
+        near = int(np.argmin(inside))
+        half, height = float(inside[near]), float(arms[near] @ up)
         if half <= 0.0:
             return 0.0
         radius = math.hypot(half, height)
@@ -86,5 +107,5 @@ def _flat_barrier(column: Column, slip: np.ndarray) -> float:
         loose = friction[max(j, 1) :].min(initial=math.inf)
         slides = loose < half / radius
         rise = loose * half - height * (1.0 - math.sqrt(1.0 - loose * loose)) if slides else radius - height
-        lowest = min(lowest, column.gravity * mass * rise)
+        lowest = min(lowest, column.gravity * float(mass.sum()) * rise)
     return lowest

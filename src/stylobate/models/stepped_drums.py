@@ -74,6 +74,7 @@ class SteppedDrums(Model):
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse an unstable step; say what a plane model leaves out."""
+        super().check(column, motion)
         self.step_for(column)
         if motion.lateral is not None:
             warnings.warn(

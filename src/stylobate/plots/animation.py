@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..atomic import replacing
+from ..constants import DEGREE
 from ..errors import InputError, check_range
 from ..response import Response
 from .style import BLACK, BROWN, GREY, RED, SAND, styled
@@ -22,18 +23,14 @@ SIZE, DOTS_PER_INCH = (6.4, 4.8), 100
 MOST_FRAMES = 5000
 
 
+def base_slope(response: Response) -> float:
+    """Rise of the base to the right [-]."""
+    return math.tan(response.column.as_found.base_tilt * DEGREE)
+
+
 def outlines(response: Response, index: int) -> list[np.ndarray]:
-    """Corners of every drum at a recorded state, counter-clockwise [m], each of shape (4, 2)."""
-    h, found = response.histories, []
-    for i, drum in enumerate(response.column.drums):
-        low, high = -drum.centroid_height, drum.height - drum.centroid_height
-        b, t = 0.5 * drum.bottom_width, 0.5 * drum.top_width
-        body = np.array([[-b, low], [b, low], [t, high], [-t, high]])
-        angle = float(h.drum_rotation[index, i])
-        c, s = math.cos(angle), math.sin(angle)
-        centre = (h.drum_x[index, i], response.column.centroid_heights[i] + h.drum_z[index, i])
-        found.append(body @ np.array([[c, s], [-s, c]]) + np.array(centre))
-    return found
+    """Corners of every drum at a recorded state, counter-clockwise [m], each of shape (k, 2)."""
+    return [response.outline(index, drum) for drum in range(response.column.n)]
 
 
 def frame_indices(response: Response, frames_per_second: float, speed: float) -> np.ndarray:
@@ -82,7 +79,7 @@ def draw_frame(response: Response, index: int, limits: tuple[float, float, float
     low, high, bottom, top = view(response, np.array([0, index])) if limits is None else limits
     figure = Figure(figsize=SIZE)
     above, below = figure.subplots(2, 1, height_ratios=(4.0, 1.0))
-    above.axhline(0.0, color=BLACK, linewidth=1.2)
+    above.axline((0.0, 0.0), slope=base_slope(response), color=BLACK, linewidth=1.2)
     for corners in outlines(response, index):
         above.fill(corners[:, 0], corners[:, 1], facecolor=SAND, edgecolor=BROWN, linewidth=0.8)
     above.set_xlim(low, high)

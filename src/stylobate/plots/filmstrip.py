@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from ..errors import InputError
 from ..response import Response
+from .animation import base_slope
 from .histories import describe
 from .style import BLACK, BROWN, SAND, WIDTH, styled
 
@@ -42,7 +43,7 @@ def draw_filmstrip(
     h = response.histories
     frames = _frames(response, instants)
     factor = _magnification(response) if magnification is None else magnification
-    outlines = [[_corners(response, i, drum, factor) for drum in range(response.column.n)] for i in frames]
+    outlines = [[response.outline(i, drum, factor) for drum in range(response.column.n)] for i in frames]
     spans = [_span(shape) for shape in outlines]
     floor = min(0.0, *(bottom for *_, bottom in spans))
     widths = [high - low for low, high, _, _ in spans]
@@ -57,7 +58,7 @@ def draw_filmstrip(
     unit, size, digits = ("m", 1.0, 2) if peak >= 0.1 else ("mm", 1000.0, 1)
     panels = np.ravel(figure.subplots(1, len(frames), width_ratios=widths))
     for axes, index, shape, width, (low, high, _, _) in zip(panels, frames, outlines, widths, spans):
-        _draw(axes, shape)
+        _draw(axes, shape, base_slope(response))
         middle = 0.5 * (low + high)
         axes.set_xlim(middle - 0.5 * width, middle + 0.5 * width)
         axes.set_ylim(floor - 0.03 * height, floor + 1.02 * height)
@@ -79,27 +80,10 @@ def _span(shape: list[np.ndarray]) -> tuple[float, float, float, float]:
     return low - margin, high + margin, float(corners[:, 1].max()), float(corners[:, 1].min())
 
 
-def _draw(axes: Axes, shape: list[np.ndarray]) -> None:
-    axes.axhline(0.0, color=BLACK, linewidth=1.2)
+def _draw(axes: Axes, shape: list[np.ndarray], slope: float) -> None:
+    axes.axline((0.0, 0.0), slope=slope, color=BLACK, linewidth=1.2)
     for i, corners in enumerate(shape):
         axes.fill(corners[:, 0], corners[:, 1], facecolor=SAND, edgecolor=BROWN, linewidth=0.7, zorder=2 + i)
-
-
-def _corners(response: Response, index: int, drum: int, factor: float) -> np.ndarray:
-    """Corners of a drum at a recorded state, counter-clockwise from the lower left [m], shape (4, 2)."""
-    h, one = response.histories, response.column.drums[drum]
-    below, above = -one.centroid_height, one.height - one.centroid_height
-    b, t = 0.5 * one.bottom_width, 0.5 * one.top_width
-    body = np.array([[-b, below], [b, below], [t, above], [-t, above]])
-    angle = factor * h.drum_rotation[index, drum]
-    c, s = math.cos(angle), math.sin(angle)
-    centre = np.array(
-        [
-            factor * h.drum_x[index, drum],
-            response.column.centroid_heights[drum] + factor * h.drum_z[index, drum],
-        ]
-    )
-    return body @ np.array([[c, s], [-s, c]]) + centre
 
 
 def _frames(response: Response, instants: Sequence[float] | None) -> list[int]:

@@ -9,8 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from ..atomic import replacing
+from ..column.as_found import geometry
+from ..constants import DEGREE
 from ..response import Response
-from .animation import frame_indices, outlines, view
+from .animation import base_slope, frame_indices, outlines, view
 
 _PAGE = """<!doctype html>
 <html lang="en"><meta charset="utf-8"><title>TITLE</title>
@@ -42,7 +44,8 @@ function draw() {
   const k = +place.value, c = film.getContext("2d");
   c.clearRect(0, 0, film.width, film.height);
   c.strokeStyle = "#1a1a1a"; c.lineWidth = 2;
-  c.beginPath(); c.moveTo(0, up(0)); c.lineTo(film.width, up(0)); c.stroke();
+  c.beginPath(); c.moveTo(across(left - 99), up((left - 99) * data.slope));
+  c.lineTo(across(right + 99), up((right + 99) * data.slope)); c.stroke();
   c.fillStyle = "#efe6d2"; c.strokeStyle = "#8c6d3f"; c.lineWidth = 1.5;
   data.drums.forEach((corners, i) => {
     const [x, z, angle] = data.poses[k][i], co = Math.cos(angle), si = Math.sin(angle);
@@ -96,16 +99,20 @@ def write_player(response: Response, path: str | Path, *, frames_per_second: flo
     """
     h, column = response.histories, response.column
     indices = frame_indices(response, frames_per_second, 1.0)
-    start = np.column_stack((np.zeros(column.n), column.centroid_heights))
+    slope = column.as_found.base_tilt * DEGREE
+    start = geometry(column).centroid
+    level = np.array([[np.cos(slope), np.sin(slope)], [-np.sin(slope), np.cos(slope)]])
     bodies = [
-        (corners - centre).round(5).tolist() for corners, centre in zip(outlines(response, 0), start, strict=True)
+        (corners - centre).round(5).tolist()
+        for corners, centre in zip(outlines(response, 0), start @ level, strict=True)
     ]
-    poses = np.stack((h.drum_x, h.drum_z + column.centroid_heights, h.drum_rotation), axis=2)[indices]
+    poses = np.dstack((np.dstack((h.drum_x, h.drum_z)) @ level + start @ level, h.drum_rotation))[indices]
     data = {
         "time": h.time[indices].round(4).tolist(),
         "drums": bodies,
         "poses": poses.round(4).tolist(),
         "view": view(response, indices),
+        "slope": base_slope(response),
         "ground": (h.ground_acceleration[indices] / 9.81).round(5).tolist(),
     }
     mechanism = response.provenance.get("mechanism", {})

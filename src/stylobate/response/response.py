@@ -10,6 +10,8 @@ import numpy as np
 
 from ..bibliography import cite_run
 from ..column import Column
+from ..column.as_found import drum_outline, geometry
+from ..constants import DEGREE
 from ..outcome import Outcome
 from .measures import Measures
 
@@ -123,6 +125,23 @@ class Response:
     def citation(self) -> str:
         """What to cite for this run: the package, the sources of its model, and where its motion comes from."""
         return cite_run(self.provenance).text
+
+    def outline(self, index: int, drum: int, factor: float = 1.0) -> np.ndarray:
+        """Corners of drum 0 … n−1 at a recorded state, horizontally and upward from the base's middle [m], shape (k, 2).
+
+        Parameters
+        ----------
+        index, drum : int
+        factor : float
+            By which displacement and rotation are drawn larger.
+        """
+        h, start = self.histories, geometry(self.column)
+        angle = start.lean[drum] + factor * h.drum_rotation[index, drum]
+        c, s = np.cos(angle), np.sin(angle)
+        moved = factor * np.array([h.drum_x[index, drum], h.drum_z[index, drum]])
+        along_base = drum_outline(self.column, drum) @ np.array([[c, s], [-s, c]]) + start.centroid[drum] + moved
+        slope = self.column.as_found.base_tilt * DEGREE
+        return along_base @ np.array([[np.cos(slope), np.sin(slope)], [-np.sin(slope), np.cos(slope)]])
 
     def with_provenance(self, provenance: dict, wall_time: float) -> Response:
         """A copy with provenance and wall time filled in (done once, by ``simulate``)."""
