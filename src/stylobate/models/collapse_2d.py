@@ -18,7 +18,7 @@ from ..response import Histories, Measures, Response
 from ..response.mechanism import find_mechanism
 from .assembly_2d import LONGEST_WAIT, RESTITUTION_TO_REST, Engine
 from .base import Case, RunOptions
-from .distinct_element_2d import DistinctElement2D
+from .distinct_element_2d import DistinctElement2D, joint_stiffnesses
 from .drum_block import DrumBlock, histories, ledger_balance
 from .standing import stands_for_good
 
@@ -94,6 +94,10 @@ class _ColumnRun:
         for i in range(column.n):
             first, count = engine.body["first"][i + 1], engine.body["count"][i + 1]
             engine.corner[first : first + count] = drum_outline(column, i)
+        # the bed is as soft as the joints: their springs have the stone in series
+        engine.body["kn"][1 : column.n + 1], engine.body["ks"][1 : column.n + 1] = joint_stiffnesses(
+            column, model.block_modulus
+        )
         engine.stack = (block.drum, block.joint, block.lane, block.feed, block.watch)
         engine.start(model.step_for(column))
         self.loose, self.safe = False, 0
@@ -124,6 +128,7 @@ class _ColumnRun:
             if self.block.is_over(0):  # the lanes end with the motion; what goes on after it is the engine's
                 self.take_over()
                 self.loose = True
+                self.watch_on()
                 continue
             if self.safe <= 0:
                 self.look_ahead()
@@ -133,6 +138,13 @@ class _ColumnRun:
             self.block.advance(piece)
             chunks -= (int(self.block.feed["step"][0, 0]) - before) // self.block.chunk
             self.safe -= piece
+
+    def watch_on(self) -> None:
+        """Look for collapses after the motion too; nothing of it is left to set against them."""
+        watch = self.block.watch[0]
+        if watch["status"][0] == self.block.kernel.ENDED:
+            watch["status"][0] = self.block.kernel.RUNNING
+            watch["amax"][0] = watch["vmax"][0] = 0.0
 
     def look_ahead(self) -> None:
         """How many chunks the lanes can go on alone; none: the engine takes over."""
@@ -181,7 +193,12 @@ class _ColumnRun:
         watch, engine = self.block.watch[0], self.engine
         joint = 1 + int(watch["which" if watch["parted"][0] else "about"][0]) if self.collapsed else 0
         mechanism = find_mechanism(
-            self.column, found, measures, joint, self.resting if self.options.until_rest else None
+            self.column,
+            found,
+            measures,
+            joint,
+            slid_off=self.collapsed and bool(watch["parted"][0]),
+            at_rest=self.resting if self.options.until_rest else None,
         )
         touched = int(engine.now["touched"][0])
         provenance = {

@@ -35,6 +35,8 @@ class Mechanism:
         ``left`` or ``right`` for each of them: where its centroid is at the end, relative to where it stood.
     joint : int
         Joint about which the part that was lost first turned, or at which it left its support; 0 without a collapse.
+    slid_off : bool
+        Whether that part left its support by sliding, without overturning.
     as_one_body : bool
         Whether the part above that joint still moved as one body when the collapse became certain.
     standing : tuple of int
@@ -51,6 +53,7 @@ class Mechanism:
     fell_at: tuple[float, ...]
     fell_to: tuple[str, ...]
     joint: int
+    slid_off: bool
     as_one_body: bool
     standing: tuple[int, ...]
     offsets: tuple[float, ...]
@@ -67,7 +70,11 @@ class Mechanism:
         if self.joint:
             what = "The column" if self.joint == 1 else f"The part above joint {self.joint}"
             how = "as one body" if self.as_one_body else "and broke up"
-            words.append(f"{what} overturned {how} about joint {self.joint}.")
+            words.append(
+                f"{what} slid off its support."
+                if self.slid_off
+                else f"{what} overturned {how} about joint {self.joint}."
+            )
         if self.fallen:
             sides = ", ".join(
                 f"{self.fell_to.count(side)} to the {side}" for side in ("left", "right") if side in self.fell_to
@@ -85,7 +92,13 @@ class Mechanism:
 
 
 def find_mechanism(
-    column: Column, histories: Histories, measures: Measures, joint: int, at_rest: bool | None = None
+    column: Column,
+    histories: Histories,
+    measures: Measures,
+    joint: int,
+    *,
+    slid_off: bool = False,
+    at_rest: bool | None = None,
 ) -> Mechanism:
     """Read the mechanism from the histories of a run.
 
@@ -96,6 +109,8 @@ def find_mechanism(
     measures : Measures
     joint : int
         Joint, from 1 at the base, at which the first part was lost; 0 without a collapse.
+    slid_off : bool
+        Whether it had slid off its support there.
     at_rest : bool, optional
     """
     h, n = histories, column.n
@@ -116,6 +131,7 @@ def find_mechanism(
         fell_at=tuple(when),
         fell_to=tuple("right" if h.drum_x[-1, i] > 0.0 else "left" for i in fallen),
         joint=joint,
+        slid_off=slid_off,
         as_one_body=whole,
         standing=tuple(i + 1 for i in standing),
         offsets=tuple(float(h.drum_x[-1, i]) for i in standing),
