@@ -15,9 +15,9 @@ from stylobate.analysis.probability import (
     UNKNOWN,
     UNSAFE,
     CollapseProbability,
-    collapse_probability,
     wilson_interval,
 )
+from stylobate.analysis.replicates import collapse_probability
 from stylobate.analysis.step_sensitivity import compare_steps, halved_step
 from stylobate.campaign import runner
 from stylobate.column import preset
@@ -149,7 +149,7 @@ def test_threads_and_seed_decide_nothing_but_what_they_should():
 
 
 def test_phase_starts_the_sine_elsewhere_and_shares_its_samples():
-    from stylobate.analysis.probability import PHASES, _Cases
+    from stylobate.analysis.replicates import PHASES, _Cases
 
     f, a, _ = GRID
     cases = _Cases(preset("paper-monolithic"), f, a, 6.0, 40, Imperfection(0.0, 0.0, 0.0, phase=0.25), 0)
@@ -197,6 +197,21 @@ def test_half_of_a_step_is_half_and_the_verdicts_are_counted():
     assert pair.halved.provenance["parameters"]["time_step"] == 0.002
     assert pair.summary()["differing"] == 0
     assert pair.summary()["comparable"] == int(pair.comparable.sum()) > 5
+
+
+def test_a_probability_is_read_back_from_its_file(tmp_path):
+    size = Imperfection(geometry=0.02, friction=0.0, stiffness=0.0, phase=0.1)
+    column = preset("paper-monolithic")
+    made = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, imperfection=size, seed=4, out=tmp_path)
+    found = CollapseProbability.load(tmp_path / "probability.nc")
+    np.testing.assert_array_equal(found.codes, made.codes)
+    np.testing.assert_array_equal(found.peaks, made.peaks)
+    assert found.summary() == made.summary()
+    assert (found.column, found.imperfection) == (column, size)
+    assert json.dumps(found.provenance) == json.dumps(made.provenance)
+    domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
+    with pytest.raises(st.InputError, match="holds no probability"):
+        CollapseProbability.load(domain.save(tmp_path / "domain.nc"))
 
 
 def test_a_domain_is_read_back_from_its_file(tmp_path):

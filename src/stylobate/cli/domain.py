@@ -125,7 +125,7 @@ def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
 
 def run_probability(study: Study, population: dict, threads: int, out: Path | None, as_json: bool) -> None:
     """The domain with many variations in every cell."""
-    from ..analysis.probability import collapse_probability
+    from ..analysis.replicates import collapse_probability
     from . import console
 
     with console.folder(out) as folder:
