@@ -91,7 +91,7 @@ def test_crushing_keeps_to_the_domain_and_only_grows():
         limit = CRUSHED(delta, side * psi, HALF, abs(e), KN, KM, crushing)
         assert limit <= abs(e)
         n, e = LAW(delta, psi, -limit if side < 0 else -HALF, limit if side > 0 else HALF, KN, KM)
-        # |M| = |N| d/2 (1 − |N|/(f_c A)), formulation section 4
+        # |M| = |N| d/2 (1 − |N|/(f_c A)), theory/rigid_block, Eq. (B6)
         assert abs(n * e) == pytest.approx(n * HALF * (1.0 - n * crushing), rel=1e-6)
 
 

@@ -16,11 +16,10 @@ def amplitudes(low: float, high: float, count: int) -> list[Motion]:
     return [harmonic(1.0, a * G, 3.0) for a in np.linspace(low, high, count)]
 
 
-@pytest.mark.parametrize("name", ["paper-monolithic", "paper-12-drums"])
-def test_the_ledger_closes_and_better_with_a_smaller_step(name):
+def test_the_ledger_of_the_monolith_closes_and_better_with_a_smaller_step():
     medians = []
     for factor in (0.4, 0.2, 0.1):
-        table = simulate_many(preset(name), amplitudes(0.25, 0.32, 16), RigidBlock(step_factor=factor))
+        table = simulate_many(preset("paper-monolithic"), amplitudes(0.25, 0.32, 16), RigidBlock(step_factor=factor))
         medians.append(float(table.energy_imbalance.median()))
         if factor <= 0.2:
             assert table.energy_imbalance.max() < 1e-2

@@ -1,0 +1,12 @@
+"""All validation cases, in the order of the page."""
+
+from . import agreement, conservation, convergence, overturning, paper, rocking, sliding, statics
+from .case import KINDS, Case
+
+CASES: list[Case] = [
+    one
+    for kind in KINDS
+    for module in (rocking, overturning, sliding, statics, conservation, convergence, agreement, paper)
+    for one in module.CASES
+    if one.kind == kind
+]
