@@ -1,0 +1,294 @@
+"""Path following: equilibrium of a stack of blocks under growing forces, step by step, by Newton's method."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..errors import InputError
+from ..models.block_stack import BlockStack
+from .limit import joint_forces
+from .pushover_result import PushoverResult
+
+#: Newton: largest number of iterations and of halvings of a correction, and the tolerance [weight of the column].
+MAX_ITERATIONS, MAX_HALVINGS, TOLERANCE = 60, 12, 1e-9
+
+#: A step is cut at most this often before the path counts as lost; the share of stiffness kept by the tangent.
+MAX_CUTS, SOFT = 30, 1e-9
+
+#: A step that changes the multiplier by more has left the path for another one [g].
+LARGEST_CHANGE = 0.02
+
+#: Steps are cut where the path bends away from its tangent by more than this, so that no peak is stepped over [g].
+LARGEST_BEND = 5e-5
+
+
+class EquilibriumPath:
+    """The state of a pushover analysis while it runs."""
+
+    def __init__(
+        self, stack: BlockStack, dead: np.ndarray, live: np.ndarray, strength: np.ndarray, geometric: bool
+    ) -> None:
+        self.stack, self.dead, self.live, self.geometric = stack, dead, live, geometric
+        self.geometry = joint_geometry(stack, strength)
+        n = stack.n
+        self.memory = np.zeros((n, 6))
+        self.memory[:, 2] = 1.0
+        self.memory[:, 4] = stack.upper_reach[:, 1]
+        self.memory[:, 5] = -stack.upper_reach[:, 0]
+        self.position, self.multiplier = np.zeros((n, 3)), 0.0
+        self.force, self.stiffness = np.empty((n, 3)), np.empty((3 * n, 3 * n))
+        self.after, self.report = np.empty((n, 6)), np.empty((n, 6))
+        self.arm = stack.top - stack.centroid[-1]
+        self.height = float(stack.top[1])
+        self.rise = 0.0
+        self.kept: list[tuple] = []
+        # Rounding of a place of the size of the column leaves a force behind; asking for less is asking for luck.
+        rounding = 20.0 * np.finfo(float).eps * self.height * float(stack.normal_stiffness.max())
+        self.tolerance = max(TOLERANCE, rounding / stack.weight)
+        # Forces are compared with the weight, moments with weight × height.
+        self.scale = np.tile([stack.weight, stack.weight, stack.weight * self.height], n)
+
+    # -- one equilibrium ---------------------------------------------------------------------------------------------
+
+    def top(self, position: np.ndarray) -> tuple[float, np.ndarray]:
+        """Horizontal displacement of the top [m] and its derivative by the coordinates, shape (3 n,)."""
+        slope = np.zeros(position.size)
+        slope[-3] = 1.0
+        turn = position[-1, 2]
+        if not self.geometric:
+            slope[-1] = -self.arm[1]
+            return float(position[-1, 0] - self.arm[1] * turn), slope
+        c, s = math.cos(turn), math.sin(turn)
+        slope[-1] = -s * self.arm[0] - c * self.arm[1]
+        return float(position[-1, 0] + c * self.arm[0] - s * self.arm[1] - self.arm[0]), slope
+
+    def residual(self, position: np.ndarray, multiplier: float) -> np.ndarray:
+        """Forces out of balance [N, N, N m], shape (3 n,); fills the tangent and the report."""
+        from ..kernels.rigid_block_static import assemble
+
+        assemble(
+            position,
+            self.geometry,
+            self.memory,
+            self.geometric,
+            SOFT,
+            self.force,
+            self.stiffness,
+            self.after,
+            self.report,
+        )
+        return (self.force + self.dead + multiplier * self.live).ravel()
+
+    def solve(self, constraint, position: np.ndarray, multiplier: float) -> tuple[np.ndarray, float] | str:
+        """Newton's method with line search for equilibrium under a constraint; what stopped it where it fails.
+
+        ``constraint(position, multiplier)`` gives its value and derivatives by the coordinates and by λ, all relative.
+        """
+
+        def measure(residual: np.ndarray, gap: float) -> float:
+            return max(float(np.abs(residual / self.scale).max()), abs(gap))
+
+        residual = self.residual(position, multiplier)
+        gap, by_position, by_multiplier = constraint(position, multiplier)
+        size = residual.size
+        system = np.empty((size + 1, size + 1))
+        error = measure(residual, gap)
+        for _ in range(MAX_ITERATIONS):
+            if error < self.tolerance:
+                return position, multiplier
+            system[:size, :size] = self.stiffness / self.scale[:, None]
+            system[:size, size] = -self.live.ravel() / self.scale
+            system[size, :size], system[size, size] = by_position, by_multiplier
+            try:
+                change = np.linalg.solve(system, np.append(residual / self.scale, -gap))
+            except np.linalg.LinAlgError:
+                return "the tangent stiffness is singular"
+            best, share = None, 1.0
+            eccentricity = self.report[:, 1].copy()
+            for _ in range(MAX_HALVINGS):
+                tried = self.moved(position, share * change[:size].reshape(-1, 3), eccentricity)
+                tried_multiplier = multiplier + share * change[size]
+                residual = self.residual(tried, tried_multiplier)
+                gap, by_position, by_multiplier = constraint(tried, tried_multiplier)
+                found = measure(residual, gap)
+                if np.isfinite(found) and (best is None or found < best[0]):
+                    best = (found, tried, tried_multiplier)
+                if found < (1.0 - 0.1 * share) * error:
+                    break
+                share *= 0.5
+            if best is None:
+                return "the forces are not finite"
+            error, position, multiplier = best
+            residual = self.residual(position, multiplier)
+            gap, by_position, by_multiplier = constraint(position, multiplier)
+        return f"after {MAX_ITERATIONS} iterations {error:.2g} of the weight is still out of balance"
+
+    def accept(self, position: np.ndarray, multiplier: float) -> None:
+        """Keep a state of equilibrium."""
+        self.residual(position, multiplier)
+        self.position, self.multiplier = position, multiplier
+        self.memory[:] = self.after
+        self.eccentricity = self.report[:, 1].copy()
+        self.kept.append((self.top(position)[0], multiplier, position, self.report.copy(), self.memory[:, 3].copy()))
+
+    # -- the path ----------------------------------------------------------------------------------------------------
+
+    def follow(self, control: str, to: float) -> PushoverResult:
+        """Gravity, then step by step; steps grow while they succeed and are cut where they do not."""
+
+        def unloaded(position: np.ndarray, multiplier: float) -> tuple[float, np.ndarray, float]:
+            return multiplier, np.zeros(position.size), 1.0
+
+        found = self.solve(unloaded, self.settled(), 0.0)
+        if isinstance(found, str):
+            return self.result(False, f"gravity: no equilibrium was found; {found}.")
+        self.accept(*found)
+        longest = min(0.005 * float(self.stack.width[0]), to / 100.0)
+        # First step: a two-hundredth of g on the elastic column.
+        length = 0.005 / self.tangent()[1] if control == "displacement" else 0.01
+        cuts, start = 0, self.kept[0][0]
+        while True:
+            top = self.kept[-1][0]
+            if top - start >= to * (1.0 - 1e-9):
+                return self.result(True, f"the control displacement of {to:g} m was reached.")
+            if len(self.kept) > 2 and self.multiplier <= 0.0:
+                return self.result(True, "the load multiplier has fallen to zero.")
+            gone = self.off_support()
+            if gone:
+                return self.result(True, f"the part above joint {gone} has slid off its support.")
+            if control == "displacement":
+                length = min(length, longest, to - (top - start))
+                found = self.displaced(length)
+            else:
+                length = min(length, 0.05)
+                found = self.along(length)
+            if not isinstance(found, str) and abs(found[1] - self.multiplier) > LARGEST_CHANGE:
+                found = f"the multiplier would jump from {self.multiplier:.4g} to {found[1]:.4g} g"
+            if not isinstance(found, str) and cuts < MAX_CUTS // 2:
+                ahead = (self.top(found[0])[0] - self.top(self.position)[0]) * self.rise
+                if abs(found[1] - self.multiplier - ahead) > LARGEST_BEND:
+                    found = "the path bends"
+            if isinstance(found, str):
+                cuts += 1
+                length *= 0.5
+                if cuts > MAX_CUTS:
+                    return self.result(False, f"step {len(self.kept)}: {found}, with the step cut {MAX_CUTS} times.")
+                continue
+            self.accept(*found)
+            cuts = 0
+            length *= 1.5
+
+    def off_support(self) -> int:
+        """First joint (from 1) whose faces overlap by less than a twentieth of the joint's width; 0 if none."""
+        g, slip = self.geometry, self.memory[:, 3]
+        overlap = np.minimum(g[:, 6], g[:, 8] - slip) - np.maximum(g[:, 5], g[:, 7] - slip)
+        short = np.flatnonzero(overlap < 0.05 * self.stack.width)
+        return int(short[0]) + 1 if short.size else 0
+
+    def tangent(self) -> tuple[np.ndarray, float]:
+        """Direction of the path: change of the coordinates, shape (n, 3), and of λ for one metre of the top."""
+        self.residual(self.position, self.multiplier)
+        slope = self.top(self.position)[1]
+        size = slope.size
+        system = np.zeros((size + 1, size + 1))
+        system[:size, :size] = self.stiffness / self.scale[:, None]
+        system[:size, size] = -self.live.ravel() / self.scale
+        system[size, :size] = slope
+        ahead = np.linalg.solve(system, np.append(np.zeros(size), 1.0))
+        self.rise = float(ahead[size])
+        return ahead[:size].reshape(-1, 3), float(ahead[size])
+
+    def settled(self) -> np.ndarray:
+        """Displacements under the dead load with all joints closed [m, m, rad], shape (n, 3): where Newton starts."""
+        n, v, e = joint_forces(self.stack, self.dead)
+        stack = self.stack
+        strain = (-n / stack.normal_stiffness, -v / stack.shear_stiffness, -n * e / stack.rotational_stiffness)
+        return np.linalg.solve(stack.compatibility(), np.column_stack(strain).ravel()).reshape(-1, 3)
+
+    def displaced(self, step: float) -> tuple[np.ndarray, float] | str:
+        """Equilibrium with the top a step further."""
+        scale = 1.0 / (1e-3 * self.height)
+        wanted = self.top(self.position)[0] + step
+
+        def constraint(position: np.ndarray, multiplier: float) -> tuple[float, np.ndarray, float]:
+            top, slope = self.top(position)
+            return (top - wanted) * scale, slope * scale, 0.0
+
+        ahead, rise = self.tangent()
+        start = self.moved(self.position, step * ahead, self.eccentricity), self.multiplier + step * rise
+        return self.solve(constraint, *start)
+
+    def moved(self, position: np.ndarray, change: np.ndarray, eccentricity: np.ndarray) -> np.ndarray:
+        """The coordinates after a finite change that keeps the joints' contact points in place, shape (n, 3)."""
+        if not self.geometric:
+            return position + change
+        from ..kernels.rigid_block_static import carried
+
+        out = np.empty_like(position)
+        carried(position, change, eccentricity, self.geometry, out)
+        return out
+
+    def along(self, length: float) -> tuple[np.ndarray, float] | str:
+        """Equilibrium at a distance along the path: √((Δu_top / height)² + (Δλ / 0.1 g)²)."""
+        top, multiplier = self.top(self.position)[0], self.multiplier
+
+        def constraint(position: np.ndarray, tried: float) -> tuple[float, np.ndarray, float]:
+            place, slope = self.top(position)
+            far, change = (place - top) / self.height, (tried - multiplier) / 0.1
+            distance = max(math.hypot(far, change), 1e-3 * length)
+            share = 1.0 / (distance * length)
+            return distance / length - 1.0, share * far / self.height * slope, share * change / 0.1
+
+        ahead, rise = self.tangent()
+        step = length / math.hypot(1.0 / self.height, rise / 0.1)
+        start = self.moved(self.position, step * ahead, self.eccentricity), multiplier + step * rise
+        found = self.solve(constraint, *start)
+        if not isinstance(found, str) and self.top(found[0])[0] <= top:
+            return "the path turns back on itself"
+        return found
+
+    def result(self, complete: bool, stop: str) -> PushoverResult:
+        """What was found so far."""
+        if not self.kept:
+            raise InputError(f"the pushover could not start: {stop}")
+        report = np.array([item[3] for item in self.kept])
+        return PushoverResult(
+            displacement=np.array([item[0] for item in self.kept]) - self.kept[0][0],
+            multiplier=np.array([item[1] for item in self.kept]),
+            position=np.array([item[2] for item in self.kept]),
+            states=report[:, :, 3].astype(int),
+            compression=report[:, :, 0],
+            shear=report[:, :, 2],
+            eccentricity=report[:, :, 1],
+            opening=report[:, :, 4],
+            rotation=report[:, :, 5],
+            slip=np.array([item[4] for item in self.kept]),
+            complete=complete,
+            stop=stop,
+            geometric=self.geometric,
+            arms=self.height - self.stack.joint[:, 1],
+        )
+
+
+def joint_geometry(stack: BlockStack, strength: np.ndarray) -> np.ndarray:
+    """Rows of the kernels' ``GEOMETRY`` for each joint, shape (n, 15)."""
+    above = stack.joint - stack.centroid
+    below = stack.joint.copy()
+    below[1:] -= stack.centroid[:-1]
+    return np.column_stack(
+        (
+            above,
+            below,
+            stack.angle,
+            stack.upper_reach,
+            stack.lower_reach,
+            stack.normal_stiffness,
+            stack.rotational_stiffness,
+            stack.shear_stiffness,
+            stack.friction,
+            stack.cohesion,
+            1.0 / strength,
+        )
+    )

@@ -1,0 +1,134 @@
+"""What a pushover analysis found: the equilibrium path, its peak, where it falls to zero, and the mechanism behind it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Names of the joint states, by their codes in the kernels.
+STATES = ("elastic", "sliding", "rocking", "open")
+
+
+@dataclass(frozen=True, eq=False)
+class PushoverResult:
+    """Equilibrium path of a pushover analysis, as far as it was found.
+
+    Parameters
+    ----------
+    displacement : array
+        Horizontal displacement of the middle of the top [m], shape (steps,).
+    multiplier : array
+        Load multiplier [g], shape (steps,).
+    position : array
+        Displacement of each block's centroid in x and z [m] and its rotation [rad], shape (steps, n, 3).
+    states : array
+        State of each joint, index into :data:`STATES`, shape (steps, n).
+    compression, shear, eccentricity : array
+        N [N], V on the part above [N], M/N [m], each of shape (steps, n).
+    opening, rotation, slip : array
+        Opening at the wider edge [m], relative rotation [rad], slip [m] of each joint, each of shape (steps, n).
+    complete : bool
+        Whether the path was followed to where it was meant to end.
+    stop : str
+        Where and why the path ends.
+    geometric : bool
+        Whether equilibrium is in the displaced state.
+    arms : array
+        Height of the top above each joint [m], shape (n,).
+    """
+
+    displacement: np.ndarray
+    multiplier: np.ndarray
+    position: np.ndarray
+    states: np.ndarray
+    compression: np.ndarray
+    shear: np.ndarray
+    eccentricity: np.ndarray
+    opening: np.ndarray
+    rotation: np.ndarray
+    slip: np.ndarray
+    complete: bool
+    stop: str
+    geometric: bool
+    arms: np.ndarray
+
+    @property
+    def peak(self) -> int:
+        """Step of the largest multiplier."""
+        return int(np.argmax(self.multiplier))
+
+    @property
+    def collapse_multiplier(self) -> float:
+        """Largest multiplier on the path [g]."""
+        return float(self.multiplier[self.peak])
+
+    @property
+    def peak_displacement(self) -> float:
+        """Displacement of the top at the largest multiplier [m]."""
+        return float(self.displacement[self.peak])
+
+    @property
+    def ultimate_displacement(self) -> float:
+        """Displacement of the top at which the multiplier has fallen to zero [m]; NaN where the path ends before."""
+        place = self._zero()
+        return math.nan if place is None else float(np.interp(place, *self._along(self.displacement)))
+
+    def rotation_at_zero(self, joint: int) -> float:
+        """Relative rotation of a joint (from 1) where the multiplier has fallen to zero [rad]; NaN if it has not."""
+        place = self._zero()
+        return math.nan if place is None else float(np.interp(place, *self._along(self.rotation[:, joint - 1])))
+
+    def _along(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return np.arange(len(values)), values
+
+    def _zero(self) -> float | None:
+        # Place (step number, fractional) of the first multiplier ≤ 0 behind the peak, linear between two steps.
+        fallen = np.flatnonzero(self.multiplier[self.peak :] <= 0.0)
+        if not fallen.size or self.peak == 0:
+            return None
+        k = self.peak + int(fallen[0])
+        before, after = self.multiplier[k - 1], self.multiplier[k]
+        return k - 1 + float(before / (before - after))
+
+    @property
+    def mechanism(self) -> np.ndarray:
+        """Movement of the blocks behind the peak, for a unit horizontal movement of the fastest, shape (n, 3)."""
+        start = self.peak if self.peak < len(self.multiplier) - 1 else 0
+        move = self.position[-1] - self.position[start]
+        return move / np.abs(move[:, 0]).max()
+
+    @property
+    def governing_joint(self) -> int:
+        """Joint (from 1) whose rotation or slip contributes most to the movement of the top behind the peak."""
+        start = self.peak if self.peak < len(self.multiplier) - 1 else 0
+        turned = np.abs(self.rotation[-1] - self.rotation[start]) * self.arms
+        slid = np.abs(self.slip[-1] - self.slip[start])
+        return int(np.argmax(turned + slid)) + 1
+
+    def to_frame(self) -> pandas.DataFrame:
+        """The path as a table: one row per step, joints numbered from 1."""
+        import pandas
+
+        table = {"step": np.arange(len(self.displacement)), "top_displacement_m": self.displacement}
+        table["multiplier_g"] = self.multiplier
+        names = np.array(STATES)
+        for i in range(self.states.shape[1]):
+            table[f"joint_{i + 1}_state"] = names[self.states[:, i]]
+            table[f"joint_{i + 1}_rotation_rad"] = self.rotation[:, i]
+            table[f"joint_{i + 1}_opening_m"] = self.opening[:, i]
+            table[f"joint_{i + 1}_slip_m"] = self.slip[:, i]
+            table[f"joint_{i + 1}_eccentricity_m"] = self.eccentricity[:, i]
+        return pandas.DataFrame(table)
+
+    def save(self, path: str | Path) -> Path:
+        """Write the path as CSV; returns where."""
+        target = Path(path)
+        self.to_frame().to_csv(target, index=False)
+        return target
