@@ -68,5 +68,5 @@ lock:
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock build dist docs/_build .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf .venv .venv-lock build dist gallery/*.png docs/_build .pytest_cache .hypothesis .ruff_cache .import_linter_cache
 	find src tests benchmarks gallery -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

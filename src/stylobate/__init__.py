@@ -12,18 +12,24 @@ from typing import TYPE_CHECKING, Any
 __version__ = "0.1.0"
 
 if TYPE_CHECKING:
+    from .analysis.compare import compare_models
     from .analysis.critical import critical_amplitude
     from .analysis.domain import collapse_domain
     from .analysis.limit import limit_analysis
     from .analysis.pushover import pushover
-    from .column import Column, Drum, Joint
+    from .analysis.replicates import collapse_probability
+    from .analysis.rocking_spectrum import rocking_spectrum
+    from .analysis.suite import suite_table
+    from .column import AsFound, Column, Drum, FoundDrum, Joint, preset
+    from .column.assembly import Assembly, Block
+    from .column.imperfections import Imperfection
     from .constants import g
     from .errors import InputError, OutOfRangeWarning, StylobateError
     from .models.distinct_element_2d import DistinctElement2D
     from .models.housner import HousnerBlock
     from .models.rigid_beam import RigidBeam
     from .models.rigid_block import RigidBlock
-    from .motion import Motion, harmonic
+    from .motion import Motion, harmonic, stochastic_motion
     from .motion.pulses import (
         cosine_pulse,
         gabor,
@@ -33,17 +39,22 @@ if TYPE_CHECKING:
         ricker,
         sine_pulse,
     )
-    from .motion.readers import read_motion
+    from .motion.readers import read_motion, read_suite
     from .outcome import Outcome
     from .response import Response
-    from .simulate import simulate, simulate_many
+    from .simulate import simulate, simulate_assembly, simulate_many
 
 #: Where each public name lives.
 _HOMES = {
+    "AsFound": "column",
+    "Assembly": "column.assembly",
+    "Block": "column.assembly",
     "Column": "column",
     "DistinctElement2D": "models.distinct_element_2d",
     "Drum": "column",
+    "FoundDrum": "column",
     "HousnerBlock": "models.housner",
+    "Imperfection": "column.imperfections",
     "InputError": "errors",
     "Joint": "column",
     "Motion": "motion",
@@ -54,6 +65,8 @@ _HOMES = {
     "RigidBlock": "models.rigid_block",
     "StylobateError": "errors",
     "collapse_domain": "analysis.domain",
+    "collapse_probability": "analysis.replicates",
+    "compare_models": "analysis.compare",
     "cosine_pulse": "motion.pulses",
     "critical_amplitude": "analysis.critical",
     "g": "constants",
@@ -62,20 +75,31 @@ _HOMES = {
     "harmonic": "motion",
     "limit_analysis": "analysis.limit",
     "mavroeidis_papageorgiou": "motion.pulses",
+    "preset": "column",
     "pushover": "analysis.pushover",
     "read_motion": "motion.readers",
+    "read_suite": "motion.readers",
     "rectangular_pulse": "motion.pulses",
     "ricker": "motion.pulses",
+    "rocking_spectrum": "analysis.rocking_spectrum",
     "simulate": "simulate",
+    "simulate_assembly": "simulate",
     "simulate_many": "simulate",
     "sine_pulse": "motion.pulses",
+    "stochastic_motion": "motion",
+    "suite_table": "analysis.suite",
 }
 
 __all__ = [
+    "AsFound",
+    "Assembly",
+    "Block",
     "Column",
     "DistinctElement2D",
     "Drum",
+    "FoundDrum",
     "HousnerBlock",
+    "Imperfection",
     "InputError",
     "Joint",
     "Motion",
@@ -86,6 +110,8 @@ __all__ = [
     "RigidBlock",
     "StylobateError",
     "collapse_domain",
+    "collapse_probability",
+    "compare_models",
     "cosine_pulse",
     "critical_amplitude",
     "g",
@@ -94,13 +120,19 @@ __all__ = [
     "harmonic",
     "limit_analysis",
     "mavroeidis_papageorgiou",
+    "preset",
     "pushover",
     "read_motion",
+    "read_suite",
     "rectangular_pulse",
     "ricker",
+    "rocking_spectrum",
     "simulate",
+    "simulate_assembly",
     "simulate_many",
     "sine_pulse",
+    "stochastic_motion",
+    "suite_table",
 ]
 
 

@@ -25,7 +25,9 @@ CITED = re.compile(
 )
 
 #: An item of the list of references at the end of a page.
-LISTED = re.compile(r"^- (?P<first>[^,(]+),?[^(]*\((?P<year>\d{4})\)\. \*?(?P<title>.+?)(?:\. \*|\*, |\.$)", re.MULTILINE)
+LISTED = re.compile(
+    r"^- (?P<first>[^,(]+),?[^(]*\((?P<year>\d{4})\)\. \*?(?P<title>.+?)(?:\. \*|\*, |\.$)", re.MULTILINE
+)
 
 
 def family(reference):
@@ -74,9 +76,7 @@ def test_sources_of_docstrings_are_in_the_bibliography():
 def test_lists_of_the_pages_agree_with_the_bibliography():
     titles = {(family(one), one.year, one.fields["title"]) for one in bibliography().values()}
     pages = [text for path, text in TEXTS.items() if "docs" in path.parts]
-    listed = {
-        (one["first"].strip(), int(one["year"]), one["title"]) for text in pages for one in LISTED.finditer(text)
-    }
+    listed = {(one["first"].strip(), int(one["year"]), one["title"]) for text in pages for one in LISTED.finditer(text)}
     assert listed
     assert listed <= titles
 

@@ -159,15 +159,16 @@ class Motion:
         return Motion(fields.pop("dt", self.dt), fields.pop("acceleration"), **fields)
 
     def scaled(self, factor: float) -> Motion:
-        """A copy with every component multiplied by ``factor``; the samples are shared."""
-        return self.replace(factor=self.factor * check_range("scale", factor, -1e6, 1e6))
+        """A copy with every component multiplied by ``factor``, which its name says; the samples are shared."""
+        times = check_range("scale", factor, -1e6, 1e6)
+        return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}")
 
     def scaled_to_pga(self, pga: float) -> Motion:
         """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike."""
         value = check_range("pga", pga, 0.0, 1e4, unit="m/s²")
         if self.pga == 0.0:
             raise InputError(f"motion {self.name!r} is zero along x and cannot be scaled to a peak.")
-        return self.scaled(value / self.pga)
+        return self.scaled(value / self.pga).replace(name=f"{self.name}, scaled to {value / g:g} g")
 
     def without_vertical(self) -> Motion:
         """A copy without its vertical component."""

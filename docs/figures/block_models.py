@@ -5,7 +5,7 @@ How far do rigid beam, rigid block and distinct elements differ?
 One column, one motion, every plane model of the package: histories first, then the share of amplitudes that collapse the
 column, over frequency. Single runs beyond the second impact are not comparable; shares of many runs are.
 
-``python gallery/block_models.py FOLDER`` writes the figure there.
+``python docs/figures/block_models.py FOLDER`` writes the figure there.
 """
 
 import sys
