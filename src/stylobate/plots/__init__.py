@@ -2,6 +2,7 @@
 
 from .amplitudes import draw_amplitudes
 from .domain import draw_boundaries, draw_domain
+from .domain_panels import draw_domain_panels, draw_doubt
 from .energy import draw_energy
 from .filmstrip import draw_filmstrip
 from .histories import draw_comparison, draw_histories
@@ -20,6 +21,8 @@ __all__ = [
     "draw_boundaries",
     "draw_comparison",
     "draw_domain",
+    "draw_domain_panels",
+    "draw_doubt",
     "draw_energy",
     "draw_filmstrip",
     "draw_histories",

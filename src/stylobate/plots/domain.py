@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -15,14 +16,14 @@ from ..analysis import verdicts as v
 from ..analysis.domain import Domain
 from ..analysis.domain import cell_edges as edges_of
 from ..constants import g
-from .style import BLACK, BLUE, CYCLE, SAND, WIDTH, styled
+from .style import BLACK, BLUE, CYCLE, HALO, SAND, WIDTH, styled
 
 # Light where it stands, dark where it collapses: also in grey.
 FILL = {
     v.STANDS: {"facecolor": SAND, "edgecolor": "none"},
     v.COLLAPSED: {"facecolor": "#a6372f", "edgecolor": "none"},
-    v.UNDECIDED: {"facecolor": "#d9d9d9", "edgecolor": "#4d4d4d", "hatch": "////", "linewidth": 0.0},
-    v.FAILED: {"facecolor": "white", "edgecolor": BLACK, "hatch": "xxxx", "linewidth": 0.0},
+    v.UNDECIDED: {"facecolor": "#c0c0c0", "edgecolor": "#404040", "hatch": "////", "linewidth": 0.0},
+    v.FAILED: {"facecolor": "white", "edgecolor": BLACK, "hatch": "xxxx", "linewidth": 0.5},
     v.NOT_RUN: {"facecolor": "white", "edgecolor": "none"},
 }
 
@@ -39,10 +40,10 @@ def draw_domain(domain: Domain, title: str | None = None) -> Figure:
     """
     figure = Figure(figsize=(WIDTH, 4.4))
     axes = figure.subplots()
-    handles = _draw_cells(axes, domain)
+    handles = draw_cells(axes, domain.frequencies, domain.amplitudes, domain.verdicts)
     handles += [
-        _draw_boundary(axes, domain, {"color": BLACK, "linestyle": "-"}, "first collapse"),
-        _draw_static_line(axes, domain),
+        draw_boundary(axes, domain, {"color": BLACK, "linestyle": "-"}, "first collapse"),
+        draw_static_line(axes, domain),
     ]
     _finish(axes, domain, title or f"{domain.column.name}, {domain.model}")
     figure.legend(handles=[h for h in handles if h is not None], loc="outside lower center", ncols=4)
@@ -50,22 +51,31 @@ def draw_domain(domain: Domain, title: str | None = None) -> Figure:
 
 
 @styled
-def draw_boundaries(domains: Sequence[Domain], title: str | None = None) -> Figure:
-    """Boundaries of the first collapse of several domains of one column in one picture."""
+def draw_boundaries(domains: Sequence[Domain], title: str | None = None, looks: Sequence[int] | None = None) -> Figure:
+    """Boundaries of the first collapse of several domains of one column in one picture.
+
+    Parameters
+    ----------
+    domains : sequence of Domain
+    title : str, optional
+    looks : sequence of int, optional
+        Number of each domain's line and mark, so that a model looks alike in several pictures; by default in order.
+    """
     figure = Figure(figsize=(WIDTH, 4.4))
     axes = figure.subplots()
     handles = [
-        _draw_boundary(axes, domain, line, domain.model, marker="os^Dv"[i % 5])
-        for i, (domain, line) in enumerate(zip(domains, CYCLE * (1 + len(domains) // len(CYCLE))))
+        draw_boundary(axes, domain, CYCLE[i % len(CYCLE)], domain.model, marker="os^Dv"[i % 5])
+        for i, domain in zip(range(len(domains)) if looks is None else looks, domains)
     ]
-    handles.append(_draw_static_line(axes, domains[0]))
+    handles.append(draw_static_line(axes, domains[0]))
     _finish(axes, domains[0], title or f"{domains[0].column.name}: first collapse")
     figure.legend(handles=[h for h in handles if h is not None], loc="outside lower center", ncols=4)
     return figure
 
 
-def _draw_cells(axes: Axes, domain: Domain) -> list[Patch]:
-    x, y, verdicts = edges_of(domain.frequencies), edges_of(domain.amplitudes / g), domain.verdicts
+def draw_cells(axes: Axes, frequencies: np.ndarray, amplitudes: np.ndarray, verdicts: np.ndarray) -> list[Patch]:
+    """Fill the cells by verdict; returns what the legend shows, each with its number of cells."""
+    x, y = edges_of(frequencies), edges_of(amplitudes / g)
     handles = []
     for one, fill in FILL.items():
         cells = [
@@ -80,7 +90,7 @@ def _draw_cells(axes: Axes, domain: Domain) -> list[Patch]:
     return handles
 
 
-def _draw_boundary(axes: Axes, domain: Domain, line: dict, label: str, marker: str | None = None) -> Line2D | None:
+def draw_boundary(axes: Axes, domain: Domain, line: dict, label: str, marker: str | None = None) -> Line2D | None:
     """Lower edge of the smallest collapsing cell at each frequency, interrupted where nothing collapses."""
     first = domain.first_collapse
     if np.isnan(first).all():
@@ -94,11 +104,11 @@ def _draw_boundary(axes: Axes, domain: Domain, line: dict, label: str, marker: s
     return Line2D([], [], linewidth=1.6, label=label, **line)
 
 
-def _draw_static_line(axes: Axes, domain: Domain) -> Line2D:
+def draw_static_line(axes: Axes, domain: Domain) -> Line2D:
+    """The static acceleration that opens a joint, seen on light and on dark cells."""
     value = domain.column.uplift_acceleration / g
-    return axes.axhline(
-        value, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.3, zorder=4, label=f"static uplift, {value:.3f} g"
-    )
+    look: dict[str, Any] = {"color": BLUE, "linestyle": (0, (6, 2.5)), "linewidth": 1.3, "zorder": 2}
+    return axes.axhline(value, label=f"static uplift, {value:.3f} g", path_effects=HALO, **look)
 
 
 def _finish(axes: Axes, domain: Domain, title: str) -> None:

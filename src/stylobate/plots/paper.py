@@ -6,21 +6,28 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..analysis import verdicts as v
-from ..analysis.paper_study import MONOLITH, joint_law
+from ..analysis.paper.cases import MONOLITH
+from ..analysis.paper.statics import joint_law
 from ..analysis.pushover import PushoverResult
 from ..column import Column, preset
 from ..constants import g
 from ..models.rigid_beam import RigidBeam
-from .style import BLACK, CYCLE, RED, SAND, WIDTH, styled, zero_line
+from .style import BLACK, CYCLE, GREY, RED, SAND, WIDTH, styled, zero_line
+
+#: Ground of a panel that shows a collapse.
+TINT = "#f3d9d2"
 
 
 @styled
 def draw_history_grid(histories: Any, column: Column, title: str) -> Figure:
     """Base and top displacement of all cases, amplitudes rising upward, frequencies to the right.
+
+    Tinted where it collapses, hatched where there is no verdict; dotted, the end of the shaking.
 
     Parameters
     ----------
@@ -31,6 +38,7 @@ def draw_history_grid(histories: Any, column: Column, title: str) -> Figure:
     title : str
     """
     f, a, time = (histories[name].values for name in ("frequency", "amplitude", "time"))
+    end = histories.attrs["duration_s"]
     figure = Figure(figsize=(WIDTH, 6.0))
     figure.set_layout_engine("none")  # which would take seconds for thirty panels
     margins = {"left": 0.105, "right": 0.985, "bottom": 0.075, "top": 0.91, "wspace": 0.14, "hspace": 0.12}
@@ -43,18 +51,13 @@ def draw_history_grid(histories: Any, column: Column, title: str) -> Figure:
             zero_line(axes)
             axes.plot(time, np.clip(top, -1.2, 1.2), color=BLACK, linestyle=(0, (3.0, 1.0)), linewidth=0.7)
             axes.plot(time, np.clip(base, -1.2, 1.2), color=RED, linewidth=0.9)
+            if end < time[-1]:
+                axes.axvline(end, color=GREY, linewidth=0.6, linestyle=(0, (1.0, 1.5)), zorder=0)
             if verdict == v.COLLAPSED:
-                axes.set_facecolor("#f3d9d2")
-                axes.text(
-                    0.96,
-                    0.05,
-                    f"collapse {float(one['collapse_time']):.1f} s",
-                    ha="right",
-                    fontsize=6.5,
-                    transform=axes.transAxes,
-                )
+                _note(axes, f"collapse {float(one['collapse_time']):.1f} s", TINT)
             elif verdict != v.STANDS:
-                axes.text(0.96, 0.05, verdict, ha="right", fontsize=6.5, transform=axes.transAxes)
+                _note(axes, verdict, "white")
+                axes.patch.set(hatch="////", edgecolor="#cccccc")
             axes.set(xlim=(0.0, time[-1]), ylim=(-1.05, 1.05), yticks=(-1.0, 0.0, 1.0))
             axes.tick_params(labelsize=7.0)
             if j == 0:
@@ -70,6 +73,14 @@ def draw_history_grid(histories: Any, column: Column, title: str) -> Figure:
     ]
     figure.legend(handles=lines, loc="upper right", ncols=2)
     return figure
+
+
+def _note(axes: Axes, text: str, color: str) -> None:
+    axes.set_facecolor(color)
+    axes.text(
+        0.96, 0.05, text, ha="right", fontsize=6.5, transform=axes.transAxes, zorder=5,
+        bbox={"facecolor": color, "edgecolor": "none", "pad": 0.8},
+    )  # fmt: skip
 
 
 @styled
@@ -144,7 +155,7 @@ def draw_sensitivity(first: dict[str, np.ndarray], frequencies: np.ndarray, titl
         [Hz]
     title : str
     """
-    figure = Figure(figsize=(WIDTH, 0.9 + 0.24 * len(first)))
+    figure = Figure(figsize=(WIDTH, 1.0 + 0.22 * len(first)))
     panels = figure.subplots(1, len(frequencies), sharey=True, squeeze=False)[0]
     places = np.arange(len(first))[::-1]
     for i, (axes, frequency) in enumerate(zip(panels, frequencies)):
@@ -160,8 +171,9 @@ def draw_sensitivity(first: dict[str, np.ndarray], frequencies: np.ndarray, titl
                 fontsize=7.0,
             )
         axes.set_title(f"{frequency:g} Hz", fontsize=8.5)
-        axes.set(xlim=(0.0, 0.72), yticks=places)
-        axes.set_yticklabels(list(first), fontsize=7.5)
-        axes.set_xlabel("[g]")
+        axes.set(xlim=(0.0, 0.75), xticks=(0.0, 0.2, 0.4, 0.6), yticks=places, ylim=(-0.6, places[0] + 0.6))
+        axes.set_yticklabels([name.replace("K_M", "$K_M$") for name in first], fontsize=7.5)
+        axes.tick_params(axis="x", labelsize=7.5)
+    figure.supxlabel("smallest amplitude that collapses the column [g]", size=9.0)
     figure.suptitle(title, x=0.01, ha="left", size=10.0)
     return figure

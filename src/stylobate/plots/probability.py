@@ -16,7 +16,7 @@ from ..analysis import verdicts as v
 from ..analysis.domain import cell_edges
 from ..analysis.probability import CollapseProbability
 from ..constants import g
-from .style import BLACK, BLUE, RED, SAND, WIDTH, styled
+from .style import BLACK, BLUE, HALO, RED, SAND, WIDTH, styled
 
 #: Classes of the share that collapses: upper end, label, and a fill that darkens evenly, in grey as well.
 CLASSES = (
@@ -112,8 +112,8 @@ def _draw_band(axes: Axes, result: CollapseProbability) -> list[Line2D]:
     with np.errstate(invalid="ignore"):
         below = [np.nan if np.isnan(one) else edges[np.searchsorted(result.amplitudes, one)] for one in low]
         above = [
-            np.nan if np.isnan(one) or np.isnan(first) else edges[np.searchsorted(result.amplitudes, one) + 1]
-            for one, first in zip(high, low)
+            np.nan if np.isnan([one, first]).any() or beyond else edges[np.searchsorted(result.amplitudes, one) + 1]
+            for one, first, beyond in zip(high, low, result.band_is_open)
         ]
     shapes: list[Line2D] = []
     lines: list[tuple[Any, Any, str]] = [
@@ -121,7 +121,7 @@ def _draw_band(axes: Axes, result: CollapseProbability) -> list[Line2D]:
         (above, (0, (2, 1.2)), "above: all collapse"),
     ]
     for level, line, label in lines:
-        axes.stairs(level, x, baseline=None, color=BLACK, linewidth=1.5, linestyle=line, zorder=3)
+        axes.stairs(level, x, baseline=None, color=BLACK, linewidth=1.5, linestyle=line, zorder=3, path_effects=HALO)
         shapes.append(Line2D([], [], color=BLACK, linewidth=1.5, linestyle=line, label=label))
     return shapes
 

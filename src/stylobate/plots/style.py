@@ -10,6 +10,7 @@ from typing import Any, ParamSpec
 import matplotlib
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.patheffects import AbstractPathEffect, Normal, Stroke
 
 from ..atomic import replacing
 
@@ -37,6 +38,9 @@ CYCLE: tuple[dict[str, Any], ...] = (
     {"color": "#5aae61", "linestyle": (0, (6, 1.5, 1, 1.5, 1, 1.5))},
     {"color": GREY, "linestyle": (0, (8, 2))},
 )
+
+#: A white edge around a line, which lifts it off dark cells.
+HALO: list[AbstractPathEffect] = [Stroke(linewidth=2.6, foreground="white"), Normal()]
 
 _STYLE: dict[Any, Any] = {
     "font.family": "sans-serif",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
@@ -34,6 +35,7 @@ class Rows:
     ----------
     header : sequence of str
     body : sequence of sequence of str
+        A line break in a cell starts a paragraph.
     caption : str
     mark : int, optional
         Column whose text is a verdict; its cells are marked by it.
@@ -46,11 +48,22 @@ class Rows:
 
 
 @dataclass(frozen=True)
+class Points:
+    """A list of short texts on the page."""
+
+    texts: Sequence[str]
+
+
+#: What a page is made of; a text is a paragraph.
+Item = str | Picture | Rows | Points
+
+
+@dataclass(frozen=True)
 class Section:
-    """A headed part of the page; items are paragraphs (str), pictures and tables."""
+    """A headed part of the page."""
 
     title: str
-    items: Sequence[str | Picture | Rows]
+    items: Sequence[Item]
 
 
 _SIGNS = {"holds": "✓", "holds under stated choices": "≈", "does not hold": "✗"}
@@ -62,15 +75,18 @@ body { margin: 0; font: 16px/1.55 system-ui, sans-serif; color: var(--ink); back
 main { max-width: 62rem; margin: 0 auto; padding: 1rem 1.2rem 4rem; }
 h1 { font-size: 1.7rem; line-height: 1.2; margin: 1.2rem 0 .4rem; }
 h2 { font-size: 1.25rem; margin: 2.4rem 0 .6rem; padding-top: .6rem; border-top: 1px solid var(--line); }
-nav a { margin-right: 1rem; white-space: nowrap; }
+nav { columns: 16rem; margin: 1.2rem 0; } nav a { display: block; padding: .15rem 0; }
+li { margin: .3rem 0; }
 a { color: #1d4f8a; }
 figure { margin: 1.4rem 0; }
-figure img { display: block; width: 100%; height: auto; max-width: 58rem; }
+figure img { display: block; width: auto; max-width: 100%; height: auto; margin: 0 auto; }
 .wide { overflow-x: auto; }
 figcaption, caption { font-size: .9rem; color: #444; text-align: left; caption-side: top; padding: .3rem 0; }
 table { border-collapse: collapse; width: 100%; font-size: .86rem; line-height: 1.4; margin: 1rem 0; }
 th, td { text-align: left; vertical-align: top; padding: .4rem .5rem; border-bottom: 1px solid var(--line); }
 th { background: var(--sand); }
+td p { margin: 0 0 .5rem; } td p:last-child { margin: 0; }
+table.numbers td { font-variant-numeric: tabular-nums; }
 td.holds, td.choices, td.fails { font-weight: 600; }
 td.choices { background: #fff5d6; } td.fails { background: #f8e0da; color: var(--red); }
 @media (max-width: 46rem) {
@@ -81,13 +97,14 @@ td.choices { background: #fff5d6; } td.fails { background: #f8e0da; color: var(-
   table.cards td { display: block; border: 0; padding: .25rem .6rem; }
   table.cards td::before { content: attr(data-name); display: block; font-size: .72rem; color: #666; font-weight: 400; }
   table.cards td:empty { display: none; }
-  .wide img { width: 46rem; max-width: none; }
+  .wide img { width: 42rem; max-width: none; }
+  .wide + figcaption::before { content: "↔ scrolls sideways. "; color: #666; }
 }
 @media print { nav { display: none; } h2 { break-after: avoid; } figure, tr { break-inside: avoid; } }
 """
 
 
-def write_page(path: Path, title: str, lead: Sequence[str], sections: Sequence[Section]) -> Path:
+def write_page(path: Path, title: str, lead: Sequence[Item], sections: Sequence[Section]) -> Path:
     """Write the page, whole or not at all.
 
     Parameters
@@ -95,12 +112,12 @@ def write_page(path: Path, title: str, lead: Sequence[str], sections: Sequence[S
     path : path
         The HTML file.
     title : str
-    lead : sequence of str
-        Paragraphs at the top.
+    lead : sequence of Item
+        At the top.
     sections : sequence of Section
     """
     links = "".join(f'<a href="#s{i}">{escape(one.title)}</a> ' for i, one in enumerate(sections))
-    body = [f"<h1>{escape(title)}</h1>", *map(_paragraph, lead), f"<nav>{links}</nav>"]
+    body = [f"<h1>{escape(title)}</h1>", *map(_item, lead), f"<nav>{links}</nav>"]
     for i, section in enumerate(sections):
         body.append(f'<section id="s{i}"><h2>{escape(section.title)}</h2>')
         body += [_item(item) for item in section.items]
@@ -115,18 +132,26 @@ def write_page(path: Path, title: str, lead: Sequence[str], sections: Sequence[S
     return path
 
 
-def _item(item: str | Picture | Rows) -> str:
+def _item(item: Item) -> str:
     if isinstance(item, str):
         return _paragraph(item)
+    if isinstance(item, Points):
+        return f"<ul>{''.join(f'<li>{_text(text)}</li>' for text in item.texts)}</ul>"
     if isinstance(item, Picture):
         data = base64.b64encode(item.file.read_bytes()).decode()
         image = f'<img alt="{escape(item.caption)}" src="data:image/png;base64,{data}">'
-        return f'<figure><div class="wide">{image}</div><figcaption>{escape(item.caption)}</figcaption></figure>'
+        return f'<figure><div class="wide">{image}</div><figcaption>{_text(item.caption)}</figcaption></figure>'
     return _table(item)
 
 
 def _paragraph(text: str) -> str:
-    return f"<p>{escape(text)}</p>"
+    return f"<p>{_text(text)}</p>"
+
+
+def _text(text: str) -> str:
+    """Escaped; no line break between a number and its unit, and indices as such."""
+    kept = re.sub(r"(?<=\d) (?=(?:%|g|Hz|m|mm|s|ms)(?!\w))", "\N{NO-BREAK SPACE}", escape(text))
+    return re.sub(r"\b([A-Za-z])_([A-Za-z])\b", r"\1<sub>\2</sub>", kept)
 
 
 def _table(rows: Rows) -> str:
@@ -139,7 +164,8 @@ def _table(rows: Rows) -> str:
             if k == rows.mark:
                 mark = {"holds": "holds", "does not hold": "fails"}.get(value, "choices")
                 value = f"{_SIGNS.get(value, '')} {value}".strip()
-            cells.append(f'<td class="{mark}" data-name="{escape(name)}">{escape(value)}</td>')
+            text = "".join(map(_paragraph, value.split("\n"))) if "\n" in value else _text(value)
+            cells.append(f'<td class="{mark}" data-name="{escape(name)}">{text}</td>')
         lines.append(f"<tr>{''.join(cells)}</tr>")
-    caption = f"<caption>{escape(rows.caption)}</caption>" if rows.caption else ""
+    caption = f"<caption>{_text(rows.caption)}</caption>" if rows.caption else ""
     return f'<table class="cards">{caption}<thead><tr>{head}</tr></thead><tbody>{"".join(lines)}</tbody></table>'
