@@ -31,7 +31,7 @@ $(STAMP): pyproject.toml requirements/base.lock
 	@echo "$(CURDIR)" > $@
 
 demo: install
-	@$(BIN)/python -m stylobate.cli.demo
+	@$(BIN)/stylobate reproduce --quick --out demo
 
 test: install
 	@$(BIN)/python -m pytest $(ARGS)
