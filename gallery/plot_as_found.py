@@ -14,7 +14,7 @@ from stylobate import plots
 # The base has lost 12 cm of its right edge, the fifth drum and what it carries stand 40 mm to the right,
 # and the ground falls by half a degree to that side.
 
-built = st.preset("paper-12-drums")
+built = st.preset("paper-12-drums").replace(name="as built")
 drums = st.FoundDrum(1, chip_right=0.12), st.FoundDrum(5, offset=0.04)
 found = built.replace(as_found=st.AsFound(drums, base_tilt=-0.5), name="as found")
 for column in (built, found):

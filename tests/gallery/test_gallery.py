@@ -179,7 +179,7 @@ def test_as_found(run):
     assert found["found"].uplift_acceleration / st.g == pytest.approx(by_hand, rel=1e-6)
     printed = found["printed"]
     assert f"as found: a joint opens at {by_hand:.3f} g" in printed
-    assert "refused: 'paper-12-drums' is not in equilibrium: at joint 1" in printed
+    assert "refused: 'as built' is not in equilibrium: at joint 1" in printed
     # Built, found, turned: the same with half of the time step; two steps of the grid (0.02 g) are allowed.
     values = [float(line.split()[-2]) for line in printed.splitlines() if "pulse ×" in line]
     assert values == pytest.approx([0.56, 0.32, 0.44], abs=0.04)
