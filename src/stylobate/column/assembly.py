@@ -130,6 +130,11 @@ class Block:
         return float(mass), float(inertia), float(origin[0] + centre[0]), float(origin[1] + centre[1])
 
     @property
+    def origin(self) -> tuple[float, float]:
+        """Point of the block that its poses refer to [m]: its centroid; (0, 0) of a fixed block."""
+        return (0.0, 0.0) if self.fixed else self.properties[2:]
+
+    @property
     def size(self) -> float:
         """Larger side of the box around the block [m]."""
         return float(np.ptp(self.corners, axis=0).max())
@@ -248,6 +253,12 @@ class Assembly:
     def to_dict(self) -> dict:
         """Everything that defines the assembly, as plain values in SI units."""
         return asdict(self)
+
+    @property
+    def frequency_parameter(self) -> float:
+        """p = √(3g/4R) [1/s], R half the diagonal of the box around all blocks that move: the slowest that could rock."""
+        corners = np.concatenate([block.corners for block in self.blocks if not block.fixed])
+        return math.sqrt(0.75 * self.gravity / (0.5 * math.hypot(*np.ptp(corners, axis=0))))
 
     @property
     def digest(self) -> str:

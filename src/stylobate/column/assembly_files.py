@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError
 from .assembly import Assembly, Block
-from .files import JointTable
+from .files import JointTable, joint_from_dict
 from .joint import Joint
 from .toml import Table, parse_toml, read_table
 
@@ -59,6 +61,22 @@ def read(path: str | Path) -> Assembly:
         return _assembly(table, Path(path).stem)
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
+
+
+def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:
+    """The assembly that :meth:`Assembly.to_dict` described."""
+    blocks = []
+    for fields in data["blocks"]:
+        surface, solid = fields["surface"], fields["solid"]
+        special = {
+            "vertices": tuple(tuple(corner) for corner in fields["vertices"]),
+            "surface": None if surface is None else joint_from_dict(surface),
+            "solid": None if solid is None else tuple(solid),
+        }
+        blocks.append(Block(**(dict(fields) | special)))
+    overrides = tuple((one, other, joint_from_dict(law)) for one, other, law in data["overrides"])
+    special = {"blocks": tuple(blocks), "joint": joint_from_dict(data["joint"]), "overrides": overrides}
+    return Assembly(**(dict(data) | special))
 
 
 def _assembly(table: AssemblyTable, default_name: str) -> Assembly:

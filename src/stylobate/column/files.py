@@ -20,7 +20,7 @@ from .column import Column
 from .drum import Drum
 from .joint import Joint
 from .presets import PRESETS, preset
-from .toml import Table, read_table
+from .toml import Table, checked, parse_toml
 
 
 class JointTable(Table):
@@ -123,7 +123,13 @@ def read_column(path: str | Path) -> Column:
     InputError
         The file cannot be read or does not describe a column; the message names the file, the key and the remedy.
     """
-    table = read_table(path, ColumnTable)
+    data = parse_toml(path)
+    if "block" in data:
+        raise InputError(
+            f"{path} describes an assembly of blocks, which only 'stylobate run' takes (simulate_assembly in Python); "
+            "give a column here: a preset, or a file with [tapered] or [[drum]]."
+        )
+    table = checked(data, ColumnTable, str(path))
     try:
         return _column(table, default_name=Path(path).stem)
     except InputError as error:
@@ -156,7 +162,7 @@ def write_column(column: Column, path: str | Path) -> Path:
 def column_from_dict(data: Mapping[str, Any]) -> Column:
     """The column that :meth:`Column.to_dict` described."""
     drums = tuple(Drum(**fields) for fields in data["drums"])
-    joints = tuple(_one_friction(fields) for fields in data["joints"])
+    joints = tuple(joint_from_dict(fields) for fields in data["joints"])
     found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
     as_found = AsFound(tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"])
     return Column(drums, joints, data["name"], data["gravity"], as_found)
@@ -230,7 +236,8 @@ def _overridden(common: JointTable, override: OverrideTable) -> Joint:
         raise InputError(f"[[joint_override]] with index {override.index}: {error}") from None
 
 
-def _one_friction(fields: Mapping[str, Any]) -> Joint:
+def joint_from_dict(fields: Mapping[str, Any]) -> Joint:
+    """The joint whose fields these are, to the last bit."""
     # A joint holds friction as angle and as coefficient; it was made from one, which gives back the other to the bit.
     for form in ("friction_coefficient", "friction_angle"):
         joint = Joint(**{key: value for key, value in fields.items() if key != form})

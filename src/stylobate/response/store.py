@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..atomic import replacing
 from ..column.files import column_from_dict
-from ..errors import InputError, OutOfRangeWarning
+from ..errors import OutOfRangeWarning
 from ..outcome import Outcome
+from . import netcdf
 from .measures import Measures
 from .response import Histories, Response
 
@@ -39,8 +39,6 @@ _HISTORIES: dict[str, tuple[tuple[str, ...], str, str]] = {
     "ground_acceleration": (("time",), "m s-2", "horizontal acceleration of the base"),
     "ground_displacement": (("time",), "m", "horizontal displacement of the base"),
 }
-
-_ENERGY = "energy_"
 
 # field of Measures: attribute in the file, the same as in tables and JSON
 _MEASURES = {
@@ -74,10 +72,9 @@ def to_dataset(response: Response) -> xarray.Dataset:
         name: (dims, getattr(h, name), {"units": unit, "long_name": meaning})
         for name, (dims, unit, meaning) in _HISTORIES.items()
     }
-    for term, values in h.energy.items():
-        variables[_ENERGY + term] = (("time",), values, {"units": "J", "long_name": f"energy ledger: {term}"})
-    variables["column"] = ((), _json(response.column.to_dict()))
-    variables["provenance"] = ((), _json(response.provenance))
+    variables |= netcdf.energy_variables(h.energy)
+    variables["column"] = ((), netcdf.as_json(response.column.to_dict()))
+    variables["provenance"] = ((), netcdf.as_json(response.provenance))
     numbers = np.arange(1, n + 1)
     coordinates = {
         "time": ("time", h.time, {"units": "s", "long_name": "time"}),
@@ -101,12 +98,7 @@ def save(response: Response, path: str | Path) -> Path:
     InputError
         The folder is missing or cannot be written to.
     """
-    target = Path(path)
-    data = to_dataset(response)
-    encoding = {name: {"zlib": True, "complevel": 4} for name, values in data.data_vars.items() if values.ndim}
-    with replacing(target) as partial:
-        data.to_netcdf(partial, engine="h5netcdf", encoding=encoding)
-    return target
+    return netcdf.write(to_dataset(response), path)
 
 
 def load(path: str | Path) -> Response:
@@ -117,37 +109,21 @@ def load(path: str | Path) -> Response:
     InputError
         There is no such file, or it is not a response.
     """
-    import xarray
-
-    try:
-        with xarray.open_dataset(path, engine="h5netcdf", decode_times=False) as opened:
-            data = opened.load()
-    except FileNotFoundError:
-        raise InputError(f"there is no file {path}.") from None
-    except (OSError, ValueError) as error:
-        raise InputError(f"{path} cannot be read as netCDF: {error}.") from None
-    found = data.attrs.get("format")
-    if found != FORMAT:
-        raise InputError(
-            f"{path} has the format {found!r}, not {FORMAT!r}; give a file that 'stylobate run --out' wrote."
-        )
-    energy = {
-        str(name).removeprefix(_ENERGY): values.to_numpy()
-        for name, values in data.data_vars.items()
-        if str(name).startswith(_ENERGY)
-    }
+    data = netcdf.read(path, FORMAT)
     histories = Histories(
-        time=data["time"].to_numpy(), energy=energy, **{name: data[name].to_numpy() for name in _HISTORIES}
+        time=data["time"].to_numpy(),
+        energy=netcdf.energy_of(data),
+        **{name: data[name].to_numpy() for name in _HISTORIES},
     )
     with warnings.catch_warnings():  # said when the column was made
         warnings.simplefilter("ignore", OutOfRangeWarning)
-        column = column_from_dict(json.loads(str(data["column"].item())))
+        column = column_from_dict(netcdf.from_json(data, "column"))
     return Response(
         column=column,
         histories=histories,
         measures=_measures(data.attrs),
         model=data.attrs["model"],
-        provenance=json.loads(str(data["provenance"].item())),
+        provenance=netcdf.from_json(data, "provenance"),
         wall_time=float(data.attrs["wall_s"]),
     )
 
@@ -182,15 +158,3 @@ def _measures(attributes: dict[str, Any]) -> Measures:
             values[field] = value.item()
     values["decided"] = bool(values["decided"])
     return Measures(outcome=Outcome[attributes["outcome"].upper()], **values)
-
-
-def _json(value: Any) -> str:
-    return json.dumps(value, default=_plain)
-
-
-def _plain(value: Any) -> Any:
-    if isinstance(value, np.generic):
-        return value.item()
-    if isinstance(value, np.ndarray):
-        return value.tolist()
-    return str(value)
