@@ -104,7 +104,7 @@ def simulate_assembly(
     tail, output_interval, until_rest
         As in :func:`simulate`.
     """
-    from .models.assembly_2d import run_assembly
+    from .models.assembly_run import run_assembly
     from .models.distinct_element_2d import DistinctElement2D
 
     model = DistinctElement2D() if model is None else model
