@@ -12,8 +12,9 @@ from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.motion import harmonic
-from stylobate.plots.animation import draw_frame, frame_indices, outlines, write_gif
+from stylobate.plots.animation import draw_frame, frame_indices, write_gif
 from stylobate.plots.player import write_player
+from stylobate.plots.scene import scene_of
 from stylobate.simulate import simulate
 
 
@@ -27,11 +28,11 @@ def fall():
 def test_outlines_keep_their_shape_and_lie_on_the_ground(fall):
     assert fall.collapsed
     for index in (0, len(fall.time) // 2, len(fall.time) - 1):
-        for corners, drum in zip(outlines(fall, index), fall.column.drums, strict=True):
+        for corners, drum in zip(scene_of(fall).outlines(index), fall.column.drums, strict=True):
             sides = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
             assert sides[0] == pytest.approx(drum.bottom_width)
             assert sides[2] == pytest.approx(drum.top_width)
-    lowest = [corners[:, 1].min() for corners in outlines(fall, len(fall.time) - 1)]
+    lowest = [corners[:, 1].min() for corners in scene_of(fall).outlines(len(fall.time) - 1)]
     assert max(lowest) < 0.5
     assert min(lowest) > -2e-3
 
@@ -42,7 +43,7 @@ def test_a_gif_has_its_frames(fall, tmp_path):
     path = write_gif(fall, tmp_path / "fall.gif", frames_per_second=4.0)
     with Image.open(path) as film:
         assert film.n_frames > 5
-        assert film.n_frames <= len(frame_indices(fall, 4.0, 1.0))  # equal frames are shown for longer
+        assert film.n_frames <= len(frame_indices(fall.time, 4.0, 1.0))  # equal frames are shown for longer
         first = np.asarray(film.convert("RGB")).astype(int)
         film.seek(film.n_frames - 1)
         last = np.asarray(film.convert("RGB")).astype(int)
@@ -51,7 +52,7 @@ def test_a_gif_has_its_frames(fall, tmp_path):
 
 def test_a_frame_says_when(fall):
     index = len(fall.time) // 2
-    title = draw_frame(fall, index).axes[0].get_title(loc="left")
+    title = draw_frame(scene_of(fall), index).axes[0].get_title(loc="left")
     assert f"{fall.time[index]:.2f} s" in title
 
 
@@ -85,4 +86,4 @@ def test_bad_input_of_the_command(fall, tmp_path, capsys, arguments, says):
 
 def test_a_film_that_is_too_long_is_refused(fall):
     with pytest.raises(InputError, match="allowed are 5000"):
-        frame_indices(fall, 100.0, 1e-3)
+        frame_indices(fall.time, 100.0, 1e-3)

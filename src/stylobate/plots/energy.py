@@ -5,42 +5,45 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..response import ENERGY_TERMS, Response
-from .histories import describe
+from ..response import ENERGY_TERMS, AssemblyResponse
+from .scene import AnyResponse, describe
 from .style import CYCLE, GREY, WIDTH, styled, zero_line
 
 
 @styled
-def draw_energy(response: Response, title: str | None = None) -> Figure:
+def draw_energy(response: AnyResponse, title: str | None = None) -> Figure:
     """Input work, where it is and where it went, and below what the ledger cannot account for.
 
     Parameters
     ----------
-    response : Response
+    response : Response or AssemblyResponse
     title : str, optional
     """
-    h = response.histories
+    time, energy = response.time, response.energy
     figure = Figure(figsize=(WIDTH, 4.2))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     zero_line(upper)
-    present = [term for term in ENERGY_TERMS if term == "input" or np.any(h.energy.get(term, 0.0))]
-    unit, factor = _unit(max((float(np.nanmax(np.abs(h.energy[t]))) for t in present if t in h.energy), default=0.0))
+    present = [term for term in ENERGY_TERMS if term == "input" or np.any(energy.get(term, 0.0))]
+    unit, factor = _unit(max((float(np.nanmax(np.abs(energy[t]))) for t in present if t in energy), default=0.0))
     for term, line in zip(present, CYCLE * 2):
         width = 1.8 if term == "input" else 1.0
-        upper.plot(h.time, factor * h.energy[term], label=_NAMES[term], linewidth=width, **line)
+        upper.plot(time, factor * energy[term], label=_NAMES[term], linewidth=width, **line)
     upper.set_ylabel(f"energy [{unit}]")
     upper.legend(loc="upper left", ncols=3)
     bottom, top = upper.get_ylim()
     upper.set_ylim(bottom, top + 0.25 * (top - bottom))
     upper.set_title(title or describe(response))
     zero_line(lower)
-    largest = float(np.nanmax(np.abs(h.energy["input"])))
-    lower.plot(h.time, h.imbalance / (largest or 1.0), color=GREY)
-    lower.set_ylabel("imbalance\n/ input")
+    word, largest = "input", float(np.nanmax(np.abs(energy["input"])))
+    if isinstance(response, AssemblyResponse):  # it may fall of itself
+        released = float(np.nanmax(-energy["gravitational"]))
+        word, largest = ("released", released) if released > largest else (word, largest)
+    lower.plot(time, response.imbalance / (largest or 1.0), color=GREY)
+    lower.set_ylabel(f"imbalance\n/ {word}")
     lower.set_xlabel("time [s]")
-    lower.set_xlim(float(h.time[0]), float(h.time[-1]) or 1.0)
-    share = response.measures.energy_imbalance
-    lower.set_title(f"energy imbalance {share:.1e} of the input work", loc="right", fontsize=8.0)
+    lower.set_xlim(float(time[0]), float(time[-1]) or 1.0)
+    of = {"input": "input work", "released": "released energy"}[word]
+    lower.set_title(f"energy imbalance {response.energy_imbalance:.1e} of the {of}", loc="right", fontsize=8.0)
     figure.align_ylabels()
     return figure
 

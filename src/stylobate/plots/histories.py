@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from ..constants import g
 from ..response import Response
+from .scene import AnyResponse, describe
 from .style import BLACK, CYCLE, GREY, RED, WIDTH, styled, zero_line
 
 
@@ -35,7 +36,7 @@ def draw_histories(response: Response, title: str | None = None) -> Figure:
     _focus(upper, [response])
     upper.legend(loc="upper left", ncols=2)
     upper.set_title(title or describe(response))
-    _draw_ground(lower, response)
+    draw_ground(lower, response)
     figure.align_ylabels()
     return figure
 
@@ -56,26 +57,18 @@ def draw_comparison(responses: Sequence[Response], title: str | None = None) -> 
     _focus(upper, responses)
     upper.legend(loc="upper left", ncols=2)
     upper.set_title(title or f"{responses[0].column.name}, {responses[0].provenance.get('motion', 'motion')}")
-    _draw_ground(lower, responses[0])
+    draw_ground(lower, responses[0])
     figure.align_ylabels()
     return figure
 
 
-def describe(response: Response) -> str:
-    """Column, motion, model and outcome in one line."""
-    outcome = response.outcome.label.replace("_", " ")
-    undecided = "" if response.measures.decided else ", undecided"
-    motion = response.provenance.get("motion", "motion")
-    return f"{response.column.name}, {motion}, {response.model}: {outcome}{undecided}"
-
-
-def _draw_ground(axes: Axes, response: Response) -> None:
+def draw_ground(axes: Axes, response: AnyResponse) -> None:
+    """Acceleration of the ground over time, under the histories of a response."""
     zero_line(axes)
-    h = response.histories
-    axes.plot(h.time, h.ground_acceleration / g, color=GREY, linewidth=0.8)
+    axes.plot(response.time, response.ground_acceleration / g, color=GREY, linewidth=0.8)
     axes.set_ylabel("ground\n[g]")
     axes.set_xlabel("time [s]")
-    axes.set_xlim(float(h.time[0]), float(h.time[-1]) or 1.0)
+    axes.set_xlim(float(response.time[0]), float(response.time[-1]) or 1.0)
 
 
 def _mark_collapse(axes: Axes, responses: Sequence[tuple[Response, str]]) -> None:

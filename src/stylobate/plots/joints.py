@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..response import Response
-from .histories import describe
+from .scene import describe
 from .style import BLACK, BROWN, GREY, SAND, WIDTH, styled
 
 

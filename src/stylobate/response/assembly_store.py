@@ -87,13 +87,14 @@ def load(path: str | Path) -> AssemblyResponse:
     with warnings.catch_warnings():  # said when the assembly was made
         warnings.simplefilter("ignore", OutOfRangeWarning)
         assembly = assembly_from_dict(netcdf.from_json(data, "assembly"))
+    facts: dict[str, Any] = {name: data[name].to_numpy() for name in _HISTORIES}
+    facts |= {name: bool(data.attrs[name]) for name in _FLAGS}
+    facts |= {field: float(data.attrs[name]) for field, name in _NUMBERS.items()}
     return AssemblyResponse(
         assembly=assembly,
         time=data["time"].to_numpy(),
-        **{name: data[name].to_numpy() for name in _HISTORIES},
         energy=netcdf.energy_of(data),
-        **{name: bool(data.attrs[name]) for name in _FLAGS},
-        **{field: float(data.attrs[name]) for field, name in _NUMBERS.items()},
         steps=int(data.attrs["steps"]),
         provenance=netcdf.from_json(data, "provenance"),
+        **facts,
     )

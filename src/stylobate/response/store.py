@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..column.files import column_from_dict
-from ..errors import OutOfRangeWarning
+from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome
 from . import netcdf
 from .measures import Measures
