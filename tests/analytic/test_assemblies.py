@@ -29,6 +29,14 @@ def box(x, z, width, height, name, angle=0.0, **fields):
     return Block(tuple((float(p), float(q)) for p, q in corners), DENSITY, name, **fields)
 
 
+def falls(assembly, *arguments, **options):
+    """A run of an assembly that is not in equilibrium as drawn, which is said."""
+    with pytest.warns(UserWarning, match="is not in equilibrium as drawn; it moves from the start"):
+        response = simulate_assembly(assembly, *arguments, **options)
+    assert response.summary()["in_equilibrium_as_drawn"] is False
+    return response
+
+
 def static_depth(height):
     """Closure of a bed under a block of that height [m]."""
     return DENSITY * height * g / JOINT.normal_stiffness
@@ -39,7 +47,7 @@ def test_block_dropped_on_a_corner(restitution, rests):
     with pytest.warns(UserWarning, match="'b' touches nothing"):
         assembly = Assembly((box(0.0, 2.0, 1.0, 0.6, "b", 0.6),), JOINT)
     model = DistinctElement2D(restitution=restitution)
-    response = simulate_assembly(assembly, still(4.0), model, until_rest=rests)
+    response = falls(assembly, still(4.0), model, until_rest=rests)
     assert response.energy_imbalance < 0.01
     if rests:
         assert response.at_rest
@@ -52,7 +60,7 @@ def test_block_dropped_on_a_corner(restitution, rests):
 def test_fall_before_the_impact_is_free():
     with pytest.warns(UserWarning, match="touches nothing"):
         assembly = Assembly((box(0.0, 2.0, 1.0, 0.6, "b"),), JOINT)
-    response = simulate_assembly(assembly, still(0.6), output_interval=0.05)
+    response = falls(assembly, still(0.6), output_interval=0.05)
     assert response.z[:, 1] == pytest.approx(2.3 - 0.5 * g * response.time**2, abs=1e-6)
 
 
@@ -68,7 +76,7 @@ def test_tower_of_twenty_stands_a_minute():
 def test_dominoes_fall_in_their_order():
     first = box(0.0, 0.2 * math.sin(0.3) / 2, 0.2, 1.0, "d0", -0.3)
     row = (first, *(box(0.6 * i, 0.0, 0.2, 1.0, f"d{i}") for i in range(1, 6)))
-    response = simulate_assembly(
+    response = falls(
         Assembly(row, JOINT), still(3.0), DistinctElement2D(restitution=0.3), until_rest=True, output_interval=0.005
     )
     assert response.fallen == tuple(f"d{i}" for i in range(6))
@@ -100,7 +108,8 @@ def test_inclined_plane_at_22_degrees(friction, gap):
         assembly = Assembly(blocks, joint, ground=None)
     assert len(assembly.joints) == (0 if gap else 1)
     model = DistinctElement2D(restitution=0.1, stiffness_damping=1e-4)
-    response = simulate_assembly(assembly, still(1.2), model)
+    run = falls if friction < 22.0 else simulate_assembly
+    response = run(assembly, still(1.2), model)
     down = -((response.x[:, -1] - response.x[0, -1]) * c + (response.z[:, -1] - response.z[0, -1]) * s)
     late = response.time > 0.3
     found = 2.0 * np.polyfit(response.time[late], down[late], 2)[0]
@@ -112,27 +121,41 @@ def test_inclined_plane_at_22_degrees(friction, gap):
         assert down[-1] < 2e-3
 
 
-def portal():
+def portal(joint=JOINT):
     blocks = []
     for side, name in ((-1.5, "left"), (1.5, "right")):
         blocks += [box(side, 1.0 * i, 0.8, 1.0, f"{name} {i + 1}") for i in range(4)]
-    return Assembly((*blocks, box(0.0, 4.0, 3.8, 0.7, "architrave")), JOINT, "portal")
+    return Assembly((*blocks, box(0.0, 4.0, 3.8, 0.7, "architrave")), joint, "portal")
 
 
 def test_two_columns_with_an_architrave():
     assert len(portal().joints) == 10
-    model = DistinctElement2D(restitution=0.3, mass_damping=0.5)
     resting = simulate_assembly(portal(), still(2.0), DistinctElement2D(start="settle"))
     assert np.abs(resting.x - resting.x[0]).max() < 1e-9
     # mirror image: both columns carry the same
     assert resting.z[-1, 1:5] == pytest.approx(resting.z[-1, 5:9], abs=1e-12)
-    shaken = simulate_assembly(portal(), harmonic(1.0, 0.15 * g, 4.0), model, tail=4.0)
-    assert shaken.fallen == ()
-    assert shaken.energy_imbalance < 0.01
-    brought_down = simulate_assembly(portal(), harmonic(0.5, 0.6 * g, 6.0), model, until_rest=True)
+    assert resting.outcome.label == "at_rest"
+    assert resting.decided
+    brought_down = simulate_assembly(portal(), harmonic(0.5, 0.6 * g, 6.0), until_rest=True)
     assert "architrave" in brought_down.fallen
     assert brought_down.at_rest
     assert brought_down.energy_imbalance < 0.01
+
+
+@pytest.mark.parametrize("stiffness", [1e9, 5e10])
+def test_a_portal_shaken_hard_comes_to_rest_without_damping(stiffness):
+    """It rocks and stands; once the shaking is over the impacts of its joints take what is left."""
+    joint = Joint(stiffness, 0.5 * stiffness, friction_coefficient=0.7)
+    response = simulate_assembly(portal(joint), harmonic(1.5, 0.5 * g, 4.0), until_rest=True)
+    assert response.outcome.label == "displaced"
+    assert response.at_rest
+    assert response.joint_opening.max() > 0.02
+    assert response.energy_imbalance < 0.01
+    late = response.time > response.time[-1] - 0.5
+    assert np.ptp(response.x[late], axis=0).max() < 2e-4 * 3.8  # the definition of rest
+    # a dashpot can only take energy; where the step is too long for it, it gives some back and the blocks chatter
+    taken = response.energy["viscous"]
+    assert np.diff(taken).min() > -1e-4 * taken[-1]
 
 
 def arch(ratio, stones=40, radius=10.0):
@@ -153,17 +176,16 @@ def arch(ratio, stones=40, radius=10.0):
     return Assembly(tuple(blocks), Joint(5e10, 2.5e10, friction_coefficient=2.0), "arch", ground=None)
 
 
-@pytest.mark.parametrize(("share", "stands"), [(1.02, True), (0.98, False)])
+@pytest.mark.parametrize(("share", "stands"), [(1.02, True), (1.002, True), (0.998, False), (0.98, False)])
 def test_semicircular_arch_at_the_edge_of_milankovitch_s_thickness(share, stands):
-    response = simulate_assembly(
-        arch(0.1075 * share), still(1.25), DistinctElement2D(mass_damping=1.0), output_interval=0.25
-    )
+    run = simulate_assembly if stands else falls
+    response = run(arch(0.1075 * share), still(1.25), output_interval=0.25)
     crown = response.z[:, 20] - response.z[0, 20]
     if stands:
-        assert crown.min() > -0.01  # 1 % of the thickness, from being loaded at once
-        assert crown[-1] > crown.min()
+        assert np.abs(crown).max() < 1e-6
+        assert response.outcome.label == "at_rest"
     else:
-        assert crown[-1] < -0.15
+        assert crown[-1] < (-0.3 if share < 0.99 else -0.03)
         assert np.diff(np.diff(crown) / np.diff(response.time)).max() < 0.0  # down, faster and faster
 
 
@@ -182,13 +204,6 @@ def test_a_whole_collapse_keeps_its_energy_and_comes_to_rest(name, frequency, am
     for term in ("friction", "viscous"):
         taken = response.histories.energy[term]
         assert np.diff(taken).min() > -1e-3 * taken.max()
-    for i, drum in enumerate(column.drums):
-        z, angle = column.centroid_heights[i] + response.drum_z[-1, i], response.drum_rotation[-1, i]
-        c, s = math.cos(angle), math.sin(angle)
-        low, high = -drum.centroid_height, drum.height - drum.centroid_height
-        b, t = 0.5 * drum.bottom_width, 0.5 * drum.top_width
-        lowest = min(z + s * p + c * q for p, q in ((-b, low), (b, low), (t, high), (-t, high)))
-        assert lowest > -1e-3  # in the ground by no more than a corner under the weight of what lies on it
 
 
 def test_standing_after_a_collapse_that_never_was():

@@ -26,7 +26,7 @@ Legend (positions at t_n, velocities at t_{n−1/2})::
     pairs       bodies that may touch; link[a, b] their joint or −1
     memory[a, b]   shear force of their bed, its normal and tangential dashpot forces [N]
     now         dt last         step, and the last one taken [s]: while bodies may strike each other, or a joint hands
-                                over (``loose`` > 0), a step is taken in ``finer`` equal parts
+                                over (``loose`` > 0), or joints are dull, a step is taken in ``finer`` equal parts
                 g gx bc bs beta alpha local   gravity, slope of the base, damping (as in the lanes)
                 eta calm        restitution of the bed: F is larger by eta while it closes, smaller while it opens; below
                                 the speed ``calm`` [m/s] in proportion to it; ``dull`` is the same of the joints
@@ -447,7 +447,7 @@ def advance(
             az = factor * sample(motion[1], motion[2], at) if motion[1] != 0 else 0.0
             ground[k, 0], ground[k, 1] = lanes.along_base(ax, az, o.bc, o.bs)
         for k in range(CHUNK):
-            parts = o.finer if o.loose > 0 else 1
+            parts = o.finer if o.loose > 0 or o.dull > 0.0 else 1
             x0 = ground[k, 0]
             z0 = ground[k, 1]
             dx = (ground[k + 1, 0] - x0) / parts

@@ -198,7 +198,7 @@ class Engine:
         bool
             Whether it rests, about where it was drawn; if not, everything is as it was.
         """
-        arrays = (self.body, self.joint, self.now, self.memory)
+        arrays: tuple[Any, ...] = (self.body, self.joint, self.now, self.memory)
         drawn = [array.copy() for array in arrays]
         self.now["local"] = 0.8
         still = self.addresses
