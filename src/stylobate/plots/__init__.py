@@ -1,7 +1,6 @@
 """Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG."""
 
 from .amplitudes import draw_amplitudes
-from .block_histories import draw_block_histories
 from .domain import draw_boundaries, draw_domain
 from .domain_panels import draw_domain_panels, draw_doubt
 from .energy import draw_energy
@@ -19,7 +18,6 @@ from .suite import draw_suite
 
 __all__ = [
     "draw_amplitudes",
-    "draw_block_histories",
     "draw_boundaries",
     "draw_comparison",
     "draw_domain",

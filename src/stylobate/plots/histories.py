@@ -1,4 +1,4 @@
-"""Displacement histories of base and top as Baraldi et al. draw them, and of the tops of several models."""
+"""Displacement histories of base and top as Baraldi et al. draw them, of the tops of several models, and of blocks."""
 
 from __future__ import annotations
 
@@ -10,21 +10,26 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..constants import g
-from ..response import Response
-from .scene import AnyResponse, describe
+from ..response import AssemblyResponse, Response
+from .scene import ASIDE, AnyResponse, describe, scene_of
 from .style import BLACK, CYCLE, GREY, RED, WIDTH, styled, zero_line
+
+#: Blocks of an assembly that are drawn by name.
+NAMED = 5
 
 
 @styled
-def draw_histories(response: Response, title: str | None = None) -> Figure:
-    """Horizontal displacement of base and top, over the acceleration of the ground.
+def draw_histories(response: AnyResponse, title: str | None = None) -> Figure:
+    """Displacements over the acceleration of the ground: horizontal of a column's base and top, or of an assembly's blocks.
 
     Parameters
     ----------
-    response : Response
+    response : Response or AssemblyResponse
     title : str, optional
-        Column, motion and outcome by default.
+        Column or assembly, motion and outcome by default.
     """
+    if isinstance(response, AssemblyResponse):
+        return _draw_blocks(response, title)
     h = response.histories
     figure = Figure(figsize=(WIDTH, 3.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
@@ -36,7 +41,41 @@ def draw_histories(response: Response, title: str | None = None) -> Figure:
     _focus(upper, [response])
     upper.legend(loc="upper left", ncols=2)
     upper.set_title(title or describe(response))
-    draw_ground(lower, response)
+    _draw_ground(lower, response)
+    figure.align_ylabels()
+    return figure
+
+
+def _draw_blocks(response: AssemblyResponse, title: str | None) -> Figure:
+    """Horizontal and vertical displacement of every block; those that move most by name, all others in grey."""
+    bodies = response.assembly.bodies
+    moving = [i for i, block in enumerate(bodies) if not block.fixed]
+    farthest = np.nan_to_num(response.displacement).max(axis=0)
+    named = sorted(moving, key=lambda i: -farthest[i])[:NAMED]
+    figure = Figure(figsize=(WIDTH, 5.4))
+    panels = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 2.4, 1.0))
+    unit, factor = ("m", 1.0) if farthest.max() >= 0.1 else ("mm", 1000.0)
+    gone = response.displacement > ASIDE * scene_of(response).size
+    for axes, places, word in zip(panels, (response.x, response.z), ("horizontal", "vertical")):
+        values = np.where(gone, np.nan, factor * (places - places[0]))
+        zero_line(axes)
+        for i in moving:
+            if i not in named:
+                axes.plot(response.time, values[:, i], color="#c8c8c8", linewidth=0.6)
+        for i, line in zip(named, CYCLE):
+            axes.plot(response.time, values[:, i], label=bodies[i].name, **line)
+        axes.set_ylabel(f"{word}\ndisplacement [{unit}]")
+    others = len(moving) - len(named)
+    handles, labels = panels[0].get_legend_handles_labels()
+    panels[0].legend(handles, labels, loc="best", ncols=min(3, len(labels)))
+    if response.collapsed:
+        first = min(response.fell_at.values())
+        for axes in panels[:2]:
+            axes.axvline(first, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
+    said = f"; in grey the other {others} blocks" if others > 0 else ""
+    panels[1].set_title(f"relative to the ground{said}", loc="right", fontsize=8.0)
+    panels[0].set_title(title or describe(response))
+    _draw_ground(panels[2], response)
     figure.align_ylabels()
     return figure
 
@@ -57,13 +96,12 @@ def draw_comparison(responses: Sequence[Response], title: str | None = None) -> 
     _focus(upper, responses)
     upper.legend(loc="upper left", ncols=2)
     upper.set_title(title or f"{responses[0].column.name}, {responses[0].provenance.get('motion', 'motion')}")
-    draw_ground(lower, responses[0])
+    _draw_ground(lower, responses[0])
     figure.align_ylabels()
     return figure
 
 
-def draw_ground(axes: Axes, response: AnyResponse) -> None:
-    """Acceleration of the ground over time, under the histories of a response."""
+def _draw_ground(axes: Axes, response: AnyResponse) -> None:
     zero_line(axes)
     axes.plot(response.time, response.ground_acceleration / g, color=GREY, linewidth=0.8)
     axes.set_ylabel("ground\n[g]")
