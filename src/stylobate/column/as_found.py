@@ -232,13 +232,13 @@ def check_as_found(column: Column) -> None:
             raise InputError(
                 f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "
                 f"{abs(load.shear) - max(friction, 0.0):.4g} N of friction are missing; "
-                "make the tilts smaller or the friction larger."
+                "make tilts or base_tilt smaller, or the friction larger."
             )
         beyond = max(load.place - at.high[j], at.low[j] - load.place)
         if beyond > 0.0:
             raise InputError(
                 f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
-                f"the contact, {load.normal * beyond:.4g} N m are missing; make the offsets, tilts or chips smaller."
+                f"the contact, {load.normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller."
             )
 
 
