@@ -114,6 +114,36 @@ def test_softer_joints_lower_the_peak():
     assert peaks[0] > peaks[1] > peaks[2]
 
 
+@pytest.mark.parametrize("stiffness", [1e8, 2e7])
+def test_on_soft_joints_the_path_goes_on_until_the_column_gives_way(stiffness):
+    # A tenth of the base width is far within the elastic branch here; the multiplier is that of rigid blocks.
+    joint = Joint(stiffness, stiffness / 2, friction_angle=35.0)
+    column = Column.tapered(
+        height=10.0, bottom_width=1.0, top_width=0.8, drums=10, density=2500.0, joint=joint
+    )  # fmt: skip
+    found = pushover(column, geometric=False)
+    assert found.peaked
+    assert found.complete
+    assert found.collapse_multiplier == pytest.approx(limit_analysis(column).multiplier, abs=5e-7)
+
+
+@pytest.mark.parametrize("control", ["displacement", "arc-length"])
+@pytest.mark.parametrize("geometric", [True, False])
+def test_a_path_that_ends_on_the_elastic_branch_has_no_collapse_multiplier(geometric, control):
+    column = preset("paper-monolithic")
+    found = pushover(column, geometric=geometric, control=control, to=1e-5)
+    assert found.complete
+    assert not found.peaked
+    assert math.isnan(found.collapse_multiplier)
+    assert math.isnan(found.peak_displacement)
+    assert math.isnan(found.ultimate_displacement)
+    # One block on its base: λ rises in proportion to the top's displacement, z_C H/(k_n J) + 1/(k_s A) per W.
+    lever = column.centroid_height * column.height / (5e10 * column.joint_second_moments[0])
+    soft = column.joint_weights[0] * (lever + 1.0 / (2.5e10 * column.joint_areas[0]))
+    assert found.largest_multiplier == pytest.approx(found.displacement[-1] / soft, rel=1e-3 if geometric else 1e-7)
+    assert found.largest_multiplier < 0.5 * limit_analysis(column).multiplier
+
+
 def test_the_tangent_is_the_derivative_of_the_forces():
     outlines = [
         [[-0.5, 0.0], [0.6, 0.1], [0.5, 1.2], [-0.3, 1.0]],

@@ -33,6 +33,20 @@ def test_without_json_people_get_sentences(capsys):
     assert "0.2046 g" in capsys.readouterr().out
 
 
+def test_a_path_that_ends_too_early_is_called_that(tmp_path, capsys):
+    early = ["pushover", "paper-12-drums", "--to", "0.0001"]
+    assert call([*early, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["peaked"] is False
+    assert found["collapse_multiplier_g"] is None
+    assert found["governing_joint"] is None
+    assert found["largest_multiplier_g"] == pytest.approx(max(found["curve"]["multiplier_g"]))
+    assert call([*early, "--out", str(tmp_path)]) == 0
+    shown = capsys.readouterr().out
+    assert "before it gives way" in shown
+    assert "gives way at" not in shown
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -21,6 +21,16 @@ def test_pushover_figure_shows_curve_and_units():
     assert len(picture.patches) == 2 * column.n
 
 
+def test_a_path_without_a_peak_shows_none():
+    column = preset("paper-12-drums")
+    figure = draw_pushover(BlockStack.of_column(column), pushover(column, to=1e-4), 0.2046)
+    assert len(figure.axes) == 2  # no look at the peak from near
+    labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert not any(label.startswith("peak") for label in labels)
+    assert any("still rising" in label for label in labels)
+    assert figure.axes[0].get_ylim()[1] > 0.2046
+
+
 def test_mechanism_leans_to_the_right():
     column = preset("paper-monolithic")
     figure = draw_mechanism(BlockStack.of_column(column), limit_analysis(column))

@@ -23,6 +23,12 @@ LARGEST_CHANGE = 0.02
 #: Steps are cut where the path bends away from its tangent by more than this, so that no peak is stepped over [g].
 LARGEST_BEND = 5e-5
 
+#: The multiplier counts as rising while it does so with more than this share of the elastic column's slope.
+RISING = 1e-4
+
+#: A path without a given end is followed on while the multiplier rises, but not further than this [base widths].
+FARTHEST = 100.0
+
 
 class EquilibriumPath:
     """The state of a pushover analysis while it runs."""
@@ -135,8 +141,11 @@ class EquilibriumPath:
 
     # -- the path ----------------------------------------------------------------------------------------------------
 
-    def follow(self, control: str, to: float) -> PushoverResult:
-        """Gravity, then step by step; steps grow while they succeed and are cut where they do not."""
+    def follow(self, control: str, to: float, *, extend: bool = False) -> PushoverResult:
+        """Gravity, then step by step; steps grow while they succeed and are cut where they do not.
+
+        With ``extend`` the path goes on beyond ``to`` for as long as the multiplier still rises.
+        """
 
         def unloaded(position: np.ndarray, multiplier: float) -> tuple[float, np.ndarray, float]:
             return multiplier, np.zeros(position.size), 1.0
@@ -145,20 +154,23 @@ class EquilibriumPath:
         if isinstance(found, str):
             return self.result(False, f"gravity: no equilibrium was found; {found}.")
         self.accept(*found)
-        longest = min(0.005 * float(self.stack.width[0]), to / 100.0)
+        width = float(self.stack.width[0])
         # First step: a two-hundredth of g on the elastic column.
         length = 0.005 / self.tangent()[1] if control == "displacement" else 0.01
         cuts, start = 0, self.kept[0][0]
         while True:
             top = self.kept[-1][0]
             if top - start >= to * (1.0 - 1e-9):
-                return self.result(True, f"the control displacement of {to:g} m was reached.")
+                if not (extend and to < FARTHEST * width and self.rises()):
+                    return self.result(True, f"the control displacement of {to:g} m was reached.")
+                to *= 2.0
             if len(self.kept) > 2 and self.multiplier <= 0.0:
                 return self.result(True, "the load multiplier has fallen to zero.")
             gone = self.off_support()
             if gone:
                 return self.result(True, f"the part above joint {gone} has slid off its support.")
             if control == "displacement":
+                longest = min(0.005 * width, to / 100.0) if self.geometric else to / 100.0
                 length = min(length, longest, to - (top - start))
                 found = self.displaced(length)
             else:
@@ -179,6 +191,18 @@ class EquilibriumPath:
             self.accept(*found)
             cuts = 0
             length *= 1.5
+
+    def rises(self) -> bool:
+        """Whether the multiplier was never higher than now, and is going to be."""
+        if self.multiplier < max(item[1] for item in self.kept):
+            return False
+        stack, slope = self.stack, self.top(np.zeros_like(self.position))[1]
+        flexible = np.column_stack((stack.normal_stiffness, stack.shear_stiffness, stack.rotational_stiffness))
+        strain = stack.compatibility()
+        elastic = 1.0 / float(
+            slope @ np.linalg.solve(strain.T @ (flexible.ravel()[:, None] * strain), self.live.ravel())
+        )
+        return self.tangent()[1] > RISING * elastic
 
     def off_support(self) -> int:
         """First joint (from 1) whose faces overlap by less than a twentieth of the joint's width; 0 if none."""
@@ -266,6 +290,7 @@ class EquilibriumPath:
             rotation=report[:, :, 5],
             slip=np.array([item[4] for item in self.kept]),
             complete=complete,
+            peaked=not self.rises(),
             stop=stop,
             geometric=self.geometric,
             arms=self.height - self.stack.joint[:, 1],

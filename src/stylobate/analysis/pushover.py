@@ -38,8 +38,9 @@ def pushover(
     geometric : bool
         Equilibrium in the displaced state (large rotations), else in the undisplaced one.
     to : float, optional
-        Displacement of the top at which to stop [m]; by default the path is followed until the multiplier is zero or
-        the top has moved by two base widths (geometric), or to a tenth of the base width.
+        Displacement of the top at which to stop [m], whether or not the column has given way before. By default the
+        path is followed until the multiplier is zero or the top has moved by two base widths (geometric), or to a tenth
+        of the base width; and on from there while the multiplier still rises.
     base_tilt : float
         Tilt of the base, downhill towards +x [degrees].
     compressive_strength : float, optional
@@ -48,7 +49,8 @@ def pushover(
     Returns
     -------
     PushoverResult
-        Where the path is lost, its part so far, and the reason.
+        Where the path is lost, its part so far, and the reason. Where it ends before the multiplier has stopped rising,
+        ``peaked`` is false and the collapse multiplier NaN.
 
     Raises
     ------
@@ -58,20 +60,13 @@ def pushover(
     if control not in CONTROLS:
         raise InputError(f"control is {control!r}; allowed are {', '.join(CONTROLS)}.")
     stack = column if isinstance(column, BlockStack) else BlockStack.of_column(column)
-    if to is not None:
-        to = check_range(
-            "control displacement",
-            to,
-            0.0,
-            1e3,
-            unit="m",
-            open_low=True,
-            remedy="the forces push towards +x, so must it",
-        )
+    if to is None:
+        end = (2.0 if geometric else 0.1) * float(stack.width[0])
     else:
-        to = (2.0 if geometric else 0.1) * float(stack.width[0])
+        remedy = "the forces push towards +x, so must it"
+        end = check_range("control displacement", to, 0.0, 1e3, unit="m", open_low=True, remedy=remedy)
     strength = crushing_forces(stack, compressive_strength)
     dead = gravity_forces(stack, base_tilt)
     live = horizontal_forces(stack, pattern)
     check_standing(stack, dead, strength, base_tilt)
-    return EquilibriumPath(stack, dead, live, strength, geometric).follow(control, to)
+    return EquilibriumPath(stack, dead, live, strength, geometric).follow(control, end, extend=to is None)

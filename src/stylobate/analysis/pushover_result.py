@@ -36,6 +36,9 @@ class PushoverResult:
         Opening at the wider edge [m], relative rotation [rad], slip [m] of each joint, each of shape (steps, n).
     complete : bool
         Whether the path was followed to where it was meant to end.
+    peaked : bool
+        Whether the multiplier had stopped rising before the path ended. Where it had not, the collapse multiplier is
+        unknown, and :attr:`largest_multiplier` a lower bound of it.
     stop : str
         Where and why the path ends.
     geometric : bool
@@ -55,6 +58,7 @@ class PushoverResult:
     rotation: np.ndarray
     slip: np.ndarray
     complete: bool
+    peaked: bool
     stop: str
     geometric: bool
     arms: np.ndarray
@@ -65,14 +69,19 @@ class PushoverResult:
         return int(np.argmax(self.multiplier))
 
     @property
-    def collapse_multiplier(self) -> float:
+    def largest_multiplier(self) -> float:
         """Largest multiplier on the path [g]."""
         return float(self.multiplier[self.peak])
 
     @property
+    def collapse_multiplier(self) -> float:
+        """Multiplier at which the column gives way [g]; NaN where the path ends while the multiplier still rises."""
+        return self.largest_multiplier if self.peaked else math.nan
+
+    @property
     def peak_displacement(self) -> float:
-        """Displacement of the top at the largest multiplier [m]."""
-        return float(self.displacement[self.peak])
+        """Displacement of the top at which the column gives way [m]; NaN where the path ends before."""
+        return float(self.displacement[self.peak]) if self.peaked else math.nan
 
     @property
     def ultimate_displacement(self) -> float:
@@ -99,14 +108,17 @@ class PushoverResult:
 
     @property
     def mechanism(self) -> np.ndarray:
-        """Movement of the blocks behind the peak, for a unit horizontal movement of the fastest, shape (n, 3)."""
+        """Movement of the blocks for a unit horizontal movement of the fastest, shape (n, 3): behind the peak, if any."""
         start = self.peak if self.peak < len(self.multiplier) - 1 else 0
         move = self.position[-1] - self.position[start]
         return move / np.abs(move[:, 0]).max()
 
     @property
     def governing_joint(self) -> int:
-        """Joint (from 1) whose rotation or slip contributes most to the movement of the top behind the peak."""
+        """Joint (from 1) whose rotation or slip contributes most to the movement of the top behind the peak.
+
+        Where the path never peaked: to the movement so far, of a column that may have all its joints closed.
+        """
         start = self.peak if self.peak < len(self.multiplier) - 1 else 0
         turned = np.abs(self.rotation[-1] - self.rotation[start]) * self.arms
         slid = np.abs(self.slip[-1] - self.slip[start])

@@ -69,29 +69,34 @@ def pushover(
     if as_json:
         console.emit(summary)
         return
-    facts = {
-        "column": stone.name,
-        "collapse multiplier": f"{path.collapse_multiplier:.4g} g",
-        "displacement at the peak": console.length(path.peak_displacement),
-        "ultimate displacement": console.length(path.ultimate_displacement),
-        "governing joint": str(path.governing_joint),
-        "end of the path": path.stop,
-    }
-    console.say(f"The column gives way at {path.collapse_multiplier:.4g} g.", facts, files)
+    facts = {"column": stone.name}
+    if path.peaked:
+        sentence = f"The column gives way at {path.collapse_multiplier:.4g} g."
+        facts |= {
+            "collapse multiplier": f"{path.collapse_multiplier:.4g} g",
+            "displacement at the peak": console.length(path.peak_displacement),
+            "ultimate displacement": console.length(path.ultimate_displacement),
+            "governing joint": str(path.governing_joint),
+        }
+    else:
+        remedy = "leave out --to, or give a larger one" if path.complete else "--control takes another way"
+        sentence = (
+            f"The column bears {path.largest_multiplier:.4g} g, and more: the path ends before it gives way; {remedy}."
+        )
+    console.say(sentence, facts | {"end of the path": path.stop}, files)
 
 
 def summarize(path: PushoverResult) -> dict:
-    """The JSON object of ``stylobate pushover``."""
-    import math
-
+    """The JSON object of ``stylobate pushover``; null where the path ends before the column gives way."""
     from ..analysis.pushover import STATES
 
-    ultimate = path.ultimate_displacement
     return {
         "collapse_multiplier_g": path.collapse_multiplier,
+        "peaked": path.peaked,
+        "largest_multiplier_g": path.largest_multiplier,
         "peak_displacement_m": path.peak_displacement,
-        "ultimate_displacement_m": ultimate if math.isfinite(ultimate) else None,
-        "governing_joint": path.governing_joint,
+        "ultimate_displacement_m": path.ultimate_displacement,
+        "governing_joint": path.governing_joint if path.peaked else None,
         "complete": path.complete,
         "stop": path.stop,
         "steps": len(path.multiplier),

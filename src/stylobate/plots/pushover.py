@@ -32,13 +32,14 @@ def draw_pushover(stack: BlockStack, path: PushoverResult, limit: float | None =
     curve.plot(path.displacement, path.multiplier, color=BLACK, label="rigid blocks")
     if limit is not None:
         curve.axhline(limit, color=BLUE, linestyle="-.", label=f"limit analysis, {limit:.4g} g")
+    word = "peak" if path.peaked else "still rising at the end"
     curve.plot(
-        path.peak_displacement,
-        path.collapse_multiplier,
+        path.displacement[path.peak],
+        path.largest_multiplier,
         marker="o",
         color=RED,
         linestyle="none",
-        label=f"peak, {path.collapse_multiplier:.4g} g",
+        label=f"{word}, {path.largest_multiplier:.4g} g",
     )
     if np.isfinite(path.ultimate_displacement):
         curve.plot(
@@ -51,19 +52,21 @@ def draw_pushover(stack: BlockStack, path: PushoverResult, limit: float | None =
         )
     curve.set(xlabel="displacement of the top [m]", ylabel="load multiplier [g]", title=title)
     curve.set_xlim(left=0.0)
-    curve.set_ylim(top=1.9 * path.collapse_multiplier)
+    curve.xaxis.set_major_locator(MaxNLocator(6))
     curve.grid(True)
-    curve.legend(loc="lower left")
-    # The elastic branch is a thousandth of the whole: it needs its own axes.
-    inset = curve.inset_axes((0.6, 0.7, 0.38, 0.28))
-    near = path.displacement <= 6.0 * path.peak_displacement
-    inset.plot(1e3 * path.displacement[near], path.multiplier[near], color=BLACK)
-    inset.set(xlim=(0.0, None), ylim=(0.0, None), xlabel="[mm]")
-    inset.tick_params(labelsize=7)
+    curve.legend(loc="lower left" if path.peaked else "lower right")
+    if path.peaked:  # The elastic branch is a thousandth of the whole: it needs its own axes.
+        curve.set_ylim(top=1.9 * path.collapse_multiplier)
+        inset = curve.inset_axes((0.6, 0.7, 0.38, 0.28))
+        near = path.displacement <= 6.0 * path.peak_displacement
+        inset.plot(1e3 * path.displacement[near], path.multiplier[near], color=BLACK)
+        inset.set(xlim=(0.0, None), ylim=(0.0, None), xlabel="[mm]")
+        inset.tick_params(labelsize=7)
+        picture.set_title(f"joint {path.governing_joint} governs")
     # A state in which the mechanism is plain to see and still standing: half way to the end.
     half = int(np.searchsorted(path.displacement, 0.5 * path.displacement[-1]))
-    _draw_blocks(picture, stack, path.position[min(half, len(path.position) - 1)], {path.governing_joint})
-    picture.set_title(f"joint {path.governing_joint} governs")
+    joints = {path.governing_joint} if path.peaked else set()
+    _draw_blocks(picture, stack, path.position[min(half, len(path.position) - 1)], joints)
     return figure
 
 
