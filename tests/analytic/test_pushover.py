@@ -1,6 +1,7 @@
 """Pushover against closed forms: peak, softening branch, mechanism; both controls; equilibrium of the exact tangent."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -142,6 +143,56 @@ def test_a_path_that_ends_on_the_elastic_branch_has_no_collapse_multiplier(geome
     soft = column.joint_weights[0] * (lever + 1.0 / (2.5e10 * column.joint_areas[0]))
     assert found.largest_multiplier == pytest.approx(found.displacement[-1] / soft, rel=1e-3 if geometric else 1e-7)
     assert found.largest_multiplier < 0.5 * limit_analysis(column).multiplier
+
+
+def soft(drums: int, stiffness: float) -> Column:
+    joint = Joint(stiffness, stiffness / 2, friction_angle=35.0)
+    return Column.tapered(
+        height=5.0, bottom_width=0.96, top_width=0.66, drums=drums, density=1600.0, joint=joint
+    )  # fmt: skip
+
+
+def stiffness_asked_for(column: Column, **how) -> float:
+    with pytest.raises(InputError, match="buckles under its own weight, first of all on joint 1:") as found:
+        pushover(column, **how)
+    return float(re.search(r"needed is more than (\S+) N/m³", str(found.value))[1])
+
+
+@pytest.mark.parametrize("control", ["displacement", "arc-length"])
+@pytest.mark.parametrize("share", [0.05, 0.5, 0.99])
+def test_a_block_on_a_joint_too_soft_for_its_weight_is_refused(share, control):
+    # Stable for k_n J > W z_C: the joint's moment against that of the weight, for a small rotation.
+    column = soft(1, 1e9)
+    needed = column.joint_weights[0] * column.centroid_height / column.joint_second_moments[0]
+    # The search for it ends within 1e-4; the message has four digits.
+    assert stiffness_asked_for(soft(1, share * needed), control=control) == pytest.approx(needed, rel=3e-4)
+    just = pushover(soft(1, 1.01 * needed), control=control)
+    assert just.complete
+    # Where the joint has its largest moment the block leans by nearly α: little is left for the forces.
+    assert 0.0 < just.collapse_multiplier < 0.01 * column.slenderness
+
+
+def test_drums_on_soft_joints_are_refused_up_to_the_stiffness_that_is_named():
+    needed = stiffness_asked_for(soft(12, 1e6))
+    assert stiffness_asked_for(soft(12, 0.99 * needed)) == pytest.approx(needed, rel=3e-4)
+    assert pushover(soft(12, 1.01 * needed)).peaked
+    # In the undisplaced state nothing buckles.
+    assert pushover(soft(12, 1e6), geometric=False).collapse_multiplier == pytest.approx(0.20463, rel=1e-4)
+
+
+def test_a_path_against_the_forces_ends_as_well():
+    # From an unstable equilibrium the top moves to −x; pushover itself refuses to start there.
+    stack = BlockStack.of_column(soft(1, 1.9e6))
+    path = EquilibriumPath(stack, gravity_forces(stack), horizontal_forces(stack), crushing_forces(stack, None), True)
+    found = path.follow("displacement", 0.1)
+    assert found.displacement[-1] == pytest.approx(-0.1, rel=1e-9)
+
+
+def test_a_column_without_friction_is_lost_not_followed_for_ever():
+    column = preset("paper-12-drums").with_joint(friction_angle=0.0)
+    found = pushover(column, to=0.02)
+    assert not found.complete
+    assert found.largest_multiplier == pytest.approx(0.0, abs=1e-6)
 
 
 def test_the_tangent_is_the_derivative_of_the_forces():

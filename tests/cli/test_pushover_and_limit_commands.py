@@ -33,6 +33,30 @@ def test_without_json_people_get_sentences(capsys):
     assert "0.2046 g" in capsys.readouterr().out
 
 
+def test_joints_too_soft_for_the_weight_are_bad_input(tmp_path, capsys):
+    file = tmp_path / "soft.toml"
+    file.write_text(
+        """
+        name = "soft"
+        density = 1600.0
+        [tapered]
+        height = 5.0
+        bottom_width = 0.96
+        top_width = 0.66
+        drums = 1
+        [joint]
+        normal_stiffness = 2.0e6
+        shear_stiffness = 1.0e6
+        friction_angle = 35.0
+        """
+    )
+    out = tmp_path / "out"
+    assert call(["pushover", str(file), "--out", str(out)]) == 2
+    shown = capsys.readouterr()
+    assert "joint 1: its normal_stiffness is 2e+06 N/m³; needed is more than 2.02" in shown.err
+    assert not out.exists()
+
+
 def test_a_path_that_ends_too_early_is_called_that(tmp_path, capsys):
     early = ["pushover", "paper-12-drums", "--to", "0.0001"]
     assert call([*early, "--json"]) == 0

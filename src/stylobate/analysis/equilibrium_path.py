@@ -17,6 +17,9 @@ MAX_ITERATIONS, MAX_HALVINGS, TOLERANCE = 60, 12, 1e-9
 #: A step is cut at most this often before the path counts as lost; the share of stiffness kept by the tangent.
 MAX_CUTS, SOFT = 30, 1e-9
 
+#: A path that goes on only in steps shorter than this counts as lost [base widths, or length along the path].
+SHORTEST = 1e-14
+
 #: A step that changes the multiplier by more has left the path for another one [g].
 LARGEST_CHANGE = 0.02
 
@@ -141,28 +144,40 @@ class EquilibriumPath:
 
     # -- the path ----------------------------------------------------------------------------------------------------
 
+    def settle(self) -> str:
+        """Equilibrium under the weight alone, where the path starts; returns what stopped it, empty if nothing did."""
+
+        def unloaded(position: np.ndarray, multiplier: float) -> tuple[float, np.ndarray, float]:
+            return multiplier, np.zeros(position.size), 1.0
+
+        found = self.solve(unloaded, self.pressed(), 0.0)
+        if isinstance(found, str):
+            return found
+        self.accept(*found)
+        return ""
+
     def follow(self, control: str, to: float, *, extend: bool = False) -> PushoverResult:
         """Gravity, then step by step; steps grow while they succeed and are cut where they do not.
 
         With ``extend`` the path goes on beyond ``to`` for as long as the multiplier still rises.
         """
-
-        def unloaded(position: np.ndarray, multiplier: float) -> tuple[float, np.ndarray, float]:
-            return multiplier, np.zeros(position.size), 1.0
-
-        found = self.solve(unloaded, self.settled(), 0.0)
-        if isinstance(found, str):
-            return self.result(False, f"gravity: no equilibrium was found; {found}.")
-        self.accept(*found)
+        lost = self.settle()
+        if lost:
+            raise InputError(
+                f"the pushover could not start: no equilibrium was found under the weight alone ({lost}); raise the "
+                "joints' normal_stiffness, or lower the tilt."
+            )
         width = float(self.stack.width[0])
         # First step: a two-hundredth of g on the elastic column.
-        length = 0.005 / self.tangent()[1] if control == "displacement" else 0.01
+        length, shortest = 0.01, SHORTEST
+        if control == "displacement":
+            length, shortest = 0.005 / self.tangent()[1], SHORTEST * width
         cuts, start = 0, self.kept[0][0]
         while True:
-            top = self.kept[-1][0]
-            if top - start >= to * (1.0 - 1e-9):
+            moved = self.kept[-1][0] - start
+            if abs(moved) >= to * (1.0 - 1e-9):
                 if not (extend and to < FARTHEST * width and self.rises()):
-                    return self.result(True, f"the control displacement of {to:g} m was reached.")
+                    return self.result(True, f"the control displacement of {math.copysign(to, moved):g} m was reached.")
                 to *= 2.0
             if len(self.kept) > 2 and self.multiplier <= 0.0:
                 return self.result(True, "the load multiplier has fallen to zero.")
@@ -171,7 +186,7 @@ class EquilibriumPath:
                 return self.result(True, f"the part above joint {gone} has slid off its support.")
             if control == "displacement":
                 longest = min(0.005 * width, to / 100.0) if self.geometric else to / 100.0
-                length = min(length, longest, to - (top - start))
+                length = math.copysign(min(abs(length), longest, to - abs(moved)), length)
                 found = self.displaced(length)
             else:
                 length = min(length, 0.05)
@@ -185,8 +200,8 @@ class EquilibriumPath:
             if isinstance(found, str):
                 cuts += 1
                 length *= 0.5
-                if cuts > MAX_CUTS:
-                    return self.result(False, f"step {len(self.kept)}: {found}, with the step cut {MAX_CUTS} times.")
+                if cuts > MAX_CUTS or abs(length) < shortest:
+                    return self.result(False, f"step {len(self.kept)}: {found}, with the step cut again and again.")
                 continue
             self.accept(*found)
             cuts = 0
@@ -224,7 +239,7 @@ class EquilibriumPath:
         self.rise = float(ahead[size])
         return ahead[:size].reshape(-1, 3), float(ahead[size])
 
-    def settled(self) -> np.ndarray:
+    def pressed(self) -> np.ndarray:
         """Displacements under the dead load with all joints closed [m, m, rad], shape (n, 3): where Newton starts."""
         n, v, e = joint_forces(self.stack, self.dead)
         stack = self.stack
@@ -275,8 +290,6 @@ class EquilibriumPath:
 
     def result(self, complete: bool, stop: str) -> PushoverResult:
         """What was found so far."""
-        if not self.kept:
-            raise InputError(f"the pushover could not start: {stop}")
         report = np.array([item[3] for item in self.kept])
         return PushoverResult(
             displacement=np.array([item[0] for item in self.kept]) - self.kept[0][0],

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from ..column import Column
 from ..errors import InputError, check_range
 from ..models.block_stack import BlockStack
+from .elastic_stability import check_stable
 from .equilibrium_path import EquilibriumPath
 from .limit import check_standing, crushing_forces, gravity_forces, horizontal_forces
 from .pushover_result import STATES, PushoverResult
@@ -55,7 +56,8 @@ def pushover(
     Raises
     ------
     InputError
-        The column cannot stand under its own weight, or an argument cannot be used.
+        The column cannot stand under its own weight, because it overturns, slides, crushes, or buckles on joints that are
+        too soft for it; or an argument cannot be used.
     """
     if control not in CONTROLS:
         raise InputError(f"control is {control!r}; allowed are {', '.join(CONTROLS)}.")
@@ -69,4 +71,6 @@ def pushover(
     dead = gravity_forces(stack, base_tilt)
     live = horizontal_forces(stack, pattern)
     check_standing(stack, dead, strength, base_tilt)
+    if geometric:
+        check_stable(stack, dead, strength)
     return EquilibriumPath(stack, dead, live, strength, geometric).follow(control, end, extend=to is None)
