@@ -39,6 +39,7 @@ def forces_along(engine, path):
             engine.now,
             engine.pairs,
             engine.link,
+            engine.law,
             engine.memory,
             engine.real,
             engine.whole,

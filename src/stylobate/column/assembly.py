@@ -27,6 +27,9 @@ MAX_VERTICES = 24
 #: Faces touch when they are this close, as a share of the smaller block's size, and parallel to this angle [rad].
 TOUCHING, PARALLEL = 1e-5, 1e-4
 
+#: Faces beside which the outline turns by less than this make no joint: the next faces touch too soon [rad].
+FLATTEST = math.radians(5.0)
+
 #: Blocks may overlap by this share of the smaller block's size: rounding, not geometry.
 OVERLAPPING = 1e-7
 
@@ -41,7 +44,8 @@ class Block:
     Parameters
     ----------
     vertices : sequence of (float, float)
-        Corners (x, z), counter-clockwise [m]; clockwise ones are turned round, and that is said.
+        Corners (x, z), counter-clockwise [m]; clockwise ones are turned round, and that is said. Corners within a straight
+        side are left out.
     density : float
         [kg/m³]
     name : str
@@ -95,6 +99,7 @@ class Block:
             warnings.warn(
                 f"the vertices of {who} run clockwise; they are turned round.", OutOfRangeWarning, stacklevel=3
             )
+        corners = _without_flat(corners)
         sides = np.roll(corners, -1, axis=0) - corners
         after = np.roll(sides, -1, axis=0)
         turns = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
@@ -138,6 +143,13 @@ class Block:
     def size(self) -> float:
         """Larger side of the box around the block [m]."""
         return float(np.ptp(self.corners, axis=0).max())
+
+    @property
+    def thickness(self) -> float:
+        """Smallest distance between two parallels that hold the block [m]."""
+        side = np.roll(self.corners, -1, axis=0) - self.corners
+        inward = np.stack((-side[:, 1], side[:, 0]), axis=1) / np.hypot(side[:, 0], side[:, 1])[:, None]
+        return float(((self.corners[None] - self.corners[:, None]) @ inward[:, :, None]).max(axis=1).min())
 
 
 class FaceJoint(NamedTuple):
@@ -245,7 +257,7 @@ class Assembly:
                     continue
                 leaning |= {i, j}
                 faces = _touching_faces(a.corners, b.corners, near)
-                if faces is not None:
+                if faces is not None and smallest_turn(a.corners, faces[0], b.corners, faces[1]) > FLATTEST:
                     law = laws.get(frozenset((a.name, b.name))) or b.surface or self.joint
                     found.append(FaceJoint(i, j, *faces, law))
         return tuple(found), leaning
@@ -337,6 +349,24 @@ def _touching_faces(a: np.ndarray, b: np.ndarray, near: float) -> tuple[int, int
             if over > max(best, near):
                 best, found = over, (i, k)
     return found
+
+
+def smallest_turn(a: np.ndarray, face: int, b: np.ndarray, other: int) -> float:
+    """Smallest angle by which the outlines turn at the ends of two faces [rad]."""
+    angles = []
+    for corners, k in ((a, face), (b, other)):
+        side = np.roll(corners, -1, axis=0) - corners
+        for one, next_one in ((side[k - 1], side[k]), (side[k], side[(k + 1) % len(side)])):
+            angles.append(math.atan2(one[0] * next_one[1] - one[1] * next_one[0], float(one @ next_one)))
+    return min(angles)
+
+
+def _without_flat(corners: np.ndarray) -> np.ndarray:
+    """Corners without those at which the outline goes straight on."""
+    before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
+    turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    flat = (np.abs(turn) <= 1e-9 * np.hypot(*before.T) * np.hypot(*after.T)) & ((before * after).sum(axis=1) > 0.0)
+    return corners[~flat]
 
 
 def _area(corners: np.ndarray) -> float:

@@ -11,7 +11,6 @@ Legend (positions at t_n, velocities at t_{n−1/2})::
                 m im ii i       mass, inverses of mass and inertia (0 where fixed), inertia
                 fx fz mo        force [N], moment about the centroid [N m]
                 r travel        largest distance of a corner from the centroid, way since the boxes were made [m]
-                kn ks mu        bed of this body as the one with the higher number in a pair: k_n, k_s [N/m³], tan φ [-]
                 depth           thickness across the plane [m]
                 first count     its corners in ``corner``
     joint[j]    lower upper     bodies; the face of the lower one is the frame
@@ -21,9 +20,11 @@ Legend (positions at t_n, velocities at t_{n−1/2})::
                 kn ks co mu     per length of overlap                                           [N/m²], [N/m²], [N/m], [-]
                 fs fn dn ds     of each contact point: spring and dashpot forces                [N]
                 over width      overlap, the smaller face                                       [m]
+                from_c to_c     cosines of the relative rotations from which the bed acts too, and alone
                 weight          1 joint, 0 bed, between them both                               [-]
                 live            0: the faces have parted for good
     pairs       bodies that may touch; link[a, b] their joint or −1
+    law[a, b]   bed of a pair, a < b: k_n, k_s [N/m³], tan φ [-]
     memory[a, b]   shear force of their bed, its normal and tangential dashpot forces [N]
     now         dt last         step, and the last one taken [s]: while bodies may strike each other, or a joint hands
                                 over (``loose`` > 0), or joints are dull, a step is taken in ``finer`` equal parts
@@ -46,10 +47,7 @@ from .broad_phase import make_boxes, sweep
 from .ground import sample
 from .jit import kernel, law, strict
 
-#: A joint acts alone up to a relative rotation of 35°, the bed alone from 50° on.
-ROTATION_FROM, ROTATION_TO = math.cos(math.radians(35.0)), math.cos(math.radians(50.0))
-
-#: The same for the overlap, as a share of the smaller face.
+#: A joint acts alone as long as the overlap is more than this share of the smaller face, the bed alone below the second.
 OVERLAP_FROM, OVERLAP_TO = 0.05, 0.01
 
 CHUNK = lanes.CHUNK
@@ -66,10 +64,10 @@ def types(points):
     def counts(names):
         return [(name, np.int64) for name in names.split()]
 
-    body = fields("x z th c s vx vz w m i im ii fx fz mo r travel kn ks mu depth") + counts("first count")
+    body = fields("x z th c s vx vz w m i im ii fx fz mo r travel depth") + counts("first count")
     joint = (
         counts("lower upper live")
-        + fields("lc ls uc us ht wl wr hb bl br kn ks co mu over width weight")
+        + fields("lc ls uc us ht wl wr hb bl br kn ks co mu over width from_c to_c weight")
         + fields("fs fn dn ds", (points,))
     )
     now = (
@@ -81,10 +79,10 @@ def types(points):
 
 
 @law
-def handover(c, over, width):
-    """Weight of the joint's law: 1 up to 35° or down to 5 % of overlap, 0 from 50° or 1 % on, linear between."""
-    turned = (c - ROTATION_TO) / (ROTATION_FROM - ROTATION_TO)
-    left = (over - OVERLAP_TO * width) / ((OVERLAP_FROM - OVERLAP_TO) * width)
+def handover(c, over, e):
+    """Weight of the joint's law: 1 while it acts alone, 0 when the bed does, linear in cosine and overlap between."""
+    turned = (c - e.to_c) / (e.from_c - e.to_c)
+    left = (over - OVERLAP_TO * e.width) / ((OVERLAP_FROM - OVERLAP_TO) * e.width)
     return min(max(min(turned, left), 0.0), 1.0)
 
 
@@ -123,7 +121,7 @@ def joint_forces(body, joint, now):
         hi = min(right_s, e.wr)
         over = max(hi - lo, 0.0)
         e.over = over
-        weight = handover(c, over, e.width)
+        weight = handover(c, over, e)
         e.weight = weight
         if weight == 0.0:
             e.live = 0
@@ -217,7 +215,7 @@ def place(b, corner, x, z):
 
 
 @kernel
-def bed_forces(body, corner, joint, now, pairs, link, memory, real, whole):
+def bed_forces(body, corner, joint, now, pairs, link, law, memory, real, whole):
     """Forces of the bed at t_n between all pairs that may touch, where no joint acts alone."""
     o = now[0]
     dt = o.last
@@ -254,8 +252,8 @@ def bed_forces(body, corner, joint, now, pairs, link, memory, real, whole):
         nx = -gz / chord
         nz = gx / chord
         depth = min(a.depth, b.depth)
-        kn = share * b.kn * depth
-        ks = share * b.ks * depth * chord
+        kn = share * law[i, h, 0] * depth
+        ks = share * law[i, h, 1] * depth * chord
         o.deepest = max(o.deepest, area / chord)
         rx = cx - b.x
         rz = cz - b.z
@@ -268,7 +266,7 @@ def bed_forces(body, corner, joint, now, pairs, link, memory, real, whole):
         fn = kn * area
         # closing (vn < 0) stiffer, opening softer; and the dashpots of the joints
         dn = max(fn * o.eta * min(max(-vn / o.calm, -1.0), 1.0) - o.beta * kn * chord * vn, -fn)
-        limit = b.mu * (fn + dn)
+        limit = law[i, h, 2] * (fn + dn)
         old = memory[i, h, 0]
         fs = ct.shear_force(old, ks, vt * dt, limit)
         ds = min(max(-o.beta * ks * vt, -limit - fs), limit - fs)
@@ -373,7 +371,7 @@ def may_come_loose(body, corner, joint, now, box, order, pairs, link, real, time
             b = body[pairs[k, 1]]
             na = place(a, corner, xa, za)
             nb = place(b, corner, xb, zb)
-            closing = math.hypot(b.vx - a.vx, b.vz - a.vz) + a.r * abs(a.w) * min(a.im, 1.0) + b.r * abs(b.w)
+            closing = math.hypot(b.vx - a.vx, b.vz - a.vz) + a.r * abs(a.w) + b.r * abs(b.w)
             gap = max(near.separation(xa, za, na, xb, zb, nb), near.separation(xb, zb, nb, xa, za, na))
             if gap < 2.0 * (closing + o.g * time) * time:
                 return True
@@ -393,7 +391,8 @@ def may_come_loose(body, corner, joint, now, box, order, pairs, link, real, time
         )
         turning = abs(u.w - v.w)
         more = 2.0 * (abs(slip) + turning * e.width + o.g * time) * time
-        if handover(c - 2.0 * abs(s) * turning * time, over - more, e.width) < 1.0:
+        turned = math.acos(min(max(c, -1.0), 1.0)) + 2.0 * turning * time
+        if handover(math.cos(min(turned, math.pi)), over - more, e) < 1.0:
             return True
     return False
 
@@ -431,7 +430,24 @@ def look(body, now, drum, stack_joint, lane, feed, watch):
 
 @kernel
 def advance(
-    body, corner, joint, now, box, order, pairs, link, memory, real, whole, motion, ground, factor, ratio, stack, chunks
+    body,
+    corner,
+    joint,
+    now,
+    box,
+    order,
+    pairs,
+    link,
+    law,
+    memory,
+    real,
+    whole,
+    motion,
+    ground,
+    factor,
+    ratio,
+    stack,
+    chunks,
 ):
     """Advance by ``chunks`` × CHUNK steps.
 
@@ -454,7 +470,7 @@ def advance(
             dz = (ground[k + 1, 1] - z0) / parts
             for q in range(parts):
                 joint_forces(body, joint, now)
-                bed_forces(body, corner, joint, now, pairs, link, memory, real, whole)
+                bed_forces(body, corner, joint, now, pairs, link, law, memory, real, whole)
                 farthest = move(body, now, x0 + q * dx, z0 + q * dz, x0 + (q + 1) * dx, z0 + (q + 1) * dz, o.dt / parts)
                 if farthest > 0.5 * o.skin:
                     renew_pairs(body, corner, now, box, order, pairs)
@@ -467,7 +483,7 @@ def advance(
 
 
 @strict
-def ledger(body, corner, joint, now, pairs, link, memory, real, whole, gx, gz, out):
+def ledger(body, corner, joint, now, pairs, link, law, memory, real, whole, gx, gz, out):
     """Ledger at t_n, after the forces there: input, kinetic, gravitational, elastic, friction, viscous [J].
 
     Velocities are brought to the whole step; middle three absolute (as ``ledger`` of the lanes).
@@ -515,8 +531,8 @@ def ledger(body, corner, joint, now, pairs, link, memory, real, whole, gx, gz, o
         chord = math.sqrt(gx_ * gx_ + gz_ * gz_)
         if chord > 0.0:
             depth = min(a.depth, b.depth)
-            elastic += 0.5 * share * b.kn * depth * near.depth_square(px, pz, n, gx_ / chord, gz_ / chord)
-            stored += 0.5 * memory[i, h, 0] ** 2 / (share * b.ks * depth * chord)
+            elastic += 0.5 * share * law[i, h, 0] * depth * near.depth_square(px, pz, n, gx_ / chord, gz_ / chord)
+            stored += 0.5 * memory[i, h, 0] ** 2 / (share * law[i, h, 1] * depth * chord)
     out[0] = o.work
     out[1] = kinetic
     out[2] = height

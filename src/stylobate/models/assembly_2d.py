@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any
 
 import numpy as np
 
-from ..column.assembly import Assembly, Block
+from ..column.assembly import Assembly, Block, smallest_turn
 from ..column.joint import Joint
+from ..errors import OutOfRangeWarning
 from ..motion import Motion
 from .distinct_element_2d import DistinctElement2D, contact_points
 
@@ -24,6 +26,12 @@ RESTITUTION_TO_REST = 0.3
 
 #: Time after the motion at which a run that waits for rest is given up [s].
 LONGEST_WAIT = 60.0
+
+#: Relative rotation from which a joint's faces are a bed like all others [rad].
+LAST_ROTATION = math.radians(50.0)
+
+#: Bodies that enter each other by more than this share of the thinnest block are too soft.
+DEEPEST = 0.2
 
 #: Parts of a step while bodies may strike each other: impacts are harder than what joints do.
 FINER = 8
@@ -87,6 +95,7 @@ class Engine:
         self.box = np.zeros((len(bodies), 4))
         self.order = np.arange(len(bodies))
         self.pairs = np.zeros((len(bodies) * (len(bodies) - 1) // 2 + 1, 2), dtype=np.int64)
+        self.law = _bed_laws(assembly)
         self.memory = np.zeros((len(bodies), len(bodies), 3))
         self.real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         self.whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
@@ -140,8 +149,8 @@ class Engine:
     def advance(self, chunks: int) -> None:
         """Advance by some chunks of steps."""
         self.kernel.advance(
-            self.body, self.corner, self.joint, self.now, self.box, self.order, self.pairs, self.link, self.memory,
-            self.real, self.whole, self.addresses, self.ground, self.motion.factor, self.dt / self.motion.dt,
+            self.body, self.corner, self.joint, self.now, self.box, self.order, self.pairs, self.link, self.law,
+            self.memory, self.real, self.whole, self.addresses, self.ground, self.motion.factor, self.dt / self.motion.dt,
             self.stack, chunks,
         )  # fmt: skip
 
@@ -168,7 +177,9 @@ class Engine:
         """Bodies, joints, scalars and memory with the forces at the present positions, on a copy."""
         body, joint, now, memory = self.body.copy(), self.joint.copy(), self.now.copy(), self.memory.copy()
         self.kernel.joint_forces(body, joint, now)
-        self.kernel.bed_forces(body, self.corner, joint, now, self.pairs, self.link, memory, self.real, self.whole)
+        self.kernel.bed_forces(
+            body, self.corner, joint, now, self.pairs, self.link, self.law, memory, self.real, self.whole
+        )
         return body, joint, now, memory
 
     def energies(self) -> np.ndarray:
@@ -177,7 +188,7 @@ class Engine:
         gx, gz = self.ground_acceleration(self.time)
         out = np.empty(6)
         self.kernel.ledger(
-            body, self.corner, joint, now, self.pairs, self.link, memory, self.real, self.whole, gx, gz, out
+            body, self.corner, joint, now, self.pairs, self.link, self.law, memory, self.real, self.whole, gx, gz, out
         )
         return out
 
@@ -228,6 +239,25 @@ class Engine:
         way = np.hypot(b["x"] - before["x"], b["z"] - before["z"]) + b["r"] * np.abs(b["th"] - before["th"])
         return float(way.max()) * SKIN / float(self.now["skin"][0])
 
+    def deepest(self) -> float:
+        """Depth to which bodies have entered each other, joints aside [m].
+
+        Warns
+        -----
+        OutOfRangeWarning
+            It is no longer small beside the thinnest block.
+        """
+        depth = float(self.now["deepest"][0])
+        thin = min((block.thickness, block.name) for block in self.assembly.bodies if not block.fixed)
+        if depth > DEEPEST * thin[0]:
+            warnings.warn(
+                f"blocks of {self.assembly.name!r} entered each other by {1000.0 * depth:.3g} mm, and {thin[1]!r} is "
+                f"{1000.0 * thin[0]:.3g} mm thick; its impacts mean little: raise normal_stiffness.",
+                OutOfRangeWarning,
+                stacklevel=4,
+            )
+        return depth
+
     def state(self) -> dict[str, Any]:
         """What a history keeps of the present state."""
         b = self.body
@@ -267,7 +297,7 @@ def stable_step(engine: Engine) -> float:
         if not block.fixed:
             # between two others on its longest face
             side = np.roll(block.corners, -1, axis=0) - block.corners
-            k = float(body["kn"].max()) * b["depth"] * float(np.hypot(side[:, 0], side[:, 1]).max())
+            k = float(engine.law[:, :, 0].max()) * b["depth"] * float(np.hypot(side[:, 0], side[:, 1]).max())
             omega = max(omega, 0.4 * math.sqrt(4.0 * k * (b["im"] + b["ii"] * b["r"] ** 2 / 3.0)))
     zeta = 0.5 * engine.model.stiffness_damping * omega
     return 2.0 / omega * (math.sqrt(1.0 + zeta * zeta) - zeta)
@@ -276,14 +306,12 @@ def stable_step(engine: Engine) -> float:
 def _fill_body(record: Any, block: Block, assembly: Assembly) -> np.ndarray:
     mass, inertia = block.properties[:2]
     x, z = block.origin
-    law = block.surface or assembly.joint
     local = block.corners - (x, z)
     record["x"], record["z"], record["c"], record["depth"] = x, z, 1.0, block.depth
     if not block.fixed:
         record["m"], record["i"], record["im"], record["ii"] = mass, inertia, 1.0 / mass, 1.0 / inertia
     else:
         record["depth"] = 1e9  # a contact is as deep as the moving body
-    record["kn"], record["ks"], record["mu"] = law.normal_stiffness, law.shear_stiffness, law.tan_phi
     record["r"] = float(np.hypot(local[:, 0], local[:, 1]).max())
     return local
 
@@ -310,7 +338,28 @@ def _fill_joint(
     depth = min(body["depth"][lower], body["depth"][upper])
     e["kn"], e["ks"], e["co"] = law.normal_stiffness * depth, law.shear_stiffness * depth, law.cohesion * depth
     e["mu"] = law.tan_phi
+    # the next faces come down on each other where the joint has turned as far as the outlines do at its ends
+    last = min(LAST_ROTATION, 0.9 * smallest_turn(bodies[lower].corners, low_face, bodies[upper].corners, up_face))
+    e["from_c"], e["to_c"] = math.cos(0.7 * last), math.cos(last)
     e["width"] = min(e["wl"] + e["wr"], e["bl"] + e["br"])
+
+
+def _bed_laws(assembly: Assembly) -> np.ndarray:
+    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first."""
+    bodies = assembly.bodies
+    names = {block.name: i for i, block in enumerate(bodies)}
+    laws = np.empty((len(bodies), len(bodies), 3))
+
+    def numbers(law: Joint) -> tuple[float, float, float]:
+        return law.normal_stiffness, law.shear_stiffness, law.tan_phi
+
+    for i, block in enumerate(bodies):
+        laws[:, i] = numbers(block.surface or assembly.joint)
+    for one, other, law in assembly.overrides:
+        if one in names and other in names:
+            i, h = sorted((names[one], names[other]))
+            laws[i, h] = numbers(law)
+    return laws
 
 
 def _no_column() -> tuple[np.ndarray, ...]:

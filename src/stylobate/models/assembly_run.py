@@ -90,6 +90,7 @@ def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, o
             "restitution": restitution,
             "joints": len(assembly.joints),
             "in_equilibrium_as_drawn": balanced,
+            "deepest_penetration_m": engine.deepest(),
         },
     )
 

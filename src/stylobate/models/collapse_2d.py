@@ -95,9 +95,7 @@ class _ColumnRun:
             first, count = engine.body["first"][i + 1], engine.body["count"][i + 1]
             engine.corner[first : first + count] = drum_outline(column, i)
         # the bed is as soft as the joints: their springs have the stone in series
-        engine.body["kn"][1 : column.n + 1], engine.body["ks"][1 : column.n + 1] = joint_stiffnesses(
-            column, model.block_modulus
-        )
+        engine.law[:, 1 : column.n + 1, :2] = np.transpose(joint_stiffnesses(column, model.block_modulus))
         engine.stack = (block.drum, block.joint, block.lane, block.feed, block.watch)
         engine.start(model.step_for(column))
         self.loose, self.safe = False, 0
@@ -207,6 +205,7 @@ class _ColumnRun:
             "followed_to_the_ground": True,
             "mechanism": asdict(mechanism) | {"sentence": mechanism.describe()},
             "restitution": self.restitution,
+            "deepest_penetration_m": engine.deepest(),
             "first_foreign_contact_s": touched * engine.dt if touched >= 0 else None,
             "imbalance_of_released_energy": self.imbalance_of_released(found),
         }
