@@ -149,6 +149,15 @@ def test_an_interrupt_says_what_is_kept(tmp_path, monkeypatch, capsys):
     assert "the same command goes on from there" in capsys.readouterr().err
 
 
+def test_what_a_killed_run_left_half_written_is_swept_away(tmp_path):
+    (tmp_path / "domain").mkdir()
+    for left in (tmp_path / ".study-x1y2.json", tmp_path / "domain" / ".domain-ab_3.nc"):
+        left.touch()
+    (tmp_path / "domain" / "domain.nc").touch()
+    pieces.claim(tmp_path, GRIDS)
+    assert {path.name for path in tmp_path.rglob("*")} == {"domain", "domain.nc", "study.json"}
+
+
 def test_pieces_of_another_version_are_computed_anew(tmp_path, monkeypatch):
     (tmp_path / "old.nc").touch()
     pieces.claim(tmp_path, GRIDS)

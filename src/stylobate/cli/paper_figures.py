@@ -21,7 +21,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
 
     from .. import plots
     from ..analysis.paper import cases as c
-    from ..analysis.paper.pieces import slug
+    from ..analysis.paper.pieces import slug, sweep
     from ..column.presets import PRESETS
     from ..constants import g
     from ..plots import paper as p
@@ -30,6 +30,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
 
     place = folder / "figures"
     place.mkdir(exist_ok=True)
+    sweep(place)
 
     def keep(name: str, figure: Any, caption: str) -> Picture:
         return Picture(plots.save(figure, place / name)[0], caption)
@@ -73,7 +74,7 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
         if label == c.BEAM:
             caption += " The base of this model is the ground."
         if (name, label) == (c.DRUMS, c.BEAM):
-            caption += " Drums may turn on their own, each up to its own critical angle, while the top hardly moves."
+            caption += " In this model drums may turn on their own, by up to 90°, while the top hardly moves."
         some.append(keep(f"figure-{number}-{slug(name, label)}", figure, caption))
     looks = {label: i for i, label in enumerate(c.MODELS)}
     for section, title in (("rectangular", page.BOUNDARIES), ("circular", page.CIRCULAR)):

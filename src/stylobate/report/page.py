@@ -39,12 +39,15 @@ class Rows:
     caption : str
     mark : int, optional
         Column whose text is a verdict; its cells are marked by it.
+    numbers : bool
+        Numbers to compare: on a phone the table scrolls sideways, where others are folded, a card for each row.
     """
 
     header: Sequence[str]
     body: Sequence[Sequence[str]]
     caption: str = ""
     mark: int | None = None
+    numbers: bool = False
 
 
 @dataclass(frozen=True)
@@ -97,6 +100,7 @@ td.choices { background: #fff5d6; } td.fails { background: #f8e0da; color: var(-
   table.cards td { display: block; border: 0; padding: .25rem .6rem; }
   table.cards td::before { content: attr(data-name); display: block; font-size: .72rem; color: #666; font-weight: 400; }
   table.cards td:empty { display: none; }
+  table.numbers { font-size: .78rem; } table.numbers th, table.numbers td { padding: .3rem .35rem; }
   .wide img { width: 42rem; max-width: none; }
   .wide + figcaption::before { content: "↔ scrolls sideways. "; color: #666; }
 }
@@ -168,4 +172,7 @@ def _table(rows: Rows) -> str:
             cells.append(f'<td class="{mark}" data-name="{escape(name)}">{text}</td>')
         lines.append(f"<tr>{''.join(cells)}</tr>")
     caption = f"<caption>{_text(rows.caption)}</caption>" if rows.caption else ""
-    return f'<table class="cards">{caption}<thead><tr>{head}</tr></thead><tbody>{"".join(lines)}</tbody></table>'
+    inside = f"{caption}<thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table>"
+    return (
+        f'<div class="wide"><table class="numbers">{inside}</div>' if rows.numbers else f'<table class="cards">{inside}'
+    )

@@ -12,6 +12,7 @@ import numpy as np
 from .. import __version__
 from ..analysis import verdicts as v
 from ..analysis.paper.cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
+from ..analysis.paper.doubt import Doubt
 from ..analysis.paper.reading import CHOICES, FAILS, HOLDS, MEANINGS, Statement, percent, share
 from ..analysis.paper.statements import place
 from ..analysis.paper.study import PaperResults
@@ -160,38 +161,30 @@ def chosen(grids: Grids) -> Rows:
 
 def doubt_rows(results: PaperResults) -> Rows:
     """How far verdicts can be relied on, in numbers."""
-    body = []
-    for name, doubt in results.doubts.items():
-        s, step = doubt.population.summary(), doubt.steps.summary()
-        seen = s["band_width_median_g"] is not None
-        body.append(
-            (
-                NAMES[name], str(s["cells"]), f"{step['differing']} of {step['comparable']}",
-                str(int(doubt.differing.sum())),
-                str(s["replicates"]), str(s["all_stand"]), f"{s['some_collapse']} ({percent(doubt.uncertain)})",
-                str(s["all_collapse"]), str(s["no_verdict"]),
-                f"{s['band_width_median_g']:.2f} g, up to {s['band_width_largest_g']:.2f} g" if seen else "–",
-                f"{s['band_open_frequencies']} of {len(doubt.population.frequencies)}",
-            )
-        )  # fmt: skip
-    header = (
-        "column",
-        "cells",
-        "half step changes",
-        "one 1 % column changes",
-        "variations",
-        "all stand",
-        "some collapse",
-        "all collapse",
-        "no verdict",
-        "width of the uncertain band",
-        "frequencies at which it is open at the top",
-    )
-    caption = (
-        "Distinct elements. The band: from the lowest amplitude at which any variation collapses to the highest at which "
-        "any does not; its width at the frequencies at which both are seen (median)."
-    )
-    return Rows(header, body, caption)
+    columns = [_doubt_column(doubt) for doubt in results.doubts.values()]
+    body = [(what, *(column[what] for column in columns)) for what in columns[0]]
+    return Rows(("distinct elements", *(NAMES[name] for name in results.doubts)), body, numbers=True)
+
+
+def _doubt_column(doubt: Doubt) -> dict[str, str]:
+    s, step, cells = doubt.population.summary(), doubt.steps.summary(), doubt.differing.size
+    seen = s["band_width_median_g"] is not None
+    return {
+        "cells looked at": str(cells),
+        "verdicts changed by half of the time step": f"{step['differing']} ({percent(step['differing'] / cells)})",
+        "verdicts changed by stones that differ by 1 %": f"{doubt.differing.sum()} ({percent(doubt.differing.mean())})",
+        f"cells in which all of {s['replicates']} such columns stand": str(s["all_stand"]),
+        "some collapse: the uncertain cells": f"{s['some_collapse']} ({percent(doubt.uncertain)})",
+        "all collapse": str(s["all_collapse"]),
+        "no verdict": str(s["no_verdict"]),
+        "width of the uncertain band, from the lowest amplitude at which any collapses to the highest at which any does not "
+        "(median of the frequencies at which both are seen)": (
+            f"{s['band_width_median_g']:.2f} g, up to {s['band_width_largest_g']:.2f} g" if seen else "–"
+        ),
+        "frequencies at which some stand even at the largest amplitude": (
+            f"{s['band_open_frequencies']} of {len(doubt.population.frequencies)}"
+        ),
+    }
 
 
 def domain_rows(results: PaperResults) -> Rows:
@@ -222,7 +215,7 @@ def domain_rows(results: PaperResults) -> Rows:
         "smallest collapse [g]",
         "at 1 Hz [g]",
     )
-    return Rows(header, body, "Undecided and failed runs are no collapse.")
+    return Rows(header, body, "Undecided and failed runs are no collapse.", numbers=True)
 
 
 def case_rows(results: PaperResults) -> list[dict]:

@@ -75,8 +75,8 @@ def _deformability(r: Reader) -> Statement:
     return Statement(
         "2.2", "Movements are relative displacements between blocks rather than deformations of single blocks.",
         f"blocks of 2500 MPa instead of rigid ones: verdict kept in {percent(same[0])} of the cells (monolith) and "
-        f"{percent(same[1])} (drums); unsafe share {shares[0][1]} for {shares[0][0]}, {shares[1][1]} for "
-        f"{shares[1][0]}",
+        f"{percent(same[1])} (drums); unsafe share {shares[0][1]} instead of {shares[0][0]}, and {shares[1][1]} instead "
+        f"of {shares[1][0]}",
         judged(min(same) >= 0.9, [max(same) >= 0.9]),
         "Joints open by centimetres; the weight compresses a drum of 2500 MPa by hundredths of a millimetre. Taken as: "
         "nine verdicts in ten. Near the boundary half of the time step alone changes "

@@ -58,6 +58,8 @@ def claim(data: Path, grids: c.Grids) -> None:
         "cases": [c.FREQUENCIES.tolist(), c.AMPLITUDES.tolist(), c.DURATION],
     }
     place = data / "study.json"
+    for one in (data, *data.iterdir()):
+        sweep(one)
     if place.exists():
         found = json.loads(place.read_text(encoding="utf-8"))
         if found.get("grids") != grid:
@@ -71,6 +73,12 @@ def claim(data: Path, grids: c.Grids) -> None:
         data.mkdir()
     with replacing(place) as partial:
         partial.write_text(json.dumps({"grids": grid, "code": code}, indent=1, sort_keys=True), encoding="utf-8")
+
+
+def sweep(folder: Path) -> None:
+    """Remove files that a killed run left half-written; their names start with a dot."""
+    for left in folder.glob(".*-*.*"):
+        left.unlink()
 
 
 def domain_piece(
