@@ -242,7 +242,7 @@ class _Facets:
         self.left, self.right = left, right
         for i in range(stack.n):
             mu, cohesion = stack.friction[i], stack.cohesion[i]
-            # M = N e: the eccentricity stays inside the contact section.  # formulation section 4
+            # M = N e: the eccentricity stays inside the contact section.  # theory/limit_analysis, strength
             self.add(i, [-right[i], 0.0, 1.0], 0.0, "rocking right")
             self.add(i, [left[i], 0.0, -1.0], 0.0, "rocking left")
             # |V| ≤ c A + N tan φ; V acts on the part above: towards −x when that slides to the right.

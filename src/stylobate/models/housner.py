@@ -67,6 +67,19 @@ class HousnerBlock(Model):
     name: ClassVar[str] = "housner"
     title: ClassVar[str] = "Housner's rocking block"
     references: ClassVar[tuple[str, ...]] = ("housner1963", "yim1980")
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Block and base are rigid; the block has the column's true mass, centroid, inertia and base width.",
+        "It pivots about one of its two base corners: no sliding, no bouncing, no free flight.",
+        "An impact is instantaneous, acts at the new corner and multiplies the velocity by the restitution e.",
+        "Plane motion: a circular column rolls on its rim in truth.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "Columns of several drums, and columns that are not as built, are refused.",
+        "With tan α above the friction coefficient the block would slide before it rocks (a warning).",
+        "With a vertical acceleration below −1 g the block would leave the ground (a warning).",
+        "linear=true is for slender blocks; beyond 20° it warns.",
+        "For stocky blocks Housner's e is below zero; 0 is used, with a warning.",
+    )
 
     def __post_init__(self) -> None:
         if self.restitution is not None:

@@ -68,11 +68,13 @@ class RigidBeam(Model):
 
     Notes
     -----
-    Equations F3 and R1 to R8 of the theory page. *Collapsed* means that the part above some joint is lost: its centroid
-    is beyond the edge of the joint, moves outward, and its weight has a larger moment about that edge than the strongest
-    acceleration left in the motion (for joints between drums, 1 g more, because the drum below can move) could set against
-    it; with ``second_order="law"`` the same of the joint's own moment. Or that a drum has turned by a right angle. At the
-    end, without input, also that the column is past its lowest barrier and has less energy than it takes to come back.
+    Equations F1 to F3 and R1 to R9 of ``docs/theory/rigid_beam.md``.
+
+    *Collapsed* means that the part above some joint is lost: its centroid is beyond the edge of the joint, moves
+    outward, and its weight has a larger moment about that edge than the strongest acceleration left in the motion
+    (for joints between drums, 1 g more, because the drum below can move) could set against it; with
+    ``second_order="law"`` the same of the joint's own moment. Or that a drum has turned by a right angle. At the end,
+    without input, also that the column is past its lowest barrier and has less energy than it takes to come back.
 
     References
     ----------
@@ -95,6 +97,22 @@ class RigidBeam(Model):
     name: ClassVar[str] = "rigid-beam"
     title: ClassVar[str] = "rigid beam model"
     references: ClassVar[tuple[str, ...]] = ("baraldi", "housner1963")
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Every drum is a rigid beam that turns about the middle of its joint; rotations are small.",
+        "Drums do not move up and down: the compression of a joint is the static one, times 1 + a_v/g.",
+        "A joint is a law between moment and rotation: an elastic bed without tension, or two or three lines.",
+        "An impact takes no energy by itself; stiffness damping, friction and Housner's law do.",
+        "Drums do not slip unless sliding=true.",
+        "Plane motion.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "Against a block that turns about its corner the inertia lacks m b²: 2 % for the paper's column, more if stocky.",
+        "Without damping and without sliding a stack of drums keeps all energy and is too prone to collapse.",
+        "rotation=absolute and second_order=law are the paper's reading: there to reproduce it, wrong for a stack.",
+        "moment_law=housner is for one drum.",
+        "A drum touches its neighbours only; what comes down is not followed.",
+        "Columns that are not as built are refused.",
+    )
 
     def __post_init__(self) -> None:
         for key, allowed in (

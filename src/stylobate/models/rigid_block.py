@@ -52,6 +52,19 @@ class RigidBlock(SteppedDrums):
     name: ClassVar[str] = "rigid-block"
     title: ClassVar[str] = "rigid blocks with interfaces"
     references: ClassVar[tuple[str, ...]] = ("baraldi",)
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Drums are rigid, with their true shape; rotations may be large.",
+        "Every joint is one interface with a compression, a shear and a moment; opening costs nothing and closes again.",
+        "Compression acts inside the overlap of the two faces; shear is Mohr–Coulomb without dilatancy.",
+        "Plane motion.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "The normal of a joint is the lower face's: once drums have slid over an edge, dem2d has the right one.",
+        "What an impact loses comes out of the joint's law; it is less than Housner's for one block.",
+        "A compressive strength shortens the lever of a joint for good, but not the drum.",
+        "A drum touches its neighbours only; what comes down is not followed.",
+        "Columns that are not as built are refused.",
+    )
     compressive_strength: float | None = None
     step_factor: float = 0.2
 

@@ -93,7 +93,7 @@ def run_single(
         x, v, _ = y
         a, g = ground(t)
         s, c = (alpha - x, 1.0) if block.linear else (math.sin(alpha - x), math.cos(alpha - x))
-        # formulation §7; the third is the work of the input over I₀.
+        # Eq. (H1); the third is the work of the input over I₀.
         return [v, -p2 * (g * s + side * a * c), -p2 * v * ((g - 1.0) * s + side * a * c)]
 
     def certain(t: float, x: float, v: float) -> bool:
