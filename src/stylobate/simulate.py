@@ -49,7 +49,7 @@ def simulate(
     until_end : bool
         Go on after the collapse is certain.
     until_rest : bool
-        Go on until everything lies still, on the ground if need be (``DistinctElement2D``).
+        Go on until everything lies still, on the ground if need be (``DistinctElement2D``; others refuse).
 
     Returns
     -------
@@ -61,6 +61,11 @@ def simulate(
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
     options = _options(tail, output_interval, until_end, until_rest)
+    if until_rest and not model.follows_to_rest:
+        raise InputError(
+            f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or leave "
+            "it off: --tail and --until-end are for every model."
+        )
     model.check(column, motion)
     started = time.perf_counter()
     response = model.run(column, motion, options)

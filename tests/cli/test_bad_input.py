@@ -300,3 +300,10 @@ def test_what_knows_columns_as_built_only(command, refused, tmp_path):
     sentence = refused(command[0], column, *command[1:])
     assert "as found" in sentence
     assert "dem2d" in sentence
+
+
+@pytest.mark.parametrize("model", ["housner", "rigid-beam", "rigid-block"])
+def test_until_rest_is_for_the_model_that_follows_a_collapse(model, refused, tmp_path):
+    sentence = refused(*with_options("run", "paper-monolithic", tmp_path, model=model), "--until-rest")
+    assert model in sentence
+    assert "use dem2d" in sentence

@@ -1,0 +1,30 @@
+"""How long a run is followed: every model does what it is asked for, or refuses it."""
+
+import pytest
+
+import stylobate as st
+from stylobate.models.registry import MODELS, make_model
+
+PUSHED_OVER = st.harmonic(0.5, 0.5 * st.g, 6.0)
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_until_end_goes_on_after_a_collapse(name):
+    column, model = st.preset("paper-monolithic"), make_model(name)
+    first, last = (st.simulate(column, PUSHED_OVER, model, until_end=on).histories for on in (False, True))
+    assert last.time[-1] > first.time[-1] + 0.3
+    # The column goes on falling to the side to which it fell.
+    way = 1.0 if first.drum_rotation[-1, 0] > 0.0 else -1.0
+    assert (way * last.drum_rotation[:, 0]).max() > 1.5 * way * first.drum_rotation[-1, 0]
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_until_rest_is_done_or_refused(name):
+    column, model = st.preset("paper-monolithic"), make_model(name)
+    if not model.follows_to_rest:
+        with pytest.raises(st.InputError, match=f"{name} does not follow what comes down; use dem2d"):
+            st.simulate(column, PUSHED_OVER, model, until_rest=True)
+        return
+    response = st.simulate(column, PUSHED_OVER, model, until_rest=True)
+    assert response.provenance["mechanism"]["at_rest"]
+    assert response.histories.time[-1] > PUSHED_OVER.duration
