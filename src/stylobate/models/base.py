@@ -51,13 +51,15 @@ class Model:
     """Base of the models. A subclass is a frozen dataclass of parameters, checked where it is made.
 
     Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
-    ``takes_as_found`` says whether it computes columns that are not as built,
+    ``assumptions`` and ``limits`` in sentences; ``takes_as_found`` says whether it computes columns that are not as built,
     ``follows_to_rest`` whether it can go on until everything lies still.
     """
 
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     references: ClassVar[tuple[str, ...]] = ()
+    assumptions: ClassVar[tuple[str, ...]] = ()
+    limits: ClassVar[tuple[str, ...]] = ()
     takes_as_found: ClassVar[bool] = False
     follows_to_rest: ClassVar[bool] = False
 

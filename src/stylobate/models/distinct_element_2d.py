@@ -61,6 +61,19 @@ class DistinctElement2D(SteppedDrums):
     name: ClassVar[str] = "dem2d"
     title: ClassVar[str] = "distinct elements in the plane"
     references: ClassVar[tuple[str, ...]] = ("baraldi", "cundall1971", "cundall1979", "psycharis2000")
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Drums are rigid, with their true shape; the stone's flexibility can be put into the joints (block_modulus).",
+        "Faces touch at contact points with springs, without tension, with Coulomb friction and cohesion.",
+        "The base is a rigid half-plane that moves with the record.",
+        "Plane motion: a circular column has its true mass, inertia and joints, but it cannot wobble.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "What an impact loses depends on contact points, friction and damping: two points are nearest to Housner's loss, "
+        "more points without damping give a bouncier column.",
+        "In batches a drum touches its neighbours and the base only; a single run can be followed to the ground.",
+        "Drums do not crack, chip or wear.",
+        "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
+    )
     takes_as_found: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
 
@@ -171,6 +184,7 @@ def joint_stiffnesses(column: Column, block_modulus: float | None) -> tuple[np.n
     """Normal and shear stiffness per area of each joint [N/m³], with the stone in series if its modulus is given.
 
     1/k_n′ = 1/k_n + h/2E of the drum above + h/2E of the drum below (the base is rigid); k_s keeps its ratio to k_n.
+    Eq. (D2).
     """
     kn = np.array([joint.normal_stiffness for joint in column.joints])
     ks = np.array([joint.shear_stiffness for joint in column.joints])
@@ -204,7 +218,7 @@ def _stable_step(column: Column, model: DistinctElement2D) -> float:
     """Largest stable step of central differences for the closed column [s].
 
     From the highest frequency of the contact stiffness matrix: 2/ω (√(1 + ζ²) − ζ), ζ = β ω / 2, where the dashpots act
-    with the velocity half a step back.
+    with the velocity half a step back. Eq. (D3).
     """
     n = column.n
     kn, ks = joint_stiffnesses(column, model.block_modulus)
