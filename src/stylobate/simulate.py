@@ -7,7 +7,7 @@ import os
 import platform
 import time
 from collections.abc import Generator, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import __version__
 from .column import Column
@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     import pandas
 
     from .column.assembly import Assembly
-    from .models.distinct_element_2d import DistinctElement2D
     from .response.assembly_response import AssemblyResponse
 
 
@@ -70,30 +69,16 @@ def simulate(
     started = time.perf_counter()
     response = model.run(column, motion, options)
     wall = time.perf_counter() - started
-    bed = ["feng2004"] if response.provenance.get("followed_to_the_ground") else []
-    provenance = {
-        "version": __version__,
-        "model": model.name,
-        "parameters": model.parameters(),
-        "references": [*_references(model, motion), *bed],
-        "column": column.to_dict(),
-        "column_digest": column.digest,
-        "motion": motion.name,
-        "motion_digest": motion.digest,
-        "motion_metadata": _metadata(motion),
-        "motion_processing": list(motion.processing),
-        "tail_s": options.tail,
-        "output_interval_s": options.output_interval,
-        "python": platform.python_version(),
-        "machine": platform.machine(),
-    }
+    bed = response.provenance.get("followed_to_the_ground", False)
+    provenance = {"column": column.to_dict(), "column_digest": column.digest}
+    provenance |= _provenance(model, motion, options, bed)
     return response.with_provenance(provenance, wall)
 
 
 def simulate_assembly(
     assembly: Assembly,
     motion: Motion,
-    model: DistinctElement2D | None = None,
+    model: Model | None = None,
     *,
     tail: float = 0.0,
     output_interval: float = 0.01,
@@ -105,28 +90,29 @@ def simulate_assembly(
     ----------
     assembly : Assembly
     motion : Motion
-    model : DistinctElement2D, optional
+    model : Model, optional
+        ``DistinctElement2D``, the only one for assemblies.
     tail, output_interval, until_rest
         As in :func:`simulate`.
+
+    Raises
+    ------
+    InputError
+        The input cannot be used, or the model is for columns only.
     """
     from .models.assembly_run import run_assembly
     from .models.distinct_element_2d import DistinctElement2D
 
     model = DistinctElement2D() if model is None else model
+    if not isinstance(model, DistinctElement2D):
+        raise InputError(
+            f"model {model.name} is for columns; an assembly is computed by {DistinctElement2D.name}: ask for that."
+        )
     options = _options(tail, output_interval, True, until_rest)
     started = time.perf_counter()
     response = run_assembly(assembly, motion, model, options)
-    provenance = {
-        "version": __version__,
-        "model": model.name,
-        "parameters": model.parameters(),
-        "references": [*_references(model, motion), "feng2004"],
-        "assembly_digest": assembly.digest,
-        "motion": motion.name,
-        "motion_digest": motion.digest,
-        "motion_metadata": _metadata(motion),
-    }
     wall = time.perf_counter() - started
+    provenance = {"assembly_digest": assembly.digest} | _provenance(model, motion, options, bed=True)
     return dataclasses.replace(response, provenance=response.provenance | provenance, wall_time=wall)
 
 
@@ -211,13 +197,23 @@ def thread_count(threads: int | None) -> int:
     return int(check_range("threads", threads, 1, 1024, remedy="leave it out to use all cores"))
 
 
-def _references(model: Model, motion: Motion) -> list[str]:
-    # Keys of the bibliography: the model's, and those of a motion that is computed.
-    return list(dict.fromkeys([*model.references, *motion.metadata.get("references", ())]))
-
-
-def _metadata(motion: Motion) -> dict[str, str]:
-    return {str(key): str(value) for key, value in motion.metadata.items() if key != "references"}
+def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) -> dict[str, Any]:
+    # Keys of the bibliography: the model's, those of a motion that is computed, and of the bed between any two bodies.
+    references = [*model.references, *motion.metadata.get("references", ()), *(["feng2004"] if bed else [])]
+    return {
+        "version": __version__,
+        "model": model.name,
+        "parameters": model.parameters(),
+        "references": list(dict.fromkeys(references)),
+        "motion": motion.name,
+        "motion_digest": motion.digest,
+        "motion_metadata": {str(key): str(value) for key, value in motion.metadata.items() if key != "references"},
+        "motion_processing": list(motion.processing),
+        "tail_s": options.tail,
+        "output_interval_s": options.output_interval,
+        "python": platform.python_version(),
+        "machine": platform.machine(),
+    }
 
 
 def _options(tail: float, output_interval: float, until_end: bool, until_rest: bool = False) -> RunOptions:

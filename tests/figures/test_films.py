@@ -1,4 +1,4 @@
-"""Films: frames that differ where the column moves, files that open, a page that needs no network."""
+"""Films of columns and assemblies: frames that differ where things move, files that open, a page that needs no network."""
 
 import json
 import re
@@ -6,16 +6,18 @@ import re
 import numpy as np
 import pytest
 
+import stylobate as st
+from stylobate import plots
 from stylobate.cli.main import call
 from stylobate.column import Column, Joint
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.motion import harmonic
-from stylobate.plots.animation import draw_frame, frame_indices, write_gif
+from stylobate.plots.animation import draw_frame, frame_indices, write_gif, write_mp4
 from stylobate.plots.player import write_player
-from stylobate.plots.scene import scene_of
-from stylobate.simulate import simulate
+from stylobate.plots.scene import scale_bar, scene_of
+from stylobate.simulate import simulate, simulate_assembly
 
 
 @pytest.fixture(scope="module")
@@ -23,6 +25,81 @@ def fall():
     joint = Joint(1e8, 5e7, friction_coefficient=0.7)
     column = Column.tapered(height=2.0, bottom_width=0.4, top_width=0.3, drums=2, density=2000.0, joint=joint)
     return simulate(column, harmonic(0.8, 0.5 * g, 2.0), DistinctElement2D(), until_rest=True, output_interval=0.02)
+
+
+@pytest.fixture(scope="module")
+def knocked():
+    """A leaning block that falls on a second one, beside a support, on a ground below 0."""
+    lean = ((0.0, -0.5), (0.4, -0.3), (-0.2, 0.9), (-0.6, 0.7))
+    blocks = (
+        st.Block(tuple((x - 0.2, z) for x, z in lean), 2000.0, "leaning"),
+        st.Block(((-1.7, -0.5), (-1.4, -0.5), (-1.4, 0.6), (-1.7, 0.6)), 2000.0, "upright"),
+        st.Block(((1.0, -0.5), (9.0, -0.5), (9.0, -0.2), (1.0, -0.2)), 0.0, "step", fixed=True),
+    )
+    assembly = st.Assembly(blocks, Joint(1e8, 5e7, friction_coefficient=0.7), "two blocks", ground=-0.5)
+    with pytest.warns(UserWarning, match="not in equilibrium"):
+        return simulate_assembly(assembly, st.Motion(0.01, np.zeros(101)), until_rest=True, output_interval=0.02)
+
+
+@pytest.mark.parametrize("name", ["fall", "knocked"])
+def test_the_scene_is_the_response(name, request):
+    response = request.getfixturevalue(name)
+    scene = scene_of(response)
+    bodies = range(response.column.n) if name == "fall" else (1, 2, 3)
+    for index in (0, len(response.time) // 2, len(response.time) - 1):
+        for corners, body in zip(scene.outlines(index), bodies, strict=True):
+            np.testing.assert_allclose(corners, response.outline(index, body), atol=1e-12)
+
+
+def test_the_scene_of_a_column_as_found():
+    joint = Joint(1e8, 5e7, friction_coefficient=0.7)
+    column = Column.tapered(height=2.0, bottom_width=0.4, top_width=0.3, drums=2, density=2000.0, joint=joint)
+    found = st.AsFound((st.FoundDrum(2, offset=0.05, chip_left=0.03),), base_tilt=2.0)
+    response = simulate(column.replace(as_found=found), harmonic(0.8, 0.2 * g, 1.0), DistinctElement2D())
+    scene = scene_of(response)
+    assert scene.slope == pytest.approx(np.tan(np.radians(2.0)))
+    for index in (0, len(response.time) // 2):
+        for factor in (1.0, 20.0):
+            for i, corners in enumerate(scene.outlines(index, factor)):
+                np.testing.assert_allclose(corners, response.outline(index, i, factor), atol=1e-12)
+
+
+def test_a_picture_holds_what_moves_and_its_ground(knocked):
+    assert set(knocked.fallen) == {"leaning", "upright"}
+    scene = scene_of(knocked)
+    left, right, bottom, top = scene.view(np.arange(len(knocked.time)))
+    for index in range(len(knocked.time)):
+        for corners in scene.outlines(index)[:2]:
+            assert left < corners[:, 0].min()
+            assert corners[:, 0].max() < right
+            assert corners[:, 1].max() < top
+    assert bottom < -0.5
+    assert 1.0 < right < 5.0  # the support is seen, but not all of its 8 m
+    drawn = draw_frame(scene, 0).axes[0]
+    assert len(drawn.patches) == 3
+
+
+@pytest.mark.parametrize(("width", "length"), [(4.9, 0.5), (5.1, 1.0), (26.0, 5.0), (0.3, 0.05)])
+def test_the_scale_is_a_round_length(width, length):
+    assert scale_bar(width) == pytest.approx(length)
+
+
+def test_pictures_of_an_assembly(knocked):
+    strip = plots.draw_filmstrip(knocked)
+    shown = [axes for axes in strip.axes if axes.patches]
+    assert 4 <= len(shown) <= 8
+    times = [float(axes.get_title().split(" s")[0]) for axes in shown]
+    assert times[0] == 0.0
+    assert times[-1] == pytest.approx(knocked.time[-1], abs=0.005)
+    assert times == sorted(set(times))
+    across, down, ground = plots.draw_histories(knocked).axes
+    assert {line.get_label() for line in across.lines if line.get_label()[0] != "_"} == {"leaning", "upright"}
+    assert "[m]" in across.get_ylabel()
+    assert "[m]" in down.get_ylabel()
+    assert "[g]" in ground.get_ylabel()
+    upper, lower = plots.draw_energy(knocked).axes
+    assert "energy" in upper.get_ylabel()
+    assert "/ released" in lower.get_ylabel()
 
 
 def test_outlines_keep_their_shape_and_lie_on_the_ground(fall):
@@ -50,6 +127,35 @@ def test_a_gif_has_its_frames(fall, tmp_path):
     assert (np.abs(first - last).sum(axis=2) > 30).mean() > 0.01
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")  # the reader leaves its pipes open
+@pytest.mark.parametrize("name", ["fall", "knocked"])
+def test_an_mp4_plays(name, request, tmp_path):
+    reader = pytest.importorskip("imageio_ffmpeg")
+    response = request.getfixturevalue(name)
+    path = write_mp4(response, tmp_path / "film.mp4", frames_per_second=5.0, speed=0.5)
+    film = reader.read_frames(str(path))
+    facts = next(film)
+    frames = [np.frombuffer(frame, dtype=np.uint8).astype(int) for frame in film]
+    assert facts["fps"] == 5.0
+    assert facts["codec"] == "h264"
+    assert facts["size"] == (640, 480)
+    # as many frames as were asked for, whatever was recorded between them: it lasts twice as long as it took
+    assert len(frames) == pytest.approx(2.0 * 5.0 * response.time[-1], abs=1.5)
+    assert (np.abs(frames[0] - frames[-1]) > 30).mean() > 0.01
+
+
+def test_a_film_is_as_long_as_it_took(fall, tmp_path):
+    from PIL import Image
+
+    path = write_gif(fall, tmp_path / "fall.gif", frames_per_second=30.0)  # more than was recorded
+    with Image.open(path) as film:
+        shown = 0.0
+        for k in range(film.n_frames):
+            film.seek(k)
+            shown += film.info["duration"] / 1000.0
+    assert shown == pytest.approx(fall.time[-1], abs=0.1)
+
+
 def test_a_frame_says_when(fall):
     index = len(fall.time) // 2
     title = draw_frame(scene_of(fall), index).axes[0].get_title(loc="left")
@@ -65,6 +171,33 @@ def test_the_page_is_whole_and_alone(fall, tmp_path):
     assert data["poses"][-1][1] == pytest.approx(
         [fall.drum_x[-1, 1], fall.column.centroid_heights[1] + fall.drum_z[-1, 1], fall.drum_rotation[-1, 1]], abs=0.02
     )
+
+
+def test_the_page_of_an_assembly(knocked, tmp_path):
+    page = write_player(knocked, tmp_path / "knocked.html", frames_per_second=10.0).read_text()
+    data = json.loads(re.search(r"const data = (.*);\n", page)[1])
+    assert knocked.describe() in page
+    assert data["level"] == -0.5
+    assert data["fixed"] == [False, False, True]
+    for shape, pose, body in zip(data["shapes"], data["poses"][-1], (1, 2, 3), strict=True):
+        x, z, angle = pose
+        c, s = np.cos(angle), np.sin(angle)
+        drawn = np.array(shape) @ np.array([[c, s], [-s, c]]) + (x, z)
+        np.testing.assert_allclose(drawn, knocked.outline(-1, body), atol=2e-3)
+
+
+def test_names_do_not_break_the_page(knocked, tmp_path):
+    """Words of the template and of HTML may be names."""
+    import dataclasses
+
+    blocks = [
+        dataclasses.replace(one, name=name) for one, name in zip(knocked.assembly.blocks, ("DATA", "<b>", "TITLE"))
+    ]
+    assembly = dataclasses.replace(knocked.assembly, blocks=tuple(blocks), name="SENTENCE & DATA")
+    page = write_player(dataclasses.replace(knocked, assembly=assembly), tmp_path / "names.html").read_text()
+    assert "<title>SENTENCE &amp; DATA, " in page
+    assert "&lt;b&gt;" in page
+    assert len(re.findall(r"const data = \{", page)) == 1
 
 
 def test_the_command_writes_a_film(fall, tmp_path, capsys):

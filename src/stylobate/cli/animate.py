@@ -27,25 +27,26 @@ def animate(
     """
     from ..plots.animation import write_gif, write_mp4
     from ..plots.player import write_player
-    from ..response import Response
+    from ..plots.scene import scene_of
+    from ..response import load_response
     from . import console
 
     if to not in FORMATS:
         raise InputError(f"--format is {to!r}; allowed are {', '.join(FORMATS)}.")
     frames, pace = _number("--fps", rate, 100.0), _number("--speed", speed, 1000.0)
-    loaded = Response.load(response)
+    loaded = load_response(response)
     with console.folder(out) as folder:
         target = (folder or response.parent) / f"{response.stem}.{to}"
         if to == "html":
-            write_player(loaded, target, frames_per_second=frames)
+            write_player(loaded, target, frames_per_second=frames, speed=pace)
         else:
             write = write_gif if to == "gif" else write_mp4
             write(loaded, target, frames_per_second=frames, speed=pace)
-    duration = float(loaded.histories.time[-1])
+    duration = float(loaded.time[-1])
     if as_json:
         console.emit({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label})
     else:
-        console.say(loaded.outcome.sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
+        console.say(scene_of(loaded).sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
 
 
 def _number(option: str, text: str, high: float) -> float:

@@ -12,10 +12,17 @@ from ..errors import InputError
 
 if TYPE_CHECKING:
     from ..column import Column
+    from ..column.assembly import Assembly
     from ..models.base import Model
     from ..motion import Motion, Suite
 
 ColumnName = Annotated[str, typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).")]
+StructureName = Annotated[
+    str,
+    typer.Argument(
+        metavar="COLUMN", help="Name of a preset, or a file (TOML) of a column or of an assembly of blocks."
+    ),
+]
 ModelName = Annotated[str, typer.Option("--model", metavar="MODEL", help="How it is computed: dem2d, housner …")]
 Settings = Annotated[
     list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Option of the model; may be repeated.")
@@ -105,7 +112,7 @@ def the_tail(text: str) -> float:
 
 
 def the_motion(
-    column: Column,
+    column: Column | Assembly,
     *,
     harmonic: str | None,
     pulse: str | None,
@@ -122,8 +129,8 @@ def the_motion(
 ) -> Motion:
     """The one motion that the options describe.
 
-    A pulse without a stated length is followed by 20/p, p the frequency parameter of the column: free rocking from
-    close to overturning has come to a verdict by then.
+    A pulse without a stated length is followed by 20/p, p the frequency parameter of the column or of the largest part
+    of an assembly: free rocking from close to overturning has come to a verdict by then.
     """
     from ..motion.specs import parse_harmonic, parse_pulse
 

@@ -1,8 +1,9 @@
-"""``stylobate run``: one column, one motion, one verdict."""
+"""``stylobate run``: one column or assembly, one motion, one verdict."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,12 +12,15 @@ import typer
 from . import options as o
 
 if TYPE_CHECKING:
+    from ..column import Column
+    from ..column.assembly import Assembly
+    from ..models.base import Model
     from ..motion import Motion
-    from ..response import Response
+    from ..response import AnyResponse, AssemblyResponse, Response
 
 
 def run(
-    column: o.ColumnName,
+    column: o.StructureName,
     model: o.ModelName,
     harmonic: o.Harmonic = None,
     pulse: o.Pulse = None,
@@ -43,18 +47,17 @@ def run(
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
-    """Shake one column once.
+    """Shake one column once, or one assembly of blocks (dem2d).
 
     Prints the outcome; with --out, writes histories and figures. A folder of records is one run after the other.
     """
-    from ..column.files import load_column
+    from ..column.assembly_files import load_structure
     from ..motion.specs import parse_time
-    from ..simulate import simulate
     from . import console
 
     o.the_threads(threads)  # a single run has one thread
     o.check_one_motion(harmonic, pulse, motion, unit, dt, synthetic, component)
-    stone = load_column(column)
+    stone = load_structure(column)
     how = o.the_model(model, settings)
     if o.is_suite(motion):
         suite = o.of_each(
@@ -79,16 +82,14 @@ def run(
             vertical=vertical,
         )
         motions, refused = (shaking,), None
-    following = {
-        "tail": o.the_tail(tail),
-        "output_interval": parse_time(output_interval),
-        "until_end": until_end,
-        "until_rest": until_rest,
-    }
+    interval, length = parse_time(output_interval), o.the_tail(tail)
+    follow = partial(
+        run_one, stone, model=how, tail=length, interval=interval, until_end=until_end, until_rest=until_rest
+    )
     summaries, found = [], []
     with console.folder(out) as folder:
         for one in motions:
-            response = simulate(stone, one, how, **following)
+            response = follow(one)
             place = folder if folder is None or refused is None else folder / safe_name(one.name, found)
             summary, files = conclude(response, one, place)
             summaries.append(summary)
@@ -101,7 +102,26 @@ def run(
         console.print_refused(refused or {})
 
 
-def conclude(response: Response, motion: Motion, folder: Path | None) -> tuple[dict, list[Path]]:
+def run_one(
+    stone: Column | Assembly,
+    motion: Motion,
+    model: Model,
+    tail: float,
+    interval: float,
+    until_end: bool,
+    until_rest: bool,
+) -> AnyResponse:
+    """One run; that of an assembly always goes on to its end."""
+    from ..column import Column
+    from ..simulate import simulate, simulate_assembly
+
+    following = {"tail": tail, "output_interval": interval, "until_rest": until_rest}
+    if isinstance(stone, Column):
+        return simulate(stone, motion, model, until_end=until_end, **following)
+    return simulate_assembly(stone, motion, model, **following)
+
+
+def conclude(response: AnyResponse, motion: Motion, folder: Path | None) -> tuple[dict, list[Path]]:
     """Summary of a run, and its files where a folder is given."""
     from . import console
 
@@ -122,24 +142,34 @@ def safe_name(name: str, taken: Sequence[Path | None]) -> str:
     return next(one for one in (plain, *(f"{plain}-{i}" for i in range(2, len(used) + 3))) if one not in used)
 
 
-def write(response: Response, motion: Motion, folder: Path) -> list[Path]:
+def write(response: AnyResponse, motion: Motion, folder: Path) -> list[Path]:
     """Histories and figures of one run."""
     from .. import plots
+    from ..response import Response
 
     files = [response.save(folder / "response.nc")]
-    for name, figure in (
-        ("histories", plots.draw_histories(response)),
-        ("filmstrip", plots.draw_filmstrip(response)),
-        ("joints", plots.draw_joints(response)),
-        ("energy", plots.draw_energy(response)),
-        ("motion", plots.draw_motion(motion)),
-    ):
+    pictures = {"histories": plots.draw_histories(response), "filmstrip": plots.draw_filmstrip(response)}
+    if isinstance(response, Response):
+        pictures["joints"] = plots.draw_joints(response)
+    pictures |= {"energy": plots.draw_energy(response), "motion": plots.draw_motion(motion)}
+    for name, figure in pictures.items():
         files += plots.save(figure, folder / name)
     return files
 
 
-def describe(response: Response, motion: Motion, files: list[Path]) -> None:
+def describe(response: AnyResponse, motion: Motion, files: list[Path]) -> None:
     """Print the verdict for people."""
+    from ..response import AssemblyResponse
+    from . import console
+
+    found = assembly_facts(response) if isinstance(response, AssemblyResponse) else column_facts(response)
+    sentence, what, facts = found
+    computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
+    console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
+
+
+def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
+    """Verdict on a column, what it is, and its measures."""
     from . import console
 
     m, column = response.measures, response.column
@@ -148,13 +178,8 @@ def describe(response: Response, motion: Motion, files: list[Path]) -> None:
         sentence += f" Reason: {m.reason}."
     if not m.decided:
         sentence += " The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
-    facts = {
-        "column": f"{column.name}, {column.n} {'drum' if column.n == 1 else 'drums'}, {column.height:g} m high",
-        **o.input_lines(motion),
-        "model": f"{response.model}, step {m.time_step:.3g} s, {m.steps} steps, {response.wall_time:.2f} s",
-    }
-    if m.collapsed:
-        facts["collapse"] = f"certain at {m.collapse_time:.2f} s"
+    drums = f"{column.n} {'drum' if column.n == 1 else 'drums'}"
+    facts = {"collapse": f"certain at {m.collapse_time:.2f} s"} if m.collapsed else {}
     peak = m.peak_top_displacement
     facts |= {
         "peak top displacement": f"{console.length(peak)} ({peak / column.base_width:.2f} base widths)",
@@ -164,4 +189,29 @@ def describe(response: Response, motion: Motion, files: list[Path]) -> None:
         "residual joint slip": console.length(m.residual_joint_slip),
         "energy imbalance": f"{m.energy_imbalance:.1e} of the input work",
     }
-    console.say(sentence, facts, files)
+    return sentence, {"column": f"{column.name}, {drums}, {column.height:g} m high"}, facts
+
+
+def assembly_facts(response: AssemblyResponse) -> tuple[str, dict[str, str], dict[str, str]]:
+    """Verdict on an assembly, what it is, and its measures."""
+    from . import console
+
+    assembly, found = response.assembly, response.summary()
+    sentence = response.describe()
+    if response.at_rest:
+        sentence += " Everything lies still."
+    elif not response.failed:
+        change = "" if response.decided else " and the verdict may change"
+        sentence += f" Not everything lies still{change}; go on with --until-rest."
+    fixed = sum(block.fixed for block in assembly.blocks)
+    supports = f", {fixed} of them fixed" if fixed else ""
+    facts = {
+        "peak displacement": console.length(found["peak_displacement_m"]),
+        "residual displacement": console.length(found["residual_displacement_m"]),
+        "peak rotation": f"{found['peak_rotation_rad']:.4f} rad",
+        "peak joint opening": console.length(found["peak_joint_opening_m"]),
+        "residual joint slip": console.length(found["residual_joint_slip_m"]),
+        "energy imbalance": f"{response.energy_imbalance:.1e} of the largest of input work, released and elastic energy",
+    }
+    what = f"{assembly.name}, {len(assembly.blocks)} blocks{supports}, {len(assembly.joints)} joints"
+    return sentence, {"assembly": what}, facts

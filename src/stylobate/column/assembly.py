@@ -209,10 +209,21 @@ class Assembly:
             raise InputError(f"two blocks are called {twice!r}; give every block a name of its own.")
         if all(block.fixed for block in self.blocks):
             raise InputError(f"no block of {self.name!r} can move; leave fixed = true out for at least one.")
-        for one, other, _ in self.overrides:
+        pairs = [frozenset((one, other)) for one, other, _ in self.overrides]
+        joined = {frozenset((self.bodies[j.lower].name, self.bodies[j.upper].name)) for j in self.joints}
+        for (one, other, _), pair in zip(self.overrides, pairs, strict=True):
             missing = next((name for name in (one, other) if name not in names and name != "ground"), None)
             if missing is not None:
                 raise InputError(f"a joint_override names block {missing!r}, which does not exist; correct its name.")
+            if len(pair) == 1 or pairs.count(pair) > 1:
+                raise InputError(
+                    f"a joint_override names {one!r} and {other!r} twice; name two blocks, each pair once."
+                )
+            if pair not in joined:
+                raise InputError(
+                    f"a joint_override is between {one!r} and {other!r}, but no joint is: their faces do not touch; "
+                    "correct the names or the vertices."
+                )
         touched = self._contacts[1]
         for i, block in enumerate(self.bodies):
             if not block.fixed and i not in touched:

@@ -9,8 +9,10 @@ from typing import Any
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError
 from .assembly import Assembly, Block
-from .files import JointTable, joint_from_dict
+from .column import Column
+from .files import JointTable, joint_from_dict, load_column
 from .joint import Joint
+from .presets import PRESETS
 from .toml import Table, parse_toml, read_table
 
 
@@ -52,6 +54,20 @@ class AssemblyTable(Table):
 def is_assembly(path: str | Path) -> bool:
     """Whether a TOML file describes an assembly: it has blocks."""
     return "block" in parse_toml(path)
+
+
+def load_structure(text: str | Path) -> Column | Assembly:
+    """The column preset of that name, or what the file of that path describes: a column or an assembly.
+
+    Raises
+    ------
+    InputError
+        There is neither, or the file cannot be used.
+    """
+    name = str(text)
+    if name not in PRESETS and (Path(name).exists() or name.endswith(".toml")) and is_assembly(name):
+        return read(name)
+    return load_column(name)
 
 
 def read(path: str | Path) -> Assembly:

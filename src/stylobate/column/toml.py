@@ -75,10 +75,9 @@ def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
 def _sentence(item: Any, schema: type[Table]) -> str:
     *where, key = item["loc"] or ("",)
     kind, value = item["type"], item["input"]
-    if isinstance(key, int):  # an element of a list: name it by the list
-        where, key, position = where[:-1], where[-1], f"number {key + 1} of "
-    else:
-        position = ""
+    position = ""
+    while isinstance(key, int):  # an element of a list: name it by the list
+        where, key, position = where[:-1], where[-1], f"{position}number {key + 1} of "
     place = _place(where)
     if kind == "extra_forbidden":
         keys = _keys(schema, where)

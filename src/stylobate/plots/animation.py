@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 
 from ..atomic import replacing
 from ..errors import InputError, check_range
-from .scene import AnyResponse, Scene, draw_bodies, scale_bar, scene_of
+from ..response import AnyResponse
+from .scene import Scene, draw_bodies, scale_bar, scene_of
 from .style import BLACK, GREY, RED, styled
 
 #: Size [inch] and resolution of a frame.

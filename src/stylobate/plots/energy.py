@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..response import ENERGY_TERMS, AssemblyResponse
-from .scene import AnyResponse, describe
+from ..response import ENERGY_TERMS, AnyResponse, AssemblyResponse
+from .scene import describe
 from .style import CYCLE, GREY, WIDTH, styled, zero_line
 
 

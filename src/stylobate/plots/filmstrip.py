@@ -10,8 +10,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from ..errors import InputError
-from ..response import AssemblyResponse
-from .scene import ASIDE, AnyResponse, Scene, describe, draw_bodies, scene_of
+from ..response import AnyResponse, AssemblyResponse, Response
+from .scene import ASIDE, Scene, describe, draw_bodies, scene_of
 from .style import WIDTH, styled
 
 #: Width that the words over a panel take [inch].
@@ -38,13 +38,14 @@ def draw_filmstrip(
     response : Response or AssemblyResponse
     instants : sequence of float, optional
         [s]; the nearest recorded states are drawn. By default up to eight: at rest, at the largest
-        displacement in each fifth of the clear motion and before a collapse, and at the end.
+        displacement in each fifth of the clear motion of a column and before a collapse, or after equal ways of an
+        assembly's blocks, and at the end.
     magnification : float, optional
         Factor on all displacements; by default 1, or a round number that makes small ones visible.
     title : str, optional
     """
     scene, way = scene_of(response), _way(response)
-    frames = _frames(response, np.clip(way, -ASIDE * scene.size, ASIDE * scene.size), instants)
+    frames = _frames(response, instants)
     factor = _magnification(scene, way) if magnification is None else magnification
     outlines = [scene.outlines(i, factor) for i in frames]
     draw = _grid if isinstance(response, AssemblyResponse) else _strip
@@ -118,22 +119,11 @@ def _way(response: AnyResponse) -> np.ndarray:
     return response.histories.top_displacement
 
 
-def _frames(response: AnyResponse, way: np.ndarray, instants: Sequence[float] | None) -> list[int]:
+def _frames(response: AnyResponse, instants: Sequence[float] | None) -> list[int]:
     recorded = response.time
     if instants is None:
-        far = np.nan_to_num(np.abs(way))
-        time, last = _collapse_time(response), _last_above_ground(response)
-        before = far if math.isnan(time) else np.where(recorded <= time, far, 0.0)
-        peak = int(before.argmax())
-        far[last + 1 :] = before[last + 1 :] = 0.0
-        moving = np.flatnonzero(np.abs(far[: last + 1] - far[last]) > 0.1 * before[peak])
-        start, end = (int(moving[0]), int(moving[-1])) if moving.size else (0, last)
-        start = max(start, int(np.argmax(before > 0.1 * before[peak])))
-        edges = np.linspace(start, end + 1, 6).round().astype(int)
-        spread = [low + int(far[low:high].argmax()) for low, high in pairwise(edges) if high > low]
-        apart = 0.02 * (end - start)
-        chosen = sorted({0, peak, *spread}) if last else []
-        return [i for i in chosen if last - i > apart] + [last]
+        assembly = isinstance(response, AssemblyResponse)
+        return _frames_of_assembly(response) if assembly else _frames_of_column(response)
     for instant in instants:
         if not recorded[0] <= instant <= recorded[-1]:
             raise InputError(
@@ -144,16 +134,41 @@ def _frames(response: AnyResponse, way: np.ndarray, instants: Sequence[float] | 
     return [int(np.abs(recorded - instant).argmin()) for instant in instants]
 
 
-def _collapse_time(response: AnyResponse) -> float:
-    if isinstance(response, AssemblyResponse):
-        return min(response.fell_at.values(), default=math.nan)
-    return response.measures.collapse_time
+def _frames_of_column(response: Response) -> list[int]:
+    h = response.histories
+    far = np.nan_to_num(np.abs(h.top_displacement))
+    time, last = response.measures.collapse_time, _last_above_ground(response)
+    before = far if math.isnan(time) else np.where(h.time <= time, far, 0.0)
+    peak = int(before.argmax())
+    far[last + 1 :] = before[last + 1 :] = 0.0
+    moving = np.flatnonzero(np.abs(far[: last + 1] - far[last]) > 0.1 * before[peak])
+    start, end = (int(moving[0]), int(moving[-1])) if moving.size else (0, last)
+    start = max(start, int(np.argmax(before > 0.1 * before[peak])))
+    edges = np.linspace(start, end + 1, 6).round().astype(int)
+    spread = [low + int(far[low:high].argmax()) for low, high in pairwise(edges) if high > low]
+    apart = 0.02 * (end - start)
+    chosen = sorted({0, peak, *spread}) if last else []
+    return [i for i in chosen if last - i > apart] + [last]
 
 
-def _last_above_ground(response: AnyResponse) -> int:
+def _frames_of_assembly(response: AssemblyResponse) -> list[int]:
+    """The start, the end, and states between which the blocks have gone equal ways; the farthest if nothing falls."""
+    step = np.hypot(np.diff(response.x, axis=0), np.diff(response.z, axis=0))
+    step[response.displacement[1:] > ASIDE * scene_of(response).size] = 0.0  # out of the picture
+    gone = np.concatenate(([0.0], np.nan_to_num(step).sum(axis=1).cumsum()))
+    last = len(gone) - 1
+    chosen = set(np.searchsorted(gone, np.linspace(0.0, gone[-1], 8)[1:-1]).tolist())
+    if not response.collapsed:
+        chosen.add(int(np.nan_to_num(response.displacement).max(axis=1).argmax()))
+    frames = [0]
+    for i in sorted(chosen):
+        if min(gone[i] - gone[frames[-1]], gone[-1] - gone[i]) > 0.03 * gone[-1]:
+            frames.append(i)
+    return [*frames, last] if last else frames
+
+
+def _last_above_ground(response: Response) -> int:
     # A model without contact of what falls with the ground lets it pass: nothing is to be seen from there on.
-    if isinstance(response, AssemblyResponse):
-        return len(response.time) - 1
     heights = response.column.centroid_heights + response.histories.drum_z
     below = np.flatnonzero((heights < 0.0).any(axis=1))
     return max(int(below[0]) - 1, 0) if below.size else len(heights) - 1

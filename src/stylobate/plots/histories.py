@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..constants import g
-from ..response import AssemblyResponse, Response
-from .scene import ASIDE, AnyResponse, describe, scene_of
+from ..response import AnyResponse, AssemblyResponse, Response
+from .scene import ASIDE, describe, scene_of
 from .style import BLACK, CYCLE, GREY, RED, WIDTH, styled, zero_line
 
 #: Blocks of an assembly that are drawn by name.

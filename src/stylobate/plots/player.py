@@ -10,8 +10,9 @@ from pathlib import Path
 import numpy as np
 
 from ..atomic import replacing
+from ..response import AnyResponse
 from .animation import frame_indices
-from .scene import AnyResponse, scale_bar, scene_of
+from .scene import scale_bar, scene_of
 
 
 def write_player(

@@ -11,10 +11,8 @@ from matplotlib.axes import Axes
 from ..column.as_found import geometry
 from ..column.assembly import FAR_AWAY
 from ..constants import DEGREE, g
-from ..response import AssemblyResponse, Response
+from ..response import AnyResponse, AssemblyResponse, Response
 from .style import BLACK, BROWN, GREY, SAND
-
-AnyResponse = Response | AssemblyResponse
 
 #: A picture goes no farther beyond what stood at first than by these shares of its size, to the sides and down: what
 #: flies off, or falls where there is no ground, is let go.

@@ -6,10 +6,12 @@ from .assembly_response import AssemblyResponse
 from .measures import Measures
 from .response import ENERGY_TERMS, Histories, Response
 
-__all__ = ["ENERGY_TERMS", "AssemblyResponse", "Histories", "Measures", "Response", "load_response"]
+AnyResponse = Response | AssemblyResponse
+
+__all__ = ["ENERGY_TERMS", "AnyResponse", "AssemblyResponse", "Histories", "Measures", "Response", "load_response"]
 
 
-def load_response(path: str | Path) -> Response | AssemblyResponse:
+def load_response(path: str | Path) -> AnyResponse:
     """Read a response of either kind.
 
     Raises

@@ -44,7 +44,6 @@ def classify_assembly(
     opening: np.ndarray,
     slip: np.ndarray,
     collapsed: bool,
-    failed: bool,
 ) -> Outcome:
     """Outcome as for columns; a block that no joint holds counts by its own displacement, as a share of its size.
 
@@ -55,7 +54,7 @@ def classify_assembly(
         Distance of every centroid from where it was at the start [m], shape (T, N).
     opening, slip : array
         Of the joints [m], shape (T, J).
-    collapsed, failed : bool
+    collapsed : bool
     """
     joints, bodies = assembly.joints, assembly.bodies
     width = np.array(
@@ -66,7 +65,7 @@ def classify_assembly(
     size = np.array([bodies[i].size for i in free])
     opened = max(_largest(opening / width), _largest(moved[:, free] / size))
     shifted = max(_largest(np.abs(slip[-1]) / width), _largest(moved[-1, free] / size))
-    return classify(collapsed, failed, opened, shifted)
+    return classify(collapsed, False, opened, shifted)
 
 
 def _joint_history(

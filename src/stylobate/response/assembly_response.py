@@ -122,9 +122,9 @@ class AssemblyResponse:
     @cached_property
     def outcome(self) -> Outcome:
         """How the run ended: as for columns, from the recorded states."""
-        return classify_assembly(
-            self.assembly, self.displacement, self.joint_opening, self.joint_slip, self.collapsed, self.failed
-        )
+        if self.failed:
+            return Outcome.FAILED
+        return classify_assembly(self.assembly, self.displacement, self.joint_opening, self.joint_slip, self.collapsed)
 
     def describe(self) -> str:
         """The outcome in one or two sentences."""

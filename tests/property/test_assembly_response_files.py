@@ -1,0 +1,137 @@
+"""Files of assembly responses: what is saved is loaded back without loss."""
+
+import dataclasses
+import math
+import warnings
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as some
+
+import stylobate as st
+from stylobate.column.assembly import of_column
+from stylobate.column.presets import preset
+from stylobate.response import AssemblyResponse, Response, load_response
+
+NUMBERS = some.floats(allow_nan=True, allow_infinity=True)
+
+
+@some.composite
+def joints(draw):
+    form = draw(some.sampled_from(["friction_angle", "friction_coefficient"]))
+    value = draw(some.floats(0.01, 1.5)) * (50.0 if form == "friction_angle" else 1.0)
+    return st.Joint(draw(some.floats(1e6, 1e12)), draw(some.floats(1e6, 1e12)), **{form: value})
+
+
+@some.composite
+def assemblies(draw):
+    """A stack of convex blocks, some with a law of their own, on a ground or on a fixed block."""
+    if draw(some.integers(0, 4)) == 0:
+        return of_column(preset("paper-12-drums"), [(2.0, 0.3)] if draw(some.booleans()) else [])
+    blocks, z = [], 0.0
+    for i in range(draw(some.integers(1, 4))):
+        height, width, lean = (draw(some.floats(0.1, 3.0)) for _ in range(3))
+        corners = [(-width, z), (width, z), (width + 0.1 * lean, z + height), (-width, z + height)]
+        blocks.append(
+            st.Block(
+                tuple(corners),
+                draw(some.floats(1.0, 5000.0)),
+                draw(some.sampled_from(["stone", "Säule ⌀", "a'\"b", "null"])) + f" {i}",
+                draw(some.floats(0.1, 2.0)),
+                fixed=i == 0 and draw(some.booleans()) and len(blocks) > 0,
+                surface=draw(some.none() | joints()),
+            )
+        )
+        z += height
+    overrides = [("ground", blocks[0].name, draw(joints()))] if draw(some.booleans()) else []
+    return st.Assembly(
+        tuple(blocks), draw(joints()), draw(some.text(max_size=8)), draw(some.floats(0.0, 20.0)), 0.0, tuple(overrides)
+    )
+
+
+@some.composite
+def responses(draw):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        assembly = draw(assemblies())
+    steps, n = draw(some.integers(1, 4)), len(assembly.bodies)
+    random = np.random.default_rng(draw(some.integers(0, 2**32)))
+    special = draw(NUMBERS)
+
+    def array(*shape):
+        values = random.standard_normal(shape) * 10.0 ** random.integers(-300, 300)
+        values.flat[0] = special
+        return values
+
+    terms = draw(some.sets(some.sampled_from(["input", "kinetic", "gravitational", "elastic"]), min_size=1))
+    return AssemblyResponse(
+        assembly=assembly,
+        time=np.arange(steps) * 0.01,
+        **{name: array(steps, n) for name in ("x", "z", "rotation")},
+        energy={term: array(steps) for term in terms},
+        **{name: array(steps) for name in ("ground_acceleration", "ground_displacement")},
+        at_rest=draw(some.booleans()),
+        failed=draw(some.booleans()),
+        energy_imbalance=draw(NUMBERS),
+        time_step=draw(some.floats(1e-9, 1.0)),
+        steps=draw(some.integers(0, 2**60)),
+        provenance={"version": "0.1.0", "parameters": {"points": 2, "restitution": None}, "share": draw(some.floats(0, 1))},
+        wall_time=draw(some.floats(0, 1e6)),
+    )  # fmt: skip
+
+
+@settings(max_examples=25, deadline=None)
+@given(response=responses())
+@pytest.mark.filterwarnings("ignore:invalid value encountered", "ignore:overflow encountered")
+def test_a_saved_response_is_loaded_without_loss(response, tmp_path_factory):
+    path = response.save(tmp_path_factory.getbasetemp() / "assembly.nc")
+    loaded = load_response(path)
+    assert isinstance(loaded, AssemblyResponse)
+    assert loaded.assembly == response.assembly
+    assert loaded.assembly.digest == response.assembly.digest
+    for field in dataclasses.fields(AssemblyResponse):
+        got, put = getattr(loaded, field.name), getattr(response, field.name)
+        if isinstance(put, np.ndarray):
+            np.testing.assert_array_equal(got, put, err_msg=field.name)
+        elif field.name == "energy":
+            assert set(got) == set(put)
+            for term in put:
+                np.testing.assert_array_equal(got[term], put[term], err_msg=term)
+        else:
+            same = got == put or (isinstance(put, float) and math.isnan(put) and math.isnan(got))
+            assert same, field.name
+            assert type(got) is type(put), field.name
+
+
+def test_a_run_is_read_back_and_tells_the_same(tmp_path):
+    square = st.Block(((0, 0), (1, 0), (1, 1), (0, 1)), 2000.0, "stone")
+    assembly = st.Assembly((square,), st.Joint(1e9, 5e8, friction_angle=30.0))
+    response = st.simulate_assembly(assembly, st.harmonic(2.0, 0.7 * st.g, 0.5), until_rest=True)
+    loaded = AssemblyResponse.load(response.save(tmp_path / "run.nc"))
+    assert loaded.provenance == response.provenance
+    assert loaded.summary() == response.summary()
+    assert loaded.describe() == response.describe()
+    np.testing.assert_array_equal(loaded.outline(-1, 1), response.outline(-1, 1))
+
+
+def test_four_hundred_blocks_fit_in_a_file(tmp_path):
+    corners = [(1.5 * i, 0.0) for i in range(400)]
+    blocks = tuple(
+        st.Block(((x, z), (x + 1, z), (x + 1, z + 1), (x, z + 1)), 2e3, f"b{i}") for i, (x, z) in enumerate(corners)
+    )
+    assembly = st.Assembly(blocks, st.Joint(1e9, 5e8))
+    n, one = len(assembly.bodies), np.zeros(1)
+    still = AssemblyResponse(assembly, one, *(np.zeros((1, n)) for _ in range(3)), {"input": one}, one, one, True,
+                             False, 0.0, 1e-3, 1, {})  # fmt: skip
+    assert AssemblyResponse.load(still.save(tmp_path / "many.nc")).assembly == assembly
+
+
+def test_the_other_kind_is_refused(tmp_path):
+    column = st.simulate(preset("paper-monolithic"), st.harmonic(1.0, 0.1 * st.g, 0.1), st.HousnerBlock())
+    path = column.save(tmp_path / "column.nc")
+    assert isinstance(load_response(path), Response)
+    with pytest.raises(st.InputError, match="has the format 'stylobate response 1', not 'stylobate assembly"):
+        AssemblyResponse.load(path)
+    with pytest.raises(st.InputError, match="there is no file"):
+        load_response(tmp_path / "none.nc")
