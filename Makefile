@@ -55,7 +55,10 @@ $(DOCS_STAMP): requirements/docs.lock $(STAMP)
 	@touch $@
 
 docs: $(DOCS_STAMP)
-	$(BIN)/python -m sphinx -W --keep-going -b html docs docs/_build/html
+	@echo "Running the examples and the validation cases, then writing the pages (two minutes)"
+	@$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
+	@echo "The documentation is in"
+	@echo "$(CURDIR)/docs/_build/html/index.html"
 
 # Keeps the pinned versions that still fit; `make lock UPGRADE=--upgrade` takes the newest.
 lock:
@@ -68,5 +71,5 @@ lock:
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock build dist gallery/*.png docs/_build .pytest_cache .hypothesis .ruff_cache .import_linter_cache
-	find src tests benchmarks gallery -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
+	rm -rf .venv .venv-lock build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	find src tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

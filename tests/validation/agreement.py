@@ -73,7 +73,7 @@ def until_the_first_impact():
 
 @case(
     "rigid-block",
-    "the same until the second impact, against distinct elements",
+    "rotation until the second impact, against distinct elements: largest difference over the peak",
     AtMost(0.25),
     source="the same drums, other joints",
     reason="the joints lose different amounts at the first impact",

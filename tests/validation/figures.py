@@ -162,7 +162,7 @@ def ledgers() -> Figure:
         axes.plot(conservation.FACTORS, medians, label=name, **line)
     axes.plot((0.1, 0.4), (1e-4, 16e-4), color=GREY, linewidth=0.8, label="second order")
     axes.set(xscale="log", yscale="log", xlabel="step over the largest stable one [-]")
-    axes.set(ylabel="energy missed over input work [-]", title="Energy ledger, median of 16 amplitudes")
+    axes.set(ylabel="energy missed over input work [-]", title="Energy ledger, median of 32 amplitudes")
     axes.set_xticks(conservation.FACTORS, [f"{s:g}" for s in conservation.FACTORS])
     axes.minorticks_off()
     axes.legend()

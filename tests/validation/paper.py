@@ -101,7 +101,7 @@ def beam_of_drums():
 
 @case(
     "dem2d",
-    "the same",
+    "cells in which the 12 drums collapse over those of the monolith",
     Between(0.0, 0.95),
     source="§3.2: a smaller unsafe region with the multi-drum column",
     reason="counts of 57 cells",

@@ -117,7 +117,7 @@ def nonlinear_quarter(share: float) -> float:
 
 @case(
     "housner",
-    "the same, nonlinear: largest relative error",
+    "quarter period, nonlinear: largest relative error",
     AtMost(1e-5),
     source="quadrature of the energy integral",
     reason="located on the recording's grid",
@@ -154,7 +154,7 @@ def release(column: Column, tilt: float, model: DistinctElement2D, duration: flo
 
 @case(
     "dem2d",
-    "the same (from 0.25) of a slender prism, α = 0.05, $k_n = 10^{11}$ N/m³",
+    "quarter period from $\\theta_0/\\alpha$ = 0.25, 0.5, 0.75, 0.9 of a slender prism, α = 0.05, $k_n = 10^{11}$ N/m³",
     Near(QUARTERS[1:], rel=5e-4),
     source=HOUSNER,
     reason="the joint's own tilt, and α²/6 of the linearisation",

@@ -55,7 +55,7 @@ def peaks():
 
 @case(
     "pushover",
-    "rotation at which the path comes down to zero, over α, the same columns",
+    "rotation at which the path comes down to zero, over α, these five columns",
     Near((1.0,) * 5, rel=2e-4),
     source="the centroid stands above the corner",
     reason="the elastic joints above turn as well",
@@ -83,7 +83,7 @@ def softening():
 
 @case(
     "limit",
-    "lower and upper bound, the same columns: largest relative difference to $d / 2 z_C$",
+    "lower and upper bound, these five columns: largest relative difference to $d / 2 z_C$",
     AtMost(1e-9),
     source="statics",
     reason="tolerance of the linear programme",
