@@ -188,7 +188,7 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
         width = f"{s['band_width_median_g']:.3g} g (median), up to {s['band_width_largest_g']:.3g} g"
         facts["uncertain band"] = width
     if s["band_open_frequencies"]:
-        facts["band open at the top"] = f"at {s['band_open_frequencies']} of {len(result.frequencies)} frequencies"
+        facts["top of the band not seen"] = f"at {s['band_open_frequencies']} of {len(result.frequencies)} frequencies"
     console.say(sentence, facts, files)
 
 

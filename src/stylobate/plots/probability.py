@@ -75,7 +75,7 @@ def message(result: CollapseProbability) -> str:
     if width is None:
         return f"{share};\nthe band reaches beyond the largest amplitude at every frequency that collapses"
     beyond = facts["band_open_frequencies"]
-    more = f", and open at the top at {beyond} of {len(result.frequencies)} frequencies" if beyond else ""
+    more = f"; its top is not seen at {beyond} of {len(result.frequencies)} frequencies" if beyond else ""
     return f"{share};\nthe uncertain band is {width:.2g} g wide (median; up to {facts['band_width_largest_g']:.2g} g){more}"
 
 
