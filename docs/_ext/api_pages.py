@@ -3,22 +3,17 @@
 import importlib
 import inspect
 import pkgutil
+import re
 
 import stylobate
 
-#: Rooms in the order of the data's way.
+#: Rooms that a reader of the reference enters; kernels and commands have pages of their own.
 ROOMS = (
-    "column",
-    "motion",
-    "models",
-    "simulate",
-    "response",
-    "campaign",
-    "analysis",
-    "plots",
-    "report",
-    "bibliography",
-)
+    "column motion models simulate response campaign analysis plots report bibliography outcome errors constants"
+).split()
+
+#: A cross-reference in a docstring.
+ROLE = re.compile(r":\w+:(`[^`]+`)")
 
 
 def texts(out):
@@ -29,12 +24,12 @@ def texts(out):
 def page(room):
     """All modules of a room, each with its public members."""
     package = importlib.import_module(f"stylobate.{room}")
-    package = inspect.getmodule(package) if inspect.ismodule(package) else importlib.sys.modules[f"stylobate.{room}"]
     names = [package.__name__]
     if hasattr(package, "__path__"):
         names = [one.name for one in pkgutil.walk_packages(package.__path__, f"{package.__name__}.") if not one.ispkg]
-    title = package.__doc__.split("\n")[0].rstrip(".")
-    parts = [f"# `stylobate.{room}`\n\n{title}.\n"]
+    parts = [f"# `stylobate.{room}`\n"]
+    if len(names) > 1:
+        parts.append(f"{first_line(package)}\n")
     for name in names:
         body = f"```{{eval-rst}}\n.. automodule:: {name}\n   :members:\n   :ignore-module-all:\n```\n"
         parts.append(f"## `{name.removeprefix('stylobate.')}`\n\n{body}" if len(names) > 1 else body)
@@ -47,9 +42,14 @@ def public():
     for name in stylobate.__all__:
         value = getattr(stylobate, name)
         if inspect.isclass(value) or inspect.isfunction(value):
-            home, first = f"{value.__module__}.{value.__qualname__}", inspect.getdoc(value).split("\n")[0]
             kind = "class" if inspect.isclass(value) else "func"
-            rows.append(f"| {{py:{kind}}}`stylobate.{name} <{home}>` | {first} |\n")
+            home = f"{value.__module__}.{value.__qualname__}"
+            rows.append(f"| {{py:{kind}}}`st.{name} <{home}>` | {first_line(value)} |\n")
         else:
-            rows.append(f"| `stylobate.{name}` | {value} |\n")
+            rows.append(f"| `st.{name}` | {value} |\n")
     return f"| name | |\n| --- | --- |\n{''.join(rows)}"
+
+
+def first_line(thing):
+    """First line of a docstring, without the marks of cross-references."""
+    return ROLE.sub(r"\1", inspect.getdoc(thing).split("\n")[0])

@@ -1,9 +1,13 @@
 """Docstrings read as the prose that they are: |x| is an absolute value there, and a colon is a colon."""
 
-import inspect
 import re
 
 LITERAL = re.compile(r"(``.*?``)")
+
+#: What napoleon reads as "type: description" where it says "Words: more words".
+PROSE = ("property", "attribute", "data")
+
+_kept: dict[str, list[str]] = {}
 
 
 def escape(app, what, name, thing, options, lines):
@@ -12,13 +16,14 @@ def escape(app, what, name, thing, options, lines):
         "".join(part if part.startswith("``") else part.replace("|", "\\|") for part in LITERAL.split(line))
         for line in lines
     ]
+    if what in PROSE:
+        _kept[name] = list(lines)
 
 
 def restore(app, what, name, thing, options, lines):
-    """Take back what napoleon makes of "Words: more words" in a property, which it reads as type and description."""
-    if what == "property":
-        lines[:] = [*inspect.getdoc(thing).split("\n"), ""]
-        escape(app, what, name, thing, options, lines)
+    """Give prose back as it was before napoleon."""
+    if what in PROSE:
+        lines[:] = _kept.pop(name)
 
 
 def setup(app):

@@ -155,5 +155,5 @@ def test_every_public_name_is_in_the_python_reference():
     import stylobate
 
     found = {path.name: text for path, text in extension("api_pages").texts(Path())}
-    assert all(f"stylobate.{name}" in found["public.txt"] for name in stylobate.__all__)
+    assert all(f"st.{name}" in found["public.txt"] for name in stylobate.__all__)
     assert "automodule:: stylobate.motion.readers.peer" in found["motion.md"]
