@@ -213,5 +213,6 @@ def assembly_facts(response: AssemblyResponse) -> tuple[str, dict[str, str], dic
         "residual joint slip": console.length(found["residual_joint_slip_m"]),
         "energy imbalance": f"{response.energy_imbalance:.1e} of the largest of input work, released and elastic energy",
     }
-    what = f"{assembly.name}, {len(assembly.blocks)} blocks{supports}, {len(assembly.joints)} joints"
+    joints = f"{len(assembly.joints)} {'joint' if len(assembly.joints) == 1 else 'joints'}"
+    what = f"{assembly.name}, {len(assembly.blocks)} blocks{supports}, {joints}"
     return sentence, {"assembly": what}, facts

@@ -130,7 +130,8 @@ class AssemblyResponse:
         """The outcome in one or two sentences."""
         bodies, fell = self.assembly.bodies, self.fell_at
         moving = [i for i, block in enumerate(bodies) if not block.fixed]
-        in_place = f"All {len(moving)} blocks are in place" if len(moving) > 1 else "The block is in place"
+        all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")
+        in_place = f"{all_of_them} in place"
         if self.outcome is Outcome.FAILED:
             return "The computation could not be completed; this is no verdict on the assembly."
         if self.outcome is Outcome.COLLAPSED:

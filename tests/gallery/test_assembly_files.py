@@ -1,0 +1,99 @@
+"""Every assembly file of the gallery runs on the command line, and does what its first lines say."""
+
+import json
+import re
+import runpy
+from pathlib import Path
+
+import pytest
+
+from stylobate.cli.main import call
+from stylobate.column.assembly import read_assembly
+
+FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"
+
+
+@pytest.fixture
+def run(capsys):
+    """JSON object of a run of a file, and what is said on standard error."""
+
+    def command(name, *options):
+        arguments = ["run", str(FOLDER / f"{name}.toml"), "--model", "dem2d", *options, "--until-rest", "--json"]
+        assert call(arguments) == 0
+        out, err = capsys.readouterr()
+        return json.loads(out), err
+
+    return command
+
+
+def test_every_file_says_how_it_is_run():
+    names = sorted(path.stem for path in FOLDER.glob("*.toml"))
+    assert names == ["arch", "dominoes", "leaning_drum", "portal"]
+    for name in names:
+        said = re.search(
+            r"stylobate run gallery/assemblies/(\w+)\.toml --model dem2d", (FOLDER / f"{name}.toml").read_text()
+        )
+        assert said[1] == name
+
+
+def test_portal(run):
+    laws = {j.law.friction_angle for j in read_assembly(FOLDER / "portal.toml").joints}
+    assert laws == {35.0, 25.0}
+    # below the uplift of its columns, about g tan α with α of their width over height, 0.78/4.0 at the narrow end
+    calm, said = run("portal", "--harmonic", "2Hz,0.1g,1s")
+    assert said == ""
+    assert calm["peak_displacement_m"] < 1e-3
+    fallen, _ = run("portal", "--harmonic", "0.7Hz,0.4g,6s")
+    assert "architrave" in fallen["fallen"]
+    assert fallen["at_rest"]
+
+
+def test_leaning_drum(run):
+    """Smooth above, it would press there with 0.29 of its weight, and need a coefficient of 0.28 at its foot."""
+    leaning = read_assembly(FOLDER / "leaning_drum.toml")
+    assert [leaning.bodies[j.upper].name for j in leaning.joints] == ["standing drum"]
+    holds, said = run("leaning_drum", "--pulse", "sine,2Hz,0.3g")
+    assert said == ""
+    assert holds["in_equilibrium_as_drawn"]
+    assert not holds["fallen"]
+
+
+def test_a_leaning_drum_slides_where_friction_is_too_small(run, tmp_path, capsys):
+    slippery = (
+        (FOLDER / "leaning_drum.toml").read_text().replace("friction_coefficient = 0.7", "friction_coefficient = 0.15")
+    )
+    (tmp_path / "slippery.toml").write_text(slippery)
+    arguments = ["run", str(tmp_path / "slippery.toml"), "--model", "dem2d", "--harmonic", "1Hz,0g,1s", "--until-rest"]
+    assert call([*arguments, "--json"]) == 0
+    out, err = capsys.readouterr()
+    assert "is not in equilibrium as drawn" in err
+    assert json.loads(out)["fallen"] == ["leaning drum"]
+
+
+def test_dominoes(run):
+    fallen, said = run("dominoes", "--harmonic", "1Hz,0g,3s")
+    assert "'dominoes' is not in equilibrium as drawn; it moves from the start." in said
+    assert len(fallen["fallen"]) == 6
+    assert fallen["at_rest"]
+
+
+def test_arch(run):
+    module = runpy.run_path(str(FOLDER / "write_arch.py"))
+    assert module["arch"]() == (FOLDER / "arch.toml").read_text(encoding="utf-8")
+    calm, said = run("arch", "--harmonic", "2Hz,0.05g,2s")
+    assert said == ""
+    assert calm["fallen"] == []
+    fallen, _ = run("arch", "--harmonic", "2Hz,0.5g,4s")
+    assert {"stone 10", "stone 11", "stone 12"} <= set(fallen["fallen"])  # the crown
+    assert fallen["at_rest"]
+    assert fallen["energy_imbalance"] < 0.01
+
+
+def test_a_thinner_arch_falls_of_itself(tmp_path, capsys):
+    module = runpy.run_path(str(FOLDER / "write_arch.py"))
+    module["arch"].__globals__["THICKNESS"] = 0.10 * module["RADIUS"]
+    (tmp_path / "thin.toml").write_text(module["arch"]())
+    assert call(["run", str(tmp_path / "thin.toml"), "--model", "dem2d", "--harmonic", "1Hz,0g,3s", "--json"]) == 0
+    out, err = capsys.readouterr()
+    assert "is not in equilibrium as drawn" in err
+    assert "stone 11" in json.loads(out)["fallen"]
