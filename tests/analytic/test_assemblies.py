@@ -11,6 +11,7 @@ from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
 from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.motion import Motion, harmonic
+from stylobate.response.mechanism import Mechanism
 from stylobate.simulate import simulate, simulate_assembly
 
 JOINT = Joint(1e9, 5e8, friction_coefficient=0.7)
@@ -212,3 +213,29 @@ def test_standing_after_a_collapse_that_never_was():
     assert not found["fallen"]
     assert found["standing"] == tuple(range(1, 13))
     assert found["sentence"].startswith("All 12 drums stand")
+
+
+@pytest.mark.parametrize(
+    ("fallen", "standing", "says"),
+    [
+        ((1,), (), "The column overturned as one body about joint 1. It fell to the left at 1.00 s."),
+        ((2,), (1,), "1 of 2 drums fell (1 to the left), at 1.00 s. 1 stands, offset by up to 3 mm."),
+        ((2, 3), (1,), "2 of 3 drums fell (2 to the left), the first at 1.00 s, the last at 1.00 s. 1 stands,"),
+        ((), (1,), "The column stands; the largest residual offset is 3 mm."),
+        ((), (1, 2), "All 2 drums stand; the largest residual offset is 3 mm."),
+    ],
+)
+def test_a_mechanism_in_words(fallen, standing, says):
+    joint = 1 if fallen == (1,) else 2 if fallen else 0
+    n = len(standing)
+    found = Mechanism(
+        fallen, (1.0,) * len(fallen), ("left",) * len(fallen), joint, False, True, standing, (0.003,) * n, (0.0,) * n
+    )
+    assert says in found.describe()
+
+
+def test_offsets_of_metres_are_given_in_metres():
+    assert (
+        "1 stands, offset by up to 8.76 m."
+        in Mechanism((2,), (1.0,), ("left",), 2, False, True, (1,), (8.76,), (0.0,)).describe()
+    )

@@ -79,6 +79,17 @@ def test_a_picture_holds_what_moves_and_its_ground(knocked):
     assert len(drawn.patches) == 3
 
 
+def test_a_narrow_column_does_not_fill_the_picture():
+    joint = Joint(1e8, 5e7, friction_coefficient=0.7)
+    column = Column.tapered(height=6.0, bottom_width=0.6, top_width=0.5, drums=3, density=2000.0, joint=joint)
+    response = simulate(column, harmonic(2.0, 0.01 * g, 0.5), DistinctElement2D())
+    left, right, bottom, top = scene_of(response).view(np.array([0]), 1.6)
+    assert right - left == pytest.approx(1.6 * (top - bottom))
+    assert left == pytest.approx(-right)
+    low, high, _, _ = scene_of(response).view(np.array([0]))
+    assert high - low < 1.5
+
+
 @pytest.mark.parametrize(("width", "length"), [(4.9, 0.5), (5.1, 1.0), (26.0, 5.0), (0.3, 0.05)])
 def test_the_scale_is_a_round_length(width, length):
     assert scale_bar(width) == pytest.approx(length)

@@ -18,6 +18,9 @@ from .style import BLACK, GREY, RED, styled
 #: Size [inch] and resolution of a frame.
 SIZE, DOTS_PER_INCH = (6.4, 4.8), 100
 
+#: Width over height of what a film shows of the bodies, at least.
+SHAPE = 1.6
+
 #: A film of more frames than this is refused.
 MOST_FRAMES = 5000
 
@@ -57,7 +60,7 @@ def draw_frame(scene: Scene, index: int, limits: tuple[float, float, float, floa
     limits : tuple, optional
         Left, right, lower and upper end of the picture [m]; by default those that hold this state.
     """
-    low, high, bottom, top = scene.view(np.array([index])) if limits is None else limits
+    low, high, bottom, top = scene.view(np.array([index]), SHAPE) if limits is None else limits
     figure = Figure(figsize=SIZE)
     above, below = figure.subplots(2, 1, height_ratios=(4.0, 1.0))
     draw_bodies(above, scene, scene.outlines(index), 0.8)
@@ -80,7 +83,7 @@ def _images(scene: Scene, indices: np.ndarray) -> Iterator[np.ndarray]:
     """Frames as arrays of colour, shape (height, width, 3)."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-    figure = draw_frame(scene, int(indices[0]), scene.view(indices))
+    figure = draw_frame(scene, int(indices[0]), scene.view(indices, SHAPE))
     figure.set_dpi(DOTS_PER_INCH)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..atomic import replacing
 from ..response import AnyResponse
-from .animation import frame_indices
+from .animation import SHAPE, frame_indices
 from .scene import scale_bar, scene_of
 
 
@@ -31,7 +31,7 @@ def write_player(
     """
     scene = scene_of(response)
     indices = np.unique(frame_indices(scene.time, frames_per_second, speed))
-    view = scene.view(indices)
+    view = scene.view(indices, SHAPE)
     poses = scene.moves[indices] + np.concatenate((scene.start, np.zeros((len(scene.start), 1))), axis=1)
     data = {
         "time": scene.time[indices].round(4).tolist(),

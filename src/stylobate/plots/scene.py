@@ -71,8 +71,15 @@ class Scene:
         """Larger side of the box around everything that can move, as it stood [m]."""
         return float(np.ptp(np.concatenate(self._moving(0)), axis=0).max())
 
-    def view(self, indices: np.ndarray) -> tuple[float, float, float, float]:
-        """Left, right, lower and upper end of a picture that holds all these states [m]."""
+    def view(self, indices: np.ndarray, least: float = 0.0) -> tuple[float, float, float, float]:
+        """Left, right, lower and upper end of a picture that holds all these states [m].
+
+        Parameters
+        ----------
+        indices : array of int
+        least : float
+            Least width over height [-]; a picture that is narrower is made wider.
+        """
         stood = np.concatenate(self._moving(0))
         low, high = stood.min(axis=0) - self.size * np.array([ASIDE, DOWN]), stood.max(axis=0) + ASIDE * self.size
         corners = np.concatenate([np.concatenate(self._moving(int(i))) for i in (0, *indices)])
@@ -86,7 +93,9 @@ class Scene:
         if self.level is not None:
             low[1] = min(low[1], max(self.level, low[1] - near))
         margin = 0.05 * max(self.size, (high - low).max())
-        return low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin
+        low, high = low - margin, high + margin
+        aside = max(0.0, 0.5 * (least * (high[1] - low[1]) - (high[0] - low[0])))
+        return low[0] - aside, high[0] + aside, low[1], high[1]
 
     def _moving(self, index: int) -> list[np.ndarray]:
         return [shape for shape, fixed in zip(self.outlines(index), self.fixed, strict=True) if not fixed]

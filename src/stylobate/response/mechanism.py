@@ -65,7 +65,8 @@ class Mechanism:
         n = len(self.fallen) + len(self.standing)
         if not self.fallen and not self.joint:
             largest = max((abs(offset) for offset in self.offsets), default=0.0)
-            return f"All {n} drums stand; the largest residual offset is {1000.0 * largest:.3g} mm."
+            what = f"All {n} drums stand" if n > 1 else "The column stands"
+            return f"{what}; the largest residual offset is {_length(largest)}."
         words = []
         if self.joint:
             what = "The column" if self.joint == 1 else f"The part above joint {self.joint}"
@@ -75,17 +76,19 @@ class Mechanism:
                 if self.slid_off
                 else f"{what} overturned {how} about joint {self.joint}."
             )
-        if self.fallen:
+        if self.fallen and n == 1:
+            words.append(f"It fell to the {self.fell_to[0]} at {self.fell_at[0]:.2f} s.")
+        elif self.fallen:
             sides = ", ".join(
                 f"{self.fell_to.count(side)} to the {side}" for side in ("left", "right") if side in self.fell_to
             )
-            words.append(
-                f"{len(self.fallen)} of {n} drums fell ({sides}), the first at {min(self.fell_at):.2f} s, "
-                f"the last at {max(self.fell_at):.2f} s."
-            )
+            first, last = f"{min(self.fell_at):.2f} s", f"{max(self.fell_at):.2f} s"
+            when = f"at {first}" if len(self.fallen) == 1 else f"the first at {first}, the last at {last}"
+            words.append(f"{len(self.fallen)} of {n} drums fell ({sides}), {when}.")
         if self.standing:
             largest = max(abs(offset) for offset in self.offsets)
-            words.append(f"{len(self.standing)} stand, offset by up to {1000.0 * largest:.3g} mm.")
+            verb = "stands" if len(self.standing) == 1 else "stand"
+            words.append(f"{len(self.standing)} {verb}, offset by up to {_length(largest)}.")
         if self.at_rest is False:
             words.append("Not all lies still yet.")
         return " ".join(words)
@@ -138,3 +141,7 @@ def find_mechanism(
         rotations=tuple(float(h.drum_rotation[-1, i]) for i in standing),
         at_rest=at_rest,
     )
+
+
+def _length(value: float) -> str:
+    return f"{value:.2f} m" if value >= 1.0 else f"{1000.0 * value:.3g} mm"
