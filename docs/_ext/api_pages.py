@@ -8,9 +8,11 @@ import re
 import stylobate
 
 #: Rooms that a reader of the reference enters; kernels and commands have pages of their own.
-ROOMS = (
-    "column motion models simulate response campaign analysis plots report bibliography outcome errors constants"
-).split()
+ROOMS = [
+    *("column", "motion", "models", "simulate", "response"),
+    *("campaign", "analysis", "plots", "report", "bibliography"),
+    *("outcome", "errors", "constants"),
+]
 
 #: A cross-reference in a docstring.
 ROLE = re.compile(r":\w+:(`[^`]+`)")

@@ -14,6 +14,8 @@ from sphinx.transforms import SphinxTransform
 
 TAG = re.compile(r"\\tag\{([^}]*)\}")
 
+PUNCTUATION = re.compile(r"[,.;:)]+")
+
 #: Units of the drawing per em: the formula scales with the text around it.
 EM = 16.0
 
@@ -21,7 +23,7 @@ ziamath.config.svg2 = False  # outlines in place: no ids that two formulas of on
 
 
 class Numbered(SphinxTransform):
-    """Make the tag of every displayed formula its label and number."""
+    """Make the tag of every displayed formula its label and number, and tie punctuation to formulas in the text."""
 
     default_priority = 500
 
@@ -37,6 +39,12 @@ class Numbered(SphinxTransform):
             domain.equations[label] = (self.env.docname, label)
             node["tagged"] = label
             node["ids"].append(nodes.make_id(f"equation-{label}"))
+        for node in list(self.document.findall(nodes.math)):
+            text = node.next_node(siblings=True)
+            mark = PUNCTUATION.match(text) if isinstance(text, nodes.Text) else None
+            if mark:  # no line ends between a formula and the comma behind it
+                node["behind"] = mark[0]
+                node.parent.replace(text, nodes.Text(text[mark.end() :]))
 
 
 @cache
@@ -51,7 +59,7 @@ def drawn(tex: str, inline: bool) -> str:
 
 def visit_inline(self, node: nodes.math) -> None:
     """Write a formula in a line of text."""
-    self.body.append(f'<span class="math">{drawn(node.astext(), True)}</span>')
+    self.body.append(f'<span class="math">{drawn(node.astext(), True)}{node.get("behind", "")}</span>')
     raise nodes.SkipNode
 
 
