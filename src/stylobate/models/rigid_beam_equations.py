@@ -41,7 +41,7 @@ class BeamMatrices:
 
     @cached_property
     def load(self) -> np.ndarray:
-        """S_i = Σ_j m_j c_ji [kg m], shape (n,).  # Eq. (F3)"""
+        """S_i = Σ_j m_j c_ji [kg m], shape (n,).  # Eq. (F2)"""
         return self.lever.T @ self.column.masses
 
     @cached_property
