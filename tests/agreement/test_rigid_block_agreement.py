@@ -1,6 +1,5 @@
 """Rigid blocks: the acceleration that opens them, and verdicts against the distinct elements."""
 
-
 import numpy as np
 import pytest
 

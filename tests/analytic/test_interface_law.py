@@ -5,10 +5,14 @@ import math
 import numpy as np
 import pytest
 
-from stylobate.kernels.interface_law import compression, crushed, shear
+from stylobate.kernels import interface_law
+from stylobate.kernels.interface_law import compression, compression_with_strength, shear
 
-LAW, CRUSHED, SHEAR = compression.py_func, crushed.py_func, shear.py_func
+LAW, STRENGTH, SHEAR = compression.py_func, compression_with_strength.py_func, shear.py_func
 KN, KM, HALF = 4.0e9, 3.0e8, 0.45
+
+#: f_c A [N]: the states below press with up to ten times as much.
+CRUSHES = 2.0e4
 
 
 def states(count: int, seed: int = 0) -> np.ndarray:
@@ -79,20 +83,74 @@ def test_rocking_there_and_back_costs_nothing():
     assert abs(work) < 1e-7 * scale
 
 
-def test_crushing_keeps_to_the_domain_and_only_grows():
-    crushing = 1.0 / 3.0e5
-    for delta, psi in states(200, 3):
+@pytest.fixture
+def strength(monkeypatch):
+    """The law with f_c A, left to the interpreter: n and e from closure, rotation and the ends of the overlap."""
+    monkeypatch.setattr(interface_law, "compression", LAW)
+    return lambda delta, psi, left=-HALF, right=HALF: STRENGTH(delta, psi, left, right, KN, KM, 1.0 / CRUSHES)
+
+
+OVERLAPS = [(-HALF, HALF), (-HALF, 0.3), (0.1, HALF)]
+
+
+@pytest.mark.parametrize(("left", "right"), OVERLAPS)
+def test_with_a_strength_it_is_the_projection_onto_the_curved_domain(strength, left, right):
+    # r_left n + w n² ≤ m ≤ r_right n − w n², w = (r_right − r_left)/(2 f_c A), 0 ≤ n ≤ f_c A: theory/rigid_block, Eq. (B6).
+    n_all = np.linspace(0.0, CRUSHES, 2001)[:, None]
+    narrowing = 0.5 * (right - left) / CRUSHES
+    low, high = left * n_all + narrowing * n_all**2, right * n_all - narrowing * n_all**2
+    m_all = low + np.linspace(0.0, 1.0, 401) * (high - low)
+    modes = set()
+    for delta, psi in states(60, 3):
+        n, e = strength(delta, psi, left, right)
+        assert 0.0 <= n <= CRUSHES
+        assert left + narrowing * n <= e <= right - narrowing * n
+        others = 0.5 * (n_all - KN * delta) ** 2 / KN + 0.5 * (m_all + KM * psi) ** 2 / KM
+        own = 0.5 * (n - KN * delta) ** 2 / KN + 0.5 * (n * e + KM * psi) ** 2 / KM
+        assert own <= others.min() * (1.0 + 1e-9)
+        modes.add("open" if n == 0.0 else "tip" if n == CRUSHES else "limit" if own > 1e-12 else "elastic")
+    assert modes >= {"open", "tip", "limit"}
+
+
+@pytest.mark.parametrize(("left", "right"), OVERLAPS)
+def test_with_a_strength_forces_derive_from_a_potential(strength, left, right):
+    def stored(delta, psi):
+        n, e = strength(delta, psi, left, right)
+        return n * (delta - e * psi) - 0.5 * n * n * (1.0 / KN + e * e / KM)
+
+    step = 1e-10
+    for delta, psi in states(200, 4):
+        n, e = strength(delta, psi, left, right)
+        by_delta = (stored(delta + step, psi) - stored(delta - step, psi)) / (2 * step)
+        by_psi = (stored(delta, psi + step) - stored(delta, psi - step)) / (2 * step)
+        assert n == pytest.approx(by_delta, abs=1.0)
+        assert -n * e == pytest.approx(by_psi, abs=1.0)
+
+
+def test_on_the_limit_the_force_stands_in_the_middle_of_the_crushed_toe_and_the_drum_turns_about_its_end(strength):
+    # A block of stress f_c, as wide as d N/(f_c A), at the edge: at constant n a rotation lifts the joint's middle by the
+    # distance from there to the inner end of the block.
+    n, psi = 0.3 * CRUSHES, -2e-4
+    delta, before, step = 0.0, 0.0, 1e-8
+
+    def closed(psi, n):
+        low, high = -1e-3, 1e-3
+        for _ in range(80):
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if strength(middle, psi)[0] < n else (low, middle)
+        return low
+
+    delta, before = closed(psi, n), closed(psi - step, n)
+    assert strength(delta, psi)[1] == pytest.approx(HALF * (1.0 - 0.3), rel=1e-6)
+    assert (before - delta) / -step == pytest.approx(HALF * (1.0 - 0.6), rel=1e-4)
+
+
+def test_a_strength_far_above_the_pressure_changes_nothing(monkeypatch):
+    monkeypatch.setattr(interface_law, "compression", LAW)
+    for delta, psi in states(200, 5):
         n, e = LAW(delta, psi, -HALF, HALF, KN, KM)
-        if n == 0.0 or n * crushing > 0.9 or psi == 0.0:
-            continue
-        side = math.copysign(1.0, e)
-        if abs(e) <= HALF * (1.0 - n * crushing):
-            continue
-        limit = CRUSHED(delta, side * psi, HALF, abs(e), KN, KM, crushing)
-        assert limit <= abs(e)
-        n, e = LAW(delta, psi, -limit if side < 0 else -HALF, limit if side > 0 else HALF, KN, KM)
-        # |M| = |N| d/2 (1 − |N|/(f_c A)), theory/rigid_block, Eq. (B6)
-        assert abs(n * e) == pytest.approx(n * HALF * (1.0 - n * crushing), rel=1e-6)
+        found = STRENGTH(delta, psi, -HALF, HALF, KN, KM, 1e-14)
+        assert found == pytest.approx((n, e), rel=1e-7, abs=1e-9)
 
 
 def test_shear_is_clipped_to_mohr_coulomb():

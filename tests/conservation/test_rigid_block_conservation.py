@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from stylobate.column import Column, Joint, preset
+from stylobate.column import preset
 from stylobate.models.base import RunOptions
 from stylobate.models.rigid_block import RigidBlock, stable_step
 from stylobate.motion import Motion, harmonic
@@ -86,9 +86,11 @@ def test_an_unstable_step_is_refused_and_a_stable_one_is_stable():
     assert RunOptions().tail == 0.0
 
 
-def test_crushing_only_lowers_what_the_column_bears():
-    joint = Joint(5e10, 2.5e10, friction_angle=35.0)
-    column = Column.tapered(height=5.0, bottom_width=0.96, top_width=0.66, drums=3, density=1600.0, joint=joint)
-    response = simulate(column, harmonic(1.0, 0.3 * G, 2.0), RigidBlock(compressive_strength=5e5))
-    assert response.outcome.label != "failed"
-    assert response.energy_imbalance < 1e-2
+@pytest.mark.parametrize("strength", [2e6, 2e5])
+def test_the_ledger_closes_with_a_strength_as_well(strength):
+    # 2 MPa is reached in impacts only, 0.2 MPa is three times the stress under the weight.
+    motions = [harmonic(0.5, a * G, 4.0) for a in np.linspace(0.12, 0.45, 16)]
+    table = simulate_many(preset("paper-12-drums"), motions, RigidBlock(compressive_strength=strength))
+    assert (table.outcome != "failed").all()
+    assert table.energy_imbalance.max() < 5e-3
+    assert 0 < table.collapsed.sum() < 16

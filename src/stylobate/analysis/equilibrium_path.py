@@ -42,13 +42,11 @@ class EquilibriumPath:
         self.stack, self.dead, self.live, self.geometric = stack, dead, live, geometric
         self.geometry = joint_geometry(stack, strength)
         n = stack.n
-        self.memory = np.zeros((n, 6))
+        self.memory = np.zeros((n, 4))
         self.memory[:, 2] = 1.0
-        self.memory[:, 4] = stack.upper_reach[:, 1]
-        self.memory[:, 5] = -stack.upper_reach[:, 0]
         self.position, self.multiplier = np.zeros((n, 3)), 0.0
         self.force, self.stiffness = np.empty((n, 3)), np.empty((3 * n, 3 * n))
-        self.after, self.report = np.empty((n, 6)), np.empty((n, 6))
+        self.after, self.report = np.empty((n, 4)), np.empty((n, 6))
         self.arm = stack.top - stack.centroid[-1]
         self.height = float(stack.top[1])
         self.rise = 0.0

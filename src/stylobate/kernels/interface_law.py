@@ -30,18 +30,35 @@ def compression(delta, psi, r_left, r_right, kn, km):
 
 
 @law
-def crushed(delta, psi, reach, e, kn, km, crushing):
-    """Limit of eccentricity that the crushing toe keeps: e where the strength allows it, else less.
+def compression_with_strength(delta, psi, r_left, r_right, kn, km, crushing):
+    """Compression n and eccentricity e with a strength f_c: the elastic trial, projected onto the curved domain.
 
-    ``reach`` is the half width on the pressed side, e > 0 and ψ < 0 there (mirror the other side), ``crushing`` is
-    1/(f_c A). Solves e = reach (1 − n/(f_c A)) with n = k (δ − e ψ), k the stiffness at the toe.  # Eq. (B6)
+    The domain is r_left n + w n² ≤ m ≤ r_right n − w n², w = (r_right − r_left)/(2 f_c A); it ends at n = f_c A. Reversible,
+    as without strength. ``crushing`` is 1/(f_c A). For a given n the nearest m is the trial's, clipped; n is where the
+    potential's derivative by n, which falls all the way, is zero: Newton's method in a bracket.  # Eq. (B6)
     """
-    allowed = e
-    for _ in range(24):
-        k = 1.0 / (1.0 / kn + allowed * allowed / km)
-        limit = reach * (1.0 - crushing * k * delta) / (1.0 - reach * crushing * k * psi)
-        allowed = max(min(limit, e), 0.0)
-    return allowed
+    m_trial = -km * psi
+    narrowing = 0.5 * (r_right - r_left) * crushing
+    low, high = 0.0, 1.0 / crushing
+    weak, _ = compression(delta, psi, r_left, r_right, kn, km)
+    n = min(weak, high)
+    for _ in range(6):
+        left, right = r_left + narrowing * n, r_right - narrowing * n
+        beyond = (m_trial - min(max(m_trial, left * n), right * n)) / km
+        arm = right - narrowing * n if beyond > 0.0 else left + narrowing * n
+        slope = delta - n / kn + arm * beyond
+        low, high = (n, high) if slope > 0.0 else (low, n)
+        curve = 1.0 / kn + 2.0 * narrowing * abs(beyond) + (arm * arm / km if beyond != 0.0 else 0.0)
+        newton = n + slope / curve
+        n = newton if low <= newton <= high else 0.5 * (low + high)
+    # At both ends of the domain there is nothing to look for.
+    beyond = (m_trial - 0.5 * (r_left + r_right) / crushing) / km
+    if delta - 1.0 / (crushing * kn) + (r_left if beyond > 0.0 else r_right) * beyond >= 0.0:
+        n = 1.0 / crushing
+    if weak <= 0.0:
+        n = 0.0
+    e = min(max(m_trial / max(n, 1.0e-30), r_left + narrowing * n), r_right - narrowing * n)
+    return n, e
 
 
 @law

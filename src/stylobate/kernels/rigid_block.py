@@ -5,13 +5,12 @@ there for the records ``drum``, ``lane``, ``ground``, ``feed`` and ``watch``; he
 
     joint[j]   kn km ks       k_n A [N/m], k_n J [N m], k_s A [N/m]
                co mu          cohesion × area [N], tan φ
-               crush          1/(f_c A) [1/N], 0 without limit
+               crush[0]       1/(f_c A) [1/N]; that there is a second row tells the compiler that there is a strength
                tau chi        place of the upper face's middle along the face below [m] and cosine of the relative
                               rotation at the last step
                sp             plastic slip of the part above [m]
                fs fn el       shear on the part below, compression [N], energy stored by compression and bending [J]
                gap            largest opening so far, without what is elastic [m]
-               lim[0, 1]      limits of eccentricity left by crushing, right and left as distances [m]
                dn ds          dashpot force [N]
                fx fz mu_ ml   force on the drum above, moments on the drums above and below about their centroids
 """
@@ -21,7 +20,7 @@ import numpy as np
 from . import contact as ct
 from . import distinct_element_2d as plane
 from .distinct_element_2d import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING, joint_state
-from .interface_law import compression, crushed, shear
+from .interface_law import compression, compression_with_strength, shear
 from .jit import apart, kernel, strict
 
 __all__ = ["CHUNK", "COLLAPSED", "FAILED", "FREE", "LANES", "RUNNING"]
@@ -35,8 +34,8 @@ def block_types(crushing, damped):
     def fields(names, *shape):
         return [(name, np.float64, (*shape, LANES)) for name in names.split()]
 
-    joint = fields("kn km ks co mu crush tau chi sp fs fn el gap fx fz mu_ ml")
-    joint += fields("lim", 2 if crushing else 1) + fields("dn ds", 2 if damped else 1)
+    joint = fields("kn km ks co mu tau chi sp fs fn el gap fx fz mu_ ml")
+    joint += fields("crush", 2 if crushing else 1) + fields("dn ds", 2 if damped else 1)
     return (
         drum,
         np.dtype(joint),
@@ -55,7 +54,7 @@ def forces(drum, joint, lane):
         u = drum[j + 1]
         v = drum[j]
         e = joint[j]
-        crushing = e.lim.shape[0] > 1
+        crushing = e.crush.shape[0] > 1
         damped = e.dn.shape[0] > 1
         for l in range(LANES):
             cl = v.c[l]
@@ -74,21 +73,12 @@ def forces(drum, joint, lane):
             slip = e.sp[l]
             right = min(b, w - slip)
             left = max(-b, -w - slip)
+            narrowing = 0.0
             if crushing:
-                right = min(right, e.lim[0, l])
-                left = max(left, -e.lim[1, l])
-            n, at = compression(closure, s, left, right, kn, km)
-            if crushing:
-                allowed = min(b, w) * (1.0 - n * e.crush[l])
-                if at > allowed:
-                    right = crushed(closure, s, min(b, w), at, kn, km, e.crush[l])
-                    e.lim[0, l] = right
-                if -at > allowed:
-                    left = -crushed(closure, -s, min(b, w), -at, kn, km, e.crush[l])
-                    e.lim[1, l] = -left
-                before = 0.5 * n * (closure - at * s)
+                narrowing = 0.5 * (right - left) * e.crush[0, l]
+                n, at = compression_with_strength(closure, s, left, right, kn, km, e.crush[0, l])
+            else:
                 n, at = compression(closure, s, left, right, kn, km)
-                o.shear[l] += before - 0.5 * n * (closure - at * s)
             # Movement of the upper face's material point at the eccentricity, along the face below.
             move = tau - e.tau[l] + at * (c - e.chi[l])
             old = e.fs[l]
@@ -96,16 +86,14 @@ def forces(drum, joint, lane):
             fs = shear(trial, n, e.mu[l], e.co[l])
             slip = slip + (trial - fs) / max(ks, 1.0)
             # Work of the shear spring; where slip moves the limit that n acts at, the stored energy changes with it.
-            new_right = min(b, w - slip)
-            new_left = max(-b, -w - slip)
-            if crushing:
-                new_right = min(new_right, e.lim[0, l])
-                new_left = max(new_left, -e.lim[1, l])
+            move_right = min(b, w - slip) - right
+            move_left = max(-b, -w - slip) - left
+            shrunk = 0.5 * n * e.crush[0, l] * (move_right - move_left) if crushing else 0.0
             moved = 0.0
-            if at >= right:
-                moved = new_right - right
-            if at <= left:
-                moved = new_left - left
+            if at >= right - narrowing * n:
+                moved = move_right - shrunk
+            if at <= left + narrowing * n:
+                moved = move_left + shrunk
             soft = 1.0 / kn + at * at / km
             o.shear[l] += 0.5 * (old + fs) * move + n * (s + n * at / km) * moved
             e.sp[l] = slip
@@ -114,6 +102,8 @@ def forces(drum, joint, lane):
             e.fs[l] = fs
             e.fn[l] = n
             e.el[l] = 0.5 * n * (closure - at * s)
+            if crushing:
+                e.el[l] = n * (closure - at * s) - 0.5 * n * n * soft
             # Opening: what is left of closure and rotation without their elastic parts, at the wider edge.
             rest = closure - n / max(kn, 1.0)
             turned = s + n * at / km

@@ -5,7 +5,7 @@ below; (τ, ν) place of the upper face's joint centre in it. δ = −ν closure
 rotation. T shear on the part below along t; n, e, T and the limits as in interface_law.py.
 
 Columns of ``geometry``, one row per joint: GEOMETRY. Columns of ``memory``: MEMORY, that is shear, τ, χ and slip at
-the last converged step, and the limits of eccentricity that crushing has left, as positive distances.
+the last converged step.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ import math
 
 import numpy as np
 
-from .interface_law import ELASTIC, OPEN, ROCKING, SLIDING, compression, crushed, shear
+from .interface_law import ELASTIC, OPEN, ROCKING, SLIDING, compression, compression_with_strength, shear
 from .jit import kernel
 
 GEOMETRY = (
     "above_x above_z below_x below_z angle upper_left upper_right lower_left lower_right kn km ks friction cohesion "
     "crushing"
 ).split()
-MEMORY = "shear tau chi slip crush_right crush_left".split()
+MEMORY = "shear tau chi slip".split()
 
 
 @kernel
@@ -33,7 +33,7 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
     q : array
         (n, 3)
     geometry, memory : array
-        (n, 15), (n, 6)
+        (n, 15), (n, 4)
     nonlinear : bool
         Large rotations, forces in the displaced state.
     soft : float
@@ -43,7 +43,7 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
     stiffness : array
         Out: −∂force/∂q, (3 n, 3 n).
     after : array
-        Out: the memory if this state is accepted, (n, 6).
+        Out: the memory if this state is accepted, (n, 4).
     report : array
         Out: n, e, T, state, opening at the wider edge, relative rotation, (n, 6).
     """
@@ -96,19 +96,13 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
             psi, chi = phi, 1.0
         # -- law
         slip = memory[i, 3]
-        r_right = min(min(geometry[i, 6], geometry[i, 8] - slip), memory[i, 4])
-        r_left = max(max(geometry[i, 5], geometry[i, 7] - slip), -memory[i, 5])
-        n, e = compression(-nu, psi, r_left, r_right, kn, km)
-        after[i, 4], after[i, 5] = memory[i, 4], memory[i, 5]
+        r_right = min(geometry[i, 6], geometry[i, 8] - slip)
+        r_left = max(geometry[i, 5], geometry[i, 7] - slip)
         crushing = geometry[i, 14]
-        if crushing > 0.0 and n > 0.0:
-            right, left = min(geometry[i, 6], geometry[i, 8]), min(-geometry[i, 5], -geometry[i, 7])
-            if e > right * (1.0 - n * crushing):
-                r_right = crushed(-nu, psi, right, e, kn, km, crushing)
-                after[i, 4] = r_right
-            if -e > left * (1.0 - n * crushing):
-                after[i, 5] = crushed(-nu, -psi, left, -e, kn, km, crushing)
-                r_left = -after[i, 5]
+        narrowing = 0.5 * (r_right - r_left) * crushing
+        if crushing > 0.0:
+            n, e = compression_with_strength(-nu, psi, r_left, r_right, kn, km, crushing)
+        else:
             n, e = compression(-nu, psi, r_left, r_right, kn, km)
         trial = memory[i, 0] + ks * (tau - memory[i, 1] + e * (chi - memory[i, 2]))
         held = shear(trial, n, geometry[i, 12], geometry[i, 13])
@@ -117,17 +111,24 @@ def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, repo
         after[i, 0], after[i, 1], after[i, 2] = held, tau, chi
         after[i, 3] = slip + (trial - held) / ks
         # -- tangent of the law: dn, dm, de, dT by the six coordinates
-        rocks = n > 0.0 and (e <= r_left or e >= r_right)
+        rocks = n > 0.0 and (e <= r_left + narrowing * n or e >= r_right - narrowing * n)
+        # On the limit of the moment, dm = arm dn, and the limit bends by 2 narrowing.
+        arm = e - narrowing * n if e >= r_right - narrowing * n else e + narrowing * n
+        bend = 2.0 * narrowing * abs(psi + n * e / km)
         for a in range(6):
             d_delta, d_psi = -b_nu[a], chi * b_phi[a]
             if n <= 0.0:
                 d_n[a], d_m[a] = soft * kn * d_delta, -soft * km * d_psi
+            elif n * crushing >= 1.0:
+                d_n[a], d_m[a] = soft * kn * d_delta, -soft * km * d_psi
             elif rocks:
-                d_n[a] = (d_delta - e * d_psi) / (1.0 / kn + e * e / km)
-                d_m[a] = e * d_n[a] - soft * km * d_psi
+                d_n[a] = (d_delta - arm * d_psi) / (1.0 / kn + arm * arm / km + bend)
+                d_m[a] = arm * d_n[a] - soft * km * d_psi
             else:
                 d_n[a], d_m[a] = kn * d_delta, -km * d_psi
-            d_e[a] = (d_m[a] - e * d_n[a]) / n if n > 0.0 and not rocks else 0.0
+            d_e[a] = 0.0
+            if n > 0.0:
+                d_e[a] = (arm - e) * d_n[a] / n if rocks else (d_m[a] - e * d_n[a]) / n
             d_t[a] = ks * b_tau[a]
             if nonlinear:
                 d_t[a] += ks * ((chi - memory[i, 2]) * d_e[a] - e * psi * b_phi[a])

@@ -13,7 +13,7 @@ import numpy as np
 from ..column import Column
 from ..errors import InputError, check_range
 from ..motion import Motion
-from .drum_block import BASE_HALF_WIDTH, PackedColumn, drum_fields, lane_fields
+from .drum_block import PackedColumn, drum_fields, lane_fields
 from .stepped_drums import SteppedDrums
 
 
@@ -24,8 +24,8 @@ class RigidBlock(SteppedDrums):
     Parameters
     ----------
     compressive_strength : float, optional
-        f_c of every joint [Pa]: |M| ≤ |N| d/2 (1 − |N|/(f_c A)), and a toe that has crushed stays crushed. None for
-        unlimited strength.
+        f_c of every joint [Pa]: |M| ≤ |N| d/2 (1 − |N|/(f_c A)) and |N| ≤ f_c A. None for unlimited strength. It shortens
+        the levers; what it does not do is damage: a toe that has crushed bears again as before.
     step_factor : float
         Time step as a share of the largest stable one.
     time_step : float, optional
@@ -61,7 +61,8 @@ class RigidBlock(SteppedDrums):
     limits: ClassVar[tuple[str, ...]] = (
         "The normal of a joint is the lower face's: once drums have slid over an edge, dem2d has the right one.",
         "What an impact loses comes out of the joint's law; it is less than Housner's for one block.",
-        "A compressive strength shortens the lever of a joint for good, but not the drum.",
+        "A compressive strength shortens the levers of the joints while they are pressed; it takes no energy, does no "
+        "damage that stays, and does not shorten a drum.",
         "A drum touches its neighbours only; what comes down is not followed.",
         "Columns that are not as built are refused.",
     )
@@ -116,32 +117,23 @@ def _pack(column: Column, model: RigidBlock) -> PackedColumn:
     def under_air(values: Sequence[float] | np.ndarray) -> np.ndarray:
         return np.concatenate((values, [0.0]))
 
-    half = np.array([min(low, high) for low, high in zip(*_half_widths(column), strict=True)])
-    limits = np.broadcast_to(under_air(half)[:, None], (n + 1, 2 if model.compressive_strength is not None else 1))
     strength = model.compressive_strength
+    crush = np.zeros((n + 1, 1)) if strength is None else np.repeat(under_air(1.0 / (strength * area))[:, None], 2, 1)
     joint_fields = {
         "kn": under_air(kn),
         "km": under_air(km),
         "ks": under_air(ks),
         "co": under_air([joint.cohesion for joint in column.joints] * area),
         "mu": under_air([joint.tan_phi for joint in column.joints]),
-        "crush": np.zeros(n + 1) if strength is None else under_air(1.0 / (strength * area)),
+        "crush": crush,
         "tau": np.zeros(n + 1),
         "chi": np.ones(n + 1),
         "sp": np.zeros(n + 1),
         "gap": np.zeros(n + 1),
         "fs": np.zeros(n + 1),
-        "lim": limits,
     }
     drums = drum_fields(column, column.joint_weights / kn)
     return PackedColumn((drums, joint_fields, lane_fields(column, model)), model.step_for(column))
-
-
-def _half_widths(column: Column) -> tuple[np.ndarray, np.ndarray]:
-    """Half widths of the upper and of the lower face of each joint [m]."""
-    upper = np.array([drum.bottom_width / 2 for drum in column.drums])
-    lower = np.array([BASE_HALF_WIDTH] + [drum.top_width / 2 for drum in column.drums[:-1]])
-    return upper, lower
 
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
