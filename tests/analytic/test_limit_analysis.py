@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from validation.statics import inclined
 
-from stylobate.analysis.limit import limit_analysis
+from stylobate.analysis.limit import gravity_forces, limit_analysis
+from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, Drum, Joint, preset
+from stylobate.column.as_found import AsFound, gravity_vector
 from stylobate.errors import InputError
 from stylobate.models.block_stack import BlockStack
 
@@ -98,6 +100,27 @@ def test_quadrilaterals_equal_the_column_and_may_lean():
     lean = np.array([[[-0.5, 0.0], [0.5, 0.0], [0.7, 4.0], [-0.3, 4.0]]])
     found = limit_analysis(BlockStack.of_quadrilaterals(lean, JOINT, density=2000.0))
     assert found.multiplier == pytest.approx((0.5 - 0.1) / 2.0, rel=1e-9)
+
+
+def test_the_forces_push_to_the_right_and_the_mirrored_stack_is_the_other_direction():
+    lean = np.array([[[-0.5, 0.0], [0.5, 0.0], [0.7, 4.0], [-0.3, 4.0]]])
+    mirrored = lean[:, [1, 0, 3, 2]] * [-1.0, 1.0]
+    for outlines, to_the_edge in ((lean, 0.4), (mirrored, 0.6)):
+        stack = BlockStack.of_quadrilaterals(outlines, JOINT, density=2000.0)
+        assert limit_analysis(stack).multiplier == pytest.approx(to_the_edge / 2.0, rel=1e-9)
+        assert pushover(stack).collapse_multiplier == pytest.approx(to_the_edge / 2.0, rel=1e-3)
+
+
+@pytest.mark.parametrize("degrees", [3.0, -3.0])
+def test_the_tilt_is_downhill_to_the_right_and_the_slope_as_found_is_not(degrees):
+    column, turn = preset("paper-monolithic"), math.radians(degrees)
+    # With the forces along the base: cos τ tan α − sin τ, less downhill, more uphill.
+    expected = math.cos(turn) * math.tan(column.slenderness) - math.sin(turn)
+    assert limit_analysis(column, base_tilt=degrees).multiplier == pytest.approx(expected, rel=1e-9)
+    assert pushover(column, base_tilt=degrees).collapse_multiplier == pytest.approx(expected, rel=1e-3)
+    found = column.replace(as_found=AsFound(base_tilt=degrees))
+    weight = gravity_forces(BlockStack.of_column(column), -degrees).sum(axis=0)
+    assert np.allclose(weight[:2], column.mass * gravity_vector(found), rtol=1e-12)
 
 
 def test_an_inclined_joint_is_the_one_at_its_limit():

@@ -88,13 +88,17 @@ def limit_analysis(
 ) -> LimitResult:
     """Collapse multiplier of horizontal forces on a column of rigid blocks, from below and from above.
 
+    The forces push towards +x. For columns, which are symmetric, the other direction is the same with the other tilt; a
+    stack of quadrilaterals is to be mirrored for it.
+
     Parameters
     ----------
     column : Column or BlockStack
     pattern : sequence of float, optional
         Relative horizontal force on each drum, bottom to top; proportional to mass by default. Their sum is λ W.
     base_tilt : float
-        Tilt of the base, downhill towards +x [degrees].
+        Tilt of the base, downhill towards +x, where the forces push [degrees]; a negative one makes them push uphill.
+        A column as found counts its ``base_tilt`` the other way, counter-clockwise.
     flow : {"non-associated", "associated"}
         Flow rule of friction in the mechanism: sliding without or with dilatancy tan φ. In a stack the joint forces
         follow from equilibrium alone, so that the multiplier is the same.

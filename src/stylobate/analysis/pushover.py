@@ -29,6 +29,9 @@ def pushover(
 ) -> PushoverResult:
     """Follow the equilibrium of a column under its weight and growing horizontal forces, over the peak and down.
 
+    The forces push towards +x. For columns, which are symmetric, the other direction is the same with the other tilt; a
+    stack of quadrilaterals is to be mirrored for it.
+
     Parameters
     ----------
     column : Column or BlockStack
@@ -43,7 +46,8 @@ def pushover(
         path is followed until the multiplier is zero or the top has moved by two base widths (geometric), or to a tenth
         of the base width; and on from there while the multiplier still rises.
     base_tilt : float
-        Tilt of the base, downhill towards +x [degrees].
+        Tilt of the base, downhill towards +x, where the forces push [degrees]; a negative one makes them push uphill.
+        A column as found counts its ``base_tilt`` the other way, counter-clockwise.
     compressive_strength : float, optional
         f_c of the joints [Pa]; unlimited by default.
 

@@ -27,7 +27,7 @@ def limit(
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.
 
-    By a static and a kinematic linear programme.
+    Under horizontal forces to the right, by a static and a kinematic linear programme.
     """
     from ..analysis.limit import limit_analysis
     from ..column.files import load_column

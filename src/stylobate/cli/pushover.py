@@ -15,7 +15,14 @@ Pattern = Annotated[
     str | None,
     typer.Option("--pattern", metavar="P,P,…", help="Relative force on each drum, bottom to top; by mass by default."),
 ]
-Tilt = Annotated[str, typer.Option("--tilt", metavar="DEGREES", help="Tilt of the base, downhill to the right.")]
+Tilt = Annotated[
+    str,
+    typer.Option(
+        "--tilt",
+        metavar="DEGREES",
+        help="Tilt of the base, downhill to the right, where the forces push; base_tilt of columns as found is opposite.",
+    ),
+]
 Strength = Annotated[
     str | None,
     typer.Option("--compressive-strength", metavar="PA", help="Strength of the joints; unlimited by default."),
@@ -40,7 +47,7 @@ def pushover(
 ) -> None:
     """Pushover curve of a column of rigid blocks.
 
-    Its weight, then horizontal forces over the peak and down to zero.
+    Its weight, then horizontal forces to the right, over the peak and down to zero.
     """
     from ..analysis.limit import limit_analysis
     from ..analysis.pushover import pushover as follow

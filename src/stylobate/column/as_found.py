@@ -70,7 +70,8 @@ class AsFound:
     drums : sequence of FoundDrum
         Each drum at most once; drums left out are as built.
     base_tilt : float
-        Slope of the base, counter-clockwise positive (it rises to the right) [degrees].
+        Slope of the base, counter-clockwise positive (it rises to the right) [degrees]. Pushover and limit analysis count
+        theirs downhill to the right, where their forces push.
 
     Raises
     ------
