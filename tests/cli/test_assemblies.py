@@ -201,7 +201,6 @@ def refused(capsys, tmp_path):
         (("density = 2400.0\n", ""), ["block 'left' has no density"]),
         (('name = "right"', 'name = "left"'), ["two blocks are called 'left'"]),
         (('["left", "beam"]', '["left", "bean"]'), ["'bean', which does not exist"]),
-        (('["left", "beam"]', '["left", "right"]'), ["between 'left' and 'right', but no joint is"]),
         (('["left", "beam"]', '["beam"]'), ["between 1 blocks"]),
         (('["left", "beam"]', '["beam", "beam"]'), ["'beam'", "twice"]),
         (("[joint]", "[jiont]"), ["'jiont'", "did you mean 'joint'?"]),

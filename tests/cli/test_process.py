@@ -70,7 +70,7 @@ print(st.simulate.__module__, st.g)
 def test_ctrl_c_keeps_finished_cells_and_the_same_command_goes_on(tmp_path):
     command = [
         *STYLOBATE, "domain", "paper-12-drums", "--model", "dem2d", "--frequencies", "0.5:4:6", "--amplitudes",
-        "0.1g:0.5g:16", "--duration", "5s", "--threads", "1", "--out", str(tmp_path), "--json",
+        "0.1g:0.5g:16", "--duration", "15s", "--threads", "1", "--out", str(tmp_path), "--json",
     ]  # fmt: skip
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     ledger = tmp_path / "progress.sqlite"

@@ -56,7 +56,7 @@ def contacts(engine):
                 width = float(np.hypot(gx, gz))
                 depth = float(np.ptp((px[:count] * -gz + pz[:count] * gx) / width))
                 thick = min(engine.body["depth"][i], engine.body["depth"][j])
-                stiffness = engine.body["kn"][j] * thick
+                stiffness = engine.law[i, j, 0] * thick
                 found[i, j] = (depth, width, stiffness, stiffness * area)
     return found
 
