@@ -47,6 +47,9 @@ def test_without_geometric_nonlinearity_the_peak_is_a_plateau(name):
     assert found.collapse_multiplier == pytest.approx(expected, abs=5e-7)
     assert found.multiplier[-1] == pytest.approx(expected, abs=5e-7)
     assert math.isnan(found.ultimate_displacement)
+    # It begins where the column leaves the elastic branch, long before the end of the path.
+    slope = found.multiplier[2] / found.displacement[2]
+    assert found.peak_displacement == pytest.approx(expected / slope, rel=1e-2)
 
 
 def test_the_elastic_branch_has_the_stiffness_of_the_joint():

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 #: Names of the joint states, by their codes in the kernels.
 STATES = ("elastic", "sliding", "rocking", "open")
 
+#: Multipliers on a plateau differ by what Newton's method leaves out of balance; closer ones count as equal [g].
+PLATEAU = 2e-7
+
 
 @dataclass(frozen=True, eq=False)
 class PushoverResult:
@@ -65,13 +68,13 @@ class PushoverResult:
 
     @property
     def peak(self) -> int:
-        """Step of the largest multiplier."""
-        return int(np.argmax(self.multiplier))
+        """Step at which the multiplier first has its largest value, within what equilibrium is found to."""
+        return int(np.argmax(self.multiplier >= self.multiplier.max() - PLATEAU))
 
     @property
     def largest_multiplier(self) -> float:
         """Largest multiplier on the path [g]."""
-        return float(self.multiplier[self.peak])
+        return float(self.multiplier.max())
 
     @property
     def collapse_multiplier(self) -> float:
