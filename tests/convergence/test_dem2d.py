@@ -1,6 +1,5 @@
 """Plane distinct elements: verdicts under smaller steps, contact points as a rule of quadrature, the stable step."""
 
-
 import numpy as np
 import pytest
 from validation.convergence import refined_verdicts
