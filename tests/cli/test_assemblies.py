@@ -219,6 +219,11 @@ def test_bad_files(change, words, refused, portal, tmp_path):
         assert word in message, message
 
 
+def test_a_law_with_a_ground_that_is_not_there(refused, portal):
+    portal.write_text("ground = false\n" + PORTAL.replace('["left", "beam"]', '["left", "ground"]'))
+    assert "names block 'ground', which does not exist" in refused("run", portal, *SHAKEN)
+
+
 def test_nothing_that_can_move(refused, portal):
     portal.write_text(PORTAL.replace("[[block]]\n", "[[block]]\nfixed = true\n"))
     assert "no block of 'portal' can move" in refused("run", portal, *SHAKEN)

@@ -210,8 +210,9 @@ class Assembly:
         if all(block.fixed for block in self.blocks):
             raise InputError(f"no block of {self.name!r} can move; leave fixed = true out for at least one.")
         pairs = [frozenset((one, other)) for one, other, _ in self.overrides]
+        known = {block.name for block in self.bodies}
         for (one, other, _), pair in zip(self.overrides, pairs, strict=True):
-            missing = next((name for name in (one, other) if name not in names and name != "ground"), None)
+            missing = next((name for name in (one, other) if name not in known), None)
             if missing is not None:
                 raise InputError(f"a joint_override names block {missing!r}, which does not exist; correct its name.")
             if len(pair) == 1 or pairs.count(pair) > 1:
