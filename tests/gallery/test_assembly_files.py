@@ -36,6 +36,15 @@ def test_every_file_says_how_it_is_run():
         assert said[1] == name
 
 
+def test_the_file_of_the_documentation(tmp_path):
+    page = (FOLDER.parents[1] / "docs" / "assembly_files.md").read_text(encoding="utf-8")
+    (tmp_path / "portal.toml").write_text(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1])
+    portal = read_assembly(tmp_path / "portal.toml")
+    assert [block.name for block in portal.blocks] == ["left", "right", "architrave"]
+    assert [joint.law.friction_angle for joint in portal.joints] == [35.0, 35.0, 35.0, 25.0]
+    assert {block.depth for block in portal.blocks} == {0.8}
+
+
 def test_portal(run):
     laws = {j.law.friction_angle for j in read_assembly(FOLDER / "portal.toml").joints}
     assert laws == {35.0, 25.0}
