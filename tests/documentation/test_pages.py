@@ -66,6 +66,10 @@ def test_equations_cited_in_the_code_and_on_the_pages_exist():
     assert {"F3", "R6", "B2", "H1"} <= cited <= known
 
 
+def test_the_code_cites_nothing_that_readers_do_not_have():
+    assert [path for path, text in SOURCES.items() if "formulation" in text.lower()] == []
+
+
 def test_equations_of_the_paper_cited_in_the_code_are_explained():
     rows = set(re.findall(r"^\| ((?:Eq|Fig)\. \d+) \|", PAGES["theory/index.md"], re.MULTILINE))
     cited = {

@@ -75,7 +75,7 @@ def case_of_ledger(model: str, what: str, drums: str, compute, limit: float) -> 
     case(
         model,
         QUARTERED.format(drums),
-        Between(6.0, 40.0),
+        Between(4.0, 40.0),
         source=source,
         reason="16 is second order; medians of chaotic runs",
     )(fall)

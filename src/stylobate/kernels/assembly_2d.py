@@ -41,7 +41,7 @@ import math
 import numpy as np
 
 from . import contact as ct
-from . import distinct_element_2d as lanes
+from . import drum_lanes as lanes
 from . import narrow_phase as near
 from .broad_phase import make_boxes, sweep
 from .ground import sample

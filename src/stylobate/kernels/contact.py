@@ -77,13 +77,13 @@ def contact_velocity(s, q, ns, nq, ps, pq, ht, vs, vq, wu, wl):
 
 @law
 def normal_force(ka, gap):
-    """No-tension spring, Baraldi et al., Eq. 7: fn = −k_n A gap while the gap is negative."""
+    """No-tension spring, fn = −k_n A gap while the gap is negative.  # Eq. (D1); Baraldi et al., Eq. 7"""
     return max(-ka * gap, 0.0)
 
 
 @law
 def shear_force(fs, ks_a, slip, limit):
-    """Incremental Coulomb friction, Baraldi et al., Eq. 7: fs ← fs − k_s A Δu_s, clipped to |fs| ≤ limit."""
+    """Incremental Coulomb friction, fs ← fs − k_s A Δu_s, |fs| ≤ limit.  # Eq. (D1); Baraldi et al., Eq. 7"""
     return min(max(fs - ks_a * slip, -limit), limit)
 
 

@@ -87,7 +87,7 @@ def step(x, v, a0, a1, a2, g0, g1, g2, h, alpha, p2, c):
     ``a``: side × a_g/g and ``g``: 1 + a_v/g at the start, the middle and the end. Returns x, v and the input work.
     """
     s0, c0 = sine(alpha - x, c), cosine(alpha - x, c)
-    k0 = -p2 * (g0 * s0 + a0 * c0)  # formulation §7 (Housner 1963; vertical input scales the weight)
+    k0 = -p2 * (g0 * s0 + a0 * c0)  # Eq. (H1); Housner 1963, with vertical input
     x1 = x + 0.5 * h * v + 0.125 * h * h * k0
     s1, c1 = sine(alpha - x1, c), cosine(alpha - x1, c)
     k1 = -p2 * (g1 * s1 + a1 * c1)

@@ -1,7 +1,7 @@
 """Rigid block dynamics over lanes: the drums of the plane distinct elements, each joint as one N–V–M interface.
 
-Drums, steps, ground, ends and collapses are those of ``distinct_element_2d``; only what a joint does is different. See
-there for the records ``drum``, ``lane``, ``ground``, ``feed`` and ``watch``; here::
+Drums, ground, ends and collapses are those of ``drum_lanes`` (see there for the records ``drum``, ``lane``, ``ground``,
+``feed`` and ``watch``), steps those of ``distinct_element_2d``; only what a joint does is different::
 
     joint[j]   kn km ks       k_n A [N/m], k_n J [N m], k_s A [N/m]
                co mu          cohesion × area [N], tan φ
@@ -18,8 +18,9 @@ there for the records ``drum``, ``lane``, ``ground``, ``feed`` and ``watch``; he
 import numpy as np
 
 from . import contact as ct
-from . import distinct_element_2d as plane
-from .distinct_element_2d import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING, joint_state
+from . import drum_lanes as lanes
+from .distinct_element_2d import move
+from .drum_lanes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING, joint_state
 from .interface_law import compression, compression_with_strength, shear
 from .jit import apart, kernel, strict
 
@@ -29,7 +30,7 @@ __all__ += ["advance", "block_types", "forces", "joint_state", "ledger"]
 
 def block_types(crushing, damped):
     """Record types (drum, joint, lane, ground, feed, watch); compiled once for each combination that is used."""
-    drum, _, _, ground, feed, watch = plane.block_types(2, damped)
+    drum, _, _, ground, feed, watch = lanes.block_types(2, damped)
 
     def fields(names, *shape):
         return [(name, np.float64, (*shape, LANES)) for name in names.split()]
@@ -133,7 +134,7 @@ def forces(drum, joint, lane):
 
 @strict
 def ledger(drum, joint, lane, ground, k, dt, l, out):
-    """Ledger of one lane at t_n, after its ``forces``; velocities brought to the whole step (formulation, section 8).
+    """Ledger of one lane at t_n, after its ``forces``; velocities brought to the whole step.  # Eq. (D5)
 
     Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J].
     ``dt`` is the step of the lane (its own is 0 once it stands still), ``k`` the row of ``ground`` that holds t_n.
@@ -179,13 +180,13 @@ def peak_opening(joint, watch):
 @kernel
 def advance(drum, joint, lane, ground, feed, watch, chunks):
     """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
-    before = plane.running_lanes(watch)
+    before = lanes.running_lanes(watch)
     for _ in range(chunks):
-        if before == 0 or plane.running_lanes(watch) < before:
+        if before == 0 or lanes.running_lanes(watch) < before:
             break
-        plane.fill_ground(ground, feed, watch)
+        lanes.fill_ground(ground, feed, watch)
         for k in range(CHUNK):
             forces(drum, joint, lane)
-            plane.move(drum, joint, lane, ground, k)
-        plane.close_chunk(drum, joint, lane, feed, watch)
+            move(drum, joint, lane, ground, k)
+        lanes.close_chunk(drum, joint, lane, feed, watch)
         peak_opening(joint, watch)

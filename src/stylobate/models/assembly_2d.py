@@ -363,7 +363,7 @@ def _bed_laws(assembly: Assembly) -> np.ndarray:
 
 
 def _no_column() -> tuple[np.ndarray, ...]:
-    from ..kernels import distinct_element_2d as lanes
+    from ..kernels import drum_lanes as lanes
 
     types = lanes.block_types(2, False)
     return tuple(np.zeros(0, types[k]) for k in (0, 1, 2, 4, 5))

@@ -287,6 +287,8 @@ class DrumBlock:
 def ledger_balance(change: np.ndarray, largest: float, column: Column) -> tuple[float, bool]:
     """Energy that a ledger misses relative to the largest input work so far, and whether the run can be believed.
 
+    Eq. (V3) of ``docs/theory/verdicts.md``.
+
     Parameters
     ----------
     change : array

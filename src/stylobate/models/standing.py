@@ -37,11 +37,12 @@ def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarra
 
     Notes
     -----
-    Two conditions. As the column is, the centroid of every part stands within its contact: it is on the near side of every
-    barrier. And the energy is below the lowest barrier of the column put down flat with its present offsets: overturning
-    as one body about the nearer end of the contact, m g (R − H); where some joint above is so slippery that it slides
-    first, tan φ below the sine of the critical angle, sliding and lifting together: m g [tan φ b − H (1 − √(1 − tan² φ))].
-    On a slope H and b are measured along and across gravity, and friction is what the slope of the joint leaves of it.
+    Two conditions, Eq. (V1). As the column is, the centroid of every part stands within its contact: it is on the
+    near side of every barrier. And the energy is below the lowest barrier of the column put down flat with its
+    present offsets: overturning as one body about the nearer end of the contact, m g (R − H); where some joint above
+    is so slippery that it slides first, tan φ below the sine of the critical angle, sliding and lifting together: m g
+    [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
+    the slope of the joint leaves of it.
     """
     if not _centroids_inside(column, drum, lane):
         return False
