@@ -1,7 +1,7 @@
 """Any set of convex bodies in the plane: joints between faces that touch, an elastic bed between all other pairs.
 
-A joint follows the law of the column's joints (``contact.py``), in the same order of arithmetic as the lanes of
-``distinct_element_2d.py``. It hands over to the bed (``narrow_phase.py``) by a weight that is a function of the relative
+A joint (``assembly_joints.py``) follows the law of the column's joints, in the same order of arithmetic as the lanes of
+``distinct_element_2d.py``. It hands over to the bed (``assembly_bed.py``) by a weight that is a function of the relative
 rotation and of the overlap alone, so that no force jumps; once the weight has reached zero the joint is gone.
 
 Legend (positions at t_n, velocities at t_{n−1/2})::
@@ -43,12 +43,11 @@ import numpy as np
 from . import contact as ct
 from . import drum_lanes as lanes
 from . import narrow_phase as near
+from .assembly_bed import bed_forces, place
+from .assembly_joints import face, handover, joint_forces
 from .broad_phase import make_boxes, sweep
 from .ground import sample
-from .jit import kernel, law, strict
-
-#: A joint acts alone as long as the overlap is more than this share of the smaller face, the bed alone below the second.
-OVERLAP_FROM, OVERLAP_TO = 0.05, 0.01
+from .jit import kernel, strict
 
 CHUNK = lanes.CHUNK
 
@@ -76,213 +75,6 @@ def types(points):
         + fields("xi sh", (points,))
     )
     return np.dtype(body), np.dtype(joint), np.dtype(now)
-
-
-@law
-def handover(c, over, e):
-    """Weight of the joint's law: 1 while it acts alone, 0 when the bed does, linear in cosine and overlap between."""
-    turned = (c - e.to_c) / (e.from_c - e.to_c)
-    left = (over - OVERLAP_TO * e.width) / ((OVERLAP_FROM - OVERLAP_TO) * e.width)
-    return min(max(min(turned, left), 0.0), 1.0)
-
-
-@law
-def face(b, c, s):
-    """Cosine and sine of the direction of a face, given in the frame of its body."""
-    return b.c * c - b.s * s, b.s * c + b.c * s
-
-
-@kernel
-def joint_forces(body, joint, now):
-    """Forces of all joints at t_n; brings their contact memory from t_{n−1} to t_n (as ``forces`` of the lanes)."""
-    o = now[0]
-    dt = o.last
-    beta = o.beta
-    damped = beta > 0.0 or o.dull > 0.0
-    for i in range(body.shape[0]):
-        body[i].fx = 0.0
-        body[i].fz = 0.0
-        body[i].mo = 0.0
-    for j in range(joint.shape[0]):
-        e = joint[j]
-        if e.live == 0:
-            continue
-        points = e.fs.shape[0]
-        u = body[e.upper]
-        v = body[e.lower]
-        wl = v.w
-        wu = u.w
-        ht = e.ht
-        cl, sl = face(v, e.lc, e.ls)
-        cu, su = face(u, e.uc, e.us)
-        ps, pq, c, s = ct.relative_pose(u.x, u.z, cu, su, v.x, v.z, cl, sl, ht)
-        left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, e.bl, e.br, e.hb)
-        lo = max(left_s, -e.wl)
-        hi = min(right_s, e.wr)
-        over = max(hi - lo, 0.0)
-        e.over = over
-        weight = handover(c, over, e)
-        e.weight = weight
-        if weight == 0.0:
-            e.live = 0
-            # what the springs still hold is lost with them
-            for p in range(points):
-                e.fs[p] = 0.0
-                e.fn[p] = 0.0
-                e.dn[p] = 0.0
-                e.ds[p] = 0.0
-            continue
-        dvx = u.vx - v.vx
-        dvz = u.vz - v.vz
-        vs = cl * dvx + sl * dvz
-        vq = cl * dvz - sl * dvx
-        kn = e.kn * over
-        ks = e.ks * over
-        co = e.co * over
-        mu = e.mu
-        sum_s = 0.0
-        sum_q = 0.0
-        upper = 0.0
-        lower = 0.0
-        shear = 0.0
-        visc = 0.0
-        for p in range(points):
-            share = o.sh[p]
-            if p == 0:
-                at_s, at_q, gap, ns, nq = ct.left_contact(left_s, left_q, c, s, e.wl)
-            elif p == points - 1:
-                at_s, at_q, gap, ns, nq = ct.right_contact(right_s, right_q, c, s, e.wr)
-            else:
-                at_s, at_q, gap, ns, nq = ct.inner_contact(o.xi[p], lo, hi, left_s, left_q, c, s)
-            vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, wu, wl)
-            ka = kn * share
-            ksa = ks * share
-            old = e.fs[p]
-            fn = ct.normal_force(ka, gap)
-            cohesion = co * share if fn > 0.0 else 0.0
-            if damped:
-                dn = fn * o.dull * min(max(-vn / o.calm, -1.0), 1.0) - beta * ka * vn
-                dn = max(dn, -fn) if fn > 0.0 else 0.0
-                limit = mu * (fn + dn) + cohesion
-                fs = ct.shear_force(old, ksa, vt * dt, limit)
-                ds = min(max(-beta * ksa * vt, -limit - fs), limit - fs)
-                visc -= 0.5 * dt * ((dn + e.dn[p]) * vn + (ds + e.ds[p]) * vt)
-                e.dn[p] = dn
-                e.ds[p] = ds
-                fn_all = fn + dn
-                fs_all = fs + ds
-            else:
-                fs = ct.shear_force(old, ksa, vt * dt, mu * fn + cohesion)
-                fn_all = fn
-                fs_all = fs
-            e.fs[p] = fs
-            e.fn[p] = fn
-            shear -= 0.5 * (old + fs) * vt * dt
-            fa = fn_all * ns + fs_all * nq
-            fb = fn_all * nq - fs_all * ns
-            sum_s += fa
-            sum_q += fb
-            upper += (at_s - ps) * fb - (at_q - pq) * fa
-            lower += at_s * fb - (at_q + ht) * fa
-        if weight < 1.0:
-            sum_s *= weight
-            sum_q *= weight
-            upper *= weight
-            lower *= weight
-            shear *= weight
-            visc *= weight
-        fx = cl * sum_s - sl * sum_q
-        fz = sl * sum_s + cl * sum_q
-        u.fx += fx
-        u.fz += fz
-        u.mo += upper
-        v.fx -= fx
-        v.fz -= fz
-        v.mo -= lower
-        o.shear += shear
-        o.visc += visc
-
-
-@law
-def place(b, corner, x, z):
-    """Corners of a body in world axes; returns their number."""
-    for k in range(b.count):
-        cx = corner[b.first + k, 0]
-        cz = corner[b.first + k, 1]
-        x[k] = b.x + b.c * cx - b.s * cz
-        z[k] = b.z + b.s * cx + b.c * cz
-    return b.count
-
-
-@kernel
-def bed_forces(body, corner, joint, now, pairs, link, law, memory, real, whole):
-    """Forces of the bed at t_n between all pairs that may touch, where no joint acts alone."""
-    o = now[0]
-    dt = o.last
-    xa, za, xb, zb, px, pz, qx, qz = real
-    from_b, q_from = whole
-    o.loose = 0
-    for k in range(o.pairs):
-        i = pairs[k, 0]
-        h = pairs[k, 1]
-        j = link[i, h]
-        share = 1.0
-        if j >= 0 and joint[j].live != 0:
-            share = 1.0 - joint[j].weight
-            if share == 0.0:
-                memory[i, h, :] = 0.0
-                continue
-        o.loose += 1
-        a = body[i]
-        b = body[h]
-        na = place(a, corner, xa, za)
-        nb = place(b, corner, xb, zb)
-        n = near.clip(xb, zb, nb, xa, za, na, px, pz, from_b, qx, qz, q_from)
-        if n == 0:
-            memory[i, h, :] = 0.0
-            continue
-        area, cx, cz, gx, gz = near.measure(px, pz, from_b, n)
-        chord = math.sqrt(gx * gx + gz * gz)
-        if not chord > 0.0:
-            memory[i, h, :] = 0.0
-            continue
-        if o.touched < 0 and j < 0:
-            o.touched = o.step
-        # the part of b's outline in a: its right-hand normal points out of b; n points from a to b
-        nx = -gz / chord
-        nz = gx / chord
-        depth = min(a.depth, b.depth)
-        kn = share * law[i, h, 0] * depth
-        ks = share * law[i, h, 1] * depth * chord
-        o.deepest = max(o.deepest, area / chord)
-        rx = cx - b.x
-        rz = cz - b.z
-        lx = cx - a.x
-        lz = cz - a.z
-        ux = (b.vx - b.w * rz) - (a.vx - a.w * lz)
-        uz = (b.vz + b.w * rx) - (a.vz + a.w * lx)
-        vn = ux * nx + uz * nz
-        vt = ux * nz - uz * nx
-        fn = kn * area
-        # closing (vn < 0) stiffer, opening softer; and the dashpots of the joints
-        dn = max(fn * o.eta * min(max(-vn / o.calm, -1.0), 1.0) - o.beta * kn * chord * vn, -fn)
-        limit = law[i, h, 2] * (fn + dn)
-        old = memory[i, h, 0]
-        fs = ct.shear_force(old, ks, vt * dt, limit)
-        ds = min(max(-o.beta * ks * vt, -limit - fs), limit - fs)
-        o.shear -= 0.5 * (old + fs) * vt * dt
-        o.visc -= 0.5 * ((dn + memory[i, h, 1]) * vn + (ds + memory[i, h, 2]) * vt) * dt
-        memory[i, h, 0] = fs
-        memory[i, h, 1] = dn
-        memory[i, h, 2] = ds
-        fx = (fn + dn) * nx + (fs + ds) * nz
-        fz = (fn + dn) * nz - (fs + ds) * nx
-        b.fx += fx
-        b.fz += fz
-        b.mo += rx * fz - rz * fx
-        a.fx -= fx
-        a.fz -= fz
-        a.mo -= lx * fz - lz * fx
 
 
 @kernel
@@ -480,62 +272,3 @@ def advance(
         settle_lengths(body, now)
         if o.failed != 0:
             break
-
-
-@strict
-def ledger(body, corner, joint, now, pairs, link, law, memory, real, whole, gx, gz, out):
-    """Ledger at t_n, after the forces there: input, kinetic, gravitational, elastic, friction, viscous [J].
-
-    Velocities are brought to the whole step; middle three absolute (as ``ledger`` of the lanes).
-    """
-    o = now[0]
-    dt = o.last
-    kinetic = 0.0
-    height = 0.0
-    elastic = 0.0
-    stored = 0.0
-    for i in range(body.shape[0]):
-        u = body[i]
-        if u.im == 0.0:
-            continue
-        vx = u.vx + 0.5 * dt * (u.fx * u.im - gx - o.gx)
-        vz = u.vz + 0.5 * dt * (u.fz * u.im - gz - o.g)
-        w = u.w + 0.5 * dt * u.mo * u.ii
-        kinetic += 0.5 * (u.m * (vx * vx + vz * vz) + u.i * w * w)
-        height += u.m * (o.g * u.z + o.gx * u.x)
-    for j in range(joint.shape[0]):
-        e = joint[j]
-        if e.live != 0:
-            for p in range(e.fs.shape[0]):
-                length = e.over * o.sh[p]
-                if length > 0.0:
-                    elastic += e.weight * 0.5 * e.fn[p] ** 2 / (e.kn * length)
-                    stored += e.weight * 0.5 * e.fs[p] ** 2 / (e.ks * length)
-    xa, za, xb, zb, px, pz, qx, qz = real
-    from_b, q_from = whole
-    for k in range(o.pairs):
-        i = pairs[k, 0]
-        h = pairs[k, 1]
-        j = link[i, h]
-        share = 1.0 - joint[j].weight if j >= 0 and joint[j].live != 0 else 1.0
-        if share == 0.0:
-            continue
-        a = body[i]
-        b = body[h]
-        na = place(a, corner, xa, za)
-        nb = place(b, corner, xb, zb)
-        n = near.clip(xb, zb, nb, xa, za, na, px, pz, from_b, qx, qz, q_from)
-        if n == 0:
-            continue
-        _, _, _, gx_, gz_ = near.measure(px, pz, from_b, n)
-        chord = math.sqrt(gx_ * gx_ + gz_ * gz_)
-        if chord > 0.0:
-            depth = min(a.depth, b.depth)
-            elastic += 0.5 * share * law[i, h, 0] * depth * near.depth_square(px, pz, n, gx_ / chord, gz_ / chord)
-            stored += 0.5 * memory[i, h, 0] ** 2 / (share * law[i, h, 1] * depth * chord)
-    out[0] = o.work
-    out[1] = kinetic
-    out[2] = height
-    out[3] = elastic + stored
-    out[4] = o.shear - stored
-    out[5] = o.visc

@@ -184,10 +184,12 @@ class Engine:
 
     def energies(self) -> np.ndarray:
         """Ledger now: input, kinetic, gravitational, elastic, friction, viscous; the middle three absolute [J]."""
+        from ..kernels.assembly_ledger import ledger
+
         body, joint, now, memory = self.present()
         gx, gz = self.ground_acceleration(self.time)
         out = np.empty(6)
-        self.kernel.ledger(
+        ledger(
             body, self.corner, joint, now, self.pairs, self.link, self.law, memory, self.real, self.whole, gx, gz, out
         )
         return out
