@@ -210,6 +210,7 @@ def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) ->
         "motion_metadata": {str(key): str(value) for key, value in motion.metadata.items() if key != "references"},
         "motion_processing": list(motion.processing),
         "tail_s": options.tail,
+        "until_rest": options.until_rest,
         "output_interval_s": options.output_interval,
         "python": platform.python_version(),
         "machine": platform.machine(),

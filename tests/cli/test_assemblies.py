@@ -139,6 +139,8 @@ def test_a_person_is_told(command, portal):
         assert words in text
     still_moving, _ = command("run", portal, *MODEL, "--harmonic", "1Hz,0.4g,1s")
     assert "Not everything lies still and the verdict may change; go on with --until-rest." in still_moving
+    waited, _ = command("run", portal, *MODEL, "--harmonic", "1Hz,0.4g,1s", "--until-rest", "--set", "restitution=1")
+    assert "Not everything lies still; damp it with --set mass_damping=0.5." in waited
 
 
 def test_clockwise_blocks_are_turned_and_said(command, portal):

@@ -202,7 +202,9 @@ def assembly_facts(response: AssemblyResponse) -> tuple[str, dict[str, str], dic
         sentence += " Everything lies still."
     elif not response.failed:
         change = "" if response.decided else " and the verdict may change"
-        sentence += f" Not everything lies still{change}; go on with --until-rest."
+        waited = response.provenance.get("until_rest", False)
+        remedy = "damp it with --set mass_damping=0.5" if waited else "go on with --until-rest"
+        sentence += f" Not everything lies still{change}; {remedy}."
     fixed = sum(block.fixed for block in assembly.blocks)
     supports = f", {fixed} of them fixed" if fixed else ""
     facts = {

@@ -48,7 +48,7 @@ def read(path: str | Path, *formats: str) -> xarray.Dataset:
     if found not in formats:
         wanted = " or ".join(repr(one) for one in formats)
         raise InputError(
-            f"{path} has the format {found!r}, not {wanted}; give a file that 'stylobate run --out' wrote of one."
+            f"{path} has the format {found!r}, not {wanted}; give a file of that kind, as 'stylobate run --out' writes it."
         )
     return data
 
