@@ -139,9 +139,11 @@ class _ColumnRun:
 
     def watch_on(self) -> None:
         """Look for collapses after the motion too; nothing of it is left to set against them."""
+        from ..kernels.drum_lanes import ENDED, RUNNING
+
         watch = self.block.watch[0]
-        if watch["status"][0] == self.block.kernel.ENDED:
-            watch["status"][0] = self.block.kernel.RUNNING
+        if watch["status"][0] == ENDED:
+            watch["status"][0] = RUNNING
             watch["amax"][0] = watch["vmax"][0] = 0.0
 
     def look_ahead(self) -> None:
