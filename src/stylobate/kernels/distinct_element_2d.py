@@ -9,6 +9,7 @@ from . import contact as ct
 from .drum_lanes import (
     CHUNK,
     COLLAPSED,
+    ENDED,
     FAILED,
     FREE,
     LANES,
@@ -23,7 +24,7 @@ from .drum_lanes import (
 from .jit import apart, kernel, law, strict
 
 #: The models read these here.
-__all__ = ["CHUNK", "COLLAPSED", "FAILED", "FREE", "LANES", "RUNNING", "block_types", "joint_state"]
+__all__ = ["CHUNK", "COLLAPSED", "ENDED", "FAILED", "FREE", "LANES", "RUNNING", "block_types", "joint_state"]
 
 
 @law

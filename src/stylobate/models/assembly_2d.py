@@ -13,6 +13,7 @@ from ..column.joint import Joint
 from ..errors import OutOfRangeWarning
 from ..motion import Motion
 from .distinct_element_2d import DistinctElement2D, contact_points
+from .drum_block import whole_steps
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
 CALM = 0.02
@@ -111,8 +112,7 @@ class Engine:
     def start(self, step: float) -> None:
         """Set the step and the velocities half a step before the start, of bodies that do not move yet."""
         chunk = self.kernel.CHUNK
-        self.chunks = max(1, math.ceil(self.duration / (chunk * step)))
-        self.dt = self.duration / (self.chunks * chunk)
+        self.dt, self.chunks = whole_steps(self.motion, self.duration - self.motion.duration, step, chunk)
         self.now["dt"] = self.now["last"] = self.dt
         x, z = self.motion.samples, self.motion.z_samples
         self.addresses = np.array([x.ctypes.data, 0 if z is None else z.ctypes.data, len(x) - 1])

@@ -67,6 +67,15 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
+def whole_steps(motion: Motion, tail: float, step: float, chunk: int) -> tuple[float, int]:
+    """Largest step up to ``step`` of which whole chunks fill the motion [s], and how many chunks there are with the tail.
+
+    The tail has no say in the step: what happens before it does not depend on it.
+    """
+    dt = motion.duration / (chunk * max(1, math.ceil(motion.duration / (chunk * step))))
+    return dt, math.ceil((motion.duration + tail) / (chunk * dt) * (1.0 - 1e-12))
+
+
 def lane_fields(column: Column, model: Any) -> dict[str, Any]:
     """Fields of a lane at the start of a run."""
     sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
@@ -121,10 +130,8 @@ class DrumBlock:
             for name, values in fields.items():
                 array[name][..., lane] = values
         self.joint["dn"][..., lane] = self.joint["ds"][..., lane] = 0.0
-        duration = motion.duration + self.options.tail
-        chunks = max(1, math.ceil(duration / (self.chunk * packed.step)))
+        dt, chunks = whole_steps(motion, self.options.tail, packed.step, self.chunk)
         steps = chunks * self.chunk
-        dt = duration / steps
         self.lane["dt"][0, lane] = dt
         x, z = motion.samples, motion.z_samples
         feed, watch = self.feed[0], self.watch[0]
