@@ -84,12 +84,13 @@ class CollapseProbability:
 
     @property
     def frequency(self) -> np.ndarray:
-        """Share of the runs that collapse, NaN where all failed, shape (F, A). Undecided runs count as not collapsed.
+        """Share of the runs that collapse, NaN where none is decided, shape (F, A). Undecided runs count as not collapsed.
 
         Left out, they would make it too large: a collapse decides a run, standing needs time.
         """
         collapsed, trials = self.count(v.COLLAPSED), self._trials
-        return np.divide(collapsed, trials, out=np.full(trials.shape, np.nan), where=trials > 0)
+        decided = collapsed + self.count(v.STANDS) > 0
+        return np.divide(collapsed, trials, out=np.full(trials.shape, np.nan), where=decided)
 
     @property
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
@@ -106,17 +107,18 @@ class CollapseProbability:
         """Kind of each cell, shape (F, A); runs that failed are left out.
 
         All stand; all collapse; some collapse (and others stand or are undecided); no verdict: none collapses and some
-        are undecided, or more than half are undecided, or all failed.
+        are undecided, or more than half are undecided and not both verdicts occur, or all failed.
         """
         collapsed, stands, others = (self.count(one) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
         return np.select(
             [
+                (collapsed > 0) & (stands > 0),
                 2 * others > self._trials,
                 (stands + others == 0) & (collapsed > 0),
                 collapsed > 0,
                 (others == 0) & (stands > 0),
             ],
-            [UNKNOWN, UNSAFE, UNCERTAIN, SAFE],
+            [UNCERTAIN, UNKNOWN, UNSAFE, UNCERTAIN, SAFE],
             default=UNKNOWN,
         )
 

@@ -173,10 +173,13 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
     s = result.summary()
     sentence = (
         f"Of {s['cells']} cells, all variations stand in {s['all_stand']} and all collapse in {s['all_collapse']}; "
-        f"{s['some_collapse']} are uncertain."
+        f"{s['some_collapse']} are uncertain"
     )
+    sentence += f", {s['no_verdict']} have no verdict." if s["no_verdict"] else "."
     if s["undecided"] or s["failed"]:
         sentence += f" {s['undecided']} runs are undecided and {s['failed']} failed; they are not counted as collapse."
+    if s["undecided"]:
+        sentence += " Go on with --tail 5s."
     facts = {
         "column": result.column.name,
         "model": result.model,

@@ -66,11 +66,22 @@ def draw_probability(result: CollapseProbability, title: str | None = None) -> F
 def message(result: CollapseProbability) -> str:
     """What the picture says, in one or two lines."""
     facts = result.summary()
+    open_cells = facts["no_verdict"]
+    if open_cells:
+        said = f"{100.0 * open_cells / facts['cells']:.0f} % of the cells have no verdict: follow the column longer (--tail)"
+        if open_cells == facts["cells"]:
+            return said
+        return f"{_about_the_others(result, facts)}\n{said}"
+    return _about_the_others(result, facts)
+
+
+def _about_the_others(result: CollapseProbability, facts: dict) -> str:
+    """What cells with a verdict say."""
     if not facts["collapsed"]:
         return "no variation collapses here"
     width, cells = facts["band_width_median_g"], facts["some_collapse"]
     if not cells:
-        return "all variations agree in every cell"
+        return "all variations agree in every cell" + (" with a verdict" if facts["no_verdict"] else "")
     share = f"{100.0 * cells / facts['cells']:.0f} % of the cells are uncertain"
     if width is None:
         return f"{share};\nthe band reaches beyond the largest amplitude at every frequency that collapses"
