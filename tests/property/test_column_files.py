@@ -110,6 +110,21 @@ friction_angle = 25.0
 """
 
 
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        (("density = 1600.0", "density = 2.3"), "density is 2.3 kg/m³: is the unit right"),
+        (("height = 5.0", "height = 500.0"), "a drum is 41.6667 m high: is the unit right"),
+        (("friction_angle = 35.0", "friction_angle = 0.65"), "friction_angle is 0.65 degrees"),
+    ],
+)
+def test_slips_of_units_are_said(change, says, tmp_path):
+    path = tmp_path / "column.toml"
+    path.write_text(TAPERED.replace(*change))
+    with pytest.warns(st.OutOfRangeWarning, match=says):
+        read_column(path)
+
+
 AS_FOUND = """
 [as_found]
 base_tilt = 0.5

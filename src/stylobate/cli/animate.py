@@ -14,7 +14,9 @@ FORMATS = ("gif", "mp4", "html")
 
 
 def animate(
-    response: Annotated[Path, typer.Argument(metavar="RESPONSE", help="File that 'stylobate run --out' wrote.")],
+    response: Annotated[
+        Path, typer.Argument(metavar="RESPONSE", help="File that 'stylobate run --out' wrote, or its folder.")
+    ],
     to: Annotated[str, typer.Option("--format", metavar="gif|mp4|html", help="mp4 needs the extra 'video'.")] = "gif",
     rate: Annotated[str, typer.Option("--fps", metavar="N", help="Frames per second.")] = "20",
     speed: Annotated[str, typer.Option("--speed", metavar="X", help="1 is as it was, 0.5 half as fast.")] = "1",
@@ -34,6 +36,8 @@ def animate(
     if to not in FORMATS:
         raise InputError(f"--format is {to!r}; allowed are {', '.join(FORMATS)}.")
     frames, pace = _number("--fps", rate, 100.0), _number("--speed", speed, 1000.0)
+    if response.is_dir():
+        response = response / "response.nc"
     loaded = load_response(response)
     with console.folder(out) as folder:
         target = (folder or response.parent) / f"{response.stem}.{to}"

@@ -180,12 +180,12 @@ def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str
         sentence += " The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
     drums = f"{column.n} {'drum' if column.n == 1 else 'drums'}"
     facts = {"collapse": f"certain at {m.collapse_time:.2f} s"} if m.collapsed else {}
-    peak = m.peak_top_displacement
+    peak, until = m.peak_top_displacement, ", until then" if m.collapsed else ""
     facts |= {
-        "peak top displacement": f"{console.length(peak)} ({peak / column.base_width:.2f} base widths)",
+        "peak top displacement" + until: f"{console.length(peak)} ({peak / column.base_width:.2f} base widths)",
         "residual top displacement": console.length(m.residual_top_displacement),
-        "peak rotation": f"{m.peak_rotation:.4f} rad",
-        "peak joint opening": console.length(m.peak_joint_opening),
+        "peak rotation" + until: f"{m.peak_rotation:.4f} rad",
+        "peak joint opening" + until: console.length(m.peak_joint_opening),
         "residual joint slip": console.length(m.residual_joint_slip),
         "energy imbalance": f"{m.energy_imbalance:.1e} of the input work",
     }
@@ -207,11 +207,12 @@ def assembly_facts(response: AssemblyResponse) -> tuple[str, dict[str, str], dic
         sentence += f" Not everything lies still{change}; {remedy}."
     fixed = sum(block.fixed for block in assembly.blocks)
     supports = f", {fixed} of them fixed" if fixed else ""
+    until = ", until the collapse" if response.collapsed else ""
     facts = {
-        "peak displacement": console.length(found["peak_displacement_m"]),
+        "peak displacement" + until: console.length(found["peak_displacement_m"]),
         "residual displacement": console.length(found["residual_displacement_m"]),
-        "peak rotation": f"{found['peak_rotation_rad']:.4f} rad",
-        "peak joint opening": console.length(found["peak_joint_opening_m"]),
+        "peak rotation" + until: f"{found['peak_rotation_rad']:.4f} rad",
+        "peak joint opening" + until: console.length(found["peak_joint_opening_m"]),
         "residual joint slip": console.length(found["residual_joint_slip_m"]),
         "energy imbalance": f"{response.energy_imbalance:.1e} of the largest of input work, released and elastic energy",
     }

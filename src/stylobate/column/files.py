@@ -5,8 +5,9 @@ from __future__ import annotations
 import dataclasses
 import difflib
 import json
+import warnings
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ import numpy as np
 
 from ..atomic import replacing
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError
+from ..errors import InputError, OutOfRangeWarning
 from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
@@ -168,8 +169,38 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     return Column(drums, joints, data["name"], data["gravity"], as_found)
 
 
+#: What stone and columns are like: density [kg/m³], height of a drum [m], friction angle [degrees].
+DENSITIES, TALLEST, SLIPPERIEST = (500.0, 5000.0), 30.0, 3.0
+
+
+def _doubt_units(column: Column, friction_angles: Sequence[float | None]) -> None:
+    """Say what looks like a slip of units.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        Values that no stone column has.
+    """
+    doubts = [
+        f"density is {drum.density:g} kg/m³"
+        for drum in column.drums
+        if not DENSITIES[0] <= drum.density <= DENSITIES[1]
+    ]
+    doubts += [f"a drum is {drum.height:g} m high" for drum in column.drums if drum.height > TALLEST]
+    doubts += [
+        f"friction_angle is {angle:g} degrees (a coefficient is friction_coefficient)"
+        for angle in friction_angles
+        if angle is not None and angle < SLIPPERIEST
+    ]
+    if doubts:
+        warnings.warn(f"{doubts[0]}: is the unit right?", OutOfRangeWarning, stacklevel=4)
+
+
 def _column(table: ColumnTable, default_name: str) -> Column:
     column = _as_built(table, default_name)
+    _doubt_units(
+        column, [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
+    )
     if table.as_found is None:
         return column
     some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())

@@ -43,6 +43,7 @@ def write_player(
         "level": scene.level,
         "slope": scene.slope,
         "ground": scene.ground[indices].round(5).tolist(),
+        "peak": float(np.abs(scene.ground).max()),
     }
     words = {
         "TITLE": html.escape(f"{scene.name}, {response.provenance.get('motion', '')}"),
