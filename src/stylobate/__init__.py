@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from .analysis.rocking_spectrum import rocking_spectrum
     from .analysis.suite import suite_table
     from .column import AsFound, Column, Drum, FoundDrum, Joint, preset
-    from .column.assembly import Assembly, Block
+    from .column.assembly import Assembly, Block, read_assembly
     from .column.imperfections import Imperfection
     from .constants import g
     from .errors import InputError, OutOfRangeWarning, StylobateError
@@ -77,6 +77,7 @@ _HOMES = {
     "mavroeidis_papageorgiou": "motion.pulses",
     "preset": "column",
     "pushover": "analysis.pushover",
+    "read_assembly": "column.assembly",
     "read_motion": "motion.readers",
     "read_suite": "motion.readers",
     "rectangular_pulse": "motion.pulses",
@@ -122,6 +123,7 @@ __all__ = [
     "mavroeidis_papageorgiou",
     "preset",
     "pushover",
+    "read_assembly",
     "read_motion",
     "read_suite",
     "rectangular_pulse",
