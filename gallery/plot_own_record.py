@@ -17,7 +17,7 @@ from stylobate import plots
 # A simulated motion takes the place of a record: magnitude 6.5 at 10 km in Greece.
 
 simulated = st.stochastic_motion(6.5, 10e3, "greece", seed=7)
-motion = simulated.scaled_to_pga(0.35 * st.g)
+motion = simulated.scaled_to_pga(0.3 * st.g)
 shares = motion.acceleration / st.g
 folder = Path(mkdtemp())
 rows = [f"{t:.3f},{a:.6f}" for t, a in zip(motion.time, shares)]

@@ -72,7 +72,10 @@ def test_ctrl_c_keeps_finished_cells_and_the_same_command_goes_on(tmp_path):
         *STYLOBATE, "domain", "paper-12-drums", "--model", "dem2d", "--frequencies", "0.5:4:6", "--amplitudes",
         "0.1g:0.5g:16", "--duration", "15s", "--threads", "1", "--out", str(tmp_path), "--json",
     ]  # fmt: skip
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),  # a shell's background jobs ignore it
+    )  # fmt: skip
     ledger = tmp_path / "progress.sqlite"
     deadline = time.monotonic() + 300
     while kept(ledger) == 0:
