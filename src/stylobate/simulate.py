@@ -6,7 +6,7 @@ import dataclasses
 import os
 import platform
 import time
-from collections.abc import Generator, Sequence
+from collections.abc import Generator, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import __version__
@@ -136,12 +136,8 @@ def simulate_iter(
         All cores by default.
     """
     options = _options(tail, 0.01, until_end)
-    seen: set[tuple[int, int]] = set()
-    for case in cases:
-        key = (id(case.column), id(case.motion.samples))
-        if key not in seen:
-            model.check(case.column, case.motion)
-            seen.add(key)
+    for column, motion in _to_check(cases):
+        model.check(column, motion)
     yield from model.run_many(cases, options, thread_count(threads))
 
 
@@ -188,6 +184,18 @@ def simulate_many(
     for row in rows:
         row |= {"wall_s": wall, "model": model.name, "version": __version__}
     return pandas.DataFrame(rows)
+
+
+def _to_check(cases: Sequence[Case]) -> Iterable[Case]:
+    # One case for all that share column and samples, the largest factor of each sign: what holds for it holds for them.
+    largest: dict[tuple, Case] = {}
+    for case in cases:
+        motion = case.motion
+        samples = (id(motion.samples), id(motion.y_samples), id(motion.z_samples))
+        key = (id(case.column), *samples, motion.dt, motion.factor < 0.0)
+        if key not in largest or abs(motion.factor) > abs(largest[key].motion.factor):
+            largest[key] = case
+    return largest.values()
 
 
 def thread_count(threads: int | None) -> int:

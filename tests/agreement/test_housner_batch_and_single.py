@@ -1,6 +1,7 @@
 """Housner's block: batch against single run, order of the cases and number of threads, refused input."""
 
 import math
+import warnings
 
 import numpy as np
 import pytest
@@ -70,6 +71,17 @@ def test_same_bits_for_any_order_and_number_of_threads():
         assert repr(shuffled[index]) == expected
 
 
+def test_motions_that_share_samples_keep_their_own_vertical_component():
+    both = record()
+    other = both.replace(vertical=-2.0 * both.z_samples)
+    motions = [both, both.without_vertical(), other, both.replace(dt=1.5 * both.dt)]
+    alone = [simulate_many(COLUMN, [motion], HousnerBlock()).peak_rotation_rad[0] for motion in motions]
+    assert len(set(alone)) == len(motions)
+    for order in ([0, 1, 2, 3], [3, 2, 1, 0]):
+        together = simulate_many(COLUMN, [motions[i] for i in order], HousnerBlock(), threads=1)
+        assert together.peak_rotation_rad.tolist() == [alone[i] for i in order]
+
+
 def test_followed_until_it_lies():
     motion = harmonic(1.0, 0.45 * g, 10.0)
     short, long = (simulate(COLUMN, motion, HousnerBlock(), until_end=flag) for flag in (False, True))
@@ -110,3 +122,19 @@ def test_declared_limits_warn():
     lifted = motion.replace(vertical=-8.0 * motion.samples)
     with pytest.warns(OutOfRangeWarning, match="leave the ground"):
         simulate(COLUMN, lifted, HousnerBlock())
+
+
+def test_the_largest_motion_of_a_batch_is_checked_in_any_order():
+    motion = harmonic(1.0, 0.1 * g, 0.1)
+    lifted = motion.replace(vertical=-10.0 * motion.samples)
+    # Upwards only; turned round, it falls below −1 g.
+    bump = motion.replace(vertical=np.full(motion.steps, 0.5 * g))
+    for factors in ((0.1, 1.0, 3.0), (3.0, 1.0, 0.1)):
+        with pytest.warns(OutOfRangeWarning, match="leave the ground"):
+            simulate_many(COLUMN, [lifted.scaled(factor) for factor in factors], HousnerBlock())
+    for factors in ((-3.0, 4.0), (4.0, -3.0)):
+        with pytest.warns(OutOfRangeWarning, match="leave the ground"):
+            simulate_many(COLUMN, [bump.scaled(factor) for factor in factors], HousnerBlock())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        simulate_many(COLUMN, [bump.scaled(factor) for factor in (4.0, 1.0)], HousnerBlock())

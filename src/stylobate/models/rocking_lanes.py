@@ -67,7 +67,7 @@ class RockingLanes:
         self.coefficients = kernel.trigonometry(False)
         self.cases: list[tuple[Case, RockingBlock, Tables, int] | None] = [None] * n
         self.blocks: dict[int, tuple[Column, RockingBlock]] = {}
-        self.tables: dict[tuple[int, float, float], tuple[np.ndarray, Tables]] = {}
+        self.tables: dict[tuple[int, int, float, float], tuple[Motion, Tables]] = {}
 
     def row(self, name: str) -> np.ndarray:
         """A row of the state by its name in the kernel."""
@@ -137,7 +137,7 @@ class RockingLanes:
 
     def _tables(self, motion: Motion, step: float, steps: int) -> Tables:
         """Motion along x and z and what is left of it at half steps, shared by all runs of the same samples and step."""
-        key = (id(motion.samples), motion.dt, step)
+        key = (id(motion.samples), id(motion.z_samples), motion.dt, step)
         if key not in self.tables:
             if len(self.tables) >= MOST_TABLES:  # lanes that run keep theirs alive
                 self.tables.clear()
@@ -148,5 +148,5 @@ class RockingLanes:
                 (np.arange(2 * steps + 2) * (0.5 * step / motion.dt) + 1e-9).astype(np.int64), len(left) - 1
             )
             tables = (half_steps(motion.samples, motion.dt, step, steps), vertical, left[at])
-            self.tables[key] = (motion.samples, tables)
+            self.tables[key] = (motion, tables)  # the motion keeps its arrays alive, and so their ids
         return self.tables[key][1]
