@@ -6,10 +6,12 @@ import pytest
 from stylobate.column import Column, Joint, preset
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.models.base import Case
+from stylobate.models.base import Case, RunOptions
 from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.rigid_beam_lanes import BeamLanes, loop_for
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
+from stylobate.response import Measures
 from stylobate.simulate import simulate, simulate_iter
 
 SOFT = Joint(normal_stiffness=1e9, shear_stiffness=5e8, friction_coefficient=0.7)
@@ -43,6 +45,32 @@ def test_same_bits_for_any_order_and_number_of_threads(model):
         assert repr(shuffled[index]) == repr(measures)
     for index in (0, 7):
         assert repr(simulate(*cases[index], model).measures) == repr(reference[index])
+
+
+@pytest.mark.parametrize("model", [RigidBeam(), RigidBeam(sliding=True), RigidBeam(stiffness_damping=1e-4)])
+@pytest.mark.parametrize("vertical", [False, True])
+def test_a_failed_run_leaves_nothing_behind_in_its_lane(model, vertical):
+    case = Case(stack(2), shaken(0.25 * g, vertical))
+    block = BeamLanes(model, loop_for(model, case), RunOptions())
+
+    def run(lane: int) -> Measures:
+        while not block.is_over(lane):
+            block.advance()
+        return block.collect(lane)
+
+    block.load(3, case)
+    expected = run(3)
+    assert expected.outcome is Outcome.ROCKED
+    for lane in (3, 5):
+        block.load(lane, case)
+    block.drum["w"][2, 3] = np.nan
+    assert repr(run(5)) == repr(expected)
+    failed = run(3)
+    assert failed.outcome is Outcome.FAILED
+    assert not failed.decided
+    assert "not finite" in failed.reason
+    block.load(3, case)
+    assert repr(run(3)) == repr(expected)
 
 
 @pytest.mark.parametrize(

@@ -62,5 +62,5 @@ apart = numba.njit(cache=True, nogil=True, fastmath=FAST, error_model="numpy", n
 #: For the scalar laws that several kernels share.
 law = numba.njit(inline="always", fastmath=FAST, error_model="numpy")
 
-#: For what looks at non-finite values: no assumption about them.
-strict = numba.njit(cache=True, nogil=True, error_model="numpy")
+#: For what looks at non-finite values: no assumption about them. Said outright, or the first fast caller would pass its own.
+strict = numba.njit(cache=True, nogil=True, fastmath=False, error_model="numpy")

@@ -325,10 +325,11 @@ def observe(drum, lane, watch):
         # From the base up: the slip of every joint, kept in y; the displacement of the top at the end.
         face = 0.0
         lost, side, lying = 0, 0, False
+        finite = math.isfinite(s.work[l] + s.visc[l] + s.fric[l] + s.joint[l])
         for i in range(1, n + 1):
             d, below = drum[i], drum[i - 1]
-            if not (math.isfinite(d.th[l]) and math.isfinite(d.w[l])):
-                f.status[l] = FAILED
+            finite = finite and math.isfinite(d.th[l]) and math.isfinite(d.w[l])
+            finite = finite and math.isfinite(d.x[l]) and math.isfinite(d.v[l])
             if sliding:
                 bottom = d.x[l] - d.zb[l] * d.th[l]
                 slip = bottom - face
@@ -342,6 +343,8 @@ def observe(drum, lane, watch):
             f.shift[l] = max(f.shift[l], abs(slip))
             d.y[l] = slip
             face = bottom + d.th[l] / d.ih[l]
+        if not finite:
+            f.status[l] = FAILED
         f.top[l] = max(f.top[l], abs(face))
         f.wmax[l] = max(f.wmax[l], abs(s.work[l]))
         # From the top down: mass, first moment and momentum of everything above each joint.

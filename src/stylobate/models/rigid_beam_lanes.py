@@ -67,14 +67,14 @@ class BeamLanes:
         column, motion = case
         beam = packed(self.model, column)
         self.cases[lane] = (case, beam)
+        for name in kernel.DRUM.names or ():  # nothing of the run before: a sum that is no number stays none
+            self.drum[name][:, lane] = 0.0
         for name, values in _drum_fields(beam).items():
             self.drum[name][1:-1, lane] = values
         model, seen = self.model, beam.seen
         theta = -model.initial_rotation
         for name in ("th", "ts"):
             self.drum[name][1:-1, lane] = theta
-        for name in ("w", "ws", "v", "vs", "pl"):
-            self.drum[name][1:-1, lane] = 0.0
         for name in ("x", "xs"):
             self.drum[name][1:-1, lane] = theta * seen.centroid_heights
         duration = motion.duration + self.options.tail
@@ -149,6 +149,7 @@ class BeamLanes:
         work, fric, visc = (float(self.lane[name][0, lane]) for name in ("work", "fric", "visc"))
         return np.array([work, *change, fric, visc])
 
+    @np.errstate(over="ignore", invalid="ignore")
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run has ended."""
         loaded = self.cases[lane]
@@ -174,6 +175,7 @@ class BeamLanes:
         )  # fmt: skip
 
 
+@np.errstate(over="ignore", invalid="ignore")  # of a state that is no number the measures tell
 def run_one(model: RigidBeam, column: Column, motion: Motion, options: RunOptions) -> tuple[Histories, Measures]:
     """One run with histories, through the loop of a batch."""
     case = Case(column, motion)

@@ -129,11 +129,19 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
     """
     column = beam.seen
     failure = found["failure"]
+    state = (*found["theta"], *found["slip"], found["energy"], found["imbalance"])
+    if not failure and not all(map(math.isfinite, state)):
+        failure = f"the state is not finite at {found['end']:.4g} s; shorten the time_step"
     if not failure and not found["imbalance"] <= LARGEST_IMBALANCE:
         failure = (
             f"the energy ledger is out of balance by {found['imbalance']:.2g} of the input work; shorten the time_step"
         )
-    collapsed, decided = (True, True) if found["lost"] else beam.verdict(found["theta"], found["slip"], found["energy"])
+    if failure:
+        collapsed, decided = False, False
+    elif found["lost"]:
+        collapsed, decided = True, True
+    else:
+        collapsed, decided = beam.verdict(found["theta"], found["slip"], found["energy"])
     widths = column.joint_widths
     outcome = classify(
         collapsed, bool(failure), found["opening"] / float(widths.min()), float((np.abs(found["slip"]) / widths).max())
@@ -148,7 +156,7 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
     time = found["time"] if found["lost"] else found["end"]
     return Measures(
         outcome=outcome,
-        decided=decided and not failure,
+        decided=decided,
         collapse_time=time if outcome is Outcome.COLLAPSED else math.nan,
         peak_top_displacement=found["top"],
         residual_top_displacement=found["residual"],

@@ -111,14 +111,16 @@ class RockingBlock:
         steps: int,
     ) -> Measures:
         """Measures of a run from its last state, its largest rotation and its collapse time (negative: none)."""
+        if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
+            failure = "the state is not finite"
         found = collapse_time >= 0.0
-        collapsed, decided = (found, found) if failure else self.verdict(x, v, found)
+        collapsed, decided = (False, False) if failure else self.verdict(x, v, found)
         opening = float(self.opening(peak))
         width = 2.0 * self.half_width
         return Measures(
-            outcome=classify(collapsed and not failure, bool(failure), opening / width, 0.0),
-            decided=decided and not failure,
-            collapse_time=(collapse_time if found else end) if collapsed and not failure else math.nan,
+            outcome=classify(collapsed, bool(failure), opening / width, 0.0),
+            decided=decided,
+            collapse_time=(collapse_time if found else end) if collapsed else math.nan,
             peak_top_displacement=float(self.displacement(peak, self.height)[0]),
             residual_top_displacement=float(self.displacement(side * x, self.height)[0]),
             peak_rotation=peak,
@@ -133,7 +135,7 @@ class RockingBlock:
 
 def imbalance(input_work: float, accounted: float, largest: float) -> float:
     """Energy that the ledger cannot account for over the largest input work so far [-]; 0 without input."""
-    return abs(input_work - accounted) / largest if largest > 0.0 else 0.0
+    return 0.0 if largest == 0.0 else abs(input_work - accounted) / largest
 
 
 def half_steps(samples: np.ndarray, dt: float, step: float, steps: int) -> np.ndarray:

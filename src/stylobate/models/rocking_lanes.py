@@ -118,11 +118,10 @@ class RockingLanes:
             float(self.row(name)[lane])
             for name in ("X", "V", "SIDE", "WORK", "WORK_MAX", "PEAK", "LOSS", "STEP", "COLLAPSE")
         )
-        finite = math.isfinite(x) and math.isfinite(v)
         stored = 0.5 * v * v + float(block.potential(x) - block.potential(abs(self.initial_rotation)))
         return block.measures(
             x=x, v=v, side=side, peak=peak, collapse_time=collapse, end=steps * step,
-            failure="" if finite else "the state is not finite",
+            failure="",
             imbalance=imbalance(work, stored + loss, work_max),
             step=step, steps=round(collapse / step) if collapse >= 0.0 else steps,
         )  # fmt: skip

@@ -1,0 +1,128 @@
+"""Compiled functions that look at states that are no number keep seeing them, whoever has them compiled."""
+
+import importlib
+import math
+import pkgutil
+
+import numba
+import numpy as np
+import pytest
+
+from stylobate import kernels
+from stylobate.column import preset
+from stylobate.kernels import assembly_2d, distinct_element_2d, jit, narrow_phase, rigid_beam, rigid_block
+from stylobate.models.housner import HousnerBlock
+from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.rigid_beam_state import measures_of, packed
+from stylobate.outcome import Outcome
+
+NAN, INF = math.nan, math.inf
+
+
+def compiled(function):
+    """The function as a fast loop gets it: compiled on the loop's behalf, and not from a cache."""
+    options = {key: value for key, value in function.targetoptions.items() if key != "nopython"}
+    fresh = numba.njit(**options)(function.py_func)
+
+    @numba.njit(fastmath=jit.FAST, error_model="numpy")
+    def loop(*arguments):
+        return fresh(*arguments)
+
+    return loop
+
+
+def test_every_compiled_function_states_its_own_mode():
+    # A function that states none takes that of the first one that calls it.
+    found = 0
+    for module in pkgutil.iter_modules(kernels.__path__):
+        for name, value in vars(importlib.import_module(f"{kernels.__name__}.{module.name}")).items():
+            if isinstance(value, numba.core.registry.CPUDispatcher):
+                assert "fastmath" in value.targetoptions, f"{module.name}.{name}"
+                found += 1
+    assert found > 50
+
+
+@pytest.mark.parametrize("bad", [NAN, INF, -INF])
+def test_drums_that_are_nowhere_have_failed(bad):
+    drum, *_, watch = (np.zeros(3, kind) for kind in distinct_element_2d.block_types(2, False))
+    watch["status"] = distinct_element_2d.RUNNING
+    for lane, name in enumerate(("x", "z", "th")):
+        drum[name][1 + lane % 2, lane] = bad
+    compiled(distinct_element_2d.check_finite)(drum, watch)
+    failed, running = distinct_element_2d.FAILED, distinct_element_2d.RUNNING
+    assert watch["status"][0, :4].tolist() == [failed] * 3 + [running]
+
+
+@pytest.mark.parametrize("bad", [NAN, INF, -INF])
+def test_bodies_that_are_nowhere_are_reported(bad):
+    body_type, _, now_type = assembly_2d.types(2)
+    settle = compiled(assembly_2d.settle_lengths)
+    for name in ("x", "z", "th"):
+        body, now = np.zeros(2, body_type), np.zeros(1, now_type)
+        body["im"] = 1.0
+        settle(body, now)
+        assert now["failed"][0] == 0
+        body[name][1] = bad
+        settle(body, now)
+        assert now["failed"][0] == 1
+
+
+@pytest.mark.parametrize("bad", [NAN, INF, -INF])
+def test_beams_that_are_nowhere_have_failed(bad):
+    drum, lane, watch = np.zeros(4, rigid_beam.DRUM), np.zeros(1, rigid_beam.LANE), np.zeros(1, rigid_beam.WATCH)
+    watch["status"], watch["end"], watch["when"] = rigid_beam.RUNNING, 9, -1
+    drum["ih"] = drum["half"] = drum["ks"] = 1.0
+    for place, name in enumerate(("th", "w", "x", "v")):
+        drum[name][1 + place % 2, place] = bad
+    lane["work"][0, 4] = bad
+    compiled(rigid_beam.observe)(drum, lane, watch)
+    assert watch["status"][0, :6].tolist() == [rigid_beam.FAILED] * 5 + [rigid_beam.RUNNING]
+
+
+@pytest.mark.parametrize("module", [distinct_element_2d, rigid_block])
+def test_ledger_of_drums_that_are_nowhere_is_no_number(module):
+    types = module.block_types(2 if module is distinct_element_2d else False, False)
+    drum, joint, lane, ground, _, _ = (np.zeros(3, kind) for kind in types)
+    drum["m"] = drum["i"] = drum["im"] = drum["ii"] = 1.0
+    ledger, out = compiled(module.ledger), np.zeros(6)
+    ledger(drum, joint, lane, ground, 0, 1e-3, 0, out)
+    assert np.isfinite(out).all()
+    drum["vx"][1, 0] = NAN
+    ledger(drum, joint, lane, ground, 0, 1e-3, 0, out)
+    assert math.isnan(out[1])
+
+
+@pytest.mark.parametrize("place", ["theta", "slip", "energy", "imbalance"])
+def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
+    column = preset("paper-12-drums")
+    facts = {
+        "theta": np.zeros(12), "slip": np.zeros(12), "energy": 0.0, "imbalance": 0.0, "lost": 0, "side": 0, "time": 0.0,
+        "end": 1.0, "failure": "", "top": 0.0, "residual": 0.0, "turn": 0.0, "opening": 0.0, "step": 1e-3, "steps": 1000,
+    }  # fmt: skip
+    beam = packed(RigidBeam(sliding=True), column)
+    assert measures_of(beam, facts).decided
+    bad = np.where(np.arange(12) == 3, NAN, 0.0) if place in ("theta", "slip") else NAN
+    measures = measures_of(beam, facts | {place: bad})
+    assert measures.outcome is Outcome.FAILED
+    assert not measures.decided
+
+
+@pytest.mark.parametrize("place", ["x", "v", "imbalance"])
+def test_a_rocking_block_with_a_value_that_is_no_number_has_no_verdict(place):
+    block = HousnerBlock().block(preset("paper-monolithic"))
+    facts = {
+        "x": 0.0, "v": 0.0, "side": 1.0, "peak": 0.1, "collapse_time": -1.0, "end": 1.0, "failure": "", "imbalance": 0.0,
+        "step": 1e-3, "steps": 1000,
+    }  # fmt: skip
+    assert block.measures(**facts).decided
+    measures = block.measures(**facts | {place: NAN})
+    assert measures.outcome is Outcome.FAILED
+    assert not measures.decided
+
+
+def test_a_chord_without_overlap_has_no_depth():
+    # The search for the extent of an overlap starts from infinity.
+    depth_square = compiled(narrow_phase.depth_square)
+    x, z = np.array([0.0, 2.0, 2.0, 0.0]), np.array([0.0, 0.0, 0.5, 0.5])
+    assert depth_square(x, z, 4, 1.0, 0.0) == pytest.approx(2.0 * 0.25)
+    assert depth_square(x, 0.0 * z, 4, 1.0, 0.0) == 0.0
