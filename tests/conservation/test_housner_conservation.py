@@ -9,6 +9,7 @@ from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.housner import HousnerBlock
 from stylobate.motion import Motion, harmonic
+from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many
 
 COLUMN = preset("paper-monolithic")
@@ -61,3 +62,25 @@ def test_a_small_rotation_moves_points_as_a_rigid_body_does():
     distance = response.top_displacement - response.base_displacement
     assert np.allclose(distance, -COLUMN.height * np.sin(rotation), atol=1e-12)
     assert np.allclose(response.joint_opening[:, 0], COLUMN.base_width * np.sin(np.abs(rotation)), atol=1e-12)
+
+
+def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
+    block = HousnerBlock().block(COLUMN)
+    facts = {"side": 1.0, "peak": 0.1, "end": 1.0, "failure": "", "step": 1e-3, "steps": 1000, "start": 0.0}
+
+    def measures(energy: float, unaccounted: float, time: float = -1.0, work: float = 1.0, sign: float = 1.0):
+        v = sign * math.sqrt(2.0 * energy * block.barrier)
+        return block.measures(
+            x=0.0, v=v, collapse_time=time, work=work * block.barrier, unaccounted=unaccounted * block.barrier, **facts
+        )
+
+    assert measures(0.9, 0.05).decided
+    assert not measures(0.9, 0.12).decided
+    assert measures(1.1, 0.05).collapsed
+    assert not measures(1.1, 0.12).decided
+    assert not measures(1.1, 0.05, sign=-1.0).decided
+    assert measures(0.9, 0.05, work=0.0).energy_imbalance == pytest.approx(0.05)
+    assert measures(0.9, 0.3).outcome is Outcome.FAILED
+    # a collapse that was found, without the energy for it
+    assert measures(1.5, 0.2, time=1.0, work=1.4).collapsed
+    assert measures(1.5, 0.2, time=1.0, work=0.9).outcome is Outcome.FAILED

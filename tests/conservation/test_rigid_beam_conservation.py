@@ -8,7 +8,9 @@ import pytest
 from stylobate.column import Column, Joint, preset
 from stylobate.constants import g
 from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.rigid_beam_state import measures_of, packed
 from stylobate.motion import Motion, harmonic
+from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many
 
 SOFT = Joint(normal_stiffness=1e9, shear_stiffness=5e8, friction_coefficient=0.7)
@@ -103,3 +105,44 @@ def test_residual_slip_is_part_of_the_response():
     single = simulate(preset("paper-monolithic").with_joint(friction_coefficient=0.12), motion, RigidBeam(sliding=True))
     assert table.outcome[0] == str(single.outcome) == "displaced"
     assert table.residual_joint_slip_m[0] == abs(single.joint_slip[-1, 0]) > 1e-3
+
+
+def test_energy_that_the_steps_make_overturns_nothing():
+    # Let go at rest below its balance point, a block has not the energy to go over, whatever a coarse step makes of it.
+    column = stack(1, Joint(normal_stiffness=5e9, shear_stiffness=2.5e9))
+    coarse = RigidBeam().stable_step(column)
+    quiet = Motion(0.1, np.zeros(11))
+    ends = set()
+    for share in (0.5, 0.8, 0.9, 0.95):
+        for step in (None, 0.7 * coarse, 0.95 * coarse):
+            model = RigidBeam(initial_rotation=share * column.slenderness, time_step=step)
+            found = simulate(column, quiet, model, tail=20.0)
+            assert not found.collapsed
+            assert found.energy_imbalance > 1e-4
+            ends.add((str(found.outcome), found.decided))
+            if found.outcome is Outcome.FAILED:
+                assert "shorten the time_step" in found.measures.reason
+    assert ("failed", False) in ends
+    assert ("rocked", True) in ends
+
+
+def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
+    beam = packed(RigidBeam(), stack(3))
+    lowest = beam.passes.lowest_unslid
+    zero = ("lost", "side", "time", "top", "residual", "turn", "opening", "work", "start")
+    facts = dict.fromkeys(zero, 0.0) | {"end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}
+    facts |= {name: np.zeros(3) for name in ("theta", "omega", "slip")}
+    for energy, unaccounted, decided in (
+        (0.95, 0.0, True),
+        (0.95, 0.04, True),
+        (0.95, 0.06, False),
+        (1.01, 0.0, False),
+    ):
+        found = measures_of(beam, facts | {"energy": energy * lowest, "unaccounted": unaccounted * lowest})
+        assert found.decided == decided
+    # Of little input little can be made: what counts is what it takes to overturn the column, or the energy at the start.
+    for work, expected in ((0.0, 0.1), (4.0, 0.025)):
+        found = measures_of(beam, facts | {"energy": 0.0, "unaccounted": 0.1 * lowest, "work": work * lowest})
+        assert found.energy_imbalance == pytest.approx(expected, rel=0.02)
+    found = measures_of(beam, facts | {"energy": 0.0, "unaccounted": 0.3 * lowest})
+    assert found.outcome is Outcome.FAILED

@@ -71,7 +71,8 @@ def test_bodies_that_are_nowhere_are_reported(bad):
 def test_beams_that_are_nowhere_have_failed(bad):
     drum, lane, watch = np.zeros(4, rigid_beam.DRUM), np.zeros(1, rigid_beam.LANE), np.zeros(1, rigid_beam.WATCH)
     watch["status"], watch["end"], watch["when"] = rigid_beam.RUNNING, 9, -1
-    drum["ih"] = drum["half"] = drum["ks"] = 1.0
+    for name in ("ih", "half", "fl", "fu", "ks"):
+        drum[name] = 1.0
     for place, name in enumerate(("th", "w", "x", "v")):
         drum[name][1 + place % 2, place] = bad
     lane["work"][0, 4] = bad
@@ -92,13 +93,12 @@ def test_ledger_of_drums_that_are_nowhere_is_no_number(module):
     assert math.isnan(out[1])
 
 
-@pytest.mark.parametrize("place", ["theta", "slip", "energy", "imbalance"])
+@pytest.mark.parametrize("place", ["theta", "slip", "energy", "unaccounted"])
 def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
     column = preset("paper-12-drums")
-    facts = {
-        "theta": np.zeros(12), "slip": np.zeros(12), "energy": 0.0, "imbalance": 0.0, "lost": 0, "side": 0, "time": 0.0,
-        "end": 1.0, "failure": "", "top": 0.0, "residual": 0.0, "turn": 0.0, "opening": 0.0, "step": 1e-3, "steps": 1000,
-    }  # fmt: skip
+    zero = ("energy", "start", "work", "unaccounted", "lost", "side", "time", "top", "residual", "turn", "opening")
+    facts = dict.fromkeys(zero, 0.0) | {"end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}
+    facts |= {name: np.zeros(12) for name in ("theta", "omega", "slip")}
     beam = packed(RigidBeam(sliding=True), column)
     assert measures_of(beam, facts).decided
     bad = np.where(np.arange(12) == 3, NAN, 0.0) if place in ("theta", "slip") else NAN
@@ -107,12 +107,12 @@ def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
     assert not measures.decided
 
 
-@pytest.mark.parametrize("place", ["x", "v", "imbalance"])
+@pytest.mark.parametrize("place", ["x", "v", "unaccounted"])
 def test_a_rocking_block_with_a_value_that_is_no_number_has_no_verdict(place):
     block = HousnerBlock().block(preset("paper-monolithic"))
     facts = {
-        "x": 0.0, "v": 0.0, "side": 1.0, "peak": 0.1, "collapse_time": -1.0, "end": 1.0, "failure": "", "imbalance": 0.0,
-        "step": 1e-3, "steps": 1000,
+        "x": 0.0, "v": 0.0, "side": 1.0, "peak": 0.1, "collapse_time": -1.0, "end": 1.0, "failure": "", "work": 0.0,
+        "start": 0.0, "unaccounted": 0.0,         "step": 1e-3, "steps": 1000,
     }  # fmt: skip
     assert block.measures(**facts).decided
     measures = block.measures(**facts | {place: NAN})

@@ -18,6 +18,7 @@ Legend (drum 1 … n and its joint, the one under it; 0 is the base, n + 1 nothi
               ks mu co n       k_s A [N/m], N tan φ [N], cohesion × A [N], N with second-order effect, else 0 [N]
               pl               plastic slip of the joint [m]
     watched   m c half alpha   mass [kg], rotation at which the joint opens [rad], d/2 [m], critical angle of the law [rad]
+              fl fu            half widths of the drum's lower face and of the face under it, without end for the base [m]
               mu_m sz          M_u and Σ_j≥i m_j (z_j − z_i): what gravity and a base acceleration do to the part above
     lane      dt rel beta      step [s]; 1 relative, 0 absolute rotation in the law; stiffness-proportional damping [s]
               work visc fric joint   input work, viscous and friction loss, work of the joints' moments [J]
@@ -63,7 +64,7 @@ def _fields(names):
 DRUM = np.dtype(
     _fields(
         "th w ts ws st sw k m1 s1 m2 s2 gs sx ih p di lo y "
-        "x v xs vs tx tv im ii zb zt ks mu co n pl m c half alpha mu_m sz"
+        "x v xs vs tx tv im ii zb zt ks mu co n pl m c half fl fu alpha mu_m sz"
     )
 )
 LANE = np.dtype(_fields("dt rel beta ax gm work visc fric joint mo qa ya la ub pa pw pv pj tw tv tj g"))
@@ -312,7 +313,7 @@ def observe(drum, lane, watch):
     """Peaks, collapse, end and failure of every lane, once per chunk.
 
     A part above a joint is lost when gravity's moment about the edge of its support beats what is left of the input,
-    and moves outward  # Eq. (R8)
+    and moves outward  # Eq. (R8); or when its contact has gone
     """
     n = len(drum) - 2
     f, s = watch[0], lane[0]
@@ -347,31 +348,44 @@ def observe(drum, lane, watch):
             f.status[l] = FAILED
         f.top[l] = max(f.top[l], abs(face))
         f.wmax[l] = max(f.wmax[l], abs(s.work[l]))
-        # From the top down: mass, first moment and momentum of everything above each joint.
-        mass, first, momentum = 0.0, 0.0, 0.0
+        # From the top down: mass, first moment and momentum of everything above each joint, and the slips' share in them.
+        mass, first, momentum, slid = 0.0, 0.0, 0.0, 0.0
+        higher, higher_rate = 0.0, 0.0
         for i in range(n, 0, -1):
             d, below = drum[i], drum[i - 1]
             lever, lever_speed = d.th[l] / d.ih[l], d.w[l] / d.ih[l]
             own, own_speed = d.zb[l] * d.th[l], d.zb[l] * d.w[l]
-            above_slip = drum[i + 1].y[l] if i < n else 0.0
             # sums are about the lower face of the drum above: shift to this drum's lower face
-            first += mass * (lever + above_slip) + d.m[l] * own
-            momentum += mass * lever_speed + d.m[l] * own_speed
+            first += mass * (lever + higher) + d.m[l] * own
+            momentum += mass * (lever_speed + higher_rate) + d.m[l] * own_speed
+            slid += mass * higher
             mass += d.m[l]
+            slip, rate = d.y[l], 0.0
+            if sliding:
+                rate = d.v[l] - d.zb[l] * d.w[l] - below.v[l] - below.zt[l] * below.w[l]
+            higher, higher_rate = slip, rate
+            # what is left of the contact, from the middle of the lower face; sliding on the base takes none of it away
+            right, left = min(d.fl[l], d.fu[l] - slip), min(d.fl[l], d.fu[l] + slip)
             reserve = pull + (SUPPORT_MARGIN if i > 1 else 0.0)
             if d.gs[l] > 0.0:
-                away = 1.0 if first >= 0.0 else -1.0
-                arm = away * first - mass * (d.half[l])
-                driving = s.g[l] * arm
-                outward = away * momentum > 0.0
+                away = 1.0 if first >= 0.5 * mass * (right - left) else -1.0
+                edge = right if away > 0.0 else left
+                driving = s.g[l] * (away * first - mass * edge)
+                speed = momentum
             else:
                 phi = d.th[l] - s.rel[l] * below.th[l]
-                spin = d.w[l] - s.rel[l] * below.w[l]
                 away = 1.0 if phi >= 0.0 else -1.0
+                edge = right if away > 0.0 else left
                 driving = d.mu_m[l] * (away * phi / d.alpha[l] - 1.0)
-                outward = away * spin > 0.0
+                driving += s.g[l] * (away * slid - mass * (edge - d.half[l]))
+                speed = d.w[l] - s.rel[l] * below.w[l]
+            # where the end of the contact is the lower drum's, it slides as well
+            outward = away * (speed + (mass * rate if edge < d.fl[l] else 0.0)) > 0.0
             flat = abs(d.th[l]) > 0.5 * math.pi
-            if (outward and f.gmin[l] * driving > reserve * d.sz[l]) or flat:
+            parted = right + left <= 0.0
+            if parted:
+                away = 1.0 if slip > 0.0 else -1.0
+            if (outward and f.gmin[l] * driving > reserve * d.sz[l]) or flat or parted:
                 lost, side = i, 1 if away > 0.0 else -1
             lying = lying or flat
         if f.status[l] == RUNNING and lost > 0 and f.when[l] < 0:

@@ -231,6 +231,13 @@ class RigidBeam(Model):
         ratio = 0.5 * self.stiffness_damping * highest  # of critical damping; beyond 1 the faster of two rates counts
         return highest * max(1.0, ratio + math.sqrt(max(0.0, ratio**2 - 1.0)))
 
+    def flutters(self, column: Column) -> bool:
+        """Whether the closed column has complex frequencies, as laws in the rotations of single drums can have them."""
+        from .rigid_beam_verdict import Passes
+
+        modes = Passes(self, column, self.joints(column), self.bed(column), self.critical_angles(column)).modes
+        return bool(np.iscomplexobj(modes[0]))
+
     def block(self, column: Column) -> RockingBlock:
         """For ``housner``: the beam of one drum as a rocking block; rotation about the middle of its base."""
         seen = self.idealised(column)
@@ -254,6 +261,11 @@ class RigidBeam(Model):
             raise InputError(
                 f"moment_law=housner is for one drum, and {column.name!r} has {column.n}; "
                 "use bilinear, trilinear or winkler."
+            )
+        if self.rotation == "absolute" and self.flutters(seen):
+            raise InputError(
+                f"with rotation=absolute the column {column.name!r} flutters while all its joints are closed, so that the "
+                "smallest vibration grows without end; use rotation=relative, or fewer or more slender drums."
             )
         if self.time_step is not None:
             largest = 0.2 / seen.frequency_parameter if self.moment_law == "housner" else self.stable_step(seen)

@@ -13,7 +13,8 @@ from ..kernels.rigid_beam import SUPPORT_MARGIN
 from ..motion import Motion
 from ..response import Histories, Measures
 from .base import RunOptions
-from .rigid_beam_state import PackedBeam, histories_of, ledger_imbalance, measures_of, packed
+from .rigid_beam_state import PackedBeam, histories_of, measures_of, packed, unaccounted
+from .rigid_beam_verdict import faces
 from .rocking import lightest_weight
 from .rocking_single import Ground
 
@@ -45,6 +46,7 @@ class BeamRates:
         self.load = np.concatenate((beam.matrices.load, above)) if self.sliding else beam.matrices.load
         self.friction = np.array([joint.tan_phi for joint in column.joints]) * column.joint_weights
         self.cohesion = np.array([joint.cohesion for joint in column.joints]) * column.joint_areas
+        self.lower, self.upper = faces(column)
         self.plastic = np.zeros(n)
         self.gravity = column.gravity
         self.beta = model.stiffness_damping
@@ -109,22 +111,30 @@ class BeamRates:
     def lost(self, t: float, y: np.ndarray, remaining: float, lightest: float) -> tuple[int, int]:
         """Joint (from 1) above which a part is lost and to which side; 0 if none.  # Eq. (R8)"""
         beam, column = self.beam, self.beam.seen
-        theta, omega, slip, _ = self.split(y)
+        theta, omega, slip, rate = self.split(y)
         phi, spin = (theta, omega) if self.absolute else (self.difference @ theta, self.difference @ omega)
         for i in range(self.n):
             reserve = remaining + (SUPPORT_MARGIN if i else 0.0)
+            lever, m = beam.matrices.lever[i:, i:], column.masses[i:]
+            slid = m @ np.append(0.0, np.cumsum(slip[i + 1 :]))
+            right, left = min(self.lower[i], self.upper[i] - slip[i]), min(self.lower[i], self.upper[i] + slip[i])
             if beam.geometric:
-                lever = beam.matrices.lever[i:, i:]
-                m = column.masses[i:]
-                offset = lever @ theta[i:] + np.append(0.0, np.cumsum(slip[i + 1 :]))
-                away = math.copysign(1.0, m @ offset)
-                driving = column.gravity * (away * (m @ offset) - m.sum() * 0.5 * column.joint_widths[i])
-                outward = away * (m @ (lever @ omega[i:])) > 0.0
+                first = m @ (lever @ theta[i:]) + slid
+                away = 1.0 if first >= 0.5 * m.sum() * (right - left) else -1.0
+                edge = right if away > 0.0 else left
+                driving = column.gravity * (away * first - m.sum() * edge)
+                speed = m @ (lever @ omega[i:] + np.append(0.0, np.cumsum(rate[i + 1 :])))
             else:
                 away = math.copysign(1.0, phi[i])
+                edge = right if away > 0.0 else left
                 driving = beam.ultimate[i] * (abs(phi[i]) / beam.alpha[i] - 1.0)
-                outward = away * spin[i] > 0.0
+                driving += column.gravity * (away * slid - m.sum() * (edge - 0.5 * column.joint_widths[i]))
+                speed = spin[i]
+            # where the end of the contact is the lower drum's, it slides as well
+            outward = away * (speed + (m.sum() * rate[i] if edge < self.lower[i] else 0.0)) > 0.0
             beaten = lightest * driving > reserve * beam.matrices.overturning[i]
+            if right + left <= 0.0:
+                return i + 1, int(math.copysign(1.0, slip[i]))
             if (outward and beaten) or abs(theta[i]) > 0.5 * math.pi:
                 return i + 1, int(away)
         return 0, 0
@@ -194,8 +204,9 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
     measures = measures_of(
         beam,
         facts | {
-            "theta": theta, "slip": slip, "energy": float(ledger[-1, 1:4].sum() + start.sum()),
-            "imbalance": ledger_imbalance(ledger[-1], worst), "end": t, "failure": failure, "top": top, "turn": turn,
+            "theta": theta, "omega": rates.split(solver.y)[1], "slip": slip,
+            "energy": float(ledger[-1, 1:4].sum() + start.sum()), "start": float(start.sum()), "work": worst,
+            "unaccounted": unaccounted(ledger[-1]), "end": t, "failure": failure, "top": top, "turn": turn,
             "opening": opening, "residual": float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum()),
             "step": smallest, "steps": steps,
         },

@@ -13,7 +13,8 @@ from ..motion import Motion
 from ..response import Histories, Measures
 from .base import Case, RunOptions
 from .rigid_beam_equations import tridiagonal
-from .rigid_beam_state import PackedBeam, histories_of, ledger_imbalance, measures_of, packed
+from .rigid_beam_state import PackedBeam, histories_of, measures_of, packed, unaccounted
+from .rigid_beam_verdict import faces
 from .rocking import lightest_weight
 
 if TYPE_CHECKING:
@@ -156,15 +157,16 @@ class BeamLanes:
         assert loaded is not None
         beam = loaded[1]
         watch = {name: self.watch[name][0, lane] for name in kernel.WATCH.names or ()}
-        theta, _, slip, _, _ = self.state(lane)
+        theta, omega, slip, _, _ = self.state(lane)
         energies = self._energies(lane)
         failed = watch["status"] == kernel.FAILED
         return measures_of(
             beam,
             {
-                "theta": theta, "slip": slip,
+                "theta": theta, "omega": omega, "slip": slip,
                 "energy": float(energies.sum()),
-                "imbalance": ledger_imbalance(self._ledger(lane, energies), float(watch["wmax"])),
+                "start": float(np.sum(self.start[lane])), "work": float(watch["wmax"]),
+                "unaccounted": unaccounted(self._ledger(lane, energies)),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
                 "time": float(watch["when"]) * self.dt[lane], "end": self.time(lane),
                 "failure": f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else "",
@@ -198,6 +200,7 @@ def _drum_fields(beam: PackedBeam) -> dict[str, np.ndarray]:
     friction = np.array([joint.tan_phi for joint in column.joints])
     cohesion = np.array([joint.cohesion for joint in column.joints])
     k, m1, s1, m2, s2 = beam.joints
+    face, under = faces(column)
     return {
         "k": k, "m1": m1, "s1": s1, "m2": m2, "s2": s2,
         "gs": weight * matrices.load, "sx": matrices.load, "ih": 1.0 / column.heights, "p": nodes,
@@ -206,6 +209,6 @@ def _drum_fields(beam: PackedBeam) -> dict[str, np.ndarray]:
         "ks": beam.shear if beam.model.sliding else np.zeros(column.n),
         "mu": friction * column.joint_weights, "co": cohesion * column.joint_areas,
         "n": column.joint_weights if beam.geometric else np.zeros(column.n),
-        "m": column.masses, "c": beam.opening, "half": 0.5 * column.joint_widths,
+        "m": column.masses, "c": beam.opening, "half": 0.5 * column.joint_widths, "fl": face, "fu": under,
         "alpha": beam.alpha, "mu_m": beam.ultimate, "sz": matrices.overturning,
     }  # fmt: skip

@@ -17,13 +17,11 @@ from ..response import Histories, Measures
 from .base import ground_history
 from .lanes import MOST_SAMPLES
 from .rigid_beam_equations import BeamMatrices
-from .rocking import imbalance
+from .rigid_beam_verdict import Passes
+from .rocking import MADE_ENERGY, out_of_balance, relative
 
 if TYPE_CHECKING:
     from .rigid_beam import RigidBeam
-
-#: A run whose ledger is out of balance by more than this share of the input work has failed.
-LARGEST_IMBALANCE = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +36,7 @@ class PackedBeam:
     alpha: np.ndarray
     opening: np.ndarray
     shear: np.ndarray
-    barriers: np.ndarray
+    passes: Passes
     longest_step: float
 
     def step_for(self, motion: Motion) -> float:
@@ -81,21 +79,6 @@ class PackedBeam:
         elastic += 0.5 * self.shear @ (slip - plastic) ** 2
         return np.array([kinetic, gravitational, elastic])
 
-    def verdict(self, theta, slip, energy: float) -> tuple[bool, bool]:
-        """Whether the column is lost and whether that is decided, when no input is left.  # Eq. (R9)
-
-        Below the lowest barrier a column cannot change sides: inside it stands for ever, outside it falls.
-        """
-        shortened = np.maximum(0.0, 1.0 - 2.0 * np.abs(slip) / self.seen.joint_widths)
-        phi = self.joint_rotations(theta)
-        if energy >= float((self.barriers * shortened**2).min()):
-            return False, False
-        if self.geometric:
-            inside = self.ultimate * shortened @ np.abs(phi) >= self.seen.gravity * self.matrices.load @ theta**2
-        else:
-            inside = bool(np.all(np.abs(theta if self.model.rotation == "absolute" else phi) <= self.alpha))
-        return not inside, True
-
     def lift(self, phi: np.ndarray) -> np.ndarray:
         """Gap of each joint at the edge that opens [m]."""
         size = np.abs(phi)
@@ -109,50 +92,41 @@ def packed(model: RigidBeam, column: Column) -> PackedBeam:
     matrices = BeamMatrices(seen)
     joints, bed, alpha = model.joints(seen), model.bed(seen), model.critical_angles(seen)
     shear = np.array([joint.shear_stiffness for joint in seen.joints]) * seen.joint_areas
-    # Energy that overturns the part above each joint alone: no way over several joints is lower.  # Eq. (R9)
-    weight = seen.gravity * matrices.overturning if model.second_order == "geometric" else np.zeros(seen.n)
-    ultimate = seen.joint_weights * 0.5 * seen.joint_widths
-    summit = ultimate / weight if model.second_order == "geometric" else alpha
-    phi = np.linspace(0.0, 1.0, 401)[:, None] * summit
-    barriers = (moment_law.stored(phi, joints[:, None, :], bed) - 0.5 * weight * phi**2).max(axis=0)
     opening = model.opening_rotations(seen)
     return PackedBeam(
-        model, seen, matrices, joints, bed, alpha, opening, shear, barriers, model.longest_step(seen)
+        model, seen, matrices, joints, bed, alpha, opening, shear,
+        Passes(model, seen, joints, bed, alpha), model.longest_step(seen),
     )  # fmt: skip
 
 
 def measures_of(beam: PackedBeam, found: dict) -> Measures:
     """Measures from the facts of a run.
 
-    ``found``: theta, slip (at the end, shape (n,)), energy (mechanical), imbalance, lost (joint from 1, 0: none), side,
-    time of collapse, end, failure, top, residual, turn, opening, step, steps.
+    ``found``: theta, omega, slip (at the end, shape (n,)), energy (mechanical, upright at rest zero), start (the same at the
+    start), work (largest of the input), unaccounted (by the ledger) [J], lost (joint from 1, 0: none), side, time of
+    collapse, end, failure, top, residual, turn, opening, step, steps.
     """
-    column = beam.seen
+    column, passes = beam.seen, beam.passes
     failure = found["failure"]
-    state = (*found["theta"], *found["slip"], found["energy"], found["imbalance"])
+    imbalance = relative(found["unaccounted"], found["work"], found["start"], passes.lowest_rigid)
+    state = (*found["theta"], *found["slip"], found["energy"], imbalance)
     if not failure and not all(map(math.isfinite, state)):
         failure = f"the state is not finite at {found['end']:.4g} s; shorten the time_step"
-    if not failure and not found["imbalance"] <= LARGEST_IMBALANCE:
-        failure = (
-            f"the energy ledger is out of balance by {found['imbalance']:.2g} of the input work; shorten the time_step"
-        )
-    if failure:
-        collapsed, decided = False, False
-    elif found["lost"]:
+    failure = failure or out_of_balance(imbalance)
+    collapsed, decided, reason = False, False, failure
+    if not failure and found["lost"]:
         collapsed, decided = True, True
-    else:
-        collapsed, decided = beam.verdict(found["theta"], found["slip"], found["energy"])
+        side = "right" if found["side"] > 0 else "left"
+        reason = f"{passes.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
+    elif not failure:
+        collapsed, decided, reason = passes.verdict(found)
+    if collapsed and not passes.reached(found["start"] + found["work"], beam.model.initial_rotation):
+        failure = reason = MADE_ENERGY
+        collapsed, decided = False, False
     widths = column.joint_widths
     outcome = classify(
         collapsed, bool(failure), found["opening"] / float(widths.min()), float((np.abs(found["slip"]) / widths).max())
     )
-    reason = failure
-    if outcome is Outcome.COLLAPSED:
-        reason = "beyond the lowest barrier when the input ends"
-        if found["lost"]:
-            joint, n = found["lost"], column.n
-            part = "the whole column" if joint == 1 else f"drums {joint} to {n}" if joint < n else f"drum {n}"
-            reason = f"{part} overturns to the {'right' if found['side'] > 0 else 'left'} over joint {joint}"
     time = found["time"] if found["lost"] else found["end"]
     return Measures(
         outcome=outcome,
@@ -163,7 +137,7 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
         peak_rotation=found["turn"],
         peak_joint_opening=found["opening"],
         residual_joint_slip=float(np.abs(found["slip"]).max()),
-        energy_imbalance=found["imbalance"],
+        energy_imbalance=imbalance,
         time_step=found["step"],
         steps=found["steps"],
         reason=reason,
@@ -205,6 +179,6 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) ->
     )
 
 
-def ledger_imbalance(ledger: np.ndarray, largest: float) -> float:
-    """Share of the input work that the ledger cannot account for [-]; ``ledger`` as in :func:`histories_of`, one row."""
-    return imbalance(float(ledger[0]), float(ledger[1:].sum()), largest)
+def unaccounted(ledger: np.ndarray) -> float:
+    """Energy that the ledger cannot account for [J]; ``ledger`` as in :func:`histories_of`, one row."""
+    return abs(float(ledger[0] - ledger[1:].sum()))

@@ -14,6 +14,14 @@ from ..response import Measures
 #: Impact velocity over p α under which the block comes to rest; it would rise to 5e-11 α.
 REST = 1.0e-5
 
+#: A run whose energy imbalance is larger has failed.
+LARGEST_IMBALANCE = 0.25
+
+#: Why a run has failed whose column overturns without the energy for it.
+MADE_ENERGY = (
+    "the column overturns by energy that the steps have made: its input never was enough; shorten the time_step"
+)
+
 
 @dataclass(frozen=True)
 class RockingBlock:
@@ -81,20 +89,21 @@ class RockingBlock:
         x = np.abs(tilt)
         return 2.0 * self.half_width * (x if self.linear else np.sin(x))
 
-    def verdict(self, x: float, v: float, collapsed: bool) -> tuple[bool, bool]:
+    def verdict(self, x: float, v: float, unaccounted: float) -> tuple[bool, bool]:
         """Whether the block has fallen or will, and whether that is decided, when no input is left.
 
         Parameters
         ----------
         x, v : float
             Rotation on the side the block stands on, and its velocity [rad], [rad/s].
-        collapsed : bool
-            Found certain during the run.
+        unaccounted : float
+            Energy that the ledger cannot account for, over I₀ [1/s²].
         """
-        over = 0.5 * v * v + float(self.potential(x)) >= self.barrier
-        beyond = x > self.alpha
-        collapsed = collapsed or (v > 0.0 if over else beyond)
-        return collapsed, collapsed or not over
+        energy = 0.5 * v * v + float(self.potential(x))
+        if energy + unaccounted < self.barrier:
+            return x > self.alpha, True
+        collapsed = v > 0.0 and energy - unaccounted >= self.barrier
+        return collapsed, collapsed
 
     def measures(
         self,
@@ -106,15 +115,27 @@ class RockingBlock:
         collapse_time: float,
         end: float,
         failure: str,
-        imbalance: float,
+        work: float,
+        start: float,
+        unaccounted: float,
         step: float,
         steps: int,
     ) -> Measures:
-        """Measures of a run from its last state, its largest rotation and its collapse time (negative: none)."""
+        """Measures of a run from its last state, its largest rotation, its collapse time (negative: none) and its ledger.
+
+        ``work``, ``start``, ``unaccounted``: largest input work, potential energy at the start, and what the ledger cannot
+        account for at the end, over I₀ [1/s²].
+        """
+        imbalance = relative(unaccounted, work, start, self.barrier)
         if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
             failure = "the state is not finite"
+        failure = failure or out_of_balance(imbalance)
         found = collapse_time >= 0.0
-        collapsed, decided = (False, False) if failure else self.verdict(x, v, found)
+        collapsed, decided = (found, found) if failure or found else self.verdict(x, v, abs(unaccounted))
+        if collapsed and not failure and start + work < self.barrier:
+            failure = MADE_ENERGY
+        if failure:
+            collapsed, decided = False, False
         opening = float(self.opening(peak))
         width = 2.0 * self.half_width
         return Measures(
@@ -126,16 +147,27 @@ class RockingBlock:
             peak_rotation=peak,
             peak_joint_opening=opening,
             residual_joint_slip=0.0,
-            energy_imbalance=float(imbalance),
+            energy_imbalance=imbalance,
             time_step=step,
             steps=steps,
             reason=failure or ("overturns as one block" if collapsed else ""),
         )
 
 
-def imbalance(input_work: float, accounted: float, largest: float) -> float:
-    """Energy that the ledger cannot account for over the largest input work so far [-]; 0 without input."""
-    return 0.0 if largest == 0.0 else abs(input_work - accounted) / largest
+def relative(unaccounted: float, work: float, start: float, barrier: float) -> float:
+    """Energy imbalance [-]: what the ledger cannot account for, over the largest of three energies.
+
+    Those are the largest input work so far, the energy at the start and the lowest barrier: a run with little input, or
+    with none, is measured by what it would take to overturn the column.
+    """
+    return abs(unaccounted) / max(work, start, barrier)
+
+
+def out_of_balance(imbalance: float) -> str:
+    """Why a run with this energy imbalance has failed; empty if it has not."""
+    if imbalance <= LARGEST_IMBALANCE:
+        return ""
+    return f"the energy ledger is out of balance by {imbalance:.2g} (allowed is {LARGEST_IMBALANCE}); shorten the time_step"
 
 
 def half_steps(samples: np.ndarray, dt: float, step: float, steps: int) -> np.ndarray:

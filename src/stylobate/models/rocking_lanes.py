@@ -13,7 +13,7 @@ from ..motion import Motion
 from ..response import Measures
 from .base import Case, RunOptions
 from .lanes import MOST_SAMPLES
-from .rocking import REST, RockingBlock, half_steps, imbalance, lightest_weight, remaining_peak
+from .rocking import REST, RockingBlock, half_steps, lightest_weight, remaining_peak
 
 #: Chunks of steps between two looks of the interpreter: some milliseconds.
 CHUNKS = 8
@@ -118,11 +118,12 @@ class RockingLanes:
             float(self.row(name)[lane])
             for name in ("X", "V", "SIDE", "WORK", "WORK_MAX", "PEAK", "LOSS", "STEP", "COLLAPSE")
         )
-        stored = 0.5 * v * v + float(block.potential(x) - block.potential(abs(self.initial_rotation)))
+        start = float(block.potential(abs(self.initial_rotation)))
+        stored = 0.5 * v * v + float(block.potential(x)) - start
         return block.measures(
             x=x, v=v, side=side, peak=peak, collapse_time=collapse, end=steps * step,
             failure="",
-            imbalance=imbalance(work, stored + loss, work_max),
+            work=work_max, start=start, unaccounted=work - stored - loss,
             step=step, steps=round(collapse / step) if collapse >= 0.0 else steps,
         )  # fmt: skip
 

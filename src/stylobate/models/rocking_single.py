@@ -9,7 +9,7 @@ import numpy as np
 from ..motion import Motion, integrate
 from ..response import Histories, Measures
 from .base import RunOptions
-from .rocking import REST, RockingBlock, imbalance, lightest_weight, remaining_peak
+from .rocking import REST, RockingBlock, lightest_weight, remaining_peak
 
 #: Of the solver; the absolute one over the slenderness.
 RELATIVE_TOLERANCE = 1e-8
@@ -181,10 +181,11 @@ def run_single(
         times = np.append(times, state["t"])
         rows = np.vstack((rows, [side * state["x"], state["v"], state["work"], state["loss"], 0.0]))
     histories = _histories(block, motion, times, rows, initial_rotation)
-    stored = 0.5 * state["v"] ** 2 + block.potential(state["x"]) - block.potential(abs(initial_rotation))
+    begun = float(block.potential(abs(initial_rotation)))
+    stored = 0.5 * state["v"] ** 2 + float(block.potential(state["x"])) - begun
     measures = block.measures(
         x=state["x"], v=state["v"], side=side, peak=peak, collapse_time=collapse_time, end=state["t"], failure=failure,
-        imbalance=imbalance(state["work"], stored + state["loss"], float(rows[:, 2].max())),
+        work=float(rows[:, 2].max()), start=begun, unaccounted=state["work"] - stored - state["loss"],
         step=smallest if steps else motion.dt, steps=steps,
     )  # fmt: skip
     return histories, measures
