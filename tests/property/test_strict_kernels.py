@@ -96,7 +96,20 @@ def test_ledger_of_drums_that_are_nowhere_is_no_number(module):
 @pytest.mark.parametrize("place", ["theta", "slip", "energy", "unaccounted"])
 def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
     column = preset("paper-12-drums")
-    zero = ("energy", "start", "work", "unaccounted", "lost", "side", "time", "top", "residual", "turn", "opening")
+    zero = (
+        "energy",
+        "start",
+        "work",
+        "given",
+        "unaccounted",
+        "lost",
+        "side",
+        "time",
+        "top",
+        "residual",
+        "turn",
+        "opening",
+    )
     facts = dict.fromkeys(zero, 0.0) | {"end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}
     facts |= {name: np.zeros(12) for name in ("theta", "omega", "slip")}
     beam = packed(RigidBeam(sliding=True), column)
@@ -110,10 +123,8 @@ def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
 @pytest.mark.parametrize("place", ["x", "v", "unaccounted"])
 def test_a_rocking_block_with_a_value_that_is_no_number_has_no_verdict(place):
     block = HousnerBlock().block(preset("paper-monolithic"))
-    facts = {
-        "x": 0.0, "v": 0.0, "side": 1.0, "peak": 0.1, "collapse_time": -1.0, "end": 1.0, "failure": "", "work": 0.0,
-        "start": 0.0, "unaccounted": 0.0,         "step": 1e-3, "steps": 1000,
-    }  # fmt: skip
+    facts = dict.fromkeys(("x", "v", "peak", "work", "given", "start", "unaccounted"), 0.0)
+    facts |= {"side": 1.0, "collapse_time": -1.0, "end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}
     assert block.measures(**facts).decided
     measures = block.measures(**facts | {place: NAN})
     assert measures.outcome is Outcome.FAILED

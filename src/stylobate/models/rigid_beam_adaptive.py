@@ -13,7 +13,7 @@ from ..kernels.rigid_beam import SUPPORT_MARGIN
 from ..motion import Motion
 from ..response import Histories, Measures
 from .base import RunOptions
-from .rigid_beam_state import PackedBeam, histories_of, measures_of, packed, unaccounted
+from .rigid_beam_state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
 from .rigid_beam_verdict import faces
 from .rocking import lightest_weight
 from .rocking_single import Ground
@@ -206,8 +206,9 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
         facts | {
             "theta": theta, "omega": rates.split(solver.y)[1], "slip": slip,
             "energy": float(ledger[-1, 1:4].sum() + start.sum()), "start": float(start.sum()), "work": worst,
-            "unaccounted": unaccounted(ledger[-1]), "end": t, "failure": failure, "top": top, "turn": turn,
-            "opening": opening, "residual": float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum()),
+            "given": given(ledger[-1], worst, facts["time"] > motion.duration), "unaccounted": unaccounted(ledger[-1]),
+            "end": t, "failure": failure, "top": top, "turn": turn, "opening": opening,
+            "residual": float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum()),
             "step": smallest, "steps": steps,
         },
     )  # fmt: skip

@@ -13,7 +13,7 @@ from ..motion import Motion
 from ..response import Histories, Measures
 from .base import Case, RunOptions
 from .rigid_beam_equations import tridiagonal
-from .rigid_beam_state import PackedBeam, histories_of, measures_of, packed, unaccounted
+from .rigid_beam_state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
 from .rigid_beam_verdict import faces
 from .rocking import lightest_weight
 
@@ -160,15 +160,16 @@ class BeamLanes:
         theta, omega, slip, _, _ = self.state(lane)
         energies = self._energies(lane)
         failed = watch["status"] == kernel.FAILED
+        ledger, largest = self._ledger(lane, energies), float(watch["wmax"])
+        time = float(watch["when"]) * self.dt[lane]
         return measures_of(
             beam,
             {
                 "theta": theta, "omega": omega, "slip": slip,
-                "energy": float(energies.sum()),
-                "start": float(np.sum(self.start[lane])), "work": float(watch["wmax"]),
-                "unaccounted": unaccounted(self._ledger(lane, energies)),
+                "energy": float(energies.sum()), "start": float(np.sum(self.start[lane])), "work": largest,
+                "given": given(ledger, largest, time > loaded[0].motion.duration), "unaccounted": unaccounted(ledger),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
-                "time": float(watch["when"]) * self.dt[lane], "end": self.time(lane),
+                "time": time, "end": self.time(lane),
                 "failure": f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else "",
                 "top": float(watch["top"]), "turn": float(watch["turn"]), "opening": float(watch["open"]),
                 "residual": float((theta + self.model.initial_rotation) @ beam.seen.heights + slip.sum()),

@@ -102,9 +102,9 @@ def packed(model: RigidBeam, column: Column) -> PackedBeam:
 def measures_of(beam: PackedBeam, found: dict) -> Measures:
     """Measures from the facts of a run.
 
-    ``found``: theta, omega, slip (at the end, shape (n,)), energy (mechanical, upright at rest zero), start (the same at the
-    start), work (largest of the input), unaccounted (by the ledger) [J], lost (joint from 1, 0: none), side, time of
-    collapse, end, failure, top, residual, turn, opening, step, steps.
+    ``found``: theta, omega, slip at the end, shape (n,); energy (mechanical, upright at rest zero), start (the same at the
+    start), work (largest of the input), given (see :func:`given`), unaccounted (by the ledger) [J]; lost (joint from 1,
+    0: none), side, time of collapse, end, failure, top, residual, turn, opening, step, steps.
     """
     column, passes = beam.seen, beam.passes
     failure = found["failure"]
@@ -120,7 +120,7 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
         reason = f"{passes.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
     elif not failure:
         collapsed, decided, reason = passes.verdict(found)
-    if collapsed and not passes.reached(found["start"] + found["work"], beam.model.initial_rotation):
+    if collapsed and not passes.reached(found["start"] + found["given"], beam.model.initial_rotation):
         failure = reason = MADE_ENERGY
         collapsed, decided = False, False
     widths = column.joint_widths
@@ -182,3 +182,11 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) ->
 def unaccounted(ledger: np.ndarray) -> float:
     """Energy that the ledger cannot account for [J]; ``ledger`` as in :func:`histories_of`, one row."""
     return abs(float(ledger[0] - ledger[1:].sum()))
+
+
+def given(ledger: np.ndarray, largest: float, after: bool) -> float:
+    """Most energy that a column can have had from the input when it was lost [J].
+
+    ``ledger`` as in :func:`histories_of`, one row at the end; ``largest`` input work; ``after`` the motion had ended.
+    """
+    return float(ledger[0] - ledger[4] - ledger[5]) if after else largest

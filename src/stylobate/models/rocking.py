@@ -116,6 +116,7 @@ class RockingBlock:
         end: float,
         failure: str,
         work: float,
+        given: float,
         start: float,
         unaccounted: float,
         step: float,
@@ -123,8 +124,8 @@ class RockingBlock:
     ) -> Measures:
         """Measures of a run from its last state, its largest rotation, its collapse time (negative: none) and its ledger.
 
-        ``work``, ``start``, ``unaccounted``: largest input work, potential energy at the start, and what the ledger cannot
-        account for at the end, over I₀ [1/s²].
+        Over I₀ [1/s²] ``work`` is the largest input work, ``given`` the most that the block can have had of it when it was
+        lost, ``start`` the potential energy at the start, ``unaccounted`` what the ledger cannot account for at the end.
         """
         imbalance = relative(unaccounted, work, start, self.barrier)
         if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
@@ -132,7 +133,7 @@ class RockingBlock:
         failure = failure or out_of_balance(imbalance)
         found = collapse_time >= 0.0
         collapsed, decided = (found, found) if failure or found else self.verdict(x, v, abs(unaccounted))
-        if collapsed and not failure and start + work < self.barrier:
+        if collapsed and not failure and start + given < self.barrier:
             failure = MADE_ENERGY
         if failure:
             collapsed, decided = False, False

@@ -112,7 +112,7 @@ class RockingLanes:
         """Measures of a lane whose run has ended."""
         loaded = self.cases[lane]
         assert loaded is not None
-        _, block, _, steps = loaded
+        case, block, _, steps = loaded
         self.cases[lane] = None
         x, v, side, work, work_max, peak, loss, step, collapse = (
             float(self.row(name)[lane])
@@ -123,7 +123,8 @@ class RockingLanes:
         return block.measures(
             x=x, v=v, side=side, peak=peak, collapse_time=collapse, end=steps * step,
             failure="",
-            work=work_max, start=start, unaccounted=work - stored - loss,
+            work=work_max, given=work - loss if collapse > case.motion.duration else work_max, start=start,
+            unaccounted=work - stored - loss,
             step=step, steps=round(collapse / step) if collapse >= 0.0 else steps,
         )  # fmt: skip
 

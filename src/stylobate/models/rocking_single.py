@@ -181,11 +181,13 @@ def run_single(
         times = np.append(times, state["t"])
         rows = np.vstack((rows, [side * state["x"], state["v"], state["work"], state["loss"], 0.0]))
     histories = _histories(block, motion, times, rows, initial_rotation)
+    largest = float(rows[:, 2].max())
     begun = float(block.potential(abs(initial_rotation)))
     stored = 0.5 * state["v"] ** 2 + float(block.potential(state["x"])) - begun
     measures = block.measures(
         x=state["x"], v=state["v"], side=side, peak=peak, collapse_time=collapse_time, end=state["t"], failure=failure,
-        work=float(rows[:, 2].max()), start=begun, unaccounted=state["work"] - stored - state["loss"],
+        work=largest, given=state["work"] - state["loss"] if collapse_time > motion.duration else largest, start=begun,
+        unaccounted=state["work"] - stored - state["loss"],
         step=smallest if steps else motion.dt, steps=steps,
     )  # fmt: skip
     return histories, measures
