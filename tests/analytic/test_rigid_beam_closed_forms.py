@@ -129,6 +129,26 @@ def test_constant_pulse_overturns_the_beam_with_housners_law(pt):
     assert [found[i].collapsed for i in range(4)] == [False, False, True, True]
 
 
+@pytest.mark.parametrize("second_order", ["geometric", "law"])
+@pytest.mark.parametrize("slope", [0.2, 0.5, 1.0])
+def test_housners_law_lifts_off_at_the_true_acceleration(second_order, slope):
+    # m a h > m g b, whatever α stands for: a = g tan α; then I θ̈ = m (a h − g b) in the first instant.
+    column = Column.of_drums(
+        [Drum(4.0, 4.0 * slope, 4.0 * slope, 2000.0)], Joint(5e11, 2.5e11, friction_coefficient=10)
+    )
+    model = RigidBeam(moment_law="housner", second_order=second_order)
+    limit = slope * g
+    for factor, lifts in ((0.9995, False), (1.0005, True)):
+        motion = Motion(0.01, np.full(101, factor * limit))
+        single = simulate(column, motion, model)
+        batch = dict(simulate_iter([Case(column, motion)], model, threads=1))[0]
+        assert (single.peak_rotation > 0.0) == (batch.peak_rotation > 0.0) == lifts
+    motion, time = Motion(0.001, np.full(21, 1.5 * limit)), 0.02
+    expected = 0.5 * (0.5 * column.mass * limit * 2.0) / float(BeamMatrices(column).mass[0, 0]) * time**2
+    for found in (simulate(column, motion, model), dict(simulate_iter([Case(column, motion)], model, threads=1))[0]):
+        assert found.peak_rotation == pytest.approx(expected, rel=2e-3)
+
+
 @pytest.mark.parametrize("solver", ["fixed", "adaptive"])
 def test_newmark_slide(solver):
     # Base pulse A for t₁, A > μ g: slip = ½ (A − μ g) t₁² A/(μ g), against the base's motion.

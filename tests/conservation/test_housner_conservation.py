@@ -68,10 +68,9 @@ def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
     block = HousnerBlock().block(COLUMN)
     facts = {"side": 1.0, "peak": 0.1, "end": 2.0, "failure": "", "step": 1e-3, "steps": 2000, "start": 0.0}
 
-    def measures(energy: float, unaccounted: float, time: float = -1.0, given: float = 2.0, sign: float = 1.0):
+    def measures(energy: float, unaccounted: float, time: float = -1.0, work: float = 2.0, sign: float = 1.0):
         v = sign * math.sqrt(2.0 * energy * block.barrier)
-        energies = {"work": given, "given": given, "unaccounted": unaccounted}
-        energies = {name: value * block.barrier for name, value in energies.items()}
+        energies = {"work": work * block.barrier, "unaccounted": unaccounted * block.barrier}
         return block.measures(x=0.0, v=v, collapse_time=time, **energies, **facts)
 
     assert measures(0.9, 0.05).decided
@@ -79,8 +78,8 @@ def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
     assert measures(1.1, 0.05).collapsed
     assert not measures(1.1, 0.12).decided
     assert not measures(1.1, 0.05, sign=-1.0).decided
-    assert measures(0.9, 0.05, given=0.0).energy_imbalance == pytest.approx(0.05)
+    assert measures(0.9, 0.05, work=0.0).energy_imbalance == pytest.approx(0.05)
     assert measures(0.9, 0.6).outcome is Outcome.FAILED
     # a collapse that was found, without the energy for it
-    assert measures(1.5, 0.2, time=1.0, given=1.4).collapsed
-    assert measures(1.5, 0.2, time=1.0, given=0.9).outcome is Outcome.FAILED
+    assert measures(1.5, 0.2, time=1.0, work=1.4).collapsed
+    assert measures(1.5, 0.2, time=1.0, work=0.9).outcome is Outcome.FAILED

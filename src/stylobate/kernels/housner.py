@@ -28,8 +28,8 @@ A_ADDRESS, AV_ADDRESS, REMAIN_ADDRESS, LAST, DONE = range(5)
 WHOLE = 5
 
 # Rows of the table of numbers that are looked at once per chunk, one column per lane.
-FACTOR, A_REMAIN, GAMMA_MIN = range(3)
-REAL = 3
+FACTOR, A_REMAIN, GAMMA_MIN, LIFT = range(4)
+REAL = 4
 
 TERMS = 8
 
@@ -261,7 +261,7 @@ def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
         rows = 2 * CHUNK + 1
         fill(a, rows, whole[A_ADDRESS], whole[LAST], whole[DONE], real[FACTOR], 0.0)
         if vertical:
-            fill(g, rows, whole[AV_ADDRESS], whole[LAST], whole[DONE], real[FACTOR], 1.0)
+            fill(g, rows, whole[AV_ADDRESS], whole[LAST], whole[DONE], real[LIFT], 1.0)
         for j in range(CHUNK):
             row = 2 * j * LANES
             row1, row2, row3 = row + LANES, row + 2 * LANES, row + 3 * LANES

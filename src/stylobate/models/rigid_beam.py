@@ -248,7 +248,7 @@ class RigidBeam(Model):
         return RockingBlock(
             p=math.sqrt(seen.mass * seen.gravity * arm / (inertia * alpha)),
             alpha=alpha, restitution=e, inertia=inertia, gravity=seen.gravity, half_width=arm, height=seen.height,
-            centroid_height=height, linear=True,
+            centroid_height=height, linear=True, push=alpha * height / arm,
         )  # fmt: skip
 
     # -- Model -----------------------------------------------------------------------------------------------------

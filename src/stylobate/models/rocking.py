@@ -43,6 +43,8 @@ class RockingBlock:
         Of the block [m].
     linear : bool
         Linearised equation and kinematics.
+    push : float
+        Horizontal acceleration that the equation sees over that of the ground [-]; 1 unless α is not b/h.
     """
 
     p: float
@@ -54,6 +56,7 @@ class RockingBlock:
     height: float
     centroid_height: float
     linear: bool = False
+    push: float = 1.0
 
     @property
     def uplift_sine(self) -> float:
@@ -116,7 +119,6 @@ class RockingBlock:
         end: float,
         failure: str,
         work: float,
-        given: float,
         start: float,
         unaccounted: float,
         step: float,
@@ -124,8 +126,8 @@ class RockingBlock:
     ) -> Measures:
         """Measures of a run from its last state, its largest rotation, its collapse time (negative: none) and its ledger.
 
-        Over I₀ [1/s²] ``work`` is the largest input work, ``given`` the most that the block can have had of it when it was
-        lost, ``start`` the potential energy at the start, ``unaccounted`` what the ledger cannot account for at the end.
+        Over I₀ [1/s²] ``work`` is the largest input work, ``start`` the potential energy at the start, ``unaccounted`` what
+        the ledger cannot account for at the end.
         """
         imbalance = relative(unaccounted, work, start, self.barrier)
         if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
@@ -133,7 +135,7 @@ class RockingBlock:
         failure = failure or out_of_balance(imbalance)
         found = collapse_time >= 0.0
         collapsed, decided = (found, found) if failure or found else self.verdict(x, v, abs(unaccounted))
-        if collapsed and not failure and start + given < self.barrier:
+        if collapsed and not failure and start + work < self.barrier:
             failure = MADE_ENERGY
         if failure:
             collapsed, decided = False, False

@@ -95,7 +95,8 @@ class RockingLanes:
             self.row(name)[lane] = value
         x, z, remain = (0 if table is None else table.ctypes.data for table in tables)
         self.whole[:, lane] = (x, z, remain, 2 * shaken + 1, 0)
-        self.real[:, lane] = (motion.factor / block.gravity, -1.0, lightest_weight(motion, block.gravity))
+        factor = motion.factor / block.gravity
+        self.real[:, lane] = (factor * block.push, -1.0, lightest_weight(motion, block.gravity), factor)
 
     def advance(self) -> None:
         """Advance all lanes by some hundred steps."""
@@ -112,7 +113,7 @@ class RockingLanes:
         """Measures of a lane whose run has ended."""
         loaded = self.cases[lane]
         assert loaded is not None
-        case, block, _, steps = loaded
+        _, block, _, steps = loaded
         self.cases[lane] = None
         x, v, side, work, work_max, peak, loss, step, collapse = (
             float(self.row(name)[lane])
@@ -123,8 +124,7 @@ class RockingLanes:
         return block.measures(
             x=x, v=v, side=side, peak=peak, collapse_time=collapse, end=steps * step,
             failure="",
-            work=work_max, given=work - loss if collapse > case.motion.duration else work_max, start=start,
-            unaccounted=work - stored - loss,
+            work=work_max, start=start, unaccounted=work - stored - loss,
             step=step, steps=round(collapse / step) if collapse >= 0.0 else steps,
         )  # fmt: skip
 

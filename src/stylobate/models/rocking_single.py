@@ -20,14 +20,17 @@ MOST_IMPACTS = 100_000
 
 
 class Ground:
-    """Ground acceleration over g at any time: linear between the samples, zero after the last one."""
+    """Ground acceleration over g at any time: linear between the samples, zero after the last one.
 
-    def __init__(self, motion: Motion, gravity: float) -> None:
+    ``push`` scales the horizontal one.
+    """
+
+    def __init__(self, motion: Motion, gravity: float, push: float = 1.0) -> None:
         self.dt = motion.dt
         self.last = motion.steps - 1
         self.duration = motion.duration
         vertical = motion.vertical
-        self.horizontal = motion.acceleration / gravity
+        self.horizontal = motion.acceleration * (push / gravity)
         self.weight = np.ones(motion.steps) if vertical is None else 1.0 + vertical / gravity
         self.a, self.g = self.horizontal.tolist(), self.weight.tolist()  # plain floats: read one by one
 
@@ -80,11 +83,11 @@ def run_single(
     from scipy.integrate import DOP853
     from scipy.optimize import brentq
 
-    ground = Ground(motion, block.gravity)
+    ground = Ground(motion, block.gravity, block.push)
     end = motion.duration + options.tail
     p2, alpha = block.p**2, block.alpha
     remaining, lightest = (
-        remaining_peak(motion) * abs(motion.factor) / block.gravity,
+        remaining_peak(motion) * abs(motion.factor) * block.push / block.gravity,
         lightest_weight(motion, block.gravity),
     )
     side = -math.copysign(1.0, initial_rotation) if initial_rotation else 1.0
@@ -109,6 +112,7 @@ def run_single(
     state = {"t": 0.0, "x": abs(initial_rotation), "v": 0.0, "work": 0.0, "loss": 0.0}
     moving = initial_rotation != 0.0
     written = 0
+    largest = 0.0
     peak, collapse_time, steps, impacts, smallest, failure = abs(initial_rotation), -1.0, 0, 0, math.inf, ""
     largest_step = min(0.02 / block.p, max(motion.dt, 16.0 * motion.dt))
 
@@ -144,6 +148,7 @@ def run_single(
             t0, t1, (x, v, work) = state["t"], float(solver.t), solver.y
             steps += 1
             smallest = min(smallest, t1 - t0)
+            largest = max(largest, float(work))
             if x < 0.0:
                 dense = solver.dense_output()
                 t1 = _crossing(dense, t0, t1, state["x"], brentq)
@@ -181,13 +186,11 @@ def run_single(
         times = np.append(times, state["t"])
         rows = np.vstack((rows, [side * state["x"], state["v"], state["work"], state["loss"], 0.0]))
     histories = _histories(block, motion, times, rows, initial_rotation)
-    largest = float(rows[:, 2].max())
     begun = float(block.potential(abs(initial_rotation)))
     stored = 0.5 * state["v"] ** 2 + float(block.potential(state["x"])) - begun
     measures = block.measures(
         x=state["x"], v=state["v"], side=side, peak=peak, collapse_time=collapse_time, end=state["t"], failure=failure,
-        work=largest, given=state["work"] - state["loss"] if collapse_time > motion.duration else largest, start=begun,
-        unaccounted=state["work"] - stored - state["loss"],
+        work=largest, start=begun, unaccounted=state["work"] - stored - state["loss"],
         step=smallest if steps else motion.dt, steps=steps,
     )  # fmt: skip
     return histories, measures
