@@ -82,6 +82,20 @@ def test_motions_that_share_samples_keep_their_own_vertical_component():
         assert together.peak_rotation_rad.tolist() == [alone[i] for i in order]
 
 
+@pytest.mark.parametrize("seed", [83, 1, 2])
+def test_single_runs_under_coarse_noise(seed):
+    # The block hops, and goes through upright more than once within a step of the solver.
+    random = np.random.default_rng(seed)
+    block = Column.of_drums([Drum(3.0, 0.6, 0.6, 2000.0)], JOINT)
+    x = random.normal(size=150)
+    motion = Motion(0.0075, 0.8 * g * x / np.abs(x).max())
+    model = HousnerBlock(restitution=0.5)
+    single, batch = simulate(block, motion, model), simulate_many(block, [motion], model).iloc[0]
+    assert str(single.outcome) == batch.outcome == "rocked"
+    assert single.energy_imbalance < 1e-6
+    assert batch.peak_rotation_rad == pytest.approx(single.peak_rotation, rel=2e-2)
+
+
 def test_followed_until_it_lies():
     motion = harmonic(1.0, 0.45 * g, 10.0)
     short, long = (simulate(COLUMN, motion, HousnerBlock(), until_end=flag) for flag in (False, True))

@@ -19,6 +19,10 @@ ABSOLUTE_TOLERANCE = 1e-9
 MOST_IMPACTS = 100_000
 
 
+#: Places in a step at which an impact is looked for.
+SAMPLES = 33
+
+
 class Ground:
     """Ground acceleration over g at any time: linear between the samples, zero after the last one.
 
@@ -151,7 +155,7 @@ def run_single(
             largest = max(largest, float(work))
             if x < 0.0:
                 dense = solver.dense_output()
-                t1 = _crossing(dense, t0, t1, state["x"], brentq)
+                t1 = _crossing(dense, t0, t1, brentq)
                 write_until(math.nextafter(t1, 0.0), dense)
                 _, v, work = dense(t1)
                 v = min(float(v), 0.0)
@@ -196,16 +200,22 @@ def run_single(
     return histories, measures
 
 
-def _crossing(dense, t0: float, t1: float, x0: float, brentq) -> float:
-    """Time in (t0, t1] at which the rotation goes through zero downward."""
-    begin = t0
-    if x0 <= 0.0:  # just after an impact: search behind the summit
-        if dense(t0)[1] <= 0.0:
-            return t1
-        begin = brentq(lambda t: dense(t)[1], t0, t1, xtol=1e-15)
-        if dense(begin)[0] <= 0.0:
-            return t1
-    return brentq(lambda t: dense(t)[0], begin, t1, xtol=1e-15)
+def _crossing(dense, t0: float, t1: float, brentq) -> float:
+    """First time in (t0, t1] at which the rotation goes through zero downward; it is negative at t1, at t0 not.
+
+    Looked for on samples, ever closer to t0: the rotation may go up and down more than once within a step, and a small
+    hop after an impact is shorter than most steps.
+    """
+    end = t1
+    for _ in range(12):
+        times = np.linspace(t0, end, SAMPLES)
+        x = dense(times)[0]
+        up = np.flatnonzero(x > 0.0)
+        if up.size:
+            down = up[0] + np.flatnonzero(x[up[0] :] <= 0.0)
+            return brentq(lambda t: dense(t)[0], times[down[0] - 1], times[down[0]], xtol=1e-15) if down.size else t1
+        end = float(times[1])
+    return t1
 
 
 def _histories(block: RockingBlock, motion: Motion, times, rows, initial_rotation: float) -> Histories:
