@@ -10,8 +10,9 @@ from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.kernels.housner import LANES, trigonometry
-from stylobate.models.base import Case
+from stylobate.models.base import Case, RunOptions
 from stylobate.models.housner import HousnerBlock
+from stylobate.models.rocking_lanes import RockingLanes
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_iter, simulate_many
@@ -94,6 +95,28 @@ def test_single_runs_under_coarse_noise(seed):
     assert str(single.outcome) == batch.outcome == "rocked"
     assert single.energy_imbalance < 1e-6
     assert batch.peak_rotation_rad == pytest.approx(single.peak_rotation, rel=2e-2)
+
+
+def test_the_tail_changes_nothing_before_it():
+    # A record that ends in full swing, so that its last sample matters.
+    motion = record().replace(acceleration=record().samples[:702], vertical=record().z_samples[:702], factor=0.4 * g)
+    assert abs(motion.acceleration[-1]) > 0.05 * g
+    short, long = (simulate(COLUMN, motion, HousnerBlock(), tail=tail, output_interval=0.01) for tail in (0.0, 2.0))
+    assert short.peak_rotation > 0.0
+    assert np.array_equal(short.drum_rotation, long.drum_rotation[: len(short.time)])
+    block = RockingLanes(HousnerBlock().block, RunOptions(), 0.0, None, True)
+    states = []
+    for tail in (0.0, 2.0):
+        block.options = RunOptions(tail=tail)
+        block.load(0, Case(COLUMN, motion))
+        shaken = (block.whole[3, 0] - 1) // 2
+        block.row("LEFT")[0] = shaken  # as far as the motion goes
+        while not block.is_over(0):
+            block.advance()
+        states.append((block.row("X")[0], block.row("V")[0]))
+        block.collect(0)
+    assert states[0] == states[1]
+    assert states[0][0] == pytest.approx(abs(short.drum_rotation[-1, 0]), rel=2e-3)
 
 
 def test_followed_until_it_lies():

@@ -8,9 +8,11 @@ from validation import overturning
 
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
+from stylobate.models.base import Case, RunOptions
 from stylobate.models.housner import HousnerBlock
+from stylobate.models.rocking_lanes import RockingLanes
 from stylobate.motion import Motion
-from stylobate.simulate import simulate
+from stylobate.simulate import simulate, simulate_many
 
 
 @pytest.mark.parametrize(
@@ -57,3 +59,28 @@ def test_uplift_threshold():
     for factor, moved in ((0.9999, False), (1.0001, True)):
         scaled = lighter.replace(acceleration=0.8 * factor * lighter.samples)
         assert (simulate(column, scaled, HousnerBlock()).peak_rotation > 0.0) == moved
+
+
+@pytest.mark.parametrize("steps", [1, 7, 100])
+def test_a_motion_counts_up_to_its_last_sample(steps):
+    # Constant push A for a time T, linearised: θ = (A − α)(cosh pT − 1), and then up to α − √((α − θ)² − (θ̇/p)²).
+    width = 5.0 * math.tan(0.16)
+    column = Column.of_drums([Drum(5.0, width, width, 1600.0)], Joint(5e10, 2.5e10, friction_coefficient=5.0))
+    p, alpha = column.frequency_parameter, column.slenderness
+    push, length = 2.0 * alpha, 0.04 * steps**0.5 / p
+    motion = Motion(length / steps, np.ones(steps + 1), factor=push * g)
+    turned = (push - alpha) * (math.cosh(p * length) - 1.0)
+    speed = (push - alpha) * math.sinh(p * length)
+    top = alpha - math.sqrt((alpha - turned) ** 2 - speed**2)
+    model = HousnerBlock(linear=True)
+    block = RockingLanes(model.block, RunOptions(), 0.0, None, False)
+    block.load(0, Case(column, motion))
+    while not block.is_over(0):
+        block.advance()
+    assert block.row("V")[0] == pytest.approx(p * speed, rel=1e-6)
+    for tail, expected in ((0.0, turned), (1.0 / p, top)):
+        single = simulate(column, motion, model, tail=tail)
+        batch = simulate_many(column, [motion], model, tail=tail).iloc[0]
+        assert single.peak_rotation == pytest.approx(expected, rel=1e-6)
+        # the batch's peak is the largest at the end of a step
+        assert batch.peak_rotation_rad == pytest.approx(expected, rel=2e-4 if tail else 2e-5)

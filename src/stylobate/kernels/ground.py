@@ -56,12 +56,17 @@ def fill_ground(out, rows, addresses, lasts, factors, starts, ratios, offset):
         Half a step over the sampling interval [-].
     offset : float
         Added to every value (1 where weights are scaled by 1 + a_v/g).
+
+    Rows that end a motion hold its last sample, rows that start where it has ended hold zero: motions end where a row does.
     """
     lanes = len(addresses)
     for r in range(rows):
         row = out[r * lanes : (r + 1) * lanes]
         for l in range(lanes):
             value = offset
-            if addresses[l] != 0:
-                value += factors[l] * sample(addresses[l], lasts[l], (starts[l] + r) * ratios[l])
+            position = (starts[l] + r) * ratios[l]
+            if addresses[l] != 0 and position < lasts[l] + (1e-9 if r > 0 else -1e-9):
+                i = min(int(position), lasts[l] - 1)
+                left, right = load(addresses[l], i), load(addresses[l], i + 1)
+                value += factors[l] * (left + (right - left) * (position - i))
             row[l] = value

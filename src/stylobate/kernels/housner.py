@@ -220,7 +220,7 @@ def point_of_no_return(alpha, remaining, lightest, linear):
 def fill(out, rows, addresses, lasts, starts, factors, offset):
     """Write the input of every lane at consecutive half steps: row r and lane l at ``r * LANES + l``.
 
-    ``addresses`` of arrays that hold the motions at the half steps of the runs, the last value (index ``lasts``) zero;
+    ``addresses`` of arrays that hold the motions at the half steps of the runs and a zero behind (index ``lasts``);
     address 0 stands for no motion. ``starts``: half steps done; ``offset`` is added to every value.
     """
     for r in range(rows):
@@ -230,6 +230,14 @@ def fill(out, rows, addresses, lasts, starts, factors, offset):
             if addresses[l] != 0:
                 value += factors[l] * load(addresses[l], min(starts[l] + r, lasts[l]))
             row[l] = value
+
+
+@kernel
+def drop(a, g, row, whole, j):
+    """Where a motion ends with the step before j, step j starts without it: the row has served both."""
+    for l in range(LANES):
+        if whole[DONE, l] + 2 * j == whole[LAST, l] - 1:
+            a[row + l], g[row + l] = 0.0, 1.0
 
 
 @apart
@@ -262,8 +270,14 @@ def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
         fill(a, rows, whole[A_ADDRESS], whole[LAST], whole[DONE], real[FACTOR], 0.0)
         if vertical:
             fill(g, rows, whole[AV_ADDRESS], whole[LAST], whole[DONE], real[LIFT], 1.0)
+        cut = CHUNK
+        for l in range(LANES):
+            if whole[DONE, l] < whole[LAST, l]:
+                cut = min(cut, (whole[LAST, l] - whole[DONE, l]) // 2)
         for j in range(CHUNK):
             row = 2 * j * LANES
+            if j >= cut:
+                drop(a, g, row, whole, j)
             row1, row2, row3 = row + LANES, row + 2 * LANES, row + 3 * LANES
             a_start, a_middle, a_end = a[row:row1], a[row1:row2], a[row2:row3]
             g_start, g_middle, g_end = g[row:row1], g[row1:row2], g[row2:row3]

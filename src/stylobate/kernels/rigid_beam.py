@@ -16,7 +16,7 @@ Legend (drum 1 … n and its joint, the one under it; 0 is the base, n + 1 nothi
     sliding   x v xs vs sx_ sv displacement of the centroid and its velocity, at the stage, sums [m], [m/s]
               im ii zb zt      1/m, 1/I, centroid to lower and to upper face [m]
               ks mu co n       k_s A [N/m], N tan φ [N], cohesion × A [N], N with second-order effect, else 0 [N]
-              pl               plastic slip of the joint [m]
+              pl               plastic slip of the joint [m]; te: rotation when the motion ends [rad]
     watched   m c half alpha   mass [kg], rotation at which the joint opens [rad], d/2 [m], critical angle of the law [rad]
               fl fu            half widths of the drum's lower face and of the face under it, without end for the base [m]
               mu_m sz          M_u and Σ_j≥i m_j (z_j − z_i): what gravity and a base acceleration do to the part above
@@ -64,7 +64,7 @@ def _fields(names):
 DRUM = np.dtype(
     _fields(
         "th w ts ws st sw k m1 s1 m2 s2 gs sx ih p di lo y "
-        "x v xs vs tx tv im ii zb zt ks mu co n pl m c half fl fu alpha mu_m sz"
+        "x v xs vs tx tv im ii zb zt ks mu co n pl te m c half fl fu alpha mu_m sz"
     )
 )
 LANE = np.dtype(_fields("dt rel beta ax gm work visc fric joint mo qa ya la ub pa pw pv pj tw tv tj g"))
@@ -312,8 +312,8 @@ def advance(drum, lane, watch, a, g, chunks, chunk, sliding, bed, vertical, damp
 def observe(drum, lane, watch):
     """Peaks, collapse, end and failure of every lane, once per chunk.
 
-    A part above a joint is lost when gravity's moment about the edge of its support beats what is left of the input,
-    and moves outward  # Eq. (R8); or when its contact has gone
+    A part above a joint is lost when gravity's moment about the edge of its support beats what is left of the input, and
+    it moves outward  # Eq. (R8); or when its contact has gone
     """
     n = len(drum) - 2
     f, s = watch[0], lane[0]
@@ -321,16 +321,18 @@ def observe(drum, lane, watch):
         if f.status[l] != RUNNING:
             continue
         time = f.step[l] * s.dt[l]
-        pull = 0.0 if time >= f.until[l] else f.pga[l]
+        left_over = f.until[l] - time  # of the motion, which ends where a chunk does
+        pull = f.pga[l] if left_over > 0.5 * s.dt[l] else 0.0
         sliding = drum[1].ks[l] > 0.0
         # From the base up: the slip of every joint, kept in y; the displacement of the top at the end.
-        face = 0.0
-        lost, side, lying = 0, 0, False
+        face, lost, side, lying = 0.0, 0, 0, False
         finite = math.isfinite(s.work[l] + s.visc[l] + s.fric[l] + s.joint[l])
         for i in range(1, n + 1):
             d, below = drum[i], drum[i - 1]
             finite = finite and math.isfinite(d.th[l]) and math.isfinite(d.w[l])
             finite = finite and math.isfinite(d.x[l]) and math.isfinite(d.v[l])
+            if left_over > -0.5 * s.dt[l]:
+                d.te[l] = d.th[l]
             if sliding:
                 bottom = d.x[l] - d.zb[l] * d.th[l]
                 slip = bottom - face

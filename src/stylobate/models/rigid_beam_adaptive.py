@@ -157,6 +157,7 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
     times = np.append(np.arange(max(1, round(end / options.output_interval))) * options.output_interval, end)
     friction, written, steps, smallest, failure, worst = 0.0, 1, 0, math.inf, "", 0.0
     facts = {"lost": 0, "side": 0, "time": math.nan}
+    t, inside = 0.0, True  # when the motion ends
     top = turn = opening = 0.0
 
     def row(t: float, state: np.ndarray) -> tuple:
@@ -173,7 +174,7 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
             failure = f"the solver could not go on at t = {solver.t:.4f} s: {message or 'the state is not finite'}"
             break
         steps += 1
-        t, y = float(solver.t), solver.y
+        before, t, y = t, float(solver.t), solver.y
         smallest = min(smallest, solver.step_size or math.inf)
         if written < len(times) and times[written] <= t:
             upto = int(np.searchsorted(times, t, side="right"))
@@ -190,6 +191,7 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
         turn = max(turn, float(np.abs(theta).max()))
         opening = max(opening, float(beam.lift(beam.joint_rotations(theta)).max()))
         worst = max(worst, abs(float(y[-3])))
+        inside = beam.passes.inside(theta, slip) if before < motion.duration else inside
         if not facts["lost"]:
             joint, side = rates.lost(t, y, motion.pga if t < motion.duration else 0.0, lightest)
             if joint:
@@ -206,7 +208,8 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
         facts | {
             "theta": theta, "omega": rates.split(solver.y)[1], "slip": slip,
             "energy": float(ledger[-1, 1:4].sum() + start.sum()), "start": float(start.sum()), "work": worst,
-            "given": given(ledger[-1], worst, facts["time"] > motion.duration), "unaccounted": unaccounted(ledger[-1]),
+            "given": given(ledger[-1], worst, facts["time"] > motion.duration and inside),
+            "unaccounted": unaccounted(ledger[-1]),
             "end": t, "failure": failure, "top": top, "turn": turn, "opening": opening,
             "residual": float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum()),
             "step": smallest, "steps": steps,

@@ -78,10 +78,12 @@ class BeamLanes:
             self.drum[name][1:-1, lane] = theta
         for name in ("x", "xs"):
             self.drum[name][1:-1, lane] = theta * seen.centroid_heights
-        duration = motion.duration + self.options.tail
-        chunks = max(1, math.ceil(duration / (self.loop.steps * beam.step_for(motion)) - 1e-9))
-        steps = chunks * self.loop.steps
-        dt = duration / steps
+        # the motion is a whole number of chunks: no step stands across its end, and the tail changes nothing before it
+        chunk = self.loop.steps
+        chunks = max(1, math.ceil(motion.duration / (chunk * beam.step_for(motion)) - 1e-9))
+        dt = motion.duration / (chunks * chunk)
+        chunks += math.ceil(self.options.tail / (chunk * dt) - 1e-9)
+        steps = chunks * chunk
         self.dt[lane] = dt
         state = self.lane[0]
         for name in kernel.LANE.names or ():
@@ -162,12 +164,14 @@ class BeamLanes:
         failed = watch["status"] == kernel.FAILED
         ledger, largest = self._ledger(lane, energies), float(watch["wmax"])
         time = float(watch["when"]) * self.dt[lane]
+        at_end = self.drum["te"][1:-1, lane]
+        after = time > loaded[0].motion.duration and beam.passes.inside(at_end, np.zeros_like(at_end))
         return measures_of(
             beam,
             {
                 "theta": theta, "omega": omega, "slip": slip,
                 "energy": float(energies.sum()), "start": float(np.sum(self.start[lane])), "work": largest,
-                "given": given(ledger, largest, time > loaded[0].motion.duration), "unaccounted": unaccounted(ledger),
+                "given": given(ledger, largest, after), "unaccounted": unaccounted(ledger),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
                 "time": time, "end": self.time(lane),
                 "failure": f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else "",

@@ -187,6 +187,7 @@ def unaccounted(ledger: np.ndarray) -> float:
 def given(ledger: np.ndarray, largest: float, after: bool) -> float:
     """Most energy that a column can have had from the input when it was lost [J].
 
-    ``ledger`` as in :func:`histories_of`, one row at the end; ``largest`` input work; ``after`` the motion had ended.
+    ``ledger`` as in :func:`histories_of`, one row at the end; ``largest`` input work; ``after``: it was lost after the
+    motion, at whose end it stood on the near side of every barrier.
     """
     return float(ledger[0] - ledger[4] - ledger[5]) if after else largest

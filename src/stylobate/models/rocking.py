@@ -176,14 +176,11 @@ def out_of_balance(imbalance: float) -> str:
 def half_steps(samples: np.ndarray, dt: float, step: float, steps: int) -> np.ndarray:
     """A motion at the half steps of its run, then zero, shape (2 steps + 2,): linear between samples, without its factor.
 
-    The step that ends with the motion sees the last sample, the one that starts there sees zero: both are given half of
-    it, which keeps the impulse.
+    The step that ends with the motion sees its last sample; that the one which starts there sees zero is up to the kernel.
     """
     last = len(samples) - 1
-    position = np.arange(2 * steps + 2) * (0.5 * step / dt)
-    out = np.interp(position, np.arange(last + 1), samples)
-    out[position > last - 1e-9] = 0.5 * samples[last]
-    out[position > last + 1e-9] = 0.0
+    out = np.interp(np.arange(2 * steps + 2) * (0.5 * step / dt), np.arange(last + 1), samples)
+    out[-1] = 0.0
     return out
 
 

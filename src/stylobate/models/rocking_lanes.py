@@ -148,6 +148,8 @@ class RockingLanes:
             at = np.minimum(
                 (np.arange(2 * steps + 2) * (0.5 * step / motion.dt) + 1e-9).astype(np.int64), len(left) - 1
             )
-            tables = (half_steps(motion.samples, motion.dt, step, steps), vertical, left[at])
+            remain = left[at]
+            remain[2 * steps :] = 0.0
+            tables = (half_steps(motion.samples, motion.dt, step, steps), vertical, remain)
             self.tables[key] = (motion, tables)  # the motion keeps its arrays alive, and so their ids
         return self.tables[key][1]

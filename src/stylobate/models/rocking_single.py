@@ -140,8 +140,11 @@ def run_single(
             if start is None or start[0] >= end:
                 break
             side, moving = start[1], True
+        begun = state["t"]
+        before = begun < motion.duration  # no step stands across the end of the motion
         solver = DOP853(
-            rates, state["t"], np.array([state["x"], state["v"], state["work"]]), end,
+            rates, begun if before else math.nextafter(begun, math.inf),
+            np.array([state["x"], state["v"], state["work"]]), min(motion.duration, end) if before else end,
             rtol=RELATIVE_TOLERANCE, atol=ABSOLUTE_TOLERANCE * alpha, max_step=largest_step,
         )  # fmt: skip
         while solver.status == "running" and moving:
@@ -190,11 +193,11 @@ def run_single(
         times = np.append(times, state["t"])
         rows = np.vstack((rows, [side * state["x"], state["v"], state["work"], state["loss"], 0.0]))
     histories = _histories(block, motion, times, rows, initial_rotation)
-    begun = float(block.potential(abs(initial_rotation)))
-    stored = 0.5 * state["v"] ** 2 + float(block.potential(state["x"])) - begun
+    raised = float(block.potential(abs(initial_rotation)))
+    stored = 0.5 * state["v"] ** 2 + float(block.potential(state["x"])) - raised
     measures = block.measures(
         x=state["x"], v=state["v"], side=side, peak=peak, collapse_time=collapse_time, end=state["t"], failure=failure,
-        work=largest, start=begun, unaccounted=state["work"] - stored - state["loss"],
+        work=largest, start=raised, unaccounted=state["work"] - stored - state["loss"],
         step=smallest if steps else motion.dt, steps=steps,
     )  # fmt: skip
     return histories, measures
