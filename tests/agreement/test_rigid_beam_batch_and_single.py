@@ -181,6 +181,13 @@ def test_failure_is_no_collapse():
     limit = RigidBeam().stable_step(column)
     with pytest.raises(InputError, match=r"time_step.*allowed is up to"):
         simulate(column, shaken(0.3 * g), RigidBeam(time_step=1.1 * limit))
+    for coarse, limit_of in (
+        (Motion(1e-5, np.zeros(11)), "4 samples of the motion"),
+        (Motion(0.1, np.zeros(11)), "0.02/p of this column"),
+    ):
+        soft = stack(1).with_joint(normal_stiffness=1e8, shear_stiffness=5e7)
+        with pytest.raises(InputError, match=limit_of):
+            simulate(soft, coarse, RigidBeam(time_step=0.03))
     # A step just below the limit is stable for the closed column and wrong: its ledger says so.
     response = simulate(column, shaken(0.3 * g), RigidBeam(time_step=0.99 * limit))
     assert response.outcome is Outcome.FAILED or response.energy_imbalance < 0.25

@@ -57,7 +57,8 @@ class RigidBeam(Model):
     initial_rotation : float
         Rotation of the whole column about its base joint from which it is let go at rest, counter-clockwise [rad].
     time_step : float, optional
-        [s]. By default 1.5/ω_max, ω_max of the column with all joints closed, at most 4 samples of the motion and 0.01/p.
+        [s]. By default 1.5/ω_max, ω_max of the column with all joints closed, at most 4 samples of the motion and 0.01/p;
+        allowed is up to 2.6/ω_max, 4 samples and 0.02/p.
     solver : {"fixed", "adaptive"}
         Of single runs: the batch's Runge–Kutta method of order 4, or SciPy's adaptive one of order 8 (slow for many drums).
 
@@ -268,11 +269,17 @@ class RigidBeam(Model):
                 "smallest vibration grows without end; use rotation=relative, or fewer or more slender drums."
             )
         if self.time_step is not None:
-            largest = 0.2 / seen.frequency_parameter if self.moment_law == "housner" else self.stable_step(seen)
-            if self.time_step > largest:
+            p = seen.frequency_parameter
+            passed = f"{MOST_SAMPLES} samples of the motion"
+            limits = {"0.02/p of this column": 0.02 / p, passed: MOST_SAMPLES * motion.dt}
+            if self.moment_law == "housner":
+                limits = {"0.2/p of this column": 0.2 / p}
+            else:
+                limits["what is stable"] = self.stable_step(seen)
+            which, largest = min(limits.items(), key=lambda item: item[1])
+            if self.time_step > largest * (1.0 + 1e-9):
                 raise InputError(
-                    f"time_step is {self.time_step:g} s; allowed is up to {largest:.3g} s for this column, "
-                    "or leave it out."
+                    f"time_step is {self.time_step:g} s; allowed is up to {largest:.3g} s ({which}), or leave it out."
                 )
         if abs(self.initial_rotation) >= seen.slenderness:
             raise InputError(
