@@ -66,7 +66,7 @@ def test_a_small_rotation_moves_points_as_a_rigid_body_does():
 
 def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
     block = HousnerBlock().block(COLUMN)
-    facts = {"side": 1.0, "peak": 0.1, "end": 2.0, "failure": "", "step": 1e-3, "steps": 2000, "start": 0.0}
+    facts = {"side": 1.0, "peaks": (0.1, 0.0), "end": 2.0, "failure": "", "step": 1e-3, "steps": 2000, "start": 0.0}
 
     def measures(energy: float, unaccounted: float, time: float = -1.0, work: float = 2.0, sign: float = 1.0):
         v = sign * math.sqrt(2.0 * energy * block.barrier)

@@ -123,8 +123,16 @@ def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
 @pytest.mark.parametrize("place", ["x", "v", "unaccounted"])
 def test_a_rocking_block_with_a_value_that_is_no_number_has_no_verdict(place):
     block = HousnerBlock().block(preset("paper-monolithic"))
-    facts = dict.fromkeys(("x", "v", "peak", "work", "start", "unaccounted"), 0.0)
-    facts |= {"side": 1.0, "collapse_time": -1.0, "end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}
+    facts = dict.fromkeys(("x", "v", "work", "start", "unaccounted"), 0.0)
+    facts |= {
+        "side": 1.0,
+        "peaks": (0.1, 0.0),
+        "collapse_time": -1.0,
+        "end": 1.0,
+        "failure": "",
+        "step": 1e-3,
+        "steps": 1000,
+    }
     assert block.measures(**facts).decided
     measures = block.measures(**facts | {place: NAN})
     assert measures.outcome is Outcome.FAILED

@@ -18,10 +18,10 @@ LANES = 64
 CHUNK = 64
 
 # Rows of the state, each of LANES values in one flat array: with one base pointer the compiler needs no alias checks.
-X, V, SIDE, MOVING, WORK, WORK_MAX, PEAK, LOSS = (row * LANES for row in range(8))
+X, V, SIDE, MOVING, WORK, WORK_MAX, TO_RIGHT, LOSS = (row * LANES for row in range(8))
 ALPHA, P2, E, STEP, LEFT, SIN_A, COS_A, X_EVENT = (row * LANES for row in range(8, 16))
-X_OLD, V_OLD, WORK_OLD, COLLAPSE, IMPACTS = (row * LANES for row in range(16, 21))
-ROWS = 21
+X_OLD, V_OLD, WORK_OLD, COLLAPSE, IMPACTS, TO_LEFT = (row * LANES for row in range(16, 22))
+ROWS = 22
 
 # Rows of the table of whole numbers, one column per lane: motion at half steps, its last index, half steps done.
 A_ADDRESS, AV_ADDRESS, REMAIN_ADDRESS, LAST, DONE = range(5)
@@ -141,6 +141,13 @@ def first_uplift(a0, a1, a2, g0, g1, g2, share, sin_a, cos_a):
     return best, best_side
 
 
+@law
+def peaks(right, left, side, x):
+    """Largest rotation to either side so far, with the present one."""
+    tilt = side * max(x, 0.0)
+    return max(right, tilt), max(left, -tilt)
+
+
 @kernel
 def resolve(s, l, a0, a1, a2, g0, g1, g2, rest, c):
     """Repeat the last step of one lane with its impacts located and its start from rest found.
@@ -203,7 +210,7 @@ def resolve(s, l, a0, a1, a2, g0, g1, g2, rest, c):
     s[X + l], s[V + l], s[SIDE + l], s[MOVING + l] = x, v, side, moving
     s[WORK + l] = work
     s[WORK_MAX + l] = max(s[WORK_MAX + l], work)
-    s[PEAK + l] = max(s[PEAK + l], x)
+    s[TO_RIGHT + l], s[TO_LEFT + l] = peaks(s[TO_RIGHT + l], s[TO_LEFT + l], side, x)
 
 
 @law
@@ -294,7 +301,7 @@ def advance(s, whole, real, a, g, c, chunks, rest, linear, vertical, until_end):
                 s[X_OLD + l], s[V_OLD + l], s[WORK_OLD + l] = x, v, work
                 s[X + l], s[V + l], s[WORK + l] = x1, v1, work + w1
                 s[WORK_MAX + l] = max(s[WORK_MAX + l], work + w1)
-                s[PEAK + l] = max(s[PEAK + l], x1)
+                s[TO_RIGHT + l], s[TO_LEFT + l] = peaks(s[TO_RIGHT + l], s[TO_LEFT + l], side, x1)
                 turned = (x1 < 0.0) | (x1 > s[X_EVENT + l])
                 lifted = (s[MOVING + l] == 0.0) & (abs(a_end[l]) * s[COS_A + l] > g_end[l] * s[SIN_A + l])
                 flag = 1 if active & (turned | lifted) else 0

@@ -32,7 +32,7 @@ Legend (drum 1 … n and its joint, the one under it; 0 is the base, n + 1 nothi
               when which side  collapse: step, joint, side (+1: towards +x); −1 while there is none
               ratio factor lift  half a step over the sampling interval, factors of the samples (vertical: over g)
               pga until gmin   largest horizontal acceleration of the motion, its end [s], smallest 1 + a_v/g
-              top open turn wmax shift  peaks: top displacement, opening [m], rotation [rad], input work [J], slip [m]
+              top open turn wmax shift stood  peaks: top displacement, opening, rotation, work, slip; top at the start
 """
 
 import math
@@ -71,7 +71,7 @@ LANE = np.dtype(_fields("dt rel beta ax gm work visc fric joint mo qa ya la ub p
 WATCH = np.dtype(
     [(name, np.int64, _ROW) for name in ("status", "follow", "x", "z", "last", "half_steps", "step", "end")]
     + [(name, np.int64, _ROW) for name in ("when", "which", "side")]
-    + _fields("ratio factor lift pga until gmin top open turn wmax shift")
+    + _fields("ratio factor lift pga until gmin top open turn wmax shift stood")
 )
 
 
@@ -348,7 +348,7 @@ def observe(drum, lane, watch):
             face = bottom + d.th[l] / d.ih[l]
         if not finite:
             f.status[l] = FAILED
-        f.top[l] = max(f.top[l], abs(face))
+        f.top[l] = max(f.top[l], abs(face - f.stood[l]))
         f.wmax[l] = max(f.wmax[l], abs(s.work[l]))
         # From the top down: mass, first moment and momentum of everything above each joint, and the slips' share in them.
         mass, first, momentum, slid = 0.0, 0.0, 0.0, 0.0

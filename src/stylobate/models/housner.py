@@ -121,7 +121,7 @@ class HousnerBlock(Model):
                 f"Housner's restitution of this stocky block is {column.restitution:.2f}, below zero: "
                 "0 is used, and the block stops at its first impact."
             )
-        warn_vertical(column, motion)
+        warn_components(column, motion, self.name)
 
     def block(self, column: Column) -> RockingBlock:
         """The numbers of the rocking equation for a column of one drum."""
@@ -161,11 +161,13 @@ def warn(text: str) -> None:
     warnings.warn(text, OutOfRangeWarning, stacklevel=4)
 
 
-def warn_vertical(column: Column, motion: Motion) -> None:
-    """Warn where the vertical input would lift the whole column off the ground."""
+def warn_components(column: Column, motion: Motion, name: str) -> None:
+    """Warn of what a plane model without free flight leaves out of a motion."""
+    if motion.lateral is not None:
+        warn(f"the second horizontal component of {motion.name!r} is left out: {name} is a plane model.")
     vertical = motion.vertical
     if vertical is not None and float(vertical.min()) <= -column.gravity:
         warn(
-            f"the vertical acceleration of {motion.name!r} falls to {vertical.min() / column.gravity:.2f} g; "
-            "below −1 g the column would leave the ground, which this model does not follow."
+            f"the vertical acceleration of {motion.name!r} falls to {vertical.min() / column.gravity:.2f} g; below −1 g the "
+            "column would leave the ground, which this model does not follow: a run that gets there fails."
         )

@@ -14,7 +14,7 @@ from ..errors import InputError, check_range
 from ..motion import Motion
 from ..response import Measures, Response
 from .base import Case, Model, RunOptions
-from .housner import warn, warn_vertical
+from .housner import warn, warn_components
 from .lanes import MOST_SAMPLES, run_lanes
 from .rigid_beam_equations import BeamMatrices
 from .rocking import RockingBlock
@@ -292,9 +292,7 @@ class RigidBeam(Model):
                 f"the joints of {column.name!r} open only at {opening:.3g} rad, more than a tenth of the critical angle: "
                 "the beam is for stiff joints; raise normal_stiffness."
             )
-        if motion.lateral is not None:
-            warn(f"the second horizontal component of {motion.name!r} is left out: {self.name} is a plane model.")
-        warn_vertical(column, motion)
+        warn_components(column, motion, self.name)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories."""

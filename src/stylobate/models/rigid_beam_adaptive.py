@@ -15,7 +15,7 @@ from ..response import Histories, Measures
 from .base import RunOptions
 from .rigid_beam_state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
 from .rigid_beam_verdict import faces
-from .rocking import lightest_weight
+from .rocking import lightest_weight, off_the_ground
 from .rocking_single import Ground
 
 if TYPE_CHECKING:
@@ -210,7 +210,8 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
             "energy": float(ledger[-1, 1:4].sum() + start.sum()), "start": float(start.sum()), "work": worst,
             "given": given(ledger[-1], worst, facts["time"] > motion.duration and inside),
             "unaccounted": unaccounted(ledger[-1]),
-            "end": t, "failure": failure, "top": top, "turn": turn, "opening": opening,
+            "end": t, "failure": off_the_ground(motion, column.gravity, facts["time"]) or failure,
+            "top": top, "turn": turn, "opening": opening,
             "residual": float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum()),
             "step": smallest, "steps": steps,
         },

@@ -15,7 +15,7 @@ from .base import Case, RunOptions
 from .rigid_beam_equations import tridiagonal
 from .rigid_beam_state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
 from .rigid_beam_verdict import faces
-from .rocking import lightest_weight
+from .rocking import lightest_weight, off_the_ground
 
 if TYPE_CHECKING:
     from .rigid_beam import RigidBeam
@@ -103,6 +103,7 @@ class BeamLanes:
         watch["ratio"][lane] = 0.5 * dt / motion.dt
         watch["factor"][lane], watch["lift"][lane] = motion.factor, motion.factor / seen.gravity
         watch["pga"][lane], watch["until"][lane] = motion.pga, motion.duration
+        watch["stood"][lane] = theta * seen.height
         watch["gmin"][lane] = lightest_weight(motion, seen.gravity)
         self.calls = max(1, chunks // CALLS_PER_RUN)
         self.start[lane] = self._energies(lane) if model.initial_rotation else 0.0
@@ -164,6 +165,7 @@ class BeamLanes:
         failed = watch["status"] == kernel.FAILED
         ledger, largest = self._ledger(lane, energies), float(watch["wmax"])
         time = float(watch["when"]) * self.dt[lane]
+        failure = f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else ""
         at_end = self.drum["te"][1:-1, lane]
         after = time > loaded[0].motion.duration and beam.passes.inside(at_end, np.zeros_like(at_end))
         return measures_of(
@@ -174,7 +176,7 @@ class BeamLanes:
                 "given": given(ledger, largest, after), "unaccounted": unaccounted(ledger),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
                 "time": time, "end": self.time(lane),
-                "failure": f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else "",
+                "failure": off_the_ground(loaded[0].motion, beam.seen.gravity, time) or failure,
                 "top": float(watch["top"]), "turn": float(watch["turn"]), "opening": float(watch["open"]),
                 "residual": float((theta + self.model.initial_rotation) @ beam.seen.heights + slip.sum()),
                 "step": float(self.dt[lane]), "steps": int(watch["step"]),

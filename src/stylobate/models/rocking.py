@@ -114,40 +114,58 @@ class RockingBlock:
         x: float,
         v: float,
         side: float,
-        peak: float,
+        peaks: tuple[float, float],
+        start: float,
         collapse_time: float,
         end: float,
         failure: str,
         work: float,
-        start: float,
         unaccounted: float,
         step: float,
         steps: int,
     ) -> Measures:
-        """Measures of a run from its last state, its largest rotation, its collapse time (negative: none) and its ledger.
+        """Measures of a run.
 
-        Over I₀ [1/s²] ``work`` is the largest input work, ``start`` the potential energy at the start, ``unaccounted`` what
-        the ledger cannot account for at the end.
+        Parameters
+        ----------
+        x, v, side : float
+            Rotation and velocity at the end on the side the block stands on [rad], [rad/s], and that side (+1: +x).
+        peaks : tuple of float
+            Largest rotation towards +x and towards −x [rad].
+        start : float
+            Rotation at the start, towards +x positive [rad].
+        collapse_time, end : float
+            Time at which the collapse was certain, negative if it was not, and end of the run [s].
+        failure : str
+            Why the run failed, or empty.
+        work, unaccounted : float
+            Largest input work, and what the ledger cannot account for at the end, over I₀ [1/s²].
+        step, steps : float, int
+            Smallest step [s] and number of steps.
         """
-        imbalance = relative(unaccounted, work, start, self.barrier)
+        begun = float(self.potential(abs(start)))
+        imbalance = relative(unaccounted, work, begun, self.barrier)
         if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
             failure = "the state is not finite"
         failure = failure or out_of_balance(imbalance)
         found = collapse_time >= 0.0
         collapsed, decided = (found, found) if failure or found else self.verdict(x, v, abs(unaccounted))
-        if collapsed and not failure and start + work < self.barrier:
+        if collapsed and not failure and begun + work < self.barrier:
             failure = MADE_ENERGY
         if failure:
             collapsed, decided = False, False
-        opening = float(self.opening(peak))
+        opening = float(self.opening(max(peaks)))
         width = 2.0 * self.half_width
+        tilts = np.array([peaks[0], -peaks[1], side * x, start])
+        moved = self.displacement(tilts, self.height)[0]
+        moved = moved[:3] - moved[3]  # from the start
         return Measures(
             outcome=classify(collapsed, bool(failure), opening / width, 0.0),
             decided=decided,
             collapse_time=(collapse_time if found else end) if collapsed else math.nan,
-            peak_top_displacement=float(self.displacement(peak, self.height)[0]),
-            residual_top_displacement=float(self.displacement(side * x, self.height)[0]),
-            peak_rotation=peak,
+            peak_top_displacement=float(np.abs(moved[:2]).max()),
+            residual_top_displacement=float(moved[2]),
+            peak_rotation=max(peaks),
             peak_joint_opening=opening,
             residual_joint_slip=0.0,
             energy_imbalance=imbalance,
@@ -190,6 +208,25 @@ def remaining_peak(motion: Motion) -> np.ndarray:
 
 
 def lightest_weight(motion: Motion, gravity: float) -> float:
-    """Smallest 1 + a_v/g of a motion, not below 0.05 [-]."""
+    """Smallest 1 + a_v/g of a motion, not below nearly nothing [-]."""
     vertical = motion.vertical
-    return 1.0 if vertical is None else max(0.05, min(1.0, 1.0 + float(vertical.min()) / gravity))
+    return 1.0 if vertical is None else max(1e-9, min(1.0, 1.0 + float(vertical.min()) / gravity))
+
+
+def off_the_ground(motion: Motion, gravity: float, collapse_time: float) -> str:
+    """Why a run has failed whose column has no weight before it has collapsed; empty if it has not.
+
+    ``collapse_time`` is negative or NaN without collapse [s].
+    """
+    vertical = motion.vertical
+    if vertical is None or vertical.min() > -gravity:
+        return ""
+    k = int(np.argmax(vertical <= -gravity))
+    share = (vertical[k - 1] + gravity) / (vertical[k - 1] - vertical[k]) if k else 1.0
+    time = max(0.0, k - 1.0 + share) * motion.dt
+    if 0.0 <= collapse_time <= time:
+        return ""
+    return (
+        f"the vertical acceleration is {vertical.min() / gravity:.2f} g at its lowest and falls below −1 g at {time:.4g} s: "
+        "the column leaves the ground, which this model does not follow; dem2d does"
+    )

@@ -13,7 +13,7 @@ from ..motion import Motion
 from ..response import Measures
 from .base import Case, RunOptions
 from .lanes import MOST_SAMPLES
-from .rocking import REST, RockingBlock, half_steps, lightest_weight, remaining_peak
+from .rocking import REST, RockingBlock, half_steps, lightest_weight, off_the_ground, remaining_peak
 
 #: Chunks of steps between two looks of the interpreter: some milliseconds.
 CHUNKS = 8
@@ -83,10 +83,11 @@ class RockingLanes:
         steps += math.ceil(self.options.tail / step - 1e-9)
         tables = self._tables(motion, step, shaken)
         self.cases[lane] = (case, block, tables, steps)
-        start = abs(self.initial_rotation)
+        start, side = abs(self.initial_rotation), -1.0 if self.initial_rotation > 0.0 else 1.0
         values = {
-            "X": start, "V": 0.0, "SIDE": -1.0 if self.initial_rotation > 0.0 else 1.0,
-            "MOVING": 1.0 if start else 0.0, "WORK": 0.0, "WORK_MAX": 0.0, "PEAK": start, "LOSS": 0.0,
+            "X": start, "V": 0.0, "SIDE": side,
+            "MOVING": 1.0 if start else 0.0, "WORK": 0.0, "WORK_MAX": 0.0, "LOSS": 0.0,
+            "TO_RIGHT": max(0.0, side * start), "TO_LEFT": max(0.0, -side * start),
             "ALPHA": block.alpha, "P2": block.p**2, "E": block.restitution, "STEP": step, "LEFT": steps,
             "SIN_A": block.uplift_sine, "COS_A": block.uplift_cosine, "X_EVENT": math.inf,
             "COLLAPSE": -1.0, "IMPACTS": 0.0,
@@ -113,19 +114,18 @@ class RockingLanes:
         """Measures of a lane whose run has ended."""
         loaded = self.cases[lane]
         assert loaded is not None
-        _, block, _, steps = loaded
+        case, block, _, steps = loaded
         self.cases[lane] = None
-        x, v, side, work, work_max, peak, loss, step, collapse = (
+        x, v, side, work, work_max, right, left, loss, step, collapse = (
             float(self.row(name)[lane])
-            for name in ("X", "V", "SIDE", "WORK", "WORK_MAX", "PEAK", "LOSS", "STEP", "COLLAPSE")
+            for name in ("X", "V", "SIDE", "WORK", "WORK_MAX", "TO_RIGHT", "TO_LEFT", "LOSS", "STEP", "COLLAPSE")
         )
-        start = float(block.potential(abs(self.initial_rotation)))
-        stored = 0.5 * v * v + float(block.potential(x)) - start
+        start = abs(self.initial_rotation)
+        stored = 0.5 * v * v + float(block.potential(x) - block.potential(start))
         return block.measures(
-            x=x, v=v, side=side, peak=peak, collapse_time=collapse, end=steps * step,
-            failure="",
-            work=work_max, start=start, unaccounted=work - stored - loss,
-            step=step, steps=round(collapse / step) if collapse >= 0.0 else steps,
+            x=x, v=v, side=side, peaks=(right, left), start=-self.initial_rotation, collapse_time=collapse,
+            end=steps * step, failure=off_the_ground(case.motion, block.gravity, collapse), work=work_max,
+            unaccounted=work - stored - loss, step=step, steps=round(collapse / step) if collapse >= 0.0 else steps,
         )  # fmt: skip
 
     def _block(self, column: Column) -> RockingBlock:

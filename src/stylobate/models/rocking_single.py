@@ -9,7 +9,7 @@ import numpy as np
 from ..motion import Motion, integrate
 from ..response import Histories, Measures
 from .base import RunOptions
-from .rocking import REST, RockingBlock, lightest_weight, remaining_peak
+from .rocking import REST, RockingBlock, lightest_weight, off_the_ground, remaining_peak
 
 #: Of the solver; the absolute one over the slenderness.
 RELATIVE_TOLERANCE = 1e-8
@@ -117,7 +117,8 @@ def run_single(
     moving = initial_rotation != 0.0
     written = 0
     largest = 0.0
-    peak, collapse_time, steps, impacts, smallest, failure = abs(initial_rotation), -1.0, 0, 0, math.inf, ""
+    peaks = {1.0: 0.0, -1.0: 0.0, side: abs(initial_rotation)}
+    collapse_time, steps, impacts, smallest, failure = -1.0, 0, 0, math.inf, ""
     largest_step = min(0.02 / block.p, max(motion.dt, 16.0 * motion.dt))
 
     def write_until(t: float, dense=None) -> None:
@@ -174,10 +175,10 @@ def run_single(
                 break
             if written < len(times) and times[written] <= t1:
                 write_until(t1, solver.dense_output())
-            peak = max(peak, float(x))
+            peaks[side] = max(peaks[side], float(x))
             if state["v"] > 0.0 > v:  # a summit within the step
                 summit = t0 + (t1 - t0) * state["v"] / (state["v"] - v)
-                peak = max(peak, float(solver.dense_output()(summit)[0]))
+                peaks[side] = max(peaks[side], float(solver.dense_output()(summit)[0]))
             state |= {"t": t1, "x": float(x), "v": float(v), "work": float(work)}
             if collapse_time < 0.0 and certain(t1, x, v):
                 collapse_time = t1
@@ -193,12 +194,12 @@ def run_single(
         times = np.append(times, state["t"])
         rows = np.vstack((rows, [side * state["x"], state["v"], state["work"], state["loss"], 0.0]))
     histories = _histories(block, motion, times, rows, initial_rotation)
-    raised = float(block.potential(abs(initial_rotation)))
-    stored = 0.5 * state["v"] ** 2 + float(block.potential(state["x"])) - raised
+    stored = 0.5 * state["v"] ** 2 + float(block.potential(state["x"]) - block.potential(abs(initial_rotation)))
     measures = block.measures(
-        x=state["x"], v=state["v"], side=side, peak=peak, collapse_time=collapse_time, end=state["t"], failure=failure,
-        work=largest, start=raised, unaccounted=state["work"] - stored - state["loss"],
-        step=smallest if steps else motion.dt, steps=steps,
+        x=state["x"], v=state["v"], side=side, peaks=(peaks[1.0], peaks[-1.0]), start=-initial_rotation,
+        collapse_time=collapse_time, end=state["t"],
+        failure=off_the_ground(motion, block.gravity, collapse_time) or failure, work=largest,
+        unaccounted=state["work"] - stored - state["loss"], step=smallest if steps else motion.dt, steps=steps,
     )  # fmt: skip
     return histories, measures
 
