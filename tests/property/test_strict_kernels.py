@@ -10,7 +10,7 @@ import pytest
 
 from stylobate import kernels
 from stylobate.column import preset
-from stylobate.kernels import assembly_2d, distinct_element_2d, jit, narrow_phase, rigid_beam, rigid_block
+from stylobate.kernels import assembly_2d, distinct_element_2d, drum_lanes, jit, narrow_phase, rigid_beam, rigid_block
 from stylobate.models.housner import HousnerBlock
 from stylobate.models.rigid_beam import RigidBeam
 from stylobate.models.rigid_beam_state import measures_of, packed
@@ -45,11 +45,11 @@ def test_every_compiled_function_states_its_own_mode():
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
 def test_drums_that_are_nowhere_have_failed(bad):
     drum, *_, watch = (np.zeros(3, kind) for kind in distinct_element_2d.block_types(2, False))
-    watch["status"] = distinct_element_2d.RUNNING
+    watch["status"] = drum_lanes.RUNNING
     for lane, name in enumerate(("x", "z", "th")):
         drum[name][1 + lane % 2, lane] = bad
-    compiled(distinct_element_2d.check_finite)(drum, watch)
-    failed, running = distinct_element_2d.FAILED, distinct_element_2d.RUNNING
+    compiled(drum_lanes.check_finite)(drum, watch)
+    failed, running = drum_lanes.FAILED, drum_lanes.RUNNING
     assert watch["status"][0, :4].tolist() == [failed] * 3 + [running]
 
 
