@@ -57,7 +57,11 @@ def refused(capsys):
 def shaking(size=0.4):
     """Three components towards 30°, 300° and up: two pulses, and a short vertical one in the middle of the first."""
     time = np.arange(1201) * 0.01
-    pulses = ((ricker(0.8, size * st.g), 0.0), (ricker(1.3, 0.6 * size * st.g), 0.0), (ricker(3.0, 0.25 * size * st.g), 1.6))
+    pulses = (
+        (ricker(0.8, size * st.g), 0.0),
+        (ricker(1.3, 0.6 * size * st.g), 0.0),
+        (ricker(3.0, 0.25 * size * st.g), 1.6),
+    )
     parts = [np.interp(time - late, one.time, one.acceleration, left=0.0, right=0.0) for one, late in pulses]
     return st.Motion(0.01, *parts, name="three", metadata={"azimuths": {"x": 30.0, "y": 300.0}})
 
