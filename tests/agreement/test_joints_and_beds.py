@@ -52,7 +52,9 @@ def test_a_worn_edge_does_not_sink_in():
     assert not response.failed
     assert np.abs(response.rotation).max() > math.radians(22.0)
     lowest = min(response.outline(i, 1)[:, 1].min() for i in range(len(response.time)))
-    assert lowest > -1e-3
+    assert (
+        lowest > -0.1 * 0.04
+    )  # a tenth of the worn edge; a joint that knew its own face alone would let it sink in whole
 
 
 @pytest.mark.parametrize(("sides", "degrees"), [(8, 30.0), (12, 20.0), (16, 15.0)])

