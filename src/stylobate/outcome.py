@@ -6,7 +6,8 @@ The definitions hold for every model:
 * ``rocked``: a joint opened, and at the end no drum is shifted by more than ``SHIFT_RATIO`` of its joint's width.
 * ``displaced``: the column stands, with at least one drum shifted by more than ``SHIFT_RATIO`` of its joint's width.
 * ``collapsed``: the centroid of a part of the column has left its support for good (see each model's definition).
-* ``failed``: the computation could not go on, or its energy is out of balance. Never counted as collapse.
+* ``failed``: the computation could not go on, its energy is out of balance, or the column does what the model cannot
+  follow. Never counted as collapse.
 """
 
 from enum import IntEnum

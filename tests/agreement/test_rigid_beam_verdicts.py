@@ -8,7 +8,7 @@ import pytest
 
 from stylobate.column import Column, Joint
 from stylobate.constants import g
-from stylobate.errors import OutOfRangeWarning
+from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.models.base import Case
 from stylobate.models.distinct_element_2d import DistinctElement2D
 from stylobate.models.housner import HousnerBlock
@@ -109,3 +109,11 @@ def test_a_second_horizontal_component_is_named_as_left_out():
     for model in (HousnerBlock(), RigidBeam()):
         with pytest.warns(OutOfRangeWarning, match="left out"):
             simulate(ONE, motion, model)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_an_acceleration_beyond_all_measure_is_refused(model):
+    for changes in ({"acceleration": np.full(11, 1e30)}, {"vertical": np.full(11, -1e7)}):
+        motion = Motion(0.01, **({"acceleration": np.zeros(11)} | changes))
+        with pytest.raises(InputError, match="check its unit"):
+            simulate(ONE, motion, model())

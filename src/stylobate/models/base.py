@@ -16,6 +16,9 @@ from ..errors import InputError
 from ..motion import Motion
 from ..response import Measures, Response
 
+#: Beyond it no motion is one, and numbers overflow [m/s²].
+LARGEST_ACCELERATION = 1e6
+
 
 class Case(NamedTuple):
     """One run of a batch."""
@@ -67,6 +70,13 @@ class Model:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
         if not self.takes_as_found:
             column.must_be_as_built(self.name)
+        for axis, values in motion.components.items():
+            peak = float(np.abs(values).max())
+            if not peak <= LARGEST_ACCELERATION:
+                raise InputError(
+                    f"the component {axis} of {motion.name!r} reaches {peak:.3g} m/s²; allowed is up to "
+                    f"{LARGEST_ACCELERATION:g} m/s²: check its unit and its factor."
+                )
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories."""

@@ -50,7 +50,8 @@ class HousnerBlock(Model):
 
     *Collapsed* means: rotated beyond α, moving outward, and so far that the largest acceleration left in the motion
     cannot bring it back; or, at the end of the run, moving outward with more energy than it takes to go over.
-    *Decided* is a run that collapsed, or that ends with less energy than it takes to go over.
+    *Decided* is a run that collapsed, or that ends with less energy than it takes to go over, what the ledger cannot
+    account for included.
 
     Limits: rigid, no sliding (tan α below the friction coefficient), no free flight (vertical acceleration below g).
 
@@ -76,7 +77,7 @@ class HousnerBlock(Model):
     limits: ClassVar[tuple[str, ...]] = (
         "Columns of several drums, and columns that are not as built, are refused.",
         "With tan α above the friction coefficient the block would slide before it rocks (a warning).",
-        "With a vertical acceleration below −1 g the block would leave the ground (a warning).",
+        "With a vertical acceleration below −1 g the block leaves the ground: the run fails, unless the block lies by then.",
         "linear=true is for slender blocks; beyond 20° it warns.",
         "For stocky blocks Housner's e is below zero; 0 is used, with a warning.",
     )

@@ -74,8 +74,9 @@ class RigidBeam(Model):
     *Collapsed* means that the part above some joint is lost: its centroid is beyond the edge of the joint, moves
     outward, and its weight has a larger moment about that edge than the strongest acceleration left in the motion
     (for joints between drums, 1 g more, because the drum below can move) could set against it; with
-    ``second_order="law"`` the same of the joint's own moment. Or that a drum has turned by a right angle. At the end,
-    without input, also that the column is past its lowest barrier and has less energy than it takes to come back.
+    ``second_order="law"`` the same of the joint's own moment. Or that a drum has turned by a right angle, or has slid off
+    the one below. At the end, without input, also that the centroid of a part has slid beyond the edge of its joint, or
+    that the column is past its lowest barrier and has less energy than it takes to come back.
 
     References
     ----------
@@ -110,6 +111,9 @@ class RigidBeam(Model):
         "Against a block that turns about its corner the inertia lacks m b²: 2 % for the paper's column, more if stocky.",
         "Without damping and without sliding a stack of drums keeps all energy and is too prone to collapse.",
         "rotation=absolute and second_order=law are the paper's reading: there to reproduce it, wrong for a stack.",
+        "With rotation=absolute a stack is decided only where no joint can open any more; one that flutters is refused.",
+        "With a vertical acceleration below −1 g the column leaves the ground: the run fails, unless it had collapsed.",
+        "Slip does not shorten a joint in the equations, only in the verdict.",
         "moment_law=housner is for one drum.",
         "A drum touches its neighbours only; what comes down is not followed.",
         "Columns that are not as built are refused.",

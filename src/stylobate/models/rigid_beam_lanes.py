@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -53,6 +54,7 @@ class BeamLanes:
     def __init__(self, model: RigidBeam, loop: Loop, options: RunOptions) -> None:
         self.model, self.loop, self.options = model, loop, options
         self.drum = np.zeros(loop.drums + 2, kernel.DRUM)
+        self.values = self.drum.view(np.float64).reshape(loop.drums + 2, -1, self.lanes)
         self.lane = np.zeros(1, kernel.LANE)
         self.watch = np.zeros(1, kernel.WATCH)
         self.watch["status"] = kernel.FREE
@@ -68,8 +70,7 @@ class BeamLanes:
         column, motion = case
         beam = packed(self.model, column)
         self.cases[lane] = (case, beam)
-        for name in kernel.DRUM.names or ():  # nothing of the run before: a sum that is no number stays none
-            self.drum[name][:, lane] = 0.0
+        self.values[..., lane] = 0.0  # nothing of the run before: a sum that is no number stays none
         for name, values in _drum_fields(beam).items():
             self.drum[name][1:-1, lane] = values
         model, seen = self.model, beam.seen
@@ -199,6 +200,7 @@ def run_one(model: RigidBeam, column: Column, motion: Motion, options: RunOption
     return histories_of(packed(model, column), motion, time, theta, slip, ledger), block.collect(0)
 
 
+@lru_cache(64)
 def _drum_fields(beam: PackedBeam) -> dict[str, np.ndarray]:
     column, matrices = beam.seen, beam.matrices
     pivot, upper, nodes = tridiagonal(column)

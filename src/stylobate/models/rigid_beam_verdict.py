@@ -175,7 +175,8 @@ class Passes:
         if not self.geometric:
             return bool(np.all(out * phi >= 0.0))
         tilt = float(self.gravity[0] @ theta**2)
-        tip = float(self.column.joint_weights @ (slip * np.append(0.0, theta[:-1])))  # weight off the middle
+        below = np.append(0.0, theta[:-1])
+        tip = float(self.column.joint_weights @ (slip * below)) if self.model.sliding else 0.0  # weight off the middle
         if out @ phi >= tilt + tip or tilt <= 0.0:
             return True
         if tip == 0.0:
@@ -187,6 +188,11 @@ class Passes:
             if out @ phi >= share * tilt + tip:
                 return True
         return False
+
+    @cached_property
+    def opening(self) -> np.ndarray:
+        """Rotation at which each joint opens [rad], shape (n,)."""
+        return self.model.opening_rotations(self.column)
 
     @cached_property
     def modes(self) -> tuple[np.ndarray, np.ndarray]:
@@ -208,7 +214,7 @@ class Passes:
             return False
         place, speed = np.linalg.solve(shapes, np.column_stack((theta, omega))).T
         size = np.hypot(place, speed / np.sqrt(squares))
-        return bool(np.all(np.abs(shapes) @ size <= self.model.opening_rotations(self.column)))
+        return bool(np.all(np.abs(shapes) @ size <= self.opening))
 
     def reached(self, energy: float, rotation: float) -> bool:
         """Whether a column let go at a rotation, and given at most this energy, could overturn at all."""
@@ -226,15 +232,17 @@ class Passes:
         if not self.has_potential:
             return False, self.stays_closed(theta, found["omega"]), ""
         reach = found["energy"] + found["unaccounted"]
-        left = room(self.column, slip)
-        hanging = np.flatnonzero(left <= 0.0)
-        if hanging.size:
-            # To come back it must slide back, at the loosest joint of the part.
-            work = -(self.column.joint_weights * self.friction * left)[hanging]
-            joint = int(hanging[int(np.argmax(work))]) + 1
-            gone = bool(reach < work.max())
-            return gone, gone, f"the centroid of {self.part(joint)} has slid beyond the edge of joint {joint}"
-        if reach >= self.lowest(slip):
+        if self.model.sliding:
+            left = room(self.column, slip)
+            hanging = np.flatnonzero(left <= 0.0)
+            if hanging.size:
+                # To come back it must slide back, at the loosest joint of the part.
+                work = -(self.column.joint_weights * self.friction * left)[hanging]
+                joint = int(hanging[int(np.argmax(work))]) + 1
+                gone = bool(reach < work.max())
+                why = f"the centroid of {self.part(joint)} has slid beyond the edge of joint {joint}"
+                return gone, gone, why if gone else ""
+        if reach >= (self.lowest(slip) if self.model.sliding else self.lowest_unslid):
             return False, False, ""
         lost = not self.inside(theta, slip)
         return lost, True, "beyond the lowest barrier when the input ends" if lost else ""
