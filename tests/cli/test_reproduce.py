@@ -13,13 +13,13 @@ import pytest
 import stylobate as st
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
-from stylobate.analysis.paper import cases, pieces, study
-from stylobate.analysis.paper.cases import BEAM, Grids
-from stylobate.analysis.paper.reading import CHOICES, FAILS, HOLDS
-from stylobate.analysis.paper.statements import statements
-from stylobate.analysis.paper.study import run_study
 from stylobate.cli.main import call
 from stylobate.cli.reproduce import build, describe
+from stylobate.paper import cases, pieces, study
+from stylobate.paper.cases import BEAM, Grids
+from stylobate.paper.reading import CHOICES, FAILS, HOLDS
+from stylobate.paper.statements import statements
+from stylobate.paper.study import run_study
 from stylobate.report.page import Picture, Rows, Section, write_page
 
 ROOT = Path(__file__).parents[2]

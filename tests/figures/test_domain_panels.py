@@ -11,7 +11,7 @@ import stylobate as st
 from stylobate import plots
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
-from stylobate.analysis.paper.doubt import Doubt
+from stylobate.analysis.doubt import Doubt
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.analysis.step_sensitivity import StepComparison
 from stylobate.column import preset

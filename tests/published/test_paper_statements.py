@@ -6,7 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from stylobate.analysis.paper.cases import (
+from stylobate.column import preset
+from stylobate.constants import g
+from stylobate.models.rigid_beam import RigidBeam
+from stylobate.paper.cases import (
     AMPLITUDES,
     FREQUENCIES,
     MODELS,
@@ -15,12 +18,9 @@ from stylobate.analysis.paper.cases import (
     Grids,
     paper_column,
 )
-from stylobate.analysis.paper.reading import FAILS, HOLDS, Statement
-from stylobate.analysis.paper.statements import markdown_row
-from stylobate.analysis.paper.statics import joint_law, static_statements, static_values
-from stylobate.column import preset
-from stylobate.constants import g
-from stylobate.models.rigid_beam import RigidBeam
+from stylobate.paper.reading import FAILS, HOLDS, Statement
+from stylobate.paper.statements import markdown_row
+from stylobate.paper.statics import joint_law, static_statements, static_values
 
 TABLE = Path(__file__).parents[2] / "docs" / "paper_statements.md"
 

@@ -12,7 +12,7 @@ import typer
 from . import options as o
 
 if TYPE_CHECKING:
-    from ..analysis.paper.cases import Grids
+    from ..paper.cases import Grids
 
 FOLDER = Path("reproduction")
 
@@ -47,12 +47,12 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None) -
     """Compute, draw and write everything; returns the JSON object."""
     import pandas
 
-    from ..analysis.paper.statements import statements, statements_markdown
-    from ..analysis.paper.study import run_study
     from ..atomic import replacing
-    from ..report.paper import NAMES, case_rows, domain_rows, doubt_rows, write_paper_page
+    from ..paper.figures import draw
+    from ..paper.page import NAMES, case_rows, domain_rows, doubt_rows, write_paper_page
+    from ..paper.statements import statements, statements_markdown
+    from ..paper.study import run_study
     from . import console
-    from .paper_figures import draw
 
     started = time.perf_counter()
     with console.folder(folder):

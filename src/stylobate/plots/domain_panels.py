@@ -12,7 +12,7 @@ from matplotlib.patches import Patch
 
 from ..analysis import verdicts as v
 from ..analysis.domain import Domain, cell_edges
-from ..analysis.paper.doubt import Doubt
+from ..analysis.doubt import Doubt
 from ..constants import g
 from .domain import draw_boundary, draw_cells, draw_static_line
 from .style import BLACK, WIDTH, styled

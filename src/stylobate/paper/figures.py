@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..analysis.domain import Domain
-    from ..analysis.paper.study import PaperResults
     from ..report.page import Picture
+    from .study import PaperResults
 
 #: The columns as titles.
 TITLES = {"paper-monolithic": "Monolithic column", "paper-12-drums": "Column of twelve drums"}
@@ -20,13 +20,13 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     import numpy as np
 
     from .. import plots
-    from ..analysis.paper import cases as c
-    from ..analysis.paper.pieces import slug, sweep
     from ..column.presets import PRESETS
     from ..constants import g
-    from ..plots import paper as p
-    from ..report import paper as page
     from ..report.page import Picture
+    from . import cases as c
+    from . import page
+    from . import pictures as p
+    from .pieces import slug, sweep
 
     place = folder / "figures"
     place.mkdir(exist_ok=True)
@@ -131,6 +131,6 @@ def _of(results: PaperResults, name: str, section: str) -> dict[str, Domain]:
 
 def _seen(domain: Domain, label: str) -> Domain:
     """The domain with the column as the model sees it: the paper's beam is made of prisms."""
-    from ..analysis.paper.cases import BEAM
+    from .cases import BEAM
 
     return dataclasses.replace(domain, column=domain.column.as_prism()) if label == BEAM else domain

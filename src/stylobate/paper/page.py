@@ -11,13 +11,13 @@ import numpy as np
 
 from .. import __version__
 from ..analysis import verdicts as v
-from ..analysis.paper.cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
-from ..analysis.paper.doubt import Doubt
-from ..analysis.paper.reading import CHOICES, FAILS, HOLDS, MEANINGS, Statement, percent, share
-from ..analysis.paper.statements import place
-from ..analysis.paper.study import PaperResults
+from ..analysis.doubt import Doubt
 from ..constants import g
-from .page import Picture, Points, Rows, Section, write_page
+from ..report.page import Picture, Points, Rows, Section, write_page
+from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
+from .reading import CHOICES, FAILS, HOLDS, MEANINGS, Statement, percent, share
+from .statements import place
+from .study import PaperResults
 
 TITLE = "Freestanding ancient columns: the paper's study, recomputed"
 

@@ -6,12 +6,12 @@ from itertools import product
 
 import numpy as np
 
-from ...column import Column, preset
-from ...column.presets import PRESETS
-from ...kernels import moment_law
-from ...models.rigid_beam import RigidBeam
-from ..limit import limit_analysis
-from ..pushover import pushover
+from ..analysis.limit import limit_analysis
+from ..analysis.pushover import pushover
+from ..column import Column, preset
+from ..column.presets import PRESETS
+from ..kernels import moment_law
+from ..models.rigid_beam import RigidBeam
 from .cases import DRUMS, MONOLITH, paper_column
 from .reading import Statement, judged
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...constants import g
-from .. import verdicts as v
-from ..domain import Domain
+from ..analysis import verdicts as v
+from ..analysis.domain import Domain
+from ..constants import g
 from .cases import BEAM, DEM, REFERENCE, VARIANTS
 from .study import PaperResults
 

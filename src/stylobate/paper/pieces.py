@@ -16,22 +16,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ... import __version__
-from ...atomic import replacing
-from ...campaign.ledger import discard
-from ...campaign.runner import Progress
-from ...column import Column, preset
-from ...column.presets import PRESETS
-from ...constants import g
-from ...errors import InputError
-from ...kernels.jit import source_digest
-from ...models.base import Model
-from ...motion import harmonic
-from ...simulate import simulate, simulate_many
-from .. import verdicts as v
-from ..domain import PROGRESS_FILE, Domain, collapse_domain
-from ..probability import CollapseProbability
-from ..replicates import collapse_probability
+from .. import __version__
+from ..analysis import verdicts as v
+from ..analysis.domain import PROGRESS_FILE, Domain, collapse_domain
+from ..analysis.probability import CollapseProbability
+from ..analysis.replicates import collapse_probability
+from ..atomic import replacing
+from ..campaign.ledger import discard
+from ..campaign.runner import Progress
+from ..column import Column, preset
+from ..column.presets import PRESETS
+from ..constants import g
+from ..errors import InputError
+from ..kernels.jit import source_digest
+from ..models.base import Model
+from ..motion import harmonic
+from ..simulate import simulate, simulate_many
 from . import cases as c
 
 if TYPE_CHECKING:

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 
-from ...column import preset
-from ...column.presets import PRESETS
-from ...constants import g
-from .. import verdicts as v
+from ..analysis import verdicts as v
+from ..column import preset
+from ..column.presets import PRESETS
+from ..constants import g
 from .cases import BEAM, BLOCKS, DEM, DRUMS, MONOLITH, REFERENCE
 from .reading import Reader, Statement, all_but, first, judged, percent, rising, share, span
 

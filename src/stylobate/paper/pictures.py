@@ -11,13 +11,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from ..analysis import verdicts as v
-from ..analysis.paper.cases import MONOLITH
-from ..analysis.paper.statics import joint_law
 from ..analysis.pushover import PushoverResult
 from ..column import Column, preset
 from ..constants import g
 from ..models.rigid_beam import RigidBeam
-from .style import BLACK, CYCLE, GREY, RED, SAND, WIDTH, styled, zero_line
+from ..plots.style import BLACK, CYCLE, GREY, RED, SAND, WIDTH, styled, zero_line
+from .cases import MONOLITH
+from .statics import joint_law
 
 #: Ground of a panel that shows a collapse.
 TINT = "#f3d9d2"

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .. import verdicts as v
-from ..probability import UNCERTAIN, CollapseProbability
-from ..step_sensitivity import StepComparison
+from . import verdicts as v
+from .probability import UNCERTAIN, CollapseProbability
+from .step_sensitivity import StepComparison
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...column.presets import PRESETS
+from ..column.presets import PRESETS
 from .cases import BEAM, BLOCKS, DEM, DRUMS, MONOLITH
 from .reading import Reader, Statement, first, in_g, judged, percent
 

@@ -10,19 +10,19 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...campaign.runner import Progress
-from ...column import preset
-from ...column.presets import PRESETS
-from ...constants import g
-from ...models.base import Model
-from ...motion import harmonic
-from ...simulate import thread_count
-from ..domain import Domain
-from ..probability import CollapseProbability
-from ..pushover import PushoverResult, pushover
-from ..step_sensitivity import StepComparison, halved_step
+from ..analysis.domain import Domain
+from ..analysis.doubt import Doubt
+from ..analysis.probability import CollapseProbability
+from ..analysis.pushover import PushoverResult, pushover
+from ..analysis.step_sensitivity import StepComparison, halved_step
+from ..campaign.runner import Progress
+from ..column import preset
+from ..column.presets import PRESETS
+from ..constants import g
+from ..models.base import Model
+from ..motion import harmonic
+from ..simulate import thread_count
 from . import cases as c
-from .doubt import Doubt
 from .pieces import claim, cost_piece, domain_piece, histories_piece, population_piece, slug
 
 if TYPE_CHECKING:
