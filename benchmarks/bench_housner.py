@@ -37,8 +37,8 @@ def measure(steps: int = 2500, repeats: int = 15) -> dict[str, float | None]:
 
 
 def _kernel(steps: int, repeats: int) -> tuple[float, float]:
-    from stylobate.kernels import housner as kernel
-    from stylobate.models.rocking import half_steps
+    from stylobate.kernels.rocking import step as kernel
+    from stylobate.models.rocking.block import half_steps
 
     n = kernel.LANES
     samples = np.sin(2.0 * np.pi * np.arange(round(steps * STEP / SAMPLE) + 1) * SAMPLE)

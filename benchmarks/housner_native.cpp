@@ -1,4 +1,4 @@
-// Native reference for the batched Housner block: the same scheme as stylobate/kernels/housner.py, written for one
+// Native reference for the batched Housner block: the same scheme as stylobate/kernels/rocking/step.py, written for one
 // compiler and one purpose, so that the compiled Python kernel can be measured against it.
 //
 // Usage: housner_native LANES STEPS REPEATS  ->  prints ns per lane and step, then the sum of the peak rotations.

@@ -9,7 +9,7 @@ its own, and the capacity spectrum check against a code spectrum.
 import stylobate as st
 from stylobate import plots
 from stylobate.analysis import capacity_spectrum
-from stylobate.models.block_stack import BlockStack
+from stylobate.models.rigid_block.block_stack import BlockStack
 
 # %%
 # The equilibrium path goes over the peak and down to zero. Limit analysis knows neither stiffness

@@ -28,6 +28,14 @@ CASES = {
     "distinct elements": ("dem2d", {}, None),
 }
 
+#: Page of theory of each model.
+PAGES = {
+    "housner": "housner",
+    "rigid-beam": "rigid_beam",
+    "rigid-block": "rigid_block",
+    "dem2d": "distinct_element_2d",
+}
+
 #: Options and models in a sentence: name=value, a name with an underscore after more than a letter, dem2d.
 OPTION = re.compile(r"\b\w+=\w+|\b\w{2,}_\w+|\bdem2d\b")
 
@@ -37,9 +45,8 @@ def texts(out):
     parts = []
     for name in MODELS:
         one = model_class(name)
-        page = one.__module__.rsplit(".", 1)[1]
         first = inspect.getdoc(one).split("\n")[0]
-        parts.append(f"### `{name}`: {one.title}\n\n{first} [Theory](theory/{page}.md).\n")
+        parts.append(f"### `{name}`: {one.title}\n\n{first} [Theory](theory/{PAGES[name]}.md).\n")
         for title, sentences in (("Assumptions", one.assumptions), ("Limits", one.limits)):
             items = "".join(f"- {OPTION.sub(lambda found: f'`{found[0]}`', sentence)}\n" for sentence in sentences)
             parts.append(f"*{title}*\n\n{items}")

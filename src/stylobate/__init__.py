@@ -25,10 +25,10 @@ if TYPE_CHECKING:
     from .column.imperfections import Imperfection
     from .constants import g
     from .errors import InputError, OutOfRangeWarning, StylobateError
-    from .models.distinct_element_2d import DistinctElement2D
-    from .models.housner import HousnerBlock
-    from .models.rigid_beam import RigidBeam
-    from .models.rigid_block import RigidBlock
+    from .models.dem2d.model import DistinctElement2D
+    from .models.rigid_beam.model import RigidBeam
+    from .models.rigid_block.model import RigidBlock
+    from .models.rocking.model import HousnerBlock
     from .motion import Motion, harmonic, stochastic_motion
     from .motion.pulses import (
         cosine_pulse,
@@ -50,10 +50,10 @@ _HOMES = {
     "Assembly": "column.assembly",
     "Block": "column.assembly",
     "Column": "column",
-    "DistinctElement2D": "models.distinct_element_2d",
+    "DistinctElement2D": "models.dem2d.model",
     "Drum": "column",
     "FoundDrum": "column",
-    "HousnerBlock": "models.housner",
+    "HousnerBlock": "models.rocking.model",
     "Imperfection": "column.imperfections",
     "InputError": "errors",
     "Joint": "column",
@@ -61,8 +61,8 @@ _HOMES = {
     "OutOfRangeWarning": "errors",
     "Outcome": "outcome",
     "Response": "response",
-    "RigidBeam": "models.rigid_beam",
-    "RigidBlock": "models.rigid_block",
+    "RigidBeam": "models.rigid_beam.model",
+    "RigidBlock": "models.rigid_block.model",
     "StylobateError": "errors",
     "collapse_domain": "analysis.domain",
     "collapse_probability": "analysis.replicates",

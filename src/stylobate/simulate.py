@@ -100,8 +100,8 @@ def simulate_assembly(
     InputError
         The input cannot be used, or the model is for columns only.
     """
-    from .models.assembly_run import run_assembly
-    from .models.distinct_element_2d import DistinctElement2D
+    from .models.assembly.run import run_assembly
+    from .models.dem2d.model import DistinctElement2D
 
     model = DistinctElement2D() if model is None else model
     if not isinstance(model, DistinctElement2D):

@@ -5,7 +5,7 @@ import pytest
 
 from stylobate.column import AsFound, Column, FoundDrum, Joint, preset
 from stylobate.constants import g
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 

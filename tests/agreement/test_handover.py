@@ -8,10 +8,10 @@ import pytest
 from stylobate.column import AsFound, Column, FoundDrum, Joint, preset
 from stylobate.column.assembly import Assembly, Block, of_column
 from stylobate.constants import g
-from stylobate.models.assembly_2d import Engine
+from stylobate.models.assembly.engine import Engine
 from stylobate.models.base import RunOptions
-from stylobate.models.collapse_2d import _ColumnRun, follow
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.dem2d.collapse import _ColumnRun, follow
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate
 

@@ -9,10 +9,10 @@ import pytest
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
-from stylobate.kernels.housner import LANES, trigonometry
+from stylobate.kernels.rocking.step import LANES, trigonometry
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rocking_lanes import RockingLanes
+from stylobate.models.rocking.lanes import RockingLanes
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_iter, simulate_many

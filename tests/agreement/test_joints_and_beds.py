@@ -8,8 +8,8 @@ import pytest
 
 import stylobate as st
 from stylobate.column.assembly import Assembly, Block
-from stylobate.models.assembly_2d import Engine
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.assembly.engine import Engine
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.simulate import simulate_assembly
 
 JOINT = st.Joint(5e10, 2.5e10, friction_coefficient=0.7)

@@ -7,8 +7,8 @@ from stylobate.column import Column, Joint, preset
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_beam_lanes import BeamLanes, loop_for
+from stylobate.models.rigid_beam.lanes import BeamLanes, loop_for
+from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.response import Measures

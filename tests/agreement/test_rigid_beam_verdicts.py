@@ -10,9 +10,9 @@ from stylobate.column import Column, Joint
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.models.base import Case
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_iter

@@ -5,8 +5,8 @@ import pytest
 
 from stylobate.analysis.limit import limit_analysis
 from stylobate.column import preset
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.rigid_block import RigidBlock
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.rigid_block.model import RigidBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 

@@ -9,7 +9,7 @@ import pytest
 from stylobate.column import Joint, preset
 from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import Motion, harmonic
 from stylobate.response.mechanism import Mechanism
 from stylobate.simulate import simulate, simulate_assembly

@@ -8,7 +8,7 @@ from stylobate.analysis.capacity_spectrum import EurocodeSpectrum, capacity_spec
 from stylobate.analysis.pushover import pushover
 from stylobate.column import preset
 from stylobate.errors import InputError
-from stylobate.models.block_stack import BlockStack
+from stylobate.models.rigid_block.block_stack import BlockStack
 from stylobate.motion import harmonic
 
 

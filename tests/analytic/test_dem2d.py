@@ -25,7 +25,7 @@ from validation.rocking import dem_prism, ramp, restitutions
 
 from stylobate.column import preset
 from stylobate.constants import g
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.simulate import simulate
 
 

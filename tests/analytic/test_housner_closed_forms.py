@@ -9,8 +9,8 @@ from validation import overturning
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rocking_lanes import RockingLanes
+from stylobate.models.rocking.lanes import RockingLanes
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate, simulate_many
 

@@ -11,7 +11,7 @@ from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.column.as_found import AsFound, gravity_vector
 from stylobate.errors import InputError
-from stylobate.models.block_stack import BlockStack
+from stylobate.models.rigid_block.block_stack import BlockStack
 
 JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)
 

@@ -12,7 +12,7 @@ from stylobate.analysis.limit import crushing_forces, gravity_forces, horizontal
 from stylobate.analysis.pushover import STATES, pushover
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.errors import InputError
-from stylobate.models.block_stack import BlockStack
+from stylobate.models.rigid_block.block_stack import BlockStack
 
 JOINT = Joint(5e10, 2.5e10, friction_angle=35.0)
 

@@ -9,10 +9,10 @@ from validation import overturning
 
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
-from stylobate.kernels import moment_law
+from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Case
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_beam_equations import BeamMatrices, tridiagonal
+from stylobate.models.rigid_beam.equations import BeamMatrices, tridiagonal
+from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion
 from stylobate.simulate import simulate, simulate_iter
 

@@ -6,10 +6,10 @@ import pytest
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.kernels import moment_law
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_beam_state import packed
-from stylobate.models.rigid_beam_verdict import room
+from stylobate.kernels.rigid_beam import moment_law
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import packed
+from stylobate.models.rigid_beam.verdict import room
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many

@@ -9,7 +9,7 @@ from validation.overturning import half_sine
 from stylobate.analysis.rocking_spectrum import rocking_block, rocking_spectrum
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.models.housner import HousnerBlock
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, half_sine_pulse
 from stylobate.simulate import simulate
 

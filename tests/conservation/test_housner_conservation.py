@@ -7,7 +7,7 @@ import pytest
 
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
-from stylobate.models.housner import HousnerBlock
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many

@@ -7,8 +7,8 @@ import pytest
 
 from stylobate.column import Column, Joint, preset
 from stylobate.constants import g
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_beam_state import measures_of, packed
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import measures_of, packed
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many

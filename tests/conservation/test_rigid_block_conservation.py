@@ -5,7 +5,7 @@ import pytest
 
 from stylobate.column import preset
 from stylobate.models.base import RunOptions
-from stylobate.models.rigid_block import RigidBlock, stable_step
+from stylobate.models.rigid_block.model import RigidBlock, stable_step
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 

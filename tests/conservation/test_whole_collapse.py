@@ -6,11 +6,11 @@ import pytest
 from stylobate.column import Joint, preset
 from stylobate.column.assembly import Assembly, Block, of_column
 from stylobate.constants import g
-from stylobate.kernels import narrow_phase as near
-from stylobate.models.assembly_2d import RESTITUTION_TO_REST, Engine, stable_step
-from stylobate.models.assembly_run import follow
+from stylobate.kernels.assembly import narrow_phase as near
+from stylobate.models.assembly.engine import RESTITUTION_TO_REST, Engine, stable_step
+from stylobate.models.assembly.run import follow
 from stylobate.models.base import RunOptions
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
 from stylobate.response.assembly_response import AssemblyResponse
 from stylobate.simulate import simulate_assembly

@@ -6,7 +6,7 @@ from validation.convergence import refined_verdicts
 
 from stylobate.column import preset
 from stylobate.errors import InputError
-from stylobate.models.distinct_element_2d import DistinctElement2D, contact_points
+from stylobate.models.dem2d.model import DistinctElement2D, contact_points
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
 
@@ -41,7 +41,7 @@ def test_largest_stable_step_is_sharp():
         DistinctElement2D(time_step=1.01 * stable).step_for(column)
     # the limit is taken away by hand: beyond it the same push grows without bound
     from stylobate.models.base import Case, RunOptions
-    from stylobate.models.drum_block import DrumBlock
+    from stylobate.models.drums.block import DrumBlock
 
     block = DrumBlock(model, column.n, RunOptions())
     block.load(0, Case(column, push))

@@ -4,8 +4,8 @@ import numpy as np
 
 from stylobate.column import Column, Joint
 from stylobate.constants import g
-from stylobate.models import rigid_beam_adaptive
-from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.rigid_beam import adaptive as rigid_beam_adaptive
+from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
 

@@ -149,7 +149,7 @@ def test_every_model_says_what_it_assumes_and_where_it_ends():
     for name in MODELS:
         one = model_class(name)
         assert f"### `{name}`" in text
-        assert f"theory/{one.__module__.rsplit('.', 1)[1]}.md" in PAGES
+        assert f"theory/{extension('model_pages').PAGES[name]}.md" in PAGES
         for sentences in (one.assumptions, one.limits):
             assert len(sentences) >= 3
             assert all(sentence.endswith(".") for sentence in sentences)

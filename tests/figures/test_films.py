@@ -12,7 +12,7 @@ from stylobate.cli.main import call
 from stylobate.column import Column, Joint
 from stylobate.constants import g
 from stylobate.errors import InputError
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
 from stylobate.plots.animation import draw_frame, frame_indices, write_gif, write_mp4
 from stylobate.plots.player import write_player

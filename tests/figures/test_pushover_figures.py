@@ -5,7 +5,7 @@ import pytest
 from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.pushover import pushover
 from stylobate.column import preset
-from stylobate.models.block_stack import BlockStack
+from stylobate.models.rigid_block.block_stack import BlockStack
 from stylobate.plots import draw_mechanism, draw_pushover
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stylobate.kernels import narrow_phase as near
+from stylobate.kernels.assembly import narrow_phase as near
 
 
 def kernel_overlap(a, b):

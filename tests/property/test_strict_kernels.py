@@ -10,10 +10,16 @@ import pytest
 
 from stylobate import kernels
 from stylobate.column import preset
-from stylobate.kernels import assembly_2d, distinct_element_2d, drum_lanes, jit, narrow_phase, rigid_beam, rigid_block
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_beam_state import measures_of, packed
+from stylobate.kernels import jit
+from stylobate.kernels.assembly import narrow_phase
+from stylobate.kernels.assembly import step as assembly_2d
+from stylobate.kernels.dem2d import step as distinct_element_2d
+from stylobate.kernels.drums import lanes as drum_lanes
+from stylobate.kernels.rigid_beam import step as rigid_beam
+from stylobate.kernels.rigid_block import step as rigid_block
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import measures_of, packed
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.outcome import Outcome
 
 NAN, INF = math.nan, math.inf
@@ -34,8 +40,8 @@ def compiled(function):
 def test_every_compiled_function_states_its_own_mode():
     # A function that states none takes that of the first one that calls it.
     found = 0
-    for module in pkgutil.iter_modules(kernels.__path__):
-        for name, value in vars(importlib.import_module(f"{kernels.__name__}.{module.name}")).items():
+    for module in pkgutil.walk_packages(kernels.__path__, f"{kernels.__name__}."):
+        for name, value in vars(importlib.import_module(module.name)).items():
             if isinstance(value, numba.core.registry.CPUDispatcher):
                 assert "fastmath" in value.targetoptions, f"{module.name}.{name}"
                 found += 1

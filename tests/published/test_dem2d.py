@@ -7,7 +7,7 @@ import pytest
 
 from stylobate.column import preset
 from stylobate.constants import g
-from stylobate.models.distinct_element_2d import DistinctElement2D
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate_many
 

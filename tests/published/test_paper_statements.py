@@ -8,7 +8,7 @@ import pytest
 
 from stylobate.column import preset
 from stylobate.constants import g
-from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.paper.cases import (
     AMPLITUDES,
     FREQUENCIES,

@@ -10,7 +10,7 @@ from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.analysis.suite import suite_table
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
-from stylobate.models.housner import HousnerBlock
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import half_sine_pulse, read_suite, write_csv
 
 RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"

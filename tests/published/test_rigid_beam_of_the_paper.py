@@ -10,7 +10,7 @@ import pytest
 from stylobate.column import preset
 from stylobate.constants import g
 from stylobate.models.base import Case
-from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate_iter
 

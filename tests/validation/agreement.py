@@ -9,10 +9,10 @@ from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_block import RigidBlock
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_block.model import RigidBlock
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.motion.pulses import half_sine_pulse, sine_pulse
 from stylobate.response import Response

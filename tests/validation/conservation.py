@@ -7,10 +7,10 @@ import numpy as np
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.base import Model
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_block import RigidBlock
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_block.model import RigidBlock
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 

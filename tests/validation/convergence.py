@@ -8,14 +8,14 @@ from scipy.optimize import brentq
 
 from stylobate.column import Column, Joint, preset
 from stylobate.constants import g
-from stylobate.kernels import moment_law
+from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Case as Run
 from stylobate.models.base import RunOptions
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.drum_block import DrumBlock
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_beam_state import packed
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.drums.block import DrumBlock
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import packed
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 

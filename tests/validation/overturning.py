@@ -8,9 +8,9 @@ from scipy.optimize import brentq
 
 from stylobate.column import Column, Drum, Joint
 from stylobate.constants import g
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.housner import HousnerBlock
-from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate_many
 

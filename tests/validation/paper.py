@@ -9,8 +9,8 @@ from stylobate.analysis.pushover import pushover
 from stylobate.column import preset
 from stylobate.constants import g
 from stylobate.models.base import Model
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.rigid_beam import RigidBeam
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate, simulate_many
 

@@ -10,9 +10,9 @@ from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.models.base import Case as Run
 from stylobate.models.base import RunOptions
-from stylobate.models.distinct_element_2d import DistinctElement2D, contact_points
-from stylobate.models.drum_block import DrumBlock
-from stylobate.models.housner import HousnerBlock
+from stylobate.models.dem2d.model import DistinctElement2D, contact_points
+from stylobate.models.drums.block import DrumBlock
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
 

@@ -8,11 +8,11 @@ from scipy.optimize import brentq
 
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
-from stylobate.kernels import moment_law
-from stylobate.models.distinct_element_2d import DistinctElement2D
-from stylobate.models.rigid_beam import RigidBeam
-from stylobate.models.rigid_beam_equations import BeamMatrices
-from stylobate.models.rigid_block import RigidBlock
+from stylobate.kernels.rigid_beam import moment_law
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.rigid_beam.equations import BeamMatrices
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_block.model import RigidBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate_many
 

@@ -8,7 +8,7 @@ import numpy as np
 from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.pushover import PushoverResult, pushover
 from stylobate.column import Column, Joint, preset
-from stylobate.models.block_stack import BlockStack
+from stylobate.models.rigid_block.block_stack import BlockStack
 
 from .case import AtMost, Case, Near, collected
 

@@ -18,8 +18,8 @@ from ..column import preset
 from ..constants import g
 from ..errors import StylobateError
 from ..models.base import Case, RunOptions
-from ..models.distinct_element_2d import DistinctElement2D
-from ..models.drum_block import DrumBlock
+from ..models.dem2d.model import DistinctElement2D
+from ..models.drums.block import DrumBlock
 from ..motion import Motion, harmonic
 from ..simulate import simulate, simulate_many, thread_count
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..errors import InputError, check_range
-from ..models.block_stack import BlockStack
+from ..models.rigid_block.block_stack import BlockStack
 from ..motion import Motion
 from .pushover import PushoverResult
 

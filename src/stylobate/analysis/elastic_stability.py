@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..errors import InputError
-from ..models.block_stack import BlockStack
+from ..models.rigid_block.block_stack import BlockStack
 from .equilibrium_path import EquilibriumPath
 
 #: Stiffness that is looked for at most, over the given one, and how closely [-].

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ..errors import InputError
-from ..models.block_stack import BlockStack
+from ..models.rigid_block.block_stack import BlockStack
 from .limit import joint_forces
 from .pushover_result import PushoverResult
 
@@ -73,7 +73,7 @@ class EquilibriumPath:
 
     def residual(self, position: np.ndarray, multiplier: float) -> np.ndarray:
         """Forces out of balance [N, N, N m], shape (3 n,); fills the tangent and the report."""
-        from ..kernels.rigid_block_static import assemble
+        from ..kernels.rigid_block.static import assemble
 
         assemble(
             position,
@@ -261,7 +261,7 @@ class EquilibriumPath:
         """The coordinates after a finite change that keeps the joints' contact points in place, shape (n, 3)."""
         if not self.geometric:
             return position + change
-        from ..kernels.rigid_block_static import carried
+        from ..kernels.rigid_block.static import carried
 
         out = np.empty_like(position)
         carried(position, change, eccentricity, self.geometry, out)

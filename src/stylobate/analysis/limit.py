@@ -10,7 +10,7 @@ import numpy as np
 from ..column import Column
 from ..constants import DEGREE
 from ..errors import InputError, StylobateError, check_range
-from ..models.block_stack import BlockStack
+from ..models.rigid_block.block_stack import BlockStack
 
 #: A joint's strength counts as used up when less than this share of it is left [-].
 ACTIVE = 1e-7

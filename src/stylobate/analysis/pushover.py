@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ..column import Column
 from ..errors import InputError, check_range
-from ..models.block_stack import BlockStack
+from ..models.rigid_block.block_stack import BlockStack
 from .elastic_stability import check_stable
 from .equilibrium_path import EquilibriumPath
 from .limit import check_standing, crushing_forces, gravity_forces, horizontal_forces

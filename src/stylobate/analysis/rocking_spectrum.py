@@ -13,7 +13,7 @@ from ..column import Column, Joint
 from ..constants import g
 from ..errors import InputError
 from ..models.base import Case
-from ..models.housner import HousnerBlock
+from ..models.rocking.model import HousnerBlock
 from ..motion import Motion, pulse_match
 from ..simulate import simulate_iter
 

@@ -41,7 +41,7 @@ def limit(
         summary, files = summarize(found), []
         if folder is not None:
             from .. import plots
-            from ..models.block_stack import BlockStack
+            from ..models.rigid_block.block_stack import BlockStack
 
             files = [
                 console.write_json(folder / "limit.json", summary),

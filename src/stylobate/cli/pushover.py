@@ -52,7 +52,7 @@ def pushover(
     from ..analysis.limit import limit_analysis
     from ..analysis.pushover import pushover as follow
     from ..column.files import load_column
-    from ..models.block_stack import BlockStack
+    from ..models.rigid_block.block_stack import BlockStack
     from . import console
 
     o.the_threads(threads)

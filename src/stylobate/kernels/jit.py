@@ -13,10 +13,11 @@ from pathlib import Path
 
 
 def source_digest(folder: Path | None = None) -> str:
-    """Digest of all files of the kernels' folder."""
+    """Digest of all files of the kernels' folder and the rooms in it."""
+    root = folder or Path(__file__).parent
     found = hashlib.sha256()
-    for path in sorted((folder or Path(__file__).parent).glob("*.py")):
-        found.update(path.name.encode())
+    for path in sorted(root.rglob("*.py")):
+        found.update(path.relative_to(root).as_posix().encode())
         found.update(path.read_bytes())
     return found.hexdigest()[:16]
 

@@ -11,10 +11,10 @@ from .base import Model
 
 #: Name: module of this package and class in it.
 MODELS = {
-    "housner": ("housner", "HousnerBlock"),
-    "rigid-beam": ("rigid_beam", "RigidBeam"),
-    "rigid-block": ("rigid_block", "RigidBlock"),
-    "dem2d": ("distinct_element_2d", "DistinctElement2D"),
+    "housner": ("rocking.model", "HousnerBlock"),
+    "rigid-beam": ("rigid_beam.model", "RigidBeam"),
+    "rigid-block": ("rigid_block.model", "RigidBlock"),
+    "dem2d": ("dem2d.model", "DistinctElement2D"),
 }
 
 

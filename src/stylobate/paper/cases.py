@@ -12,9 +12,9 @@ from ..column import Column, preset
 from ..column.presets import PRESETS
 from ..constants import g
 from ..models.base import Model
-from ..models.distinct_element_2d import DistinctElement2D
-from ..models.rigid_beam import RigidBeam
-from ..models.rigid_block import RigidBlock
+from ..models.dem2d.model import DistinctElement2D
+from ..models.rigid_beam.model import RigidBeam
+from ..models.rigid_block.model import RigidBlock
 
 #: The thirty harmonic cases. The paper prints the ranges, 0.66 to 4 Hz and 0.1 g to 0.5 g; the values are chosen here.
 FREQUENCIES = np.array([0.66, 1.0, 1.5, 2.0, 3.0, 4.0])

@@ -14,7 +14,7 @@ from ..analysis import verdicts as v
 from ..analysis.pushover import PushoverResult
 from ..column import Column, preset
 from ..constants import g
-from ..models.rigid_beam import RigidBeam
+from ..models.rigid_beam.model import RigidBeam
 from ..plots.style import BLACK, CYCLE, GREY, RED, SAND, WIDTH, styled, zero_line
 from .cases import MONOLITH
 from .statics import joint_law

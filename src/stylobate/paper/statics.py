@@ -10,8 +10,8 @@ from ..analysis.limit import limit_analysis
 from ..analysis.pushover import pushover
 from ..column import Column, preset
 from ..column.presets import PRESETS
-from ..kernels import moment_law
-from ..models.rigid_beam import RigidBeam
+from ..kernels.rigid_beam import moment_law
+from ..models.rigid_beam.model import RigidBeam
 from .cases import DRUMS, MONOLITH, paper_column
 from .reading import Statement, judged
 

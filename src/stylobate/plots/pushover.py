@@ -10,7 +10,7 @@ from matplotlib.ticker import MaxNLocator
 
 from ..analysis.limit import LimitResult
 from ..analysis.pushover import PushoverResult
-from ..models.block_stack import BlockStack
+from ..models.rigid_block.block_stack import BlockStack
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, styled, zero_line
 
 

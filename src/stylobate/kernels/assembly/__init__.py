@@ -1,0 +1,1 @@
+"""Any set of convex bodies in the plane: contact search, joints, bed, step and ledger."""

@@ -1,0 +1,1 @@
+"""Plane distinct elements: the step of joints with contact points."""

@@ -1,0 +1,1 @@
+"""The rigid beam: moment-rotation laws and the step over lanes."""

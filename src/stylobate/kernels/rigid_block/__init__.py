@@ -1,0 +1,1 @@
+"""Rigid blocks with interfaces: the interface law, the dynamic step and the static equilibrium."""

@@ -1,0 +1,1 @@
+"""The rocking block of Housner: step, impacts and lanes."""

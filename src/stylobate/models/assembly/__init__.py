@@ -1,0 +1,1 @@
+"""Assemblies of blocks in the plane, followed step by step."""

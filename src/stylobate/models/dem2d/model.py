@@ -1,0 +1,244 @@
+"""Plane distinct elements: rigid drums on soft frictional joints, stepped explicitly (Cundall; the paper's UDEC)."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ...column import Column
+from ...errors import InputError, check_range
+from ...motion import Motion
+from ...response import Response
+from ..base import Case, RunOptions
+from ..drums.block import DrumBlock, PackedColumn, drum_fields, lane_fields
+from ..drums.stepped import SteppedDrums
+from .found_start import found_start
+
+MAX_POINTS = 32
+
+
+@dataclass(frozen=True, kw_only=True)
+class DistinctElement2D(SteppedDrums):
+    """Rigid drums with contact points on every joint: penalty springs, no tension, Coulomb friction.
+
+    Parameters
+    ----------
+    points : int
+        Contact points per joint. 2 are at the corners with half of the area each (UDEC's); more follow Gauss–Lobatto's
+        rule over the joint's section, which is exact for the elastic closed joint from 3 on.
+    block_modulus : float, optional
+        Young's modulus of the stone [Pa]: half of each drum's height acts as a spring in series with its joints. None for
+        rigid drums.
+    step_factor : float
+        Time step as a share of the largest stable one.
+    time_step : float, optional
+        Time step [s], instead of ``step_factor``.
+    stiffness_damping : float
+        β: dashpots of β times each contact's stiffness, in parallel, while the contact is closed and does not slide [s].
+    mass_damping : float
+        α: force −α m v on every drum, v relative to the base [1/s].
+    start : {"static", "settle"}
+        Joints closed by their static weight at once, or settled with local damping from there.
+    restitution : float, optional
+        Share of the closing speed that contacts of drums which are not, or no longer, joined give back; for single runs
+        that are followed to the ground. By default 1, and 0.3 in a run until rest.
+
+    Notes
+    -----
+    A run ends as ``collapsed`` when the part above some joint is lost for good: its centroid is beyond the end of the
+    contact, moves outward, and its weight has a larger moment about that end than the strongest acceleration of the
+    motion could set against it (for a joint between drums, with 1 g in reserve, because the drum below can move); or
+    when a drum has left its support.
+
+    In a batch drums touch their neighbours and the base only; with ``until_end`` a run goes on to its end all the same.
+    A single run with ``until_end`` or ``until_rest`` is followed to the ground: any two drums may strike each other.
+    """
+
+    name: ClassVar[str] = "dem2d"
+    title: ClassVar[str] = "distinct elements in the plane"
+    references: ClassVar[tuple[str, ...]] = ("baraldi", "cundall1971", "cundall1979", "psycharis2000")
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Drums are rigid, with their true shape; the stone's flexibility can be put into the joints (block_modulus).",
+        "Faces touch at contact points with springs, without tension, with Coulomb friction and cohesion.",
+        "The base is a rigid half-plane that moves with the record.",
+        "Plane motion: a circular column has its true mass, inertia and joints, but it cannot wobble.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "What an impact loses depends on contact points, friction and damping: two points are nearest to Housner's loss, "
+        "more points without damping give a bouncier column.",
+        "In batches a drum touches its neighbours and the base only; a single run can be followed to the ground.",
+        "Drums do not crack, chip or wear.",
+        "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
+    )
+    takes_as_found: ClassVar[bool] = True
+    follows_to_rest: ClassVar[bool] = True
+
+    points: int = 2
+    block_modulus: float | None = None
+    start: str = "static"
+    restitution: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if isinstance(self.points, bool) or int(self.points) != self.points or not 2 <= self.points <= MAX_POINTS:
+            raise InputError(f"points is {self.points!r}; allowed is a whole number from 2 to {MAX_POINTS}.")
+        if self.block_modulus is not None:
+            check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
+        if self.start not in ("static", "settle"):
+            raise InputError(f"start is {self.start!r}; allowed are static, settle.")
+        if self.restitution is not None:
+            check_range("restitution", self.restitution, 0.0, 1.0)
+
+    # -- what a block of lanes needs -----------------------------------------------------------------------------
+
+    def kernel(self) -> Any:
+        """Module of kernels."""
+        from ...kernels.dem2d import step as distinct_element_2d
+
+        return distinct_element_2d
+
+    def record_types(self) -> tuple:
+        """Record types of the kernel's arrays."""
+        return self.kernel().block_types(self.points, self.damped)
+
+    def pack(self, column: Column) -> PackedColumn:
+        """A column as the kernel wants it, settled if asked for."""
+        packed = _pack(column, self)
+        if self.start == "static":
+            return packed
+        drum, joint, lane = packed.fields
+        state = _settled(column, self)
+        return replace(packed, fields=(drum | state["drum"], joint | state["joint"], lane))
+
+    def stable_step(self, column: Column) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return _stable_step(column, self)
+
+    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories; what comes loose is followed to the ground if asked for."""
+        if options.until_end or options.until_rest:
+            from .collapse import follow
+
+            return follow(column, motion, self, options)
+        return super().run(column, motion, options)
+
+
+@lru_cache(maxsize=4096)
+def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
+    n = column.n
+    kn, ks = joint_stiffnesses(column, model.block_modulus)
+    width, area = column.joint_widths, column.joint_areas
+    xi, share = contact_points(column.section, model.points)
+
+    def under_air(values: np.ndarray) -> np.ndarray:  # behind the topmost joint stands one without force
+        return np.concatenate((values, [0.0]))
+
+    joint_fields = {
+        "kn": under_air(kn * area / width),
+        "ks": under_air(ks * area / width),
+        "co": under_air(np.array([joint.cohesion for joint in column.joints]) * area / width),
+        "mu": under_air(np.array([joint.tan_phi for joint in column.joints])),
+        "fs": np.zeros((n + 1, model.points)),
+        "over": np.zeros(n + 1),
+    }
+    drums = drum_fields(column, column.joint_weights / (kn * area))
+    if column.as_found:
+        found, joint_fields["fs"] = found_start(column, kn * area / width, xi, share)
+        drums |= found
+    lanes = lane_fields(column, model) | {"xi": xi, "sh": share}
+    return PackedColumn((drums, joint_fields, lanes), model.step_for(column))
+
+
+#: Local damping while settling, the residual acceleration at which a column has settled [m/s²], and the most chunks.
+SETTLE_DAMPING, SETTLED, SETTLE_CHUNKS = 0.8, 1e-7, 20_000
+
+
+@lru_cache(maxsize=256)
+def _settled(column: Column, model: DistinctElement2D) -> dict[str, dict[str, np.ndarray]]:
+    """Fields of the drums and of the joints after settling under gravity with local damping."""
+    block = DrumBlock(
+        replace(model, start="static", mass_damping=max(model.mass_damping, 1e-300)), column.n, RunOptions()
+    )
+    block.load(0, Case(column, Motion(1e3, np.zeros(2))))
+    block.lane["local"][0, 0] = SETTLE_DAMPING
+    for _ in range(SETTLE_CHUNKS // 100):
+        block.advance(100)
+        if block.residual_acceleration(0) < SETTLED:
+            break
+    else:
+        raise InputError(
+            f"column {column.name!r} does not come to rest under its weight: {block.residual_acceleration(0):.2g} m/s² "
+            f"remain, allowed is {SETTLED:g}; check that every drum is supported under its centroid."
+        )
+    return {
+        "drum": {name: block.drum[name][:, 0].copy() for name in ("x", "z", "th", "c", "s")},
+        "joint": {"fs": block.joint["fs"][..., 0].copy()},
+    }
+
+
+def joint_stiffnesses(column: Column, block_modulus: float | None) -> tuple[np.ndarray, np.ndarray]:
+    """Normal and shear stiffness per area of each joint [N/m³], with the stone in series if its modulus is given.
+
+    1/k_n′ = 1/k_n + h/2E of the drum above + h/2E of the drum below (the base is rigid); k_s keeps its ratio to k_n.
+    Eq. (D2).
+    """
+    kn = np.array([joint.normal_stiffness for joint in column.joints])
+    ks = np.array([joint.shear_stiffness for joint in column.joints])
+    if block_modulus is None:
+        return kn, ks
+    half = 0.5 * column.heights / block_modulus
+    soft = 1.0 / (1.0 / kn + half + np.concatenate(([0.0], half[:-1])))
+    return soft, ks * soft / kn
+
+
+def contact_points(section: str, points: int) -> tuple[np.ndarray, np.ndarray]:
+    """Places (−1 … 1) and shares of the area of a joint's contact points.
+
+    Gauss–Lobatto's rule for the chord of the section: weight 1 for a rectangle, √(1 − ξ²) for a circle. Its inner points
+    are the roots of the Jacobi polynomial for the weight times 1 − ξ²; the ends take what is left.
+    """
+    if points == 2:
+        return np.array([-1.0, 1.0]), np.array([0.5, 0.5])
+    from scipy.special import roots_jacobi
+
+    power, total = (1.5, math.pi / 2.0) if section == "circular" else (1.0, 2.0)
+    inner, weight = roots_jacobi(points - 2, power, power)
+    inner = 0.5 * (inner - inner[::-1])
+    weight = 0.5 * (weight + weight[::-1]) / (1.0 - inner**2)
+    end = 0.5 * (total - weight.sum())
+    return np.concatenate(([-1.0], inner, [1.0])), np.concatenate(([end], weight, [end])) / total
+
+
+@lru_cache(maxsize=4096)
+def _stable_step(column: Column, model: DistinctElement2D) -> float:
+    """Largest stable step of central differences for the closed column [s].
+
+    From the highest frequency of the contact stiffness matrix: 2/ω (√(1 + ζ²) − ζ), ζ = β ω / 2, where the dashpots act
+    with the velocity half a step back. Eq. (D3).
+    """
+    n = column.n
+    kn, ks = joint_stiffnesses(column, model.block_modulus)
+    xi, share = contact_points(column.section, model.points)
+    stiffness = np.zeros((3 * n, 3 * n))
+    for j in range(n):
+        below = column.drums[j - 1].height - column.drums[j - 1].centroid_height if j else 0.0
+        above = column.drums[j].centroid_height
+        for place, part in zip(xi, share, strict=True):
+            arm = 0.5 * column.joint_widths[j] * place
+            # relative displacement of the contact per degree of freedom (x, z, θ) of the drum above and of the one below
+            normal, shear = np.zeros(3 * n), np.zeros(3 * n)
+            normal[3 * j + 1], normal[3 * j + 2] = 1.0, arm
+            shear[3 * j], shear[3 * j + 2] = 1.0, above
+            if j:
+                normal[3 * j - 2], normal[3 * j - 1] = -1.0, -arm
+                shear[3 * j - 3], shear[3 * j - 1] = -1.0, below
+            area = part * column.joint_areas[j]
+            stiffness += kn[j] * area * np.outer(normal, normal) + ks[j] * area * np.outer(shear, shear)
+    root = 1.0 / np.sqrt(np.stack((column.masses, column.masses, column.inertias), axis=1).ravel())
+    omega = math.sqrt(float(np.linalg.eigvalsh(stiffness * np.outer(root, root))[-1]))
+    zeta = 0.5 * model.stiffness_damping * omega
+    return 2.0 / omega * (math.sqrt(1.0 + zeta * zeta) - zeta)

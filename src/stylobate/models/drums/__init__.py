@@ -1,0 +1,1 @@
+"""Models of stacked drums that are stepped explicitly: options, packing, lanes and verdict that they share."""

@@ -1,0 +1,346 @@
+"""A block of lanes of stacked drums: kernel arrays, the way of a case into them, and of its results out of them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...column import Column
+from ...column.as_found import gravity_vector
+from ...constants import DEGREE
+from ...motion import Motion
+from ...outcome import Outcome, classify
+from ...response import Histories, Measures
+from ..base import Case, RunOptions, ground_history
+from ..shared.lanes import aligned_zeros
+from .standing import lowest_barrier, stands_for_good
+
+#: Half width of the base, wide enough to be a half-plane [m].
+BASE_HALF_WIDTH = 1.0e4
+
+#: A run has failed when its ledger misses more than this share of the largest input work, …
+LARGEST_IMBALANCE = 0.25
+
+#: … or of this share of the energy that overturns the column, if the input work is even smaller than that.
+SMALL_ENERGY = 1.0e-3
+
+#: Calls of the kernel per run.
+CALLS_PER_RUN = 100
+
+
+@dataclass(frozen=True)
+class PackedColumn:
+    """A column as the kernel wants it."""
+
+    fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
+    step: float
+
+
+def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
+    """Fields of the drums, the base first: upright, at rest, each joint closed by ``closure`` [m], shape (n,)."""
+    centroid = np.array([drum.centroid_height for drum in column.drums])
+    n = column.n + 1
+
+    def on_base(values: np.ndarray | list[float], base: float = 0.0) -> np.ndarray:
+        return np.concatenate(([base], values))
+
+    half = on_base([drum.bottom_width / 2 for drum in column.drums])
+
+    at_rest = {name: np.zeros(n) for name in ("x", "th", "s", "vx", "vz", "w")}
+    return at_rest | {
+        "z": on_base(column.centroid_heights - np.cumsum(closure)),
+        "c": np.ones(n),
+        "m": on_base(column.masses),
+        "i": on_base(column.inertias),
+        "im": on_base(1.0 / column.masses),
+        "ii": on_base(1.0 / column.inertias),
+        "hb": on_base(centroid),
+        "ht": on_base(column.heights - centroid),
+        "bl": half,
+        "br": half,
+        "fc": np.ones(n),
+        "fs": np.zeros(n),
+        "t": on_base([drum.top_width / 2 for drum in column.drums], BASE_HALF_WIDTH),
+    }
+
+
+def whole_steps(motion: Motion, tail: float, step: float, chunk: int) -> tuple[float, int]:
+    """Largest step up to ``step`` of which whole chunks fill the motion [s], and how many chunks there are with the tail.
+
+    The tail has no say in the step: what happens before it does not depend on it.
+    """
+    dt = motion.duration / (chunk * max(1, math.ceil(motion.duration / (chunk * step))))
+    return dt, math.ceil((motion.duration + tail) / (chunk * dt) * (1.0 - 1e-12))
+
+
+def lane_fields(column: Column, model: Any) -> dict[str, Any]:
+    """Fields of a lane at the start of a run."""
+    sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
+    down = gravity_vector(column)
+    return sums | {
+        "g": float(-down[1]),
+        "gx": float(-down[0]),
+        "beta": model.stiffness_damping,
+        "alpha": model.mass_damping,
+    }
+
+
+class DrumBlock:
+    """See :class:`stylobate.models.lanes.LaneBlock`.
+
+    Parameters
+    ----------
+    model : DrumModel
+        Gives the module of kernels, the record types and the packed column.
+    drums : int
+        Number of drums of every column in this block.
+    options : RunOptions
+    """
+
+    def __init__(self, model: Any, drums: int, options: RunOptions) -> None:
+        self.model = model
+        self.kernel = kernel = model.kernel()
+        self.options = options
+        self.lanes = kernel.LANES
+        self.chunk = kernel.CHUNK
+        types = model.record_types()
+        self.drum = aligned_zeros(drums + 1, types[0])
+        self.joint = aligned_zeros(drums + 1, types[1])
+        self.lane = aligned_zeros(1, types[2])
+        self.ground = aligned_zeros(kernel.CHUNK + 1, types[3])
+        self.feed = aligned_zeros(1, types[4])
+        self.watch = aligned_zeros(1, types[5])
+        self.watch["status"] = kernel.FREE
+        self.dt = np.zeros(self.lanes)
+        self.steps = np.zeros(self.lanes, dtype=np.int64)
+        self.start = np.zeros((self.lanes, 6))
+        self.slip = np.zeros((self.lanes, drums))
+        self.cases: list[Case | None] = [None] * self.lanes
+        self.chunks_per_call = 1
+
+    def load(self, lane: int, case: Case) -> None:
+        """Start a case in a lane."""
+        self.cases[lane] = case
+        column, motion = case
+        packed = self.model.pack(column)
+        for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
+            for name, values in fields.items():
+                array[name][..., lane] = values
+        self.joint["dn"][..., lane] = self.joint["ds"][..., lane] = 0.0
+        dt, chunks = whole_steps(motion, self.options.tail, packed.step, self.chunk)
+        steps = chunks * self.chunk
+        self.lane["dt"][0, lane] = dt
+        x, z = motion.samples, motion.z_samples
+        feed, watch = self.feed[0], self.watch[0]
+        feed["x"][lane] = x.ctypes.data
+        feed["z"][lane] = 0 if z is None else z.ctypes.data
+        feed["last"][lane] = len(x) - 1
+        feed["step"][lane] = 0
+        feed["end"][lane] = steps
+        feed["ratio"][lane] = dt / motion.dt
+        feed["factor"][lane] = motion.factor
+        slope = column.as_found.base_tilt * DEGREE
+        feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
+        for name in watch.dtype.names:
+            watch[name][lane] = 0
+        watch["status"][lane] = self.kernel.RUNNING
+        watch["follow"][lane] = self.options.until_end
+        watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
+        peak_z = 0.0 if z is None else _peak(z) * abs(motion.factor)
+        watch["amax"][lane] = motion.pga * math.cos(slope) + peak_z * abs(math.sin(slope))
+        watch["vmax"][lane] = motion.pga * abs(math.sin(slope)) + peak_z * math.cos(slope)
+        self.slip[lane, : column.n] = self.joint_state(lane)[1]
+        watch["stood"][lane] = self.top(lane)
+        self.dt[lane] = dt
+        # velocities half a step before the start, of drums that do not move yet in a base that may
+        ground = self.ground_acceleration(lane, 0.0)
+        self.drum["vx"][1:, lane], self.drum["vz"][1:, lane] = 0.5 * dt * ground[0], 0.5 * dt * ground[1]
+        self.steps[lane] = steps
+        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
+        self.start[lane] = self.energies(lane)
+
+    def advance(self, chunks: int | None = None) -> None:
+        """Advance all lanes by some chunks of steps."""
+        count = self.chunks_per_call if chunks is None else chunks
+        self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
+
+    def is_over(self, lane: int) -> bool:
+        """Whether the lane's run has ended."""
+        return self.watch["status"][0, lane] != self.kernel.RUNNING
+
+    def time(self, lane: int) -> float:
+        """Time of the lane's present state [s]."""
+        return float(self.feed["step"][0, lane]) * self.dt[lane]
+
+    def ground_acceleration(self, lane: int, time: float) -> np.ndarray:
+        """Acceleration of the base along and normal to it at a time [m/s²], shape (2,)."""
+        case = self.cases[lane]
+        assert case is not None
+        motion, place, slope = case.motion, time / case.motion.dt, case.column.as_found.base_tilt * DEGREE
+        ax = _sample(motion.samples, place) * motion.factor
+        az = 0.0 if motion.z_samples is None else _sample(motion.z_samples, place) * motion.factor
+        c, s = math.cos(slope), math.sin(slope)
+        return np.array([ax * c + az * s, az * c - ax * s])
+
+    def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Opening of every joint, and where the drum above it is along it [m], each of shape (n,)."""
+        opening, slip = np.empty(len(self.drum) - 1), np.empty(len(self.drum) - 1)
+        self.kernel.joint_state(self.drum, lane, opening, slip)
+        return opening, slip
+
+    def top(self, lane: int) -> float:
+        """Place of the middle of the topmost face along the base [m]."""
+        d = self.drum[-1]
+        return float(d["x"][lane] - (d["s"][lane] * d["fc"][lane] + d["c"][lane] * d["fs"][lane]) * d["ht"][lane])
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        ground = np.zeros(1, self.ground.dtype)
+        ground["ax"][0, lane], ground["az"][0, lane] = self.ground_acceleration(lane, self.time(lane))
+        # the forces at the present positions, found as the next step will find them, on a copy
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = self.dt[lane]
+        self.kernel.forces(self.drum, joint, state)
+        out = np.empty(6)
+        self.kernel.ledger(self.drum, joint, state, ground, 0, self.dt[lane], lane, out)
+        return out
+
+    def residual_acceleration(self, lane: int) -> float:
+        """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
+        joint, state = self.joint.copy(), self.lane.copy()
+        self.kernel.forces(self.drum, joint, state)
+        d = {name: self.drum[name][1:, lane] for name in ("im", "ii", "bl", "br")}
+        net = {name: joint[name][:, lane] for name in ("fx", "fz", "mu_", "ml")}
+        ax = (net["fx"][:-1] - net["fx"][1:]) * d["im"] - state["gx"][0, lane]
+        az = (net["fz"][:-1] - net["fz"][1:]) * d["im"] - state["g"][0, lane]
+        turn = (net["mu_"][:-1] - net["ml"][1:]) * d["ii"] * np.maximum(d["bl"], d["br"])
+        return float(np.abs(np.concatenate((ax, az, turn))).max())
+
+    def snapshot(self, lane: int) -> dict[str, Any]:
+        """Everything that a history keeps of the present state."""
+        drum = self.drum
+        opening, slip = self.joint_state(lane)
+        bottom = drum[1]
+        return {
+            "time": self.time(lane),
+            "x": drum["x"][1:, lane].copy(),
+            "z": drum["z"][1:, lane].copy(),
+            "rotation": drum["th"][1:, lane].copy(),
+            "opening": opening,
+            "slip": slip,
+            "base": bottom["x"][lane] + bottom["s"][lane] * bottom["hb"][lane],
+            "top": self.top(lane),
+            "energy": self.energies(lane),
+        }
+
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run is over."""
+        case = self.cases[lane]
+        assert case is not None
+        watch = self.watch[0]
+        status = watch["status"][lane]
+        now = self.energies(lane)
+        change = now - self.start[lane]
+        largest = max(float(watch["wmax"][lane]), float(self.start[lane, 3]))
+        imbalance, balanced = ledger_balance(change, largest, case.column)
+        slip = self.joint_state(lane)[1] - self.slip[lane, : case.column.n]
+        collapsed = status == self.kernel.COLLAPSED
+        failed = status == self.kernel.FAILED or not balanced
+        widths = case.column.joint_widths
+        outcome = classify(
+            collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
+        )
+        mechanical = float(change[1] + change[2] + change[3])
+        return Measures(
+            outcome=outcome,
+            decided=outcome is Outcome.COLLAPSED
+            or (not failed and stands_for_good(case.column, self.drum, lane, slip, mechanical)),
+            collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
+            peak_top_displacement=float(watch["top"][lane]),
+            residual_top_displacement=self.top(lane) - float(watch["stood"][lane]),
+            peak_rotation=float(watch["turn"][lane]),
+            peak_joint_opening=float(watch["open"][lane]),
+            residual_joint_slip=float(np.abs(slip).max()),
+            energy_imbalance=imbalance,
+            time_step=float(self.dt[lane]),
+            steps=int(self.feed["step"][0, lane]),
+            reason=self.reason(lane, outcome, imbalance),
+        )
+
+    def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
+        """Why a run failed, or what happened in a collapse; empty for a column that stands."""
+        watch = self.watch[0]
+        if outcome is Outcome.FAILED:
+            if watch["status"][lane] == self.kernel.FAILED:
+                return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
+            return (
+                f"the energy ledger is out of balance by {imbalance:.2g} of the input work; try a smaller step_factor"
+            )
+        if outcome is not Outcome.COLLAPSED:
+            return ""
+        side = "right" if watch["side"][lane] > 0 else "left"
+        parted = bool(watch["parted"][lane])
+        # what is lost above some joint turns about the joint that is widest open, there or higher up
+        joint = 1 + int(watch["which" if parted else "about"][lane])
+        drums = len(self.drum) - 1
+        part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
+        how = f"left the support at joint {joint}" if parted else f"overturned about joint {joint}"
+        return f"{part} {how}, to the {side}"
+
+
+def ledger_balance(change: np.ndarray, largest: float, column: Column) -> tuple[float, bool]:
+    """Energy that a ledger misses relative to the largest input work so far, and whether the run can be believed.
+
+    Eq. (V3) of ``docs/theory/verdicts.md``.
+
+    Parameters
+    ----------
+    change : array
+        Input, kinetic, gravitational, elastic, friction, viscous: since the start [J], shape (6,).
+    largest : float
+        Largest input work so far, or the elastic energy at rest if that is larger [J].
+    column : Column
+    """
+    missing = abs(float(change[0] - change[1:].sum()))
+    allowed = LARGEST_IMBALANCE * max(largest, SMALL_ENERGY * lowest_barrier(column))
+    return missing / largest, missing <= allowed
+
+
+def histories(motion: Motion, states: list[dict[str, Any]]) -> Histories:
+    """Histories from the snapshots of a run."""
+    stack = {key: np.array([state[key] for state in states]) for key in states[0]}
+    energy = stack["energy"]
+    acceleration, displacement = ground_history(motion, stack["time"])
+    return Histories(
+        time=stack["time"],
+        drum_x=stack["x"] - stack["x"][0],
+        drum_z=stack["z"] - stack["z"][0],
+        drum_rotation=stack["rotation"],
+        joint_opening=stack["opening"],
+        joint_slip=stack["slip"] - stack["slip"][0],
+        base_displacement=stack["base"] - stack["base"][0],
+        top_displacement=stack["top"] - stack["top"][0],
+        ground_acceleration=acceleration,
+        ground_displacement=displacement,
+        energy={
+            "input": energy[:, 0],
+            "kinetic": energy[:, 1],
+            "gravitational": energy[:, 2] - energy[0, 2],
+            "elastic": energy[:, 3] - energy[0, 3],
+            "friction": energy[:, 4] - energy[0, 4],
+            "viscous": energy[:, 5] - energy[0, 5],
+        },
+    )
+
+
+def _sample(values: np.ndarray, place: float) -> float:
+    """Linear between samples, zero after the last one."""
+    i = min(int(place), len(values) - 2)
+    return float(values[i] + (values[i + 1] - values[i]) * (place - i)) if place <= len(values) - 1 else 0.0
+
+
+def _peak(values: np.ndarray) -> float:
+    return float(np.abs(values).max())

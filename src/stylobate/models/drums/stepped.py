@@ -1,0 +1,127 @@
+"""What models of stacked drums share that step them explicitly in blocks of lanes: options, time step, runs."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+from ...column import Column
+from ...errors import InputError, OutOfRangeWarning, check_range
+from ...motion import Motion
+from ...response import Measures, Response
+from ..base import Case, Model, RunOptions
+from ..shared.lanes import run_lanes
+from .block import DrumBlock, PackedColumn, histories
+
+
+@dataclass(frozen=True, kw_only=True)
+class SteppedDrums(Model):
+    """Base of the plane models whose kernels step rigid drums explicitly. A model gives its kernel, types and packing.
+
+    Parameters
+    ----------
+    step_factor : float
+        Time step as a share of the largest stable one.
+    time_step : float, optional
+        Time step [s], instead of ``step_factor``.
+    stiffness_damping : float
+        β: dashpots of β times the stiffness of what is in contact [s].
+    mass_damping : float
+        α: force −α m v on every drum, v relative to the base [1/s].
+    """
+
+    step_factor: float = 0.4
+    time_step: float | None = None
+    stiffness_damping: float = 0.0
+    mass_damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        default = next(one.default for one in fields(self) if one.name == "step_factor")
+        remedy = f"{default:g} is the default"
+        check_range("step_factor", self.step_factor, 0.0, 1.0, open_low=True, open_high=True, remedy=remedy)
+        if self.time_step is not None:
+            check_range("time_step", self.time_step, 0.0, 1.0, unit="s", open_low=True)
+        check_range("stiffness_damping", self.stiffness_damping, 0.0, 1.0, unit="s")
+        check_range("mass_damping", self.mass_damping, 0.0, 1e3, unit="1/s")
+
+    @property
+    def damped(self) -> bool:
+        """Whether any damping acts during the run."""
+        return self.stiffness_damping > 0.0 or self.mass_damping > 0.0
+
+    # -- given by each model -------------------------------------------------------------------------------------
+
+    def kernel(self) -> Any:
+        """Module of kernels."""
+        raise NotImplementedError
+
+    def record_types(self) -> tuple:
+        """Record types of the kernel's arrays."""
+        raise NotImplementedError
+
+    def pack(self, column: Column) -> PackedColumn:
+        """A column as the kernel wants it."""
+        raise NotImplementedError
+
+    def stable_step(self, column: Column) -> float:
+        """Largest stable time step of the closed column [s]."""
+        raise NotImplementedError
+
+    # -- shared --------------------------------------------------------------------------------------------------
+
+    def check(self, column: Column, motion: Motion) -> None:
+        """Refuse an unstable step; say what a plane model leaves out."""
+        super().check(column, motion)
+        self.step_for(column)
+        if motion.lateral is not None:
+            warnings.warn(
+                f"the second horizontal component of {motion.name!r} is left out: {self.name} is a plane model.",
+                OutOfRangeWarning,
+                stacklevel=3,
+            )
+
+    def step_for(self, column: Column) -> float:
+        """Time step for a column [s].
+
+        Raises
+        ------
+        InputError
+            The step asked for is above the largest stable one.
+        """
+        stable = self.stable_step(column)
+        if self.time_step is None:
+            return self.step_factor * stable
+        if self.time_step >= stable:
+            raise InputError(
+                f"time_step is {self.time_step:g} s; the largest stable step for this column is {stable:.4g} s: "
+                f"give at most {0.9 * stable:.3g} s, or leave it out."
+            )
+        return self.time_step
+
+    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories, through the same kernel as a batch."""
+        block = DrumBlock(self, column.n, options)
+        block.load(0, Case(column, motion))
+        chunks = math.ceil(block.steps[0] / block.chunk)
+        stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
+        residual = block.residual_acceleration(0)
+        states = [block.snapshot(0)]
+        while not block.is_over(0):
+            block.advance(stride)
+            states.append(block.snapshot(0))
+        provenance = {"time_step_s": float(block.dt[0]), "residual_acceleration_at_start_m_s2": residual}
+        measures = block.collect(0)
+        return Response(column, histories(motion, states), measures, self.name, provenance)
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
+        by_drums: dict[int, list[int]] = {}
+        for index, case in enumerate(cases):
+            by_drums.setdefault(case.column.n, []).append(index)
+        for drums, indices in by_drums.items():
+            some = [cases[index] for index in indices]
+            for k, measures in run_lanes(lambda drums=drums: DrumBlock(self, drums, options), some, threads):
+                yield indices[k], measures

@@ -1,0 +1,223 @@
+"""Rigid beams by the fixed-step method: a block of lanes, for a batch and for a single run alike."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ...column import Column
+from ...kernels.rigid_beam import step as kernel
+from ...motion import Motion
+from ...response import Histories, Measures
+from ..base import Case, RunOptions
+from ..rocking.block import lightest_weight, off_the_ground
+from .equations import tridiagonal
+from .state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
+from .verdict import faces
+
+if TYPE_CHECKING:
+    from .model import RigidBeam
+
+#: Wanted time between two looks at a run [s], and calls of the kernel per run.
+LOOK = 0.01
+CALLS_PER_RUN = 20
+
+
+class Loop(NamedTuple):
+    """What the compiled loop is made for: runs that share it share blocks."""
+
+    drums: int
+    steps: int
+    sliding: bool
+    bed: tuple[float, ...] | bool | None
+    vertical: bool
+    damped: bool
+
+
+def loop_for(model: RigidBeam, case: Case) -> Loop:
+    """The loop that a case needs."""
+    beam = packed(model, case.column)
+    step = beam.step_for(case.motion)
+    steps = 2 ** max(0, min(round(math.log2(kernel.MOST_STEPS)), math.floor(math.log2(LOOK / step))))
+    vertical = case.motion.z_samples is not None
+    return Loop(case.column.n, steps, model.sliding, beam.bed, vertical, model.stiffness_damping > 0.0)
+
+
+class BeamLanes:
+    """A block of lanes of rigid beams; see :class:`stylobate.models.lanes.LaneBlock`."""
+
+    lanes = kernel.LANES
+
+    def __init__(self, model: RigidBeam, loop: Loop, options: RunOptions) -> None:
+        self.model, self.loop, self.options = model, loop, options
+        self.drum = np.zeros(loop.drums + 2, kernel.DRUM)
+        self.values = self.drum.view(np.float64).reshape(loop.drums + 2, -1, self.lanes)
+        self.lane = np.zeros(1, kernel.LANE)
+        self.watch = np.zeros(1, kernel.WATCH)
+        self.watch["status"] = kernel.FREE
+        self.a = np.zeros((2 * loop.steps + 1) * self.lanes)
+        self.g = np.ones((2 * loop.steps + 1) * self.lanes)
+        self.dt = np.zeros(self.lanes)
+        self.start = np.zeros((self.lanes, 3))
+        self.cases: list[tuple[Case, PackedBeam] | None] = [None] * self.lanes
+        self.calls = 1
+
+    def load(self, lane: int, case: Case) -> None:
+        """Start a case in a lane that is free."""
+        column, motion = case
+        beam = packed(self.model, column)
+        self.cases[lane] = (case, beam)
+        self.values[..., lane] = 0.0  # nothing of the run before: a sum that is no number stays none
+        for name, values in _drum_fields(beam).items():
+            self.drum[name][1:-1, lane] = values
+        model, seen = self.model, beam.seen
+        theta = -model.initial_rotation
+        for name in ("th", "ts"):
+            self.drum[name][1:-1, lane] = theta
+        for name in ("x", "xs"):
+            self.drum[name][1:-1, lane] = theta * seen.centroid_heights
+        # the motion is a whole number of chunks: no step stands across its end, and the tail changes nothing before it
+        chunk = self.loop.steps
+        chunks = max(1, math.ceil(motion.duration / (chunk * beam.step_for(motion)) - 1e-9))
+        dt = motion.duration / (chunks * chunk)
+        chunks += math.ceil(self.options.tail / (chunk * dt) - 1e-9)
+        steps = chunks * chunk
+        self.dt[lane] = dt
+        state = self.lane[0]
+        for name in kernel.LANE.names or ():
+            state[name][lane] = 0.0
+        state["dt"][lane], state["g"][lane] = dt, seen.gravity
+        state["rel"][lane] = 1.0 if model.rotation == "relative" else 0.0
+        state["beta"][lane] = model.stiffness_damping
+        watch = self.watch[0]
+        for name in kernel.WATCH.names or ():
+            watch[name][lane] = 0
+        z = motion.z_samples
+        watch["status"][lane] = kernel.RUNNING
+        watch["follow"][lane] = self.options.until_end
+        watch["x"][lane], watch["z"][lane] = motion.samples.ctypes.data, 0 if z is None else z.ctypes.data
+        watch["last"][lane], watch["end"][lane] = motion.steps - 1, steps
+        watch["when"][lane] = -1
+        watch["ratio"][lane] = 0.5 * dt / motion.dt
+        watch["factor"][lane], watch["lift"][lane] = motion.factor, motion.factor / seen.gravity
+        watch["pga"][lane], watch["until"][lane] = motion.pga, motion.duration
+        watch["stood"][lane] = theta * seen.height
+        watch["gmin"][lane] = lightest_weight(motion, seen.gravity)
+        self.calls = max(1, chunks // CALLS_PER_RUN)
+        self.start[lane] = self._energies(lane) if model.initial_rotation else 0.0
+
+    def advance(self, chunks: int | None = None) -> None:
+        """Advance all lanes by a share of a run."""
+        loop = self.loop
+        flags = (loop.sliding or None, loop.bed, loop.vertical or None, loop.damped or None)
+        count = self.calls if chunks is None else chunks
+        kernel.advance(self.drum, self.lane, self.watch, self.a, self.g, count, loop.steps, *flags)
+
+    def is_over(self, lane: int) -> bool:
+        """Whether the lane's run has ended."""
+        return self.watch["status"][0, lane] != kernel.RUNNING
+
+    def time(self, lane: int) -> float:
+        """Time of the lane's present state [s]."""
+        return float(self.watch["step"][0, lane]) * self.dt[lane]
+
+    def state(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """θ, θ̇, slip, its velocity and its plastic part; each of shape (n,)."""
+        drum, loaded = self.drum[1:-1], self.cases[lane]
+        assert loaded is not None
+        theta, omega = drum["th"][:, lane].copy(), drum["w"][:, lane].copy()
+        if not self.model.sliding:
+            zero = np.zeros_like(theta)
+            return theta, omega, zero, zero, zero
+        lever = loaded[1].matrices.lever
+        slip = np.diff(drum["x"][:, lane] - lever @ theta, prepend=0.0)
+        rate = np.diff(drum["v"][:, lane] - lever @ omega, prepend=0.0)
+        return theta, omega, slip, rate, drum["pl"][:, lane].copy()
+
+    def _energies(self, lane: int) -> np.ndarray:
+        loaded = self.cases[lane]
+        assert loaded is not None
+        out = loaded[1].energies(*self.state(lane))
+        if self.model.rotation == "absolute":  # no potential: the work of the moments instead
+            out[2] = self.lane["joint"][0, lane]
+        return out
+
+    def ledger(self, lane: int) -> np.ndarray:
+        """Input, kinetic, gravitational, elastic, friction, viscous [J], since the start."""
+        return self._ledger(lane, self._energies(lane))
+
+    def _ledger(self, lane: int, energies: np.ndarray) -> np.ndarray:
+        change = energies - self.start[lane]
+        work, fric, visc = (float(self.lane[name][0, lane]) for name in ("work", "fric", "visc"))
+        return np.array([work, *change, fric, visc])
+
+    @np.errstate(over="ignore", invalid="ignore")
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run has ended."""
+        loaded = self.cases[lane]
+        assert loaded is not None
+        beam = loaded[1]
+        watch = {name: self.watch[name][0, lane] for name in kernel.WATCH.names or ()}
+        theta, omega, slip, _, _ = self.state(lane)
+        energies = self._energies(lane)
+        failed = watch["status"] == kernel.FAILED
+        ledger, largest = self._ledger(lane, energies), float(watch["wmax"])
+        time = float(watch["when"]) * self.dt[lane]
+        failure = f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else ""
+        at_end = self.drum["te"][1:-1, lane]
+        after = time > loaded[0].motion.duration and beam.passes.inside(at_end, np.zeros_like(at_end))
+        return measures_of(
+            beam,
+            {
+                "theta": theta, "omega": omega, "slip": slip,
+                "energy": float(energies.sum()), "start": float(np.sum(self.start[lane])), "work": largest,
+                "given": given(ledger, largest, after), "unaccounted": unaccounted(ledger),
+                "lost": int(watch["which"]), "side": int(watch["side"]),
+                "time": time, "end": self.time(lane),
+                "failure": off_the_ground(loaded[0].motion, beam.seen.gravity, time) or failure,
+                "top": float(watch["top"]), "turn": float(watch["turn"]), "opening": float(watch["open"]),
+                "residual": float((theta + self.model.initial_rotation) @ beam.seen.heights + slip.sum()),
+                "step": float(self.dt[lane]), "steps": int(watch["step"]),
+            },
+        )  # fmt: skip
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of a state that is no number the measures tell
+def run_one(model: RigidBeam, column: Column, motion: Motion, options: RunOptions) -> tuple[Histories, Measures]:
+    """One run with histories, through the loop of a batch."""
+    case = Case(column, motion)
+    block = BeamLanes(model, loop_for(model, case), options)
+    block.load(0, case)
+    stride = max(1, round(options.output_interval / (block.loop.steps * block.dt[0])))
+    rows = [(0.0, *block.state(0)[:3:2], block.ledger(0))]
+    while not block.is_over(0):
+        block.advance(stride)
+        rows.append((block.time(0), *block.state(0)[:3:2], block.ledger(0)))
+    time, theta, slip, ledger = (np.array(part) for part in zip(*rows, strict=True))
+    return histories_of(packed(model, column), motion, time, theta, slip, ledger), block.collect(0)
+
+
+@lru_cache(64)
+def _drum_fields(beam: PackedBeam) -> dict[str, np.ndarray]:
+    column, matrices = beam.seen, beam.matrices
+    pivot, upper, nodes = tridiagonal(column)
+    weight = column.gravity if beam.geometric else 0.0
+    own = column.centroid_heights - column.joint_heights
+    friction = np.array([joint.tan_phi for joint in column.joints])
+    cohesion = np.array([joint.cohesion for joint in column.joints])
+    k, m1, s1, m2, s2 = beam.joints
+    face, under = faces(column)
+    return {
+        "k": k, "m1": m1, "s1": s1, "m2": m2, "s2": s2,
+        "gs": weight * matrices.load, "sx": matrices.load, "ih": 1.0 / column.heights, "p": nodes,
+        "di": pivot, "lo": upper,
+        "im": 1.0 / column.masses, "ii": 1.0 / column.inertias, "zb": own, "zt": column.heights - own,
+        "ks": beam.shear if beam.model.sliding else np.zeros(column.n),
+        "mu": friction * column.joint_weights, "co": cohesion * column.joint_areas,
+        "n": column.joint_weights if beam.geometric else np.zeros(column.n),
+        "m": column.masses, "c": beam.opening, "half": 0.5 * column.joint_widths, "fl": face, "fu": under,
+        "alpha": beam.alpha, "mu_m": beam.ultimate, "sz": matrices.overturning,
+    }  # fmt: skip

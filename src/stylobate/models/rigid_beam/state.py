@@ -1,0 +1,193 @@
+"""The rigid beam between its equations and its results: a column packed once, energies, verdict, measures, histories."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from ...column import Column
+from ...kernels.rigid_beam import moment_law
+from ...motion import Motion
+from ...outcome import Outcome, classify
+from ...response import Histories, Measures
+from ..base import ground_history
+from ..rocking.block import MADE_ENERGY, out_of_balance, relative
+from ..shared.lanes import MOST_SAMPLES
+from .equations import BeamMatrices
+from .verdict import Passes
+
+if TYPE_CHECKING:
+    from .model import RigidBeam
+
+
+@dataclass(frozen=True, eq=False)
+class PackedBeam:
+    """Everything about a column that the rigid beam needs, computed once; see the model for the meaning of the names."""
+
+    model: RigidBeam
+    seen: Column
+    matrices: BeamMatrices
+    joints: np.ndarray
+    bed: tuple[float, ...] | bool | None
+    alpha: np.ndarray
+    opening: np.ndarray
+    shear: np.ndarray
+    passes: Passes
+    longest_step: float
+
+    def step_for(self, motion: Motion) -> float:
+        """Time step under a motion [s]."""
+        return self.model.time_step or min(self.longest_step, MOST_SAMPLES * motion.dt)
+
+    @property
+    def geometric(self) -> bool:
+        """Whether gravity stands in the equations of motion."""
+        return self.model.second_order == "geometric"
+
+    @property
+    def ultimate(self) -> np.ndarray:
+        """M_u of each joint [N m], shape (n,)."""
+        return self.seen.joint_weights * 0.5 * self.seen.joint_widths
+
+    def joint_rotations(self, theta: np.ndarray) -> np.ndarray:
+        """φ_i = θ_i − θ_{i−1} along the last axis."""
+        return np.diff(theta, axis=-1, prepend=0.0)
+
+    def energies(self, theta, omega, slip, slip_rate, plastic) -> np.ndarray:
+        """Kinetic, gravitational and elastic energy of one state, upright at rest zero [J].
+
+        Parameters
+        ----------
+        theta, omega, slip, slip_rate, plastic : array, shape (n,)
+            Rotations towards +x, their velocities, slips, their velocities and plastic parts.
+        """
+        weight = self.seen.gravity * self.matrices.load
+        if self.model.sliding:
+            q = np.concatenate((omega, slip_rate))
+            kinetic = 0.5 * q @ self.matrices.sliding_mass @ q
+        else:
+            kinetic = 0.5 * omega @ self.matrices.mass @ omega
+        gravitational = 0.0
+        if self.geometric:
+            below = np.concatenate(([0.0], theta[:-1]))
+            gravitational = -0.5 * weight @ theta**2 - self.seen.joint_weights @ (slip * below)
+        elastic = moment_law.stored(self.joint_rotations(theta), self.joints, self.bed).sum()
+        elastic += 0.5 * self.shear @ (slip - plastic) ** 2
+        return np.array([kinetic, gravitational, elastic])
+
+    def lift(self, phi: np.ndarray) -> np.ndarray:
+        """Gap of each joint at the edge that opens [m]."""
+        size = np.abs(phi)
+        return np.where(size > self.opening, self.seen.joint_widths * (size - np.sqrt(size * self.opening)), 0.0)
+
+
+@lru_cache(64)
+def packed(model: RigidBeam, column: Column) -> PackedBeam:
+    """The column as the model sees it."""
+    seen = model.idealised(column)
+    matrices = BeamMatrices(seen)
+    joints, bed, alpha = model.joints(seen), model.bed(seen), model.critical_angles(seen)
+    shear = np.array([joint.shear_stiffness for joint in seen.joints]) * seen.joint_areas
+    opening = model.opening_rotations(seen)
+    return PackedBeam(
+        model, seen, matrices, joints, bed, alpha, opening, shear,
+        Passes(model, seen, joints, bed, alpha), model.longest_step(seen),
+    )  # fmt: skip
+
+
+def measures_of(beam: PackedBeam, found: dict) -> Measures:
+    """Measures from the facts of a run.
+
+    ``found``: theta, omega, slip at the end, shape (n,); energy (mechanical, upright at rest zero), start (the same at the
+    start), work (largest of the input), given (see :func:`given`), unaccounted (by the ledger) [J]; lost (joint from 1,
+    0: none), side, time of collapse, end, failure, top, residual, turn, opening, step, steps.
+    """
+    column, passes = beam.seen, beam.passes
+    failure = found["failure"]
+    imbalance = relative(found["unaccounted"], found["work"], found["start"], passes.lowest_rigid)
+    state = (*found["theta"], *found["slip"], found["energy"], imbalance)
+    if not failure and not all(map(math.isfinite, state)):
+        failure = f"the state is not finite at {found['end']:.4g} s; shorten the time_step"
+    failure = failure or out_of_balance(imbalance)
+    collapsed, decided, reason = False, False, failure
+    if not failure and found["lost"]:
+        collapsed, decided = True, True
+        side = "right" if found["side"] > 0 else "left"
+        reason = f"{passes.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
+    elif not failure:
+        collapsed, decided, reason = passes.verdict(found)
+    if collapsed and not passes.reached(found["start"] + found["given"], beam.model.initial_rotation):
+        failure = reason = MADE_ENERGY
+        collapsed, decided = False, False
+    widths = column.joint_widths
+    outcome = classify(
+        collapsed, bool(failure), found["opening"] / float(widths.min()), float((np.abs(found["slip"]) / widths).max())
+    )
+    time = found["time"] if found["lost"] else found["end"]
+    return Measures(
+        outcome=outcome,
+        decided=decided,
+        collapse_time=time if outcome is Outcome.COLLAPSED else math.nan,
+        peak_top_displacement=found["top"],
+        residual_top_displacement=found["residual"],
+        peak_rotation=found["turn"],
+        peak_joint_opening=found["opening"],
+        residual_joint_slip=float(np.abs(found["slip"]).max()),
+        energy_imbalance=imbalance,
+        time_step=found["step"],
+        steps=found["steps"],
+        reason=reason,
+    )
+
+
+def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) -> Histories:
+    """Histories from the recorded states.
+
+    Parameters
+    ----------
+    time : array, shape (T,)
+    theta, slip : array, shape (T, n)
+        Rotations towards +x [rad] and slips [m].
+    ledger : array, shape (T, 6)
+        Input, kinetic, gravitational, elastic, friction, viscous [J].
+    """
+    column = beam.seen
+    phi = beam.joint_rotations(theta)
+    lever = beam.matrices.lever
+    base = np.cumsum(slip, axis=1)
+    x = theta @ lever.T + base
+    # Seconds of small angles: the drums sink as they tilt and rise as their joints open.
+    z = np.cumsum(0.5 * beam.lift(phi), axis=1) - 0.5 * theta**2 @ lever.T
+    a_g, u_g = ground_history(motion, time)
+    names = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
+    return Histories(
+        time=time,
+        drum_x=x - x[0],
+        drum_z=z - z[0],
+        drum_rotation=-theta,
+        joint_opening=beam.lift(phi),
+        joint_slip=slip,
+        base_displacement=slip[:, 0],
+        top_displacement=base[:, -1] + (theta - theta[0]) @ column.heights,
+        ground_acceleration=a_g,
+        ground_displacement=u_g,
+        energy={name: ledger[:, k] for k, name in enumerate(names)},
+    )
+
+
+def unaccounted(ledger: np.ndarray) -> float:
+    """Energy that the ledger cannot account for [J]; ``ledger`` as in :func:`histories_of`, one row."""
+    return abs(float(ledger[0] - ledger[1:].sum()))
+
+
+def given(ledger: np.ndarray, largest: float, after: bool) -> float:
+    """Most energy that a column can have had from the input when it was lost [J].
+
+    ``ledger`` as in :func:`histories_of`, one row at the end; ``largest`` input work; ``after``: it was lost after the
+    motion, at whose end it stood on the near side of every barrier.
+    """
+    return float(ledger[0] - ledger[4] - ledger[5]) if after else largest

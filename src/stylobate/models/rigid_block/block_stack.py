@@ -1,0 +1,256 @@
+"""Geometry and joint properties of a stack of rigid blocks, as arrays: from a column, or from convex quadrilaterals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...column import Column, Joint
+from ...column.drum import section_area, section_second_moment
+from ...constants import g as STANDARD_GRAVITY
+from ...errors import InputError, check_range
+
+#: Reach of the base to either side of its joint [m]: a plane without end.
+BASE_REACH = 1.0e6
+
+
+@dataclass(frozen=True, eq=False)
+class BlockStack:
+    """Blocks i = 0 … n−1 from the bottom; joint i lies under block i, joint 0 on the base.
+
+    Parameters
+    ----------
+    mass, inertia : array
+        [kg], [kg m²] about the block's centroid, shape (n,).
+    centroid : array
+        Place of each centroid, x and z from the middle of the base joint [m], shape (n, 2).
+    joint : array
+        Place of the middle of each joint's contact section [m], shape (n, 2).
+    angle : array
+        Angle of each joint with the horizontal, counter-clockwise positive [rad], shape (n,).
+    width, area, second_moment : array
+        Of the contact section [m], [m²], [m⁴], shape (n,).
+    upper_reach, lower_reach : array
+        How far the face above and the face below reach to the left (negative) and the right of the joint's middle
+        [m], shape (n, 2).
+    normal_stiffness, rotational_stiffness, shear_stiffness : array
+        k_n A [N/m], k_n J [N m], k_s A [N/m], shape (n,).
+    friction : array
+        tan φ [-], shape (n,).
+    cohesion : array
+        c A [N], shape (n,).
+    top : array
+        Middle of the topmost face [m], shape (2,).
+    gravity : float
+        [m/s²]
+    outlines : array
+        Corners of each block in the plane, counter-clockwise from the lower left [m], shape (n, 4, 2).
+    """
+
+    mass: np.ndarray
+    inertia: np.ndarray
+    centroid: np.ndarray
+    joint: np.ndarray
+    angle: np.ndarray
+    width: np.ndarray
+    area: np.ndarray
+    second_moment: np.ndarray
+    upper_reach: np.ndarray
+    lower_reach: np.ndarray
+    normal_stiffness: np.ndarray
+    rotational_stiffness: np.ndarray
+    shear_stiffness: np.ndarray
+    friction: np.ndarray
+    cohesion: np.ndarray
+    top: np.ndarray
+    gravity: float
+    outlines: np.ndarray
+
+    @property
+    def n(self) -> int:
+        """Number of blocks."""
+        return len(self.mass)
+
+    @property
+    def weight(self) -> float:
+        """Total weight [N]."""
+        return float(self.mass.sum() * self.gravity)
+
+    @classmethod
+    def of_column(cls, column: Column) -> BlockStack:
+        """The blocks of a column: true trapezia; circular sections through their areas and second moments."""
+        column.must_be_as_built("the statics of blocks")
+        n = column.n
+        low = np.array([drum.bottom_width for drum in column.drums]) / 2.0
+        high = np.array([drum.top_width for drum in column.drums]) / 2.0
+        z = np.append(column.joint_heights, column.height)
+        outlines = np.array(
+            [[[-low[i], z[i]], [low[i], z[i]], [high[i], z[i + 1]], [-high[i], z[i + 1]]] for i in range(n)]
+        )
+        below = np.append(BASE_REACH, high[:-1])
+        return cls(
+            mass=column.masses,
+            inertia=column.inertias,
+            centroid=np.column_stack((np.zeros(n), column.centroid_heights)),
+            joint=np.column_stack((np.zeros(n), column.joint_heights)),
+            angle=np.zeros(n),
+            width=column.joint_widths,
+            area=column.joint_areas,
+            second_moment=column.joint_second_moments,
+            upper_reach=np.column_stack((-low, low)),
+            lower_reach=np.column_stack((-below, below)),
+            top=np.array([0.0, column.height]),
+            gravity=column.gravity,
+            outlines=outlines,
+            **_stiffness(column.joints, column.joint_areas, column.joint_second_moments),
+        )
+
+    @classmethod
+    def of_quadrilaterals(
+        cls,
+        outlines: np.ndarray,
+        joints: Joint | Sequence[Joint],
+        *,
+        density: float,
+        depth: float = 1.0,
+        gravity: float = STANDARD_GRAVITY,
+    ) -> BlockStack:
+        """Blocks of any convex quadrilateral outline; joints may be inclined, and faces of unequal length.
+
+        Parameters
+        ----------
+        outlines : array
+            Corners counter-clockwise from the lower left, block by block from the bottom [m], shape (n, 4, 2).
+            The lower face of a block lies on the line of the upper face of the block below it.
+        joints : Joint or sequence of Joint
+            One for all, or one under each block.
+        density : float
+            [kg/m³]
+        depth : float
+            [m]
+        gravity : float
+            [m/s²]
+
+        Raises
+        ------
+        InputError
+            A quadrilateral that is not convex, or two faces that do not lie on each other.
+        """
+        corners = np.asarray(outlines, dtype=float)
+        if corners.ndim != 3 or corners.shape[1:] != (4, 2) or not len(corners) or not np.isfinite(corners).all():
+            raise InputError(f"outlines have shape {corners.shape}; give finite corners of shape (blocks, 4, 2).")
+        check_range("density of a block", density, 0.0, 1e5, unit="kg/m³", open_low=True)
+        check_range("depth of a block", depth, 0.0, 1e3, unit="m", open_low=True)
+        n = len(corners)
+        laws = [joints] * n if isinstance(joints, Joint) else list(joints)
+        if len(laws) != n:
+            raise InputError(f"{len(laws)} joints are given for {n} blocks; give one, or one under each block.")
+        corners = corners - corners[0, :2].mean(axis=0)
+        area, centroid, polar = _polygon(corners)
+        joint, angle, upper, lower = _faces(corners)
+        width = np.minimum(upper[:, 1], lower[:, 1]) - np.maximum(upper[:, 0], lower[:, 0])
+        contact = np.array([section_area("rectangular", d, depth) for d in width])
+        second = np.array([section_second_moment("rectangular", d, depth) for d in width])
+        return cls(
+            mass=density * depth * area,
+            inertia=density * depth * polar,
+            centroid=centroid,
+            joint=joint,
+            angle=angle,
+            width=width,
+            area=contact,
+            second_moment=second,
+            upper_reach=upper,
+            lower_reach=lower,
+            top=corners[-1, 2:].mean(axis=0),
+            gravity=check_range("gravity", gravity, 0.0, 100.0, unit="m/s²", open_low=True),
+            outlines=corners,
+            **_stiffness(laws, contact, second),
+        )
+
+    def parts_above(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mass [kg], shape (n,), and centroid [m], shape (n, 2), of the part of the stack above each joint."""
+        mass = np.cumsum(self.mass[::-1])[::-1]
+        moment = np.cumsum((self.mass[:, None] * self.centroid)[::-1], axis=0)[::-1]
+        return mass, moment / mass[:, None]
+
+    def compatibility(self) -> np.ndarray:
+        """B: opening, slip and rotation of each joint from the blocks' small displacements, shape (3n, 3n).
+
+        Rows per joint: opening at the joint's middle, slip of the part above along the joint, rotation of the part
+        above relative to the part below. Bᵀ turns the joint forces (N, V, M) on the part above into forces on all blocks.
+        """
+        n = self.n
+        matrix = np.zeros((3 * n, 3 * n))
+        for i in range(n):
+            c, s = np.cos(self.angle[i]), np.sin(self.angle[i])
+            for block, sign in ((i, 1.0), (i - 1, -1.0)):
+                if block < 0:
+                    continue
+                arm = self.joint[i] - self.centroid[block]
+                rows, columns = slice(3 * i, 3 * i + 3), slice(3 * block, 3 * block + 3)
+                matrix[rows, columns] = sign * np.array(
+                    [[-s, c, s * arm[1] + c * arm[0]], [c, s, -c * arm[1] + s * arm[0]], [0.0, 0.0, 1.0]]
+                )
+        return matrix
+
+
+def _stiffness(joints: Sequence[Joint], area: np.ndarray, second: np.ndarray) -> dict[str, np.ndarray]:
+    normal = np.array([joint.normal_stiffness for joint in joints])
+    return {
+        "normal_stiffness": normal * area,  # Baraldi et al., Eq. 8
+        "rotational_stiffness": normal * second,
+        "shear_stiffness": np.array([joint.shear_stiffness for joint in joints]) * area,
+        "friction": np.array([joint.tan_phi for joint in joints]),
+        "cohesion": np.array([joint.cohesion for joint in joints]) * area,
+    }
+
+
+def _polygon(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Area, centroid and polar second moment about it of convex quadrilaterals, by the sum over their edges."""
+    ahead = np.roll(corners, -1, axis=1)
+    edge, following = ahead - corners, np.roll(ahead, -1, axis=1) - ahead
+    turn = edge[..., 0] * following[..., 1] - edge[..., 1] * following[..., 0]
+    bad = np.flatnonzero((turn <= 0.0).any(axis=1))
+    if bad.size:
+        raise InputError(
+            f"block {bad[0] + 1} is not a convex quadrilateral with its corners counter-clockwise; "
+            "give its corners from the lower left around."
+        )
+    cross = corners[..., 0] * ahead[..., 1] - corners[..., 1] * ahead[..., 0]
+    area = 0.5 * cross.sum(axis=1)
+    centroid = ((corners + ahead) * cross[..., None]).sum(axis=1) / (6.0 * area[:, None])
+    squares = (corners * corners + corners * ahead + ahead * ahead).sum(axis=2)
+    polar = (squares * cross).sum(axis=1) / 12.0 - area * (centroid**2).sum(axis=1)
+    return area, centroid, polar
+
+
+def _faces(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Middle and angle of each joint, and the reach of its two faces."""
+    n = len(corners)
+    joint, angle, upper, lower = np.empty((n, 2)), np.empty(n), np.empty((n, 2)), np.empty((n, 2))
+    for i in range(n):
+        start, end = corners[i, 0], corners[i, 1]
+        length = float(np.hypot(*(end - start)))
+        along = (end - start) / length
+        across = np.array([-along[1], along[0]])
+        below = np.array([-BASE_REACH, BASE_REACH])
+        if i:
+            face = corners[i - 1, [3, 2]] - start
+            below = face @ along
+            if np.abs(face @ across).max() > 1e-9 * length:
+                raise InputError(
+                    f"the lower face of block {i + 1} does not lie on the upper face of block {i}: it is off by "
+                    f"{np.abs(face @ across).max():.3g} m; give both faces on one line."
+                )
+        left, right = max(0.0, below[0]), min(length, below[1])
+        if right - left < 1e-9 * length:
+            raise InputError(f"block {i + 1} does not overlap block {i}; move it so that their faces touch.")
+        middle = 0.5 * (left + right)
+        joint[i] = start + middle * along
+        angle[i] = np.arctan2(along[1], along[0])
+        upper[i] = -middle, length - middle
+        lower[i] = below - middle
+    return joint, angle, upper, lower

@@ -1,0 +1,160 @@
+"""Rigid block model: true drums, each joint one elastic–plastic interface on the N–V–M domain; stepped explicitly."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ...column import Column
+from ...errors import InputError, check_range
+from ...motion import Motion
+from ..drums.block import PackedColumn, drum_fields, lane_fields
+from ..drums.stepped import SteppedDrums
+
+
+@dataclass(frozen=True, kw_only=True)
+class RigidBlock(SteppedDrums):
+    """Rigid drums with three coordinates each, joined by interfaces with compression, shear and moment at one place.
+
+    Parameters
+    ----------
+    compressive_strength : float, optional
+        f_c of every joint [Pa]: |M| ≤ |N| d/2 (1 − |N|/(f_c A)) and |N| ≤ f_c A. None for unlimited strength. It shortens
+        the levers; what it does not do is damage: a toe that has crushed bears again as before.
+    step_factor : float
+        Time step as a share of the largest stable one.
+    time_step : float, optional
+        Time step [s], instead of ``step_factor``.
+    stiffness_damping : float
+        β: dashpots of β times the joint's stiffness at the point of contact, while it is pressed [s].
+    mass_damping : float
+        α: force −α m v on every drum, v relative to the base [1/s].
+
+    Notes
+    -----
+    Compression and moment are holonomic (no tension, eccentricity inside the faces' overlap: rocking gives back what it
+    takes), shear is plastic (Mohr–Coulomb without dilatancy): ``docs/theory/rigid_block.md``. Rotations may be large.
+
+    Steps are explicit, as in the distinct element model, because a joint closes and opens within a millisecond: an
+    implicit step that followed it would have to be as short, and would solve a system in each. *Collapsed* and
+    *decided* mean what they mean there.
+
+    References
+    ----------
+    Baraldi, Sarhosis and Milani, section 2.3.
+    """
+
+    name: ClassVar[str] = "rigid-block"
+    title: ClassVar[str] = "rigid blocks with interfaces"
+    references: ClassVar[tuple[str, ...]] = ("baraldi",)
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Drums are rigid, with their true shape; rotations may be large.",
+        "Every joint is one interface with a compression, a shear and a moment; opening costs nothing and closes again.",
+        "Compression acts inside the overlap of the two faces; shear is Mohr–Coulomb without dilatancy.",
+        "Plane motion.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "The normal of a joint is the lower face's: once drums have slid over an edge, dem2d has the right one.",
+        "What an impact loses comes out of the joint's law; it is less than Housner's for one block.",
+        "A compressive strength shortens the levers of the joints while they are pressed; it takes no energy, does no "
+        "damage that stays, and does not shorten a drum.",
+        "A drum touches its neighbours only; what comes down is not followed.",
+        "Columns that are not as built are refused.",
+    )
+    compressive_strength: float | None = None
+    step_factor: float = 0.2
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.compressive_strength is not None:
+            check_range("compressive_strength", self.compressive_strength, 0.0, 1e12, unit="Pa", open_low=True)
+
+    # -- before the run ------------------------------------------------------------------------------------------
+
+    def check(self, column: Column, motion: Motion) -> None:
+        """Refuse an unstable step and joints that crush under the weight; say what a plane model leaves out."""
+        super().check(column, motion)
+        if self.compressive_strength is not None:
+            stress = column.joint_weights / column.joint_areas
+            worst = int(np.argmax(stress))
+            if stress[worst] >= self.compressive_strength:
+                raise InputError(
+                    f"joint {worst + 1} crushes under the column's own weight: compressive_strength is "
+                    f"{self.compressive_strength:g} Pa; allowed is above {stress[worst]:.4g} Pa."
+                )
+
+    # -- what a block of lanes needs -----------------------------------------------------------------------------
+
+    def kernel(self) -> Any:
+        """Module of kernels."""
+        from ...kernels.rigid_block import step as rigid_block
+
+        return rigid_block
+
+    def record_types(self) -> tuple:
+        """Record types of the kernel's arrays."""
+        return self.kernel().block_types(self.compressive_strength is not None, self.damped)
+
+    def pack(self, column: Column) -> PackedColumn:
+        """A column as the kernel wants it."""
+        return _pack(column, self)
+
+    def stable_step(self, column: Column) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return stable_step(column, self.stiffness_damping)
+
+
+@lru_cache(maxsize=4096)
+def _pack(column: Column, model: RigidBlock) -> PackedColumn:
+    n, area = column.n, column.joint_areas
+    kn, km, ks = joint_stiffness(column)
+
+    def under_air(values: Sequence[float] | np.ndarray) -> np.ndarray:
+        return np.concatenate((values, [0.0]))
+
+    strength = model.compressive_strength
+    crush = np.zeros((n + 1, 1)) if strength is None else np.repeat(under_air(1.0 / (strength * area))[:, None], 2, 1)
+    joint_fields = {
+        "kn": under_air(kn),
+        "km": under_air(km),
+        "ks": under_air(ks),
+        "co": under_air([joint.cohesion for joint in column.joints] * area),
+        "mu": under_air([joint.tan_phi for joint in column.joints]),
+        "crush": crush,
+        "tau": np.zeros(n + 1),
+        "chi": np.ones(n + 1),
+        "sp": np.zeros(n + 1),
+        "gap": np.zeros(n + 1),
+        "fs": np.zeros(n + 1),
+    }
+    drums = drum_fields(column, column.joint_weights / kn)
+    return PackedColumn((drums, joint_fields, lane_fields(column, model)), model.step_for(column))
+
+
+def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """k_n A [N/m], k_n J [N m] and k_s A [N/m] of each joint (Baraldi et al., Eq. 8), each of shape (n,)."""
+    kn = np.array([joint.normal_stiffness for joint in column.joints])
+    ks = np.array([joint.shear_stiffness for joint in column.joints])
+    return kn * column.joint_areas, kn * column.joint_second_moments, ks * column.joint_areas
+
+
+@lru_cache(maxsize=4096)
+def stable_step(column: Column, stiffness_damping: float = 0.0) -> float:
+    """Largest stable step of central differences for the closed column [s].
+
+    2/ω (√(1 + ζ²) − ζ), ζ = β ω / 2, from the highest frequency of the column on its elastic joints.
+    """
+    from .block_stack import BlockStack
+
+    kn, km, ks = joint_stiffness(column)
+    strain = BlockStack.of_column(column).compatibility()
+    stiffness = strain.T @ (np.stack((kn, ks, km), axis=1).ravel()[:, None] * strain)
+    root = 1.0 / np.sqrt(np.stack((column.masses, column.masses, column.inertias), axis=1).ravel())
+    omega = math.sqrt(float(np.linalg.eigvalsh(stiffness * np.outer(root, root))[-1]))
+    zeta = 0.5 * stiffness_damping * omega
+    return 2.0 / omega * (math.sqrt(1.0 + zeta * zeta) - zeta)

@@ -1,0 +1,1 @@
+"""Housner's rocking block: the model, its closed forms, the batch and the adaptive single run."""

@@ -1,0 +1,232 @@
+"""The numbers of the rocking equation, and what follows from them: kinematics, energies, verdict, measures."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...motion import Motion
+from ...outcome import classify
+from ...response import Measures
+
+#: Impact velocity over p α under which the block comes to rest; it would rise to 5e-11 α.
+REST = 1.0e-5
+
+#: A run whose energy imbalance is larger has failed.
+LARGEST_IMBALANCE = 0.25
+
+#: Why a run has failed whose column overturns without the energy for it.
+MADE_ENERGY = (
+    "the column overturns by energy that the steps have made: its input never was enough; shorten the time_step"
+)
+
+
+@dataclass(frozen=True)
+class RockingBlock:
+    """One block that rocks: what the equation, the kinematics and the energies need.
+
+    Parameters
+    ----------
+    p : float
+        Frequency parameter [rad/s].
+    alpha : float
+        Slenderness [rad].
+    restitution : float
+        e [-].
+    inertia : float
+        About the pivot [kg m²].
+    gravity : float
+        g [m/s²].
+    half_width, height, centroid_height : float
+        Of the block [m].
+    linear : bool
+        Linearised equation and kinematics.
+    push : float
+        Horizontal acceleration that the equation sees over that of the ground [-]; 1 unless α is not b/h.
+    """
+
+    p: float
+    alpha: float
+    restitution: float
+    inertia: float
+    gravity: float
+    half_width: float
+    height: float
+    centroid_height: float
+    linear: bool = False
+    push: float = 1.0
+
+    @property
+    def uplift_sine(self) -> float:
+        """Factor of 1 + a_v/g in the condition of uplift: sin α, linearised α."""
+        return self.alpha if self.linear else math.sin(self.alpha)
+
+    @property
+    def uplift_cosine(self) -> float:
+        """Factor of |a_g|/g in the condition of uplift: cos α, linearised 1."""
+        return 1.0 if self.linear else math.cos(self.alpha)
+
+    @property
+    def barrier(self) -> float:
+        """Energy it takes to bring the block from upright to its balance point, over I₀ [1/s²]."""
+        return float(self.potential(self.alpha))
+
+    def potential(self, x):
+        """Gravitational energy at rotation x ≥ 0 over I₀ [1/s²]."""
+        if self.linear:
+            return self.p**2 * x * (self.alpha - 0.5 * x)
+        return self.p**2 * (np.cos(self.alpha - x) - math.cos(self.alpha))
+
+    def displacement(self, tilt, height: float):
+        """Displacement (x, z) of a point on the axis at a height, for a tilt towards +x [rad] [m]."""
+        b, x = self.half_width, np.abs(tilt)
+        if self.linear:
+            return height * tilt, b * x
+        horizontal = np.sign(tilt) * (b * (1.0 - np.cos(x)) + height * np.sin(x))
+        return horizontal, b * np.sin(x) - height * (1.0 - np.cos(x))
+
+    def opening(self, tilt):
+        """Gap at the edge that opens [m]."""
+        x = np.abs(tilt)
+        return 2.0 * self.half_width * (x if self.linear else np.sin(x))
+
+    def verdict(self, x: float, v: float, unaccounted: float) -> tuple[bool, bool]:
+        """Whether the block has fallen or will, and whether that is decided, when no input is left.
+
+        Parameters
+        ----------
+        x, v : float
+            Rotation on the side the block stands on, and its velocity [rad], [rad/s].
+        unaccounted : float
+            Energy that the ledger cannot account for, over I₀ [1/s²].
+        """
+        energy = 0.5 * v * v + float(self.potential(x))
+        if energy + unaccounted < self.barrier:
+            return x > self.alpha, True
+        collapsed = v > 0.0 and energy - unaccounted >= self.barrier
+        return collapsed, collapsed
+
+    def measures(
+        self,
+        *,
+        x: float,
+        v: float,
+        side: float,
+        peaks: tuple[float, float],
+        start: float,
+        collapse_time: float,
+        end: float,
+        failure: str,
+        work: float,
+        unaccounted: float,
+        step: float,
+        steps: int,
+    ) -> Measures:
+        """Measures of a run.
+
+        Parameters
+        ----------
+        x, v, side : float
+            Rotation and velocity at the end on the side the block stands on [rad], [rad/s], and that side (+1: +x).
+        peaks : tuple of float
+            Largest rotation towards +x and towards −x [rad].
+        start : float
+            Rotation at the start, towards +x positive [rad].
+        collapse_time, end : float
+            Time at which the collapse was certain, negative if it was not, and end of the run [s].
+        failure : str
+            Why the run failed, or empty.
+        work, unaccounted : float
+            Largest input work, and what the ledger cannot account for at the end, over I₀ [1/s²].
+        step, steps : float, int
+            Smallest step [s] and number of steps.
+        """
+        begun = float(self.potential(abs(start)))
+        imbalance = relative(unaccounted, work, begun, self.barrier)
+        if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
+            failure = "the state is not finite"
+        failure = failure or out_of_balance(imbalance)
+        found = collapse_time >= 0.0
+        collapsed, decided = (found, found) if failure or found else self.verdict(x, v, abs(unaccounted))
+        if collapsed and not failure and begun + work < self.barrier:
+            failure = MADE_ENERGY
+        if failure:
+            collapsed, decided = False, False
+        opening = float(self.opening(max(peaks)))
+        width = 2.0 * self.half_width
+        tilts = np.array([peaks[0], -peaks[1], side * x, start])
+        moved = self.displacement(tilts, self.height)[0]
+        moved = moved[:3] - moved[3]  # from the start
+        return Measures(
+            outcome=classify(collapsed, bool(failure), opening / width, 0.0),
+            decided=decided,
+            collapse_time=(collapse_time if found else end) if collapsed else math.nan,
+            peak_top_displacement=float(np.abs(moved[:2]).max()),
+            residual_top_displacement=float(moved[2]),
+            peak_rotation=max(peaks),
+            peak_joint_opening=opening,
+            residual_joint_slip=0.0,
+            energy_imbalance=imbalance,
+            time_step=step,
+            steps=steps,
+            reason=failure or ("overturns as one block" if collapsed else ""),
+        )
+
+
+def relative(unaccounted: float, work: float, start: float, barrier: float) -> float:
+    """Energy imbalance [-]: what the ledger cannot account for, over the largest of three energies.
+
+    Those are the largest input work so far, the energy at the start and the lowest barrier: a run with little input, or
+    with none, is measured by what it would take to overturn the column.
+    """
+    return abs(unaccounted) / max(work, start, barrier)
+
+
+def out_of_balance(imbalance: float) -> str:
+    """Why a run with this energy imbalance has failed; empty if it has not."""
+    if imbalance <= LARGEST_IMBALANCE:
+        return ""
+    return f"the energy ledger is out of balance by {imbalance:.2g} (allowed is {LARGEST_IMBALANCE}); shorten the time_step"
+
+
+def half_steps(samples: np.ndarray, dt: float, step: float, steps: int) -> np.ndarray:
+    """A motion at the half steps of its run, then zero, shape (2 steps + 2,): linear between samples, without its factor.
+
+    The step that ends with the motion sees its last sample; that the one which starts there sees zero is up to the kernel.
+    """
+    last = len(samples) - 1
+    out = np.interp(np.arange(2 * steps + 2) * (0.5 * step / dt), np.arange(last + 1), samples)
+    out[-1] = 0.0
+    return out
+
+
+def remaining_peak(motion: Motion) -> np.ndarray:
+    """Largest |sample| from each sample on, then zero: what is left without the factor, shape (steps + 1,)."""
+    return np.append(np.maximum.accumulate(np.abs(motion.samples)[::-1])[::-1], 0.0)
+
+
+def lightest_weight(motion: Motion, gravity: float) -> float:
+    """Smallest 1 + a_v/g of a motion, not below nearly nothing [-]."""
+    vertical = motion.vertical
+    return 1.0 if vertical is None else max(1e-9, min(1.0, 1.0 + float(vertical.min()) / gravity))
+
+
+def off_the_ground(motion: Motion, gravity: float, collapse_time: float) -> str:
+    """Why a run has failed whose column has no weight before it has collapsed; empty if it has not.
+
+    ``collapse_time`` is negative or NaN without collapse [s].
+    """
+    vertical = motion.vertical
+    if vertical is None or vertical.min() > -gravity:
+        return ""
+    k = int(np.argmax(vertical <= -gravity))
+    share = (vertical[k - 1] + gravity) / (vertical[k - 1] - vertical[k]) if k else 1.0
+    time = max(0.0, k - 1.0 + share) * motion.dt
+    if 0.0 <= collapse_time <= time:
+        return ""
+    return (
+        f"the vertical acceleration is {vertical.min() / gravity:.2f} g at its lowest and falls below −1 g at {time:.4g} s: "
+        "the column leaves the ground, which this model does not follow; dem2d does"
+    )

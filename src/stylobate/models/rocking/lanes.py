@@ -1,0 +1,155 @@
+"""Many rocking blocks: a block of lanes for the kernel of the rocking equation."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from ...column import Column
+from ...kernels.rocking import step as kernel
+from ...motion import Motion
+from ...response import Measures
+from ..base import Case, RunOptions
+from ..shared.lanes import MOST_SAMPLES
+from .block import REST, RockingBlock, half_steps, lightest_weight, off_the_ground, remaining_peak
+
+#: Chunks of steps between two looks of the interpreter: some milliseconds.
+CHUNKS = 8
+
+#: Motions at half steps that a block keeps.
+MOST_TABLES = 256
+
+Tables = tuple[np.ndarray, np.ndarray | None, np.ndarray]
+
+#: Default step over 1/p.
+STEP_SHARE = 0.01
+
+
+def steps_of(motion: Motion, wanted: float) -> tuple[int, float]:
+    """Number of equal steps for a motion and their length [s]: near ``wanted``, a whole number of them per motion.
+
+    Steps shorter than the sampling interval divide it, so that the kinks of the motion fall between steps.
+    """
+    intervals = motion.steps - 1
+    if wanted <= motion.dt:
+        steps = intervals * math.ceil(motion.dt / wanted * (1.0 - 1e-12))
+    else:
+        steps = math.ceil(intervals / min(MOST_SAMPLES, int(wanted / motion.dt)))
+    return steps, motion.duration / steps
+
+
+class RockingLanes:
+    """A block of lanes of rocking blocks; see :class:`stylobate.models.lanes.LaneBlock`."""
+
+    lanes = kernel.LANES
+
+    def __init__(
+        self,
+        rocking: Callable[[Column], RockingBlock],
+        options: RunOptions,
+        initial_rotation: float,
+        time_step: float | None,
+        vertical: bool,
+    ) -> None:
+        self.rocking, self.options = rocking, options
+        self.initial_rotation, self.time_step, self.vertical = initial_rotation, time_step, vertical
+        n = self.lanes
+        self.state = np.zeros(kernel.ROWS * n)
+        self.rows = self.state.reshape(kernel.ROWS, n)
+        self.whole = np.zeros((kernel.WHOLE, n), dtype=np.int64)
+        self.real = np.zeros((kernel.REAL, n))
+        self.a = np.zeros((2 * kernel.CHUNK + 1) * n)
+        self.g = np.ones((2 * kernel.CHUNK + 1) * n)
+        self.row("SIDE")[:] = 1.0
+        self.linear = False
+        self.coefficients = kernel.trigonometry(False)
+        self.cases: list[tuple[Case, RockingBlock, Tables, int] | None] = [None] * n
+        self.blocks: dict[int, tuple[Column, RockingBlock]] = {}
+        self.tables: dict[tuple[int, int, float, float], tuple[Motion, Tables]] = {}
+
+    def row(self, name: str) -> np.ndarray:
+        """A row of the state by its name in the kernel."""
+        return self.rows[getattr(kernel, name) // self.lanes]
+
+    def load(self, lane: int, case: Case) -> None:
+        """Start a case in a lane that is free."""
+        column, motion = case
+        block = self._block(column)
+        step_wanted = self.time_step or STEP_SHARE / block.p
+        steps, step = steps_of(motion, step_wanted)
+        shaken = steps
+        steps += math.ceil(self.options.tail / step - 1e-9)
+        tables = self._tables(motion, step, shaken)
+        self.cases[lane] = (case, block, tables, steps)
+        start, side = abs(self.initial_rotation), -1.0 if self.initial_rotation > 0.0 else 1.0
+        values = {
+            "X": start, "V": 0.0, "SIDE": side,
+            "MOVING": 1.0 if start else 0.0, "WORK": 0.0, "WORK_MAX": 0.0, "LOSS": 0.0,
+            "TO_RIGHT": max(0.0, side * start), "TO_LEFT": max(0.0, -side * start),
+            "ALPHA": block.alpha, "P2": block.p**2, "E": block.restitution, "STEP": step, "LEFT": steps,
+            "SIN_A": block.uplift_sine, "COS_A": block.uplift_cosine, "X_EVENT": math.inf,
+            "COLLAPSE": -1.0, "IMPACTS": 0.0,
+        }  # fmt: skip
+        for name, value in values.items():
+            self.row(name)[lane] = value
+        x, z, remain = (0 if table is None else table.ctypes.data for table in tables)
+        self.whole[:, lane] = (x, z, remain, 2 * shaken + 1, 0)
+        factor = motion.factor / block.gravity
+        self.real[:, lane] = (factor * block.push, -1.0, lightest_weight(motion, block.gravity), factor)
+
+    def advance(self) -> None:
+        """Advance all lanes by some hundred steps."""
+        kernel.advance(
+            self.state, self.whole, self.real, self.a, self.g, self.coefficients, CHUNKS, REST, self.linear,
+            self.vertical, self.options.until_end,
+        )  # fmt: skip
+
+    def is_over(self, lane: int) -> bool:
+        """Whether the lane's run has ended."""
+        return self.row("LEFT")[lane] <= 0.0
+
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run has ended."""
+        loaded = self.cases[lane]
+        assert loaded is not None
+        case, block, _, steps = loaded
+        self.cases[lane] = None
+        x, v, side, work, work_max, right, left, loss, step, collapse = (
+            float(self.row(name)[lane])
+            for name in ("X", "V", "SIDE", "WORK", "WORK_MAX", "TO_RIGHT", "TO_LEFT", "LOSS", "STEP", "COLLAPSE")
+        )
+        start = abs(self.initial_rotation)
+        stored = 0.5 * v * v + float(block.potential(x) - block.potential(start))
+        return block.measures(
+            x=x, v=v, side=side, peaks=(right, left), start=-self.initial_rotation, collapse_time=collapse,
+            end=steps * step, failure=off_the_ground(case.motion, block.gravity, collapse), work=work_max,
+            unaccounted=work - stored - loss, step=step, steps=round(collapse / step) if collapse >= 0.0 else steps,
+        )  # fmt: skip
+
+    def _block(self, column: Column) -> RockingBlock:
+        if id(column) not in self.blocks:
+            self.blocks[id(column)] = (column, self.rocking(column))
+            block = self.blocks[id(column)][1]
+            if block.linear != self.linear:
+                self.linear, self.coefficients = block.linear, kernel.trigonometry(block.linear)
+        return self.blocks[id(column)][1]
+
+    def _tables(self, motion: Motion, step: float, steps: int) -> Tables:
+        """Motion along x and z and what is left of it at half steps, shared by all runs of the same samples and step."""
+        key = (id(motion.samples), id(motion.z_samples), motion.dt, step)
+        if key not in self.tables:
+            if len(self.tables) >= MOST_TABLES:  # lanes that run keep theirs alive
+                self.tables.clear()
+            z = motion.z_samples
+            vertical = None if z is None else half_steps(z, motion.dt, step, steps)
+            left = remaining_peak(motion)
+            at = np.minimum(
+                (np.arange(2 * steps + 2) * (0.5 * step / motion.dt) + 1e-9).astype(np.int64), len(left) - 1
+            )
+            remain = left[at]
+            remain[2 * steps :] = 0.0
+            tables = (half_steps(motion.samples, motion.dt, step, steps), vertical, remain)
+            self.tables[key] = (motion, tables)  # the motion keeps its arrays alive, and so their ids
+        return self.tables[key][1]

@@ -1,0 +1,174 @@
+"""Housner's block: one rigid block that rocks about its corners; the closed-form ruler for every other model."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...column import Column
+from ...errors import InputError, OutOfRangeWarning, check_range
+from ...motion import Motion
+from ...response import Measures, Response
+from ..base import Case, Model, RunOptions
+from ..shared.lanes import run_lanes
+from .block import RockingBlock
+
+#: Slenderness beyond which the linearised equation departs visibly from the nonlinear one [rad]; Housner's own limit.
+SLENDER = math.radians(20.0)
+
+
+@dataclass(frozen=True)
+class HousnerBlock(Model):
+    """One rigid block on a rigid base, rocking about its two base corners without sliding or bouncing.
+
+    Parameters
+    ----------
+    restitution : float, optional
+        e: angular velocity after an impact over the one before, 0 to 1 [-]. By default Housner's value
+        e = 1 − 2 m b²/I₀ from the true inertia of the block.
+    linear : bool
+        Linearise the equation in the rotation (slender blocks).
+    initial_rotation : float
+        Rotation from which the block is let go at rest, counter-clockwise positive [rad].
+    time_step : float, optional
+        Step of the batch [s]. By default 0.01/p, at most 4 samples of the motion, and such that the motion is a whole
+        number of steps. Single runs choose their steps themselves.
+
+    Raises
+    ------
+    InputError
+        A value outside its range.
+
+    Notes
+    -----
+    θ̈ = −p² {(1 + a_v/g) sin(α sgn θ − θ) + (a_g/g) cos(α sgn θ − θ)}, p² = m g R/I₀; at θ = 0 the velocity is
+    multiplied by e. A block at rest starts to rock when |a_g| cos α > (g + a_v) sin α. After an impact slower than
+    1e-5 p α it is at rest.
+
+    *Collapsed* means: rotated beyond α, moving outward, and so far that the largest acceleration left in the motion
+    cannot bring it back; or, at the end of the run, moving outward with more energy than it takes to go over.
+    *Decided* is a run that collapsed, or that ends with less energy than it takes to go over, what the ledger cannot
+    account for included.
+
+    Limits: rigid, no sliding (tan α below the friction coefficient), no free flight (vertical acceleration below g).
+
+    References
+    ----------
+    Housner 1963; Yim, Chopra and Penzien 1980.
+    """
+
+    restitution: float | None = None
+    linear: bool = False
+    initial_rotation: float = 0.0
+    time_step: float | None = None
+
+    name: ClassVar[str] = "housner"
+    title: ClassVar[str] = "Housner's rocking block"
+    references: ClassVar[tuple[str, ...]] = ("housner1963", "yim1980")
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Block and base are rigid; the block has the column's true mass, centroid, inertia and base width.",
+        "It pivots about one of its two base corners: no sliding, no bouncing, no free flight.",
+        "An impact is instantaneous, acts at the new corner and multiplies the velocity by the restitution e.",
+        "Plane motion: a circular column rolls on its rim in truth.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "Columns of several drums, and columns that are not as built, are refused.",
+        "With tan α above the friction coefficient the block would slide before it rocks (a warning).",
+        "With a vertical acceleration below −1 g the block leaves the ground: the run fails, unless the block lies by then.",
+        "linear=true is for slender blocks; beyond 20° it warns.",
+        "For stocky blocks Housner's e is below zero; 0 is used, with a warning.",
+    )
+
+    def __post_init__(self) -> None:
+        if self.restitution is not None:
+            value = check_range(
+                "restitution", self.restitution, 0.0, 1.0, remedy="leave it out for Housner's own value"
+            )
+            object.__setattr__(self, "restitution", value)
+        check_range("initial_rotation", self.initial_rotation, -math.pi / 2, math.pi / 2, unit="rad")
+        if self.time_step is not None:
+            check_range("time_step", self.time_step, 0.0, 1.0, unit="s", open_low=True)
+
+    def check(self, column: Column, motion: Motion) -> None:
+        """Refuse columns of several drums; warn outside the declared limits."""
+        super().check(column, motion)
+        if column.n != 1:
+            raise InputError(
+                f"the model housner computes one block, and {column.name!r} has {column.n} drums; "
+                "use rigid-beam, rigid-block or dem2d."
+            )
+        block = self.block(column)
+        if abs(self.initial_rotation) >= block.alpha:
+            raise InputError(
+                f"initial_rotation is {self.initial_rotation:g} rad; allowed is less than the slenderness "
+                f"{block.alpha:g} rad, beyond which the block falls by itself."
+            )
+        if self.time_step is not None and self.time_step > 0.2 / block.p:
+            raise InputError(
+                f"time_step is {self.time_step:g} s; allowed is up to {0.2 / block.p:.3g} s (0.2/p) for this block."
+            )
+        if math.tan(block.alpha) > column.joints[0].tan_phi:
+            warn(
+                f"tan α = {math.tan(block.alpha):.3f} is above the friction coefficient "
+                f"{column.joints[0].tan_phi:.3f}: the block slides before it rocks, and this model has no sliding."
+            )
+        if self.linear and block.alpha > SLENDER:
+            warn(f"the slenderness is {math.degrees(block.alpha):.1f}°; the linearised equation is for up to 20°.")
+        if self.restitution is None and column.restitution < 0.0:
+            warn(
+                f"Housner's restitution of this stocky block is {column.restitution:.2f}, below zero: "
+                "0 is used, and the block stops at its first impact."
+            )
+        warn_components(column, motion, self.name)
+
+    def block(self, column: Column) -> RockingBlock:
+        """The numbers of the rocking equation for a column of one drum."""
+        e = max(0.0, column.restitution) if self.restitution is None else self.restitution
+        return RockingBlock(
+            p=column.frequency_parameter,
+            alpha=column.slenderness,
+            restitution=e,
+            inertia=column.corner_inertia,
+            gravity=column.gravity,
+            half_width=0.5 * column.base_width,
+            height=column.height,
+            centroid_height=column.centroid_height,
+            linear=self.linear,
+        )
+
+    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
+        """One run by an adaptive solver with impacts as events."""
+        from .single import run_single
+
+        histories, measures = run_single(self.block(column), motion, options, self.initial_rotation)
+        return Response(column, histories, measures, self.name, {})
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs by the lane kernel, impacts located."""
+        from .lanes import RockingLanes
+
+        def make_block() -> RockingLanes:
+            return RockingLanes(self.block, options, self.initial_rotation, self.time_step, vertical)
+
+        vertical = any(case.motion.z_samples is not None for case in cases)
+        return run_lanes(make_block, cases, threads)
+
+
+def warn(text: str) -> None:
+    """Warn that a model is used outside a limit it declares."""
+    warnings.warn(text, OutOfRangeWarning, stacklevel=4)
+
+
+def warn_components(column: Column, motion: Motion, name: str) -> None:
+    """Warn of what a plane model without free flight leaves out of a motion."""
+    if motion.lateral is not None:
+        warn(f"the second horizontal component of {motion.name!r} is left out: {name} is a plane model.")
+    vertical = motion.vertical
+    if vertical is not None and float(vertical.min()) <= -column.gravity:
+        warn(
+            f"the vertical acceleration of {motion.name!r} falls to {vertical.min() / column.gravity:.2f} g; below −1 g the "
+            "column would leave the ground, which this model does not follow: a run that gets there fails."
+        )
