@@ -1,4 +1,4 @@
-# make install | demo | test | check | format | bench | docs | lock | clean
+# make install | demo | test | fuzz | check | format | bench | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -14,7 +14,7 @@ ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
 .PHONY: $(STAMP)
 endif
 
-.PHONY: install demo test check format bench docs lock clean
+.PHONY: install demo test fuzz check format bench docs lock clean
 
 install: $(STAMP)
 	@:
@@ -35,6 +35,10 @@ demo: install
 
 test: install
 	@$(BIN)/python -m pytest $(ARGS)
+
+# What strangers may hand in, by the thousand; ARGS="columns --seconds 60" for some of it.
+fuzz: install
+	@PYTHONPATH=tests $(BIN)/python -m fuzz $(ARGS)
 
 check: install
 	$(BIN)/ruff check .

@@ -16,6 +16,7 @@ from ..errors import InputError, check_range
 from ..models.base import Model
 from ..models.registry import make_model
 from ..motion.specs import parse_acceleration, parse_frequency
+from ..reading import shown
 
 #: Largest number of values of a range.
 MAX_VALUES = 100_000
@@ -83,7 +84,7 @@ def read_study(path: str | Path) -> Study:
             tail=check_range("tail", table.tail, 0.0, 1e4, unit="s"),
         )
     except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def frequency_range(text: str) -> np.ndarray:

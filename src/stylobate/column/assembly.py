@@ -17,7 +17,8 @@ import numpy as np
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
 from .as_found import drum_outline, geometry
-from .column import Column
+from .column import GRAVITIES, Column
+from .drum import DENSITIES, LENGTHS
 from .joint import Joint
 
 MAX_BLOCKS = 400
@@ -83,9 +84,12 @@ class Block:
             raise InputError(f"{who} needs 3 to {MAX_VERTICES} vertices, each a pair of numbers x, z [m].")
         if not np.isfinite(corners).all() or np.abs(corners).max() > 2.0 * FAR_AWAY:
             raise InputError(f"{who} has a vertex that is not finite or beyond {FAR_AWAY:g} m; use SI units.")
-        density = check_range(f"density of {who}", self.density, 0.0, 1e5, unit="kg/m³", open_low=not self.fixed)
-        depth = check_range(f"depth of {who}", self.depth, 0.0, 1e3, unit="m", open_low=True)
+        lightest = 0.0 if self.fixed else DENSITIES[0]
+        density = check_range(f"density of {who}", self.density, lightest, DENSITIES[1], unit="kg/m³")
+        depth = check_range(f"depth of {who}", self.depth, *LENGTHS, unit="m")
         size = float(np.ptp(corners, axis=0).max())
+        if not self.fixed:
+            check_range(f"size of {who}", size, *LENGTHS, unit="m", remedy="use SI units")
         sides = np.roll(corners, -1, axis=0) - corners
         short = np.hypot(sides[:, 0], sides[:, 1]) <= 1e-9 * size
         if short.any():
@@ -200,7 +204,10 @@ class Assembly:
     def __post_init__(self) -> None:
         object.__setattr__(self, "blocks", tuple(self.blocks))
         object.__setattr__(self, "overrides", tuple(self.overrides))
-        check_range("gravity", self.gravity, 0.0, 100.0, unit="m/s²")
+        if self.gravity != 0.0:
+            check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")
+        if self.ground is not None:
+            check_range("level of the ground", self.ground, -FAR_AWAY, FAR_AWAY, unit="m")
         if not 1 <= len(self.blocks) <= MAX_BLOCKS:
             raise InputError(f"the assembly has {len(self.blocks)} blocks; allowed is 1 to {MAX_BLOCKS}.")
         names = [block.name for block in self.blocks]

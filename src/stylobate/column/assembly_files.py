@@ -8,6 +8,7 @@ from typing import Any
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError
+from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
 from .files import JointTable, joint_from_dict, load_column
@@ -74,9 +75,9 @@ def read(path: str | Path) -> Assembly:
     """See :func:`stylobate.column.assembly.read_assembly`."""
     table = read_table(path, AssemblyTable)
     try:
-        return _assembly(table, Path(path).stem)
+        return _assembly(table, shown(Path(path).stem))
     except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:

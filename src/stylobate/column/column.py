@@ -23,6 +23,9 @@ from .joint import Joint
 
 MAX_DRUMS = 200
 
+#: Gravity from that of a small moon to that of a giant planet [m/s²].
+GRAVITIES = (1e-2, 100.0)
+
 
 @dataclass(frozen=True)
 class Column:
@@ -71,9 +74,7 @@ class Column:
             )
         if len({drum.section for drum in self.drums}) > 1:
             raise InputError("the drums mix circular and rectangular sections; give all drums the same section.")
-        object.__setattr__(
-            self, "gravity", check_range("gravity", self.gravity, 0.0, 100.0, unit="m/s²", open_low=True)
-        )
+        object.__setattr__(self, "gravity", check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²"))
         if self.as_found:
             check_as_found(self)
         wide = [i + 1 for i, drum in enumerate(self.drums) if drum.top_width > drum.bottom_width * (1 + 1e-12)]

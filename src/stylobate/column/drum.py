@@ -9,6 +9,9 @@ from ..errors import InputError, check_range
 
 SECTIONS = ("circular", "rectangular")
 
+#: Lengths [m] and densities [kg/m³] that a body can have: from a model's chip to a hill, from foam to the heaviest metal.
+LENGTHS, DENSITIES = (1e-4, 1e3), (1.0, 1e5)
+
 
 @dataclass(frozen=True)
 class Drum:
@@ -42,16 +45,14 @@ class Drum:
     def __post_init__(self) -> None:
         if self.section not in SECTIONS:
             raise InputError(f"section is {self.section!r}; allowed are {', '.join(SECTIONS)}.")
-        for name, unit, high in (
-            ("height", "m", 1e3),
-            ("bottom_width", "m", 1e3),
-            ("top_width", "m", 1e3),
-            ("density", "kg/m³", 1e5),
-            ("depth", "m", 1e3),
+        for name, unit, (low, high) in (
+            ("height", "m", LENGTHS),
+            ("bottom_width", "m", LENGTHS),
+            ("top_width", "m", LENGTHS),
+            ("density", "kg/m³", DENSITIES),
+            ("depth", "m", LENGTHS),
         ):
-            value = check_range(
-                f"{name} of a drum", getattr(self, name), 0.0, high, unit=unit, open_low=True, remedy="use SI units"
-            )
+            value = check_range(f"{name} of a drum", getattr(self, name), low, high, unit=unit, remedy="use SI units")
             object.__setattr__(self, name, value)
 
     @property

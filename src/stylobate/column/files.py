@@ -16,6 +16,7 @@ import numpy as np
 from ..atomic import replacing
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning
+from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
@@ -127,14 +128,14 @@ def read_column(path: str | Path) -> Column:
     data = parse_toml(path)
     if "block" in data:
         raise InputError(
-            f"{path} describes an assembly of blocks, which only 'stylobate run' takes (simulate_assembly in Python); "
-            "give a column here: a preset, or a file with [tapered] or [[drum]]."
+            f"{shown(path)} describes an assembly of blocks, which only 'stylobate run' takes (simulate_assembly in "
+            "Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
         )
-    table = checked(data, ColumnTable, str(path))
+    table = checked(data, ColumnTable, shown(path))
     try:
-        return _column(table, default_name=Path(path).stem)
+        return _column(table, default_name=shown(Path(path).stem))
     except InputError as error:
-        raise InputError(f"{path}: {error}") from None
+        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def write_column(column: Column, path: str | Path) -> Path:

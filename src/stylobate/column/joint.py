@@ -41,9 +41,7 @@ class Joint:
     def __post_init__(self) -> None:
         remedy = "a rigid joint is approached by a large stiffness, such as 5e10"
         for name in ("normal_stiffness", "shear_stiffness"):
-            value = check_range(
-                f"{name} of a joint", getattr(self, name), 0.0, 1e15, unit="N/m³", open_low=True, remedy=remedy
-            )
+            value = check_range(f"{name} of a joint", getattr(self, name), 1.0, 1e15, unit="N/m³", remedy=remedy)
             object.__setattr__(self, name, value)
         object.__setattr__(self, "cohesion", check_range("cohesion of a joint", self.cohesion, 0.0, 1e9, unit="Pa"))
         if self.friction_angle is not None and self.friction_coefficient is not None:

@@ -11,6 +11,10 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from ..errors import InputError
+from ..reading import SETTINGS, read_bytes, shown
+
+#: Most levels of tables and lists in a file, and the largest whole number [-].
+DEEPEST, LARGEST = 20, 2**63
 
 
 class Table(BaseModel):
@@ -42,23 +46,40 @@ def read_table(path: str | Path, schema: type[T]) -> T:
     InputError
         The file cannot be read, is not TOML, or does not follow the schema.
     """
-    return checked(parse_toml(path), schema, str(path))
+    return checked(parse_toml(path), schema, shown(path))
 
 
 def parse_toml(path: str | Path) -> dict[str, Any]:
-    """Content of a TOML file, unchecked."""
+    """Content of a TOML file, unchecked but for the size of its numbers and how deeply it is nested."""
+    data, name = read_bytes(path, SETTINGS, "a TOML file of settings is smaller"), shown(path)
     try:
-        return tomllib.loads(Path(path).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(f"there is no file {path}.") from None
-    except IsADirectoryError:
-        raise InputError(f"{path} is a folder; name the TOML file in it.") from None
-    except OSError as error:
-        raise InputError(f"{path} cannot be read: {error.strerror}.") from None
+        found = tomllib.loads(data.decode("utf-8-sig"))
     except UnicodeDecodeError:
-        raise InputError(f"{path} is not a text file in UTF-8; give a TOML file.") from None
+        raise InputError(f"{name} is not a text file in UTF-8; give a TOML file.") from None
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{path} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}.") from None
+        raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}.") from None
+    except RecursionError:
+        raise InputError(f"{name} is nested too deeply; {_NESTING}.") from None
+    except ValueError:  # what Python refuses to turn into an integer
+        raise InputError(f"{name} holds a whole number of thousands of digits; {_DIGITS}.") from None
+    _check_values(found, name)
+    return found
+
+
+_NESTING = f"allowed are {DEEPEST} levels of tables and lists"
+_DIGITS = f"allowed are whole numbers up to {LARGEST:g}"
+
+
+def _check_values(data: dict[str, Any], name: str) -> None:
+    left: list[tuple[Any, int]] = [(data, 0)]
+    while left:
+        value, depth = left.pop()
+        if isinstance(value, int) and abs(value) > LARGEST:
+            raise InputError(f"{name} holds a whole number beyond {LARGEST:g}; {_DIGITS}.")
+        if isinstance(value, (dict, list)):
+            if depth > DEEPEST:
+                raise InputError(f"{name} is nested too deeply; {_NESTING}.")
+            left += [(one, depth + 1) for one in (value.values() if isinstance(value, dict) else value)]
 
 
 def checked(data: dict[str, Any], schema: type[T], source: str) -> T:

@@ -133,7 +133,7 @@ def _channel(trace: Any, descriptions: Sequence[Source], file: str) -> tuple[Any
 def _beside(source: Source) -> list[Source]:
     found = []
     for path in sorted(source.path.parent.glob("*.xml"))[:MAX_BESIDE]:
-        if path.stat().st_size <= MAX_XML_BYTES:
+        if path.is_file() and path.stat().st_size <= MAX_XML_BYTES:
             one = Source(path, path.read_bytes())
             if is_station_xml(one):
                 found.append(one)

@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 from ...errors import InputError
+from ...reading import read_bytes, shown
 from ..motion import MAX_SAMPLES
 
 #: Larger files are refused before they are read [bytes]; three components of an hour at 200 Hz take some 30 MB.
@@ -51,29 +52,18 @@ class Source:
             Not a file that can be read, too large, empty, or compressed.
         """
         place = Path(path)
-        try:
-            size = place.stat().st_size
-            if not place.is_file():
-                raise InputError(f"{place} is not a file; give one record.")
-            if size > MAX_BYTES:
-                raise InputError(f"{place.name} holds {size} bytes; allowed is up to {MAX_BYTES}: cut the record.")
-            data = place.read_bytes()
-        except (OSError, ValueError) as error:
-            if isinstance(error, InputError):
-                raise
-            reason = getattr(error, "strerror", None) or str(error)
-            raise InputError(f"{place} cannot be read: {reason}; check the path.") from None
+        data = read_bytes(place, MAX_BYTES, "cut the record")
         if not data.strip(b"\x00 \t\r\n\x1a"):
-            raise InputError(f"{place.name} is empty; give a file that holds a record.")
+            raise InputError(f"{shown(place.name)} is empty; give a file that holds a record.")
         for magic, name in _PACKED.items():
             if data.startswith(magic):
-                raise InputError(f"{place.name} is compressed ({name}); unpack it and give the file inside.")
+                raise InputError(f"{shown(place.name)} is compressed ({name}); unpack it and give the file inside.")
         return cls(place, data)
 
     @property
     def name(self) -> str:
-        """File name without its folder."""
-        return self.path.name
+        """File name without its folder, as it can be shown."""
+        return shown(self.path.name)
 
     @cached_property
     def is_text(self) -> bool:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ...errors import InputError
+from ...reading import shown
 from ..motion import Motion
 from .record import UnstatedError
 from .registry import read_motion
@@ -74,7 +75,7 @@ def read_suite(
         try:
             motions.append(_read(path, unit, dt, component))
         except InputError as error:
-            refused[path.name] = str(error)
+            refused[shown(path.name)] = str(error)
     if not motions:
         first = next(iter(refused.items()), ("", "it is empty"))
         raise InputError(f"{source} holds no record that can be used; the first reason: {first[1]}")
