@@ -138,3 +138,20 @@ def test_a_closed_column_that_flutters_is_refused():
     with pytest.raises(InputError, match="rotation=relative"):
         simulate(stocky, quiet, RigidBeam(rotation="absolute"))
     assert simulate(stocky, quiet, RigidBeam()).outcome is Outcome.AT_REST
+
+
+@pytest.mark.processor
+def test_flutter_is_told_by_values_not_by_the_type_of_an_array(monkeypatch):
+    # numpy 2.5 returns complex arrays from eig always, earlier versions real ones where all values are real.
+    real_eig = np.linalg.eig
+
+    def complex_eig(matrix):
+        values, vectors = real_eig(matrix)
+        return values.astype(complex), vectors.astype(complex)
+
+    model, quiet = RigidBeam(rotation="absolute"), harmonic(1.0, 1e-4 * g, 1.0)
+    monkeypatch.setattr(np.linalg, "eig", complex_eig)
+    found = simulate(preset("paper-12-drums"), quiet, model)
+    assert (found.outcome, found.decided) == (Outcome.AT_REST, True)
+    with pytest.raises(InputError, match="rotation=relative"):
+        simulate(prism(12, width=2.0), quiet, model)
