@@ -39,7 +39,7 @@ if TYPE_CHECKING:
         ricker,
         sine_pulse,
     )
-    from .motion.readers import read_motion, read_suite
+    from .motion.readers import read_motion, read_suite, sample_motion
     from .outcome import Outcome
     from .response import Response
     from .simulate import simulate, simulate_assembly, simulate_many
@@ -83,6 +83,7 @@ _HOMES = {
     "rectangular_pulse": "motion.pulses",
     "ricker": "motion.pulses",
     "rocking_spectrum": "analysis.rocking_spectrum",
+    "sample_motion": "motion.readers",
     "simulate": "simulate",
     "simulate_assembly": "simulate",
     "simulate_many": "simulate",
@@ -129,6 +130,7 @@ __all__ = [
     "rectangular_pulse",
     "ricker",
     "rocking_spectrum",
+    "sample_motion",
     "simulate",
     "simulate_assembly",
     "simulate_many",

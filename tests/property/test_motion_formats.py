@@ -4,12 +4,12 @@ import contextlib
 import itertools
 import tracemalloc
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from records import FOLDER, SHIPPED
 
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
@@ -514,10 +514,10 @@ def test_a_promise_of_a_hundred_million_samples_takes_no_memory(put):
 
 # -- fuzzing: whatever is in a file, it is read, or refused with our own error -----------------------------------------
 
-RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
 SEEDS = [text.encode("latin-1") for text, *_ in FORMATS.values()] + [knet().encode()]
 SEEDS += [b"time_s,ax_g\n0,1\n0.1,-1\n0.2,0\n", b"0 1\n1 2\n2 -3\n"]
-REAL = [path.read_bytes()[:20_000] for path in sorted(RECORDS.glob("*.*"))] if RECORDS.is_dir() else []
+REAL = [one.data[:20_000] for one in SHIPPED.values()]
+REAL += [path.read_bytes()[:20_000] for path in sorted(FOLDER.glob("*.*")) if path.name not in SHIPPED]
 
 edits = st.lists(
     st.tuples(
@@ -590,9 +590,8 @@ def test_mutated_files_are_read_or_refused(seed, changes, tmp_path):
     read_or_refuse(mutated(seed, changes), tmp_path)
 
 
-@pytest.mark.skipif(not REAL, reason="no folder ../shared/records with real records")
 @settings(max_examples=80, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
-@given(seed=st.sampled_from(REAL or [b""]), changes=edits)
+@given(seed=st.sampled_from(REAL), changes=edits)
 def test_mutated_real_files_are_read_or_refused(seed, changes, tmp_path):
     read_or_refuse(mutated(seed, changes), tmp_path)
 

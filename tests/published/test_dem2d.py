@@ -1,9 +1,8 @@
 """Plane distinct elements against what the paper says of its own (Baraldi et al., section 3), and real records."""
 
-from pathlib import Path
-
 import numpy as np
 import pytest
+from records import record
 
 from stylobate.column import preset
 from stylobate.constants import g
@@ -11,7 +10,6 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate_many
 
-RECORDS = Path(__file__).parents[3] / "shared" / "records"
 FREQUENCIES = np.array([0.5, 0.66, 1.0, 1.5, 2.0])
 AMPLITUDES = np.linspace(0.10, 0.60, 16) * g
 
@@ -37,16 +35,13 @@ def test_collapse_acceleration_grows_with_frequency(domains, name):
     assert counts[1] > counts[2]
 
 
-@pytest.mark.skipif(not RECORDS.is_dir(), reason="real records are not beside the project (../shared/records)")
-@pytest.mark.parametrize(
-    ("file", "unit"), [("twocol_ElCentro1940_NS.dat", "g"), ("csmip_v1_Ridgecrest2019_ChinaLake_CLC.v1", None)]
-)
+@pytest.mark.parametrize("file", ["twocol_ElCentro1940_NS.dat", "csmip_v1_Ridgecrest2019_ChinaLake_CLC.v1"])
 @pytest.mark.filterwarnings("ignore::stylobate.errors.OutOfRangeWarning")
-def test_real_records_as_they_are_and_scaled_until_collapse(file, unit):
+def test_real_records_as_they_are_and_scaled_until_collapse(file):
     """Both columns survive the records as recorded; the unsafe scale is far above the static uplift acceleration."""
     from stylobate.motion import read_motion
 
-    motion = read_motion(RECORDS / file, unit=unit)
+    motion = read_motion(record(file))
     peak = int(np.abs(motion.samples).argmax())
     strong = slice(max(0, peak - int(20.0 / motion.dt)), peak + int(20.0 / motion.dt))
     motion = motion.replace(

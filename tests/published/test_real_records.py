@@ -1,24 +1,30 @@
 """Real files of many networks: peaks, steps, directions and counts as their publishers state them."""
 
 import csv
+import hashlib
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
+from records import FOLDER, SHIPPED, content, needs_folder, record
 
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import bandpass, demean, displacement, integrate, read_motion, response_spectrum, taper
 
-RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
-pytestmark = pytest.mark.skipif(not RECORDS.is_dir(), reason="no folder ../shared/records with real records")
-
 
 def read(name, **options):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", OutOfRangeWarning)
-        return read_motion(RECORDS / name, **options)
+        return read_motion(record(name), **options)
+
+
+def test_samples_are_the_files_as_published():
+    assert len(SHIPPED) == 6
+    for name, sample in SHIPPED.items():
+        assert hashlib.sha256(sample.data).hexdigest() == sample.sha256
+        if (FOLDER / name).is_file():
+            assert sample.data == (FOLDER / name).read_bytes()
 
 
 # file, peaks of x, y, z in g as the file's own header states them, step, azimuths of x and y
@@ -38,7 +44,7 @@ STATED = [
 
 @pytest.mark.parametrize(("name", "peaks", "dt", "azimuths"), STATED, ids=[row[0] for row in STATED])
 def test_peaks_steps_and_directions(name, peaks, dt, azimuths):
-    motion = read(name, **({"unit": "g"} if name.startswith("twocol") else {}))
+    motion = read(name)
     found = [np.abs(values).max() / g for values in motion.components.values()]
     assert len(found) == len(peaks)
     # Volume 1 rounds to 0.001 g.
@@ -47,17 +53,15 @@ def test_peaks_steps_and_directions(name, peaks, dt, azimuths):
     assert tuple(motion.metadata["azimuths"][axis] for axis in "xy"[: len(azimuths)]) == azimuths
 
 
+@needs_folder
 def test_every_peak_of_the_manifest():
     checked = 0
-    with (RECORDS / "manifest.csv").open() as table:
+    with (FOLDER / "manifest.csv").open() as table:
         for row in csv.DictReader(table):
             if not row["pga_g"]:
                 continue
             name = row["file"]
-            options = {"unit": "g"} if name.startswith("twocol") else {}
-            if "BNZ" in name:
-                options["component"] = 1
-            motion = read(name, **options)
+            motion = read(name, **({"component": 1} if "BNZ" in name else {}))
             horizontal = [np.abs(motion.acceleration).max()] + (
                 [np.abs(motion.lateral).max()] if motion.lateral is not None else []
             )
@@ -76,7 +80,7 @@ def test_counts_become_acceleration_by_the_header_s_sensitivity():
 
 def test_unequal_components_are_cut_and_it_is_said():
     with pytest.warns(OutOfRangeWarning, match="common length of 31932"):
-        motion = read_motion(RECORDS / "csmip_v1_Ridgecrest2019_ChinaLake_CLC.v1")
+        motion = read_motion(record("csmip_v1_Ridgecrest2019_ChinaLake_CLC.v1"))
     assert "x: 31932, y: 32080, z: 32190" in motion.processing[0]
 
 
@@ -95,9 +99,14 @@ def test_a_single_vertical_component_is_refused_unless_chosen():
     assert motion.pga == pytest.approx(0.06851512, rel=1e-5)
 
 
-def test_a_file_without_unit_is_refused():
+def test_a_file_without_unit_is_refused_but_that_of_a_sample_is_known(tmp_path):
+    path = tmp_path / "elcentro.dat"
+    path.write_bytes(content("twocol_ElCentro1940_NS.dat"))
     with pytest.raises(InputError, match="--unit g"):
-        read("twocol_ElCentro1940_NS.dat")
+        read_motion(path)
+    assert read_motion(path, "g").digest == read("twocol_ElCentro1940_NS.dat").digest
+    with pytest.raises(InputError, match="leave the unit out"):
+        read("twocol_ElCentro1940_NS.dat", unit="gal")
 
 
 def test_both_components_of_miniseed_with_the_station_s_sensitivity():
@@ -105,8 +114,8 @@ def test_both_components_of_miniseed_with_the_station_s_sensitivity():
     names = ["mseed_Ridgecrest2019_CI.CLC.HNE.mseed", "mseed_Ridgecrest2019_CI.CLC.HNN.mseed"]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        motion = read_motion([RECORDS / name for name in names])
-        described = read_motion([RECORDS / name for name in [*names, "mseed_Ridgecrest2019_CI.CLC.stationxml.xml"]])
+        motion = read_motion([record(name) for name in names])
+        described = read_motion([record(name) for name in [*names, "mseed_Ridgecrest2019_CI.CLC.stationxml.xml"]])
     # The same station's volume 1 states 0.344 g and 0.511 g for the instrument's nominal sensitivity.
     assert motion.pga / g == pytest.approx(0.344, rel=5e-3)
     assert np.abs(motion.lateral).max() / g == pytest.approx(0.511, rel=5e-3)
@@ -124,8 +133,7 @@ def test_a_stray_line_beyond_the_promised_numbers_is_left_out_and_said():
 
 @pytest.mark.parametrize("name", [row[0] for row in STATED])
 def test_a_file_that_ends_early_is_refused(name, tmp_path):
-    data = (RECORDS / name).read_bytes()
-    lines = data.splitlines(keepends=True)
+    lines = content(name).splitlines(keepends=True)
     path = tmp_path / name
     path.write_bytes(b"".join(lines[: len(lines) * 2 // 5]))
     if name.startswith("twocol"):
@@ -138,7 +146,7 @@ def test_a_file_that_ends_early_is_refused(name, tmp_path):
 def test_spectrum_of_el_centro_against_the_matrix_exponential():
     from scipy.linalg import expm
 
-    motion = read("twocol_ElCentro1940_NS.dat", unit="g")
+    motion = read("twocol_ElCentro1940_NS.dat")
     a, z = motion.acceleration, 0.05
     for period, parts in ((0.1, 40), (0.5, 20), (2.0, 20)):
         w, h = 2.0 * np.pi / period, motion.dt / parts

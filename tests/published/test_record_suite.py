@@ -1,10 +1,10 @@
 """Suites of records: a folder read at once, and the table of what it does to columns."""
 
 import warnings
-from pathlib import Path
 
 import numpy as np
 import pytest
+from records import FOLDER, needs_folder, record
 
 from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.analysis.suite import suite_table
@@ -12,8 +12,6 @@ from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import half_sine_pulse, read_suite, write_csv
-
-RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
 
 
 def test_a_folder_with_a_file_that_is_no_record(tmp_path):
@@ -43,11 +41,19 @@ def test_the_table_holds_outcomes_and_measures(tmp_path):
     assert {"record", "column", "pgv_m_s", "arias_m_s", "psa_1s_g", "peak_rotation_rad", "model"} <= set(table.columns)
 
 
-@pytest.mark.skipif(not RECORDS.is_dir(), reason="no folder ../shared/records with real records")
+def test_samples_make_a_suite(tmp_path):
+    own = tmp_path / "own.csv"
+    write_csv(half_sine_pulse(1.0, 0.3 * g, 4.0), own)
+    suite = read_suite([record("twocol_ElCentro1940_NS.dat"), own, "sample:nonsense"])
+    assert [motion.name for motion in suite.motions] == ["el-centro-1940", "own.csv"]
+    assert "sample:nonsense" in suite.refused
+
+
+@needs_folder
 def test_the_folder_of_real_records():
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", OutOfRangeWarning)
-        suite = read_suite(RECORDS, "g")
+        suite = read_suite(FOLDER, "g")
     assert len(suite.motions) >= 11
     assert any("only the vertical" in reason for reason in suite.refused.values())
     assert any("StationXML" in reason for reason in suite.refused.values())

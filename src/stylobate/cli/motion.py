@@ -7,11 +7,16 @@ from typing import Annotated
 
 import typer
 
+from ..errors import InputError
 from . import options as o
 
 
 def motion(
-    files: Annotated[list[Path], typer.Argument(metavar="FILE...", help="Record, or the files of its components.")],
+    files: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="FILE...", help="Record, or the files of its components; sample:NAME for a sample."),
+    ] = None,
+    samples: Annotated[bool, typer.Option("--samples", help="List the sample motions that come with it.")] = False,
     unit: o.Unit = None,
     dt: o.Step = None,
     component: o.ComponentName = None,
@@ -23,7 +28,7 @@ def motion(
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
-    """What the record of a ground motion holds.
+    """What the record of a ground motion holds, and which records come with the package.
 
     Format, unit as found, step, duration, and the peaks of each component; with --out, pictures, and the motion as
     columns of text.
@@ -31,6 +36,10 @@ def motion(
     from ..motion.intensity import motion_summary
     from . import console
 
+    if samples == bool(files):
+        raise InputError("give the file of a record, sample:NAME, or --samples for the list of samples, one of them.")
+    if samples:
+        return _list_samples(as_json)
     o.the_threads(threads)  # reading has one thread
     found = o.scaled(o.shaped(o.the_record(files, unit, dt, component), azimuth, condition), scale, pga)
     summary, written = motion_summary(found), []
@@ -50,6 +59,19 @@ def motion(
         console.emit(summary)
     else:
         console.say(found.describe(), _facts(summary), written)
+
+
+def _list_samples(as_json: bool) -> None:
+    from ..motion.readers.samples import PREFIX, samples
+    from . import console
+
+    if as_json:
+        listed = [{"name": PREFIX + one.name, "about": one.about, "format": one.format, "terms": one.terms}
+                  for one in samples().values()]  # fmt: skip
+        console.emit({"samples": listed})
+    else:
+        facts = {PREFIX + one.name: f"{one.about} ({one.format}); {one.terms}" for one in samples().values()}
+        console.say("Sample motions, for --motion and wherever a record is asked for", facts, [])
 
 
 _UNITS = {"_deg": " [degrees]", "_m_s": " [m/s]", "_g": " [g]", "_m": " [m]", "_s": " [s]"}

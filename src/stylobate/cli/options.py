@@ -43,12 +43,18 @@ Synthetic = Annotated[
 ]
 MotionFile = Annotated[
     list[Path] | None,
-    typer.Option("--motion", metavar="FILE", help="Record of a ground motion; once per file of its components."),
+    typer.Option(
+        "--motion",
+        metavar="FILE",
+        help="Record of a ground motion, once per file of its components; or sample:NAME (stylobate motion --samples).",
+    ),
 ]
 MotionFiles = Annotated[
     list[Path] | None,
     typer.Option(
-        "--motion", metavar="FILE|DIR", help="Record, once per file of its components; or a folder of records."
+        "--motion",
+        metavar="FILE|DIR",
+        help="Record, once per file of its components; a folder of records; or sample:NAME (stylobate motion --samples).",
     ),
 ]
 ComponentName = Annotated[

@@ -36,7 +36,7 @@ from .pulses import (
     ricker,
     sine_pulse,
 )
-from .readers import Suite, read_motion, read_suite
+from .readers import Suite, read_motion, read_suite, sample_motion, samples
 from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_synthetic, parse_time
 from .spectra import ResponseSpectrum, housner_intensity, response_spectrum, rotated_pga, rotated_spectrum
 from .synthesis import REGIONS, Region, fourier_target, stochastic_motion, with_directivity_pulse
@@ -90,6 +90,8 @@ __all__ = [
     "rotated",
     "rotated_pga",
     "rotated_spectrum",
+    "sample_motion",
+    "samples",
     "scale_to_pgv",
     "scale_to_sa",
     "significant_duration",

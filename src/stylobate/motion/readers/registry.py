@@ -75,7 +75,8 @@ def read_motion(
     Parameters
     ----------
     path : path, or sequence of paths
-        One file, or the files of the components of one record (and of the StationXML that belongs to miniSEED).
+        One file, or the files of the components of one record (and of the StationXML that belongs to miniSEED);
+        ``sample:NAME`` is a record that comes with the package.
     unit : str, optional
         Unit of a file that states none: ``g``, ``m/s2``, ``gal``, ``mm/s2`` …
     dt : float, optional
@@ -106,6 +107,8 @@ def read_motion(
     facts: dict = {}
     for source in records:
         found, metadata = _read_file(source, descriptions, unit, dt)
+        if source.sample is not None:
+            metadata = metadata | {key: value for key, value in source.sample.facts.items() if not metadata.get(key)}
         components += found
         if facts and metadata.get("station") != facts.get("station"):
             raise InputError(
@@ -143,7 +146,10 @@ def _read_file(
     if not source.is_text:
         _ = source.lines  # refuses binary files
     if columns.recognises(source):
-        return columns.read(source, unit, dt)
+        known = source.sample.unit if source.sample is not None else None
+        if known is not None and unit is not None:
+            raise InputError(f"the sample {source.name} is in {known}, as is known; leave the unit out.")
+        return columns.read(source, unit or known, dt)
     raise InputError(
         f"{source.name} is in no format that is known here "
         f"({', '.join(one.name for one in FORMATS)}, miniSEED, columns of text); "

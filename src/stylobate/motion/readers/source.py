@@ -10,6 +10,7 @@ from pathlib import Path
 from ...errors import InputError
 from ...reading import read_bytes, shown
 from ..motion import MAX_SAMPLES
+from .samples import Sample, sample_at
 
 #: Larger files are refused before they are read [bytes]; three components of an hour at 200 Hz take some 30 MB.
 MAX_BYTES = 100_000_000
@@ -37,20 +38,26 @@ class Source:
     ----------
     path : Path
     data : bytes
+    sample : Sample, optional
+        What is known of it where it comes with the package.
     """
 
     path: Path
     data: bytes
+    sample: Sample | None = None
 
     @classmethod
     def open(cls, path: str | Path) -> Source:
-        """Read a file.
+        """Read a file, or take the sample that ``sample:NAME`` names.
 
         Raises
         ------
         InputError
-            Not a file that can be read, too large, empty, or compressed.
+            Not a file that can be read, too large, empty, or compressed; no sample of this name.
         """
+        sample = sample_at(path)
+        if sample is not None:
+            return cls(Path(sample.name), sample.data, sample)
         place = Path(path)
         data = read_bytes(place, MAX_BYTES, "cut the record")
         if not data.strip(b"\x00 \t\r\n\x1a"):
