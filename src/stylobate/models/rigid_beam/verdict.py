@@ -217,15 +217,15 @@ class Passes:
         axis grows by less than √ε ω t / 2: by 1.5 % in 200 s at ω = 1e4 rad/s.
         """
         squares = self.modes[0]
-        return bool((np.abs(squares.imag) > math.sqrt(np.finfo(float).eps) * np.abs(squares)).any())
+        return bool((np.abs(np.imag(squares)) > math.sqrt(np.finfo(float).eps) * np.abs(squares)).any())
 
     def stays_closed(self, theta: np.ndarray, omega: np.ndarray) -> bool:
         """Whether a column without sliding that no input shakes opens no joint any more, by the sum of its modes."""
         squares, shapes = self.modes
-        if self.flutters or squares.real.min() <= 0.0:
+        if self.flutters or np.real(squares).min() <= 0.0:
             return False
         place, speed = np.abs(np.linalg.solve(shapes, np.column_stack((theta, omega)))).T
-        size = np.hypot(place, speed / np.sqrt(squares.real))
+        size = np.hypot(place, speed / np.sqrt(np.real(squares)))
         return bool(np.all(np.abs(shapes) @ size <= self.opening))
 
     def reached(self, energy: float, rotation: float) -> bool:

@@ -120,4 +120,4 @@ def sample_motion(name: str) -> Motion:
 
 
 def _folder():
-    return resources.files(__package__.rpartition(".")[0]) / "samples"
+    return resources.files("stylobate.motion") / "samples"
