@@ -1,6 +1,7 @@
 """What can go wrong, as types: bad input, a failure of ours, a model beyond its declared limits."""
 
 import math
+from collections.abc import Iterable
 
 
 class StylobateError(Exception):
@@ -13,6 +14,14 @@ class InputError(StylobateError, ValueError):
 
 class OutOfRangeWarning(UserWarning):
     """A run is possible, but outside a limit that the model declares; the message names the limit."""
+
+
+def suggest(word: str, known: Iterable[str]) -> str:
+    """The clause of a message about an unknown word: ``did you mean dem2d? ``, empty where no known word is like it."""
+    import difflib
+
+    close = difflib.get_close_matches(word, list(known), 1)
+    return f"did you mean {close[0]}? " if close else ""
 
 
 def check_range(

@@ -9,12 +9,12 @@ import time
 from collections.abc import Generator, Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from . import __version__
 from .column import Column
 from .errors import InputError, check_range
 from .models.base import Case, Model, RunOptions
 from .motion import Motion
 from .response import Measures, Response
+from .version import __version__
 
 if TYPE_CHECKING:
     import pandas

@@ -54,7 +54,7 @@ for name in st.__all__:
     assert getattr(st, name) is not None, name
 assert callable(st.simulate) and st.simulate is getattr(stylobate.simulate, "simulate", st.simulate)
 assert set(st.__all__) <= set(dir(st))
-assert sorted(st._HOMES) == sorted(st.__all__)
+assert st.pulses.ricker is st.ricker and st.__version__
 try:
     st.nonsense
 except AttributeError as error:

@@ -28,3 +28,25 @@ def test_until_rest_is_done_or_refused(name):
     response = st.simulate(column, PUSHED_OVER, model, until_rest=True)
     assert response.provenance["mechanism"]["at_rest"]
     assert response.histories.time[-1] > PUSHED_OVER.duration
+
+
+@pytest.mark.parametrize(
+    ("model", "setting", "words"),
+    [
+        ("dem2d", {"points": "2.5"}, "option points is '2.5'; allowed is a whole number."),
+        ("dem2d", {"time_step": "soon"}, "option time_step is 'soon'; allowed is a number."),
+        ("housner", {"linear": "perhaps"}, "option linear is 'perhaps'; allowed is true or false."),
+        ("dem2d", {"pionts": "2"}, "dem2d has no option 'pionts'; did you mean points? options are "),
+    ],
+)
+def test_values_of_set_are_refused_in_one_sentence(model, setting, words):
+    with pytest.raises(st.InputError) as error:
+        make_model(model, setting)
+    assert str(error.value).startswith(words)
+
+
+def test_values_of_set_have_the_types_of_the_parameters():
+    assert make_model("dem2d", {"points": "3", "time_step": "1e-5"}) == st.DistinctElement2D(points=3, time_step=1e-5)
+    assert make_model("dem2d", {"time_step": "auto", "start": "settle"}) == st.DistinctElement2D(start="settle")
+    for text, value in (("yes", True), ("on", True), ("0", False), ("off", False), ("FALSE", False)):
+        assert make_model("housner", {"linear": text}) == st.HousnerBlock(linear=value)

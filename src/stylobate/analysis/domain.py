@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import __version__
 from ..atomic import replacing
 from ..campaign.ledger import discard
 from ..campaign.runner import Progress, run_campaign
@@ -20,6 +19,7 @@ from ..errors import InputError, check_range
 from ..models.base import Case, Model
 from ..motion import harmonic
 from ..outcome import Outcome
+from ..version import __version__
 from . import verdicts as v
 
 if TYPE_CHECKING:

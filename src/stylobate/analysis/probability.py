@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import __version__
 from ..atomic import replacing
 from ..column import Column
 from ..column.imperfections import Imperfection
 from ..constants import g
 from ..errors import InputError
+from ..version import __version__
 from . import verdicts as v
 from .domain import cell_edges
 

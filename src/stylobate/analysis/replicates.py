@@ -15,7 +15,6 @@ from typing import Any
 
 import numpy as np
 
-from .. import __version__
 from ..campaign.ledger import discard
 from ..campaign.runner import Progress, finished_runs
 from ..column import Column
@@ -24,6 +23,7 @@ from ..errors import InputError, check_range
 from ..models.base import Case, Model
 from ..motion import Motion, harmonic
 from ..response import Measures
+from ..version import __version__
 from . import verdicts as v
 from .domain import MAX_CELLS, PROGRESS_FILE, grid_axis
 from .probability import CollapseProbability

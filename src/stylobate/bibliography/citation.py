@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
 
-from .. import __version__
+from ..version import __version__
 from .references import Reference, bibliography
 
 #: The package itself; the release is its date of publication, so there is no year.

@@ -9,10 +9,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from .. import __version__
 from ..models.base import Case, Model
 from ..response import Measures
 from ..simulate import simulate_iter
+from ..version import __version__
 from .ledger import Ledger
 
 #: Called with (finished runs, all runs) whenever a run finishes.

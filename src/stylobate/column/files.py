@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
-import json
 import warnings
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..atomic import replacing
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning
+from ..errors import InputError, OutOfRangeWarning, suggest
 from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .column import Column
@@ -110,10 +106,9 @@ def load_column(text: str | Path) -> Column:
         return preset(name)
     if Path(name).exists() or name.endswith(".toml"):
         return read_column(name)
-    close = difflib.get_close_matches(name, PRESETS, 1)
-    hint = f"did you mean {close[0]}? " if close else ""
     raise InputError(
-        f"there is no column preset or file {name!r}; {hint}presets are {', '.join(PRESETS)}, a column file is TOML."
+        f"there is no column preset or file {name!r}; {suggest(name, PRESETS)}presets are {', '.join(PRESETS)}, a column "
+        "file is TOML."
     )
 
 
@@ -140,24 +135,24 @@ def read_column(path: str | Path) -> Column:
 
 def write_column(column: Column, path: str | Path) -> Path:
     """Write a column file, drum by drum, that :func:`read_column` reads back as an equal column."""
+    import tomli_w
+
     first = column.drums[0]
     common = Counter(column.joints).most_common(1)[0][0]
-    lines = [f"name = {_text(column.name)}", f'section = "{first.section}"', f"gravity = {_number(column.gravity)}"]
-    for i, drum in enumerate(column.drums):
-        lines += ["", "[[drum]]" + (" # bottom to top" if i == 0 else "")]
-        lines += [
-            f"{key} = {_number(getattr(drum, key))}" for key in ("height", "bottom_width", "top_width", "density")
-        ]
-        if not drum.circular:
-            lines.append(f"depth = {_number(drum.depth)}")
-    lines += ["", "[joint]", *_joint_lines(common)]
-    for i, joint in enumerate(column.joints):
-        if joint != common:
-            lines += ["", "[[joint_override]]", f"index = {i + 1}", *_joint_lines(joint)]
-    lines += _as_found_lines(column.as_found)
+    sizes = ("height", "bottom_width", "top_width", "density")
+    table: dict[str, Any] = {"name": column.name, "section": first.section, "gravity": column.gravity}
+    table["drum"] = [
+        {key: getattr(drum, key) for key in (*sizes, *(() if drum.circular else ("depth",)))} for drum in column.drums
+    ]
+    table["joint"] = _joint_fields(common)
+    others = [{"index": i, **_joint_fields(joint)} for i, joint in enumerate(column.joints, 1) if joint != common]
+    if others:
+        table["joint_override"] = others
+    if column.as_found:
+        table["as_found"] = _as_found_fields(column.as_found)
     target = Path(path)
     with replacing(target) as partial:
-        partial.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        partial.write_text(tomli_w.dumps(table), encoding="utf-8")
     return target
 
 
@@ -278,30 +273,19 @@ def joint_from_dict(fields: Mapping[str, Any]) -> Joint:
     return joint
 
 
-def _joint_lines(joint: Joint) -> list[str]:
+def _joint_fields(joint: Joint) -> dict[str, float]:
     fields = dataclasses.asdict(joint)
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
-    return [f"{key} = {_number(value)}" for key, value in fields.items() if key != drop]
+    return {key: value for key, value in fields.items() if key != drop}
 
 
-def _as_found_lines(found: AsFound) -> list[str]:
-    if not found:
-        return []
-    lines = ["", "[as_found]", f"base_tilt = {_number(found.base_tilt)}"]
-    for one in found.drums:
-        fields = {key: value for key, value in dataclasses.asdict(one).items() if key != "drum" and value != 0.0}
-        lines += ["", "[[as_found.drum]]", f"index = {one.drum}"]
-        lines += [f"{key} = {_number(value)}" for key, value in fields.items()]
-    return lines
-
-
-def _number(value: float) -> str:
-    if value != 0.0 and not 1e-3 <= abs(value) < 1e7:
-        return np.format_float_scientific(value, trim="0")
-    return repr(float(value))
-
-
-def _text(value: str) -> str:
-    # A JSON string is a TOML string, except for the one control character that JSON leaves as it is.
-    return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+def _as_found_fields(found: AsFound) -> dict[str, Any]:
+    table: dict[str, Any] = {"base_tilt": found.base_tilt}
+    if found.drums:
+        table["drum"] = [
+            {"index": one.drum}
+            | {key: value for key, value in dataclasses.asdict(one).items() if key != "drum" and value != 0.0}
+            for one in found.drums
+        ]
+    return table

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import tomllib
 import typing
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from ..errors import InputError
+from ..errors import InputError, suggest
 from ..reading import SETTINGS, read_bytes, shown
 
 #: Most levels of tables and lists in a file, and the largest whole number [-].
@@ -102,9 +101,9 @@ def _sentence(item: Any, schema: type[Table]) -> str:
     place = _place(where)
     if kind == "extra_forbidden":
         keys = _keys(schema, where)
-        close = difflib.get_close_matches(str(key), keys, 1)
-        hint = f"did you mean {close[0]!r}?" if close else f"allowed are {', '.join(keys)}."
-        return f"unknown key {key!r}{place}; {hint}"
+        return f"unknown key {key!r}{place}; " + (
+            suggest(repr(key), map(repr, keys)).strip() or f"allowed are {', '.join(keys)}."
+        )
     if kind == "missing":
         return f"key {key!r} is missing{place}; add it."
     if kind == "literal_error":

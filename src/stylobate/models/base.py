@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import difflib
 import typing
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..column import Column
-from ..errors import InputError
+from ..errors import InputError, suggest
 from ..motion import Motion
 from ..response import Measures, Response
 
@@ -104,9 +103,8 @@ class Model:
         values = {}
         for key, text in settings.items():
             if key not in allowed:
-                close = difflib.get_close_matches(key, allowed, 1)
-                hint = f"did you mean {close[0]}? " if close else ""
-                raise InputError(f"{cls.name} has no option {key!r}; {hint}options are {', '.join(allowed) or 'none'}.")
+                options = ", ".join(allowed) or "none"
+                raise InputError(f"{cls.name} has no option {key!r}; {suggest(key, allowed)}options are {options}.")
             values[key] = _parse(key, text, hints[key])
         return cls(**values)
 
@@ -126,21 +124,19 @@ def ground_history(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.nda
     return start + jerk * rest, u[i] + v[i] * rest + 0.5 * start * rest**2 + jerk * rest**3 / 6.0
 
 
+#: What a value of ``--set`` must be, by pydantic's name of the mistake.
+_EXPECTED = {"bool_parsing": "true or false", "int_parsing": "a whole number", "int_from_float": "a whole number",
+             "float_parsing": "a number"}  # fmt: skip
+
+
 def _parse(key: str, text: str, hint: Any) -> Any:
-    kinds = set(typing.get_args(hint)) or {hint}
-    if type(None) in kinds and text.lower() in ("none", "auto", ""):
+    from pydantic import TypeAdapter, ValidationError
+
+    if type(None) in typing.get_args(hint) and text.lower() in ("none", "auto", ""):
         return None
-    if bool in kinds:
-        if text.lower() in ("true", "yes", "on", "1"):
-            return True
-        if text.lower() in ("false", "no", "off", "0"):
-            return False
-        raise InputError(f"option {key} is {text!r}; allowed is true or false.")
-    for kind, word in ((int, "a whole number"), (float, "a number")):
-        if kind in kinds:
-            try:
-                return kind(text)
-            except ValueError:
-                if str not in kinds and not (kind is int and float in kinds):
-                    raise InputError(f"option {key} is {text!r}; allowed is {word}.") from None
-    return text
+    try:
+        return TypeAdapter(hint).validate_python(text)
+    except ValidationError as error:
+        mistakes = error.errors()
+    expected = next((_EXPECTED[one["type"]] for one in mistakes if one["type"] in _EXPECTED), mistakes[0]["msg"])
+    raise InputError(f"option {key} is {text!r}; allowed is {expected}.")

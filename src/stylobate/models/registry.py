@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 import importlib
 from collections.abc import Mapping
 
-from ..errors import InputError
+from ..errors import InputError, suggest
 from .base import Model
 
 #: Name: module of this package and class in it.
@@ -27,9 +26,7 @@ def model_class(name: str) -> type[Model]:
         There is no model of that name.
     """
     if name not in MODELS:
-        close = difflib.get_close_matches(name, MODELS, 1)
-        hint = f"did you mean {close[0]}? " if close else ""
-        raise InputError(f"there is no model {name!r}; {hint}models are {', '.join(MODELS)}.")
+        raise InputError(f"there is no model {name!r}; {suggest(name, MODELS)}models are {', '.join(MODELS)}.")
     module, attribute = MODELS[name]
     return getattr(importlib.import_module(f"{__package__}.{module}"), attribute)
 

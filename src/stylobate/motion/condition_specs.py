@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..errors import InputError
+from ..errors import InputError, suggest
 from . import conditioning as c
 from .motion import Motion
 from .specs import parse_acceleration, parse_frequency, parse_time
@@ -74,9 +73,7 @@ def conditioned(motion: Motion, text: str) -> Motion:
     name, sign, rest = text.partition("=")
     key = name.strip().lower()
     if key not in STEPS:
-        close = difflib.get_close_matches(key, STEPS, 1)
-        hint = f"did you mean {close[0]}? " if close else ""
-        raise InputError(f"--condition {text!r} is no step; {hint}steps are {', '.join(STEPS)}.")
+        raise InputError(f"--condition {text!r} is no step; {suggest(key, STEPS)}steps are {', '.join(STEPS)}.")
     step = STEPS[key]
     values = [value.strip() for value in rest.split(",")] if sign else []
     if len(values) not in step.counts or not all(values):

@@ -326,14 +326,7 @@ def _changed(
 
 
 def _fast_length(count: int) -> int:
-    """The next number of the form 2^a 3^b 5^c, for which the transform is fast."""
-    best = 1 << max(0, (count - 1).bit_length())
-    five = 1
-    while five < best:
-        three = five
-        while three < best:
-            rest = -(-count // three)
-            best = min(best, three << max(0, (rest - 1).bit_length()))
-            three *= 3
-        five *= 5
-    return best
+    """The next length for which the transform is fast."""
+    from scipy.fft import next_fast_len
+
+    return next_fast_len(count, real=True)  # pyright: ignore[reportReturnType]: scipy has no types

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import math
 import re
 from collections.abc import Callable
 from typing import Literal, overload
 
 from ..constants import g
-from ..errors import InputError
+from ..errors import InputError, suggest
 from . import pulses
 from .harmonic import harmonic
 from .motion import Motion
@@ -173,9 +172,9 @@ def parse_pulse(
     kind, *parts = text.split(",")
     key = kind.strip().lower()
     if key not in PULSES:
-        close = difflib.get_close_matches(key, PULSES, 1)
-        hint = f"did you mean {close[0]}? " if close else ""
-        raise InputError(f"kind of pulse is {kind.strip()!r}; {hint}allowed is {', '.join(PULSES)}: {example!r}.")
+        raise InputError(
+            f"kind of pulse is {kind.strip()!r}; {suggest(key, PULSES)}allowed is {', '.join(PULSES)}: {example!r}."
+        )
     found = _parts(parts, text, "--pulse", example)
     amplitude = _amplitude(found, text, "--pulse", example, allow_unknown)
     length = found.get("time")

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import __version__
 from ..analysis import verdicts as v
 from ..analysis.doubt import Doubt
 from ..constants import g
 from ..report.page import Picture, Points, Rows, Section, write_page
+from ..version import __version__
 from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
 from .reading import CHOICES, FAILS, HOLDS, MEANINGS, Statement, percent, share
 from .statements import place

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .. import __version__
 from ..analysis import verdicts as v
 from ..analysis.domain import PROGRESS_FILE, Domain, collapse_domain
 from ..analysis.probability import CollapseProbability
@@ -32,6 +31,7 @@ from ..kernels.jit import source_digest
 from ..models.base import Model
 from ..motion import harmonic
 from ..simulate import simulate, simulate_many
+from ..version import __version__
 from . import cases as c
 
 if TYPE_CHECKING:

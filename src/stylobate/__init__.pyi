@@ -1,0 +1,51 @@
+"""The public names of the package: the one list of them, for the lazy loader and for type checkers."""
+
+from .analysis.compare import compare_models as compare_models
+from .analysis.critical import critical_amplitude as critical_amplitude
+from .analysis.domain import collapse_domain as collapse_domain
+from .analysis.limit import limit_analysis as limit_analysis
+from .analysis.pushover import pushover as pushover
+from .analysis.replicates import collapse_probability as collapse_probability
+from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
+from .analysis.suite import suite_table as suite_table
+from .column import AsFound as AsFound
+from .column import Column as Column
+from .column import Drum as Drum
+from .column import FoundDrum as FoundDrum
+from .column import Joint as Joint
+from .column import preset as preset
+from .column.assembly import Assembly as Assembly
+from .column.assembly import Block as Block
+from .column.assembly import read_assembly as read_assembly
+from .column.files import read_column as read_column
+from .column.imperfections import Imperfection as Imperfection
+from .constants import g as g
+from .errors import InputError as InputError
+from .errors import OutOfRangeWarning as OutOfRangeWarning
+from .errors import StylobateError as StylobateError
+from .models.dem2d.model import DistinctElement2D as DistinctElement2D
+from .models.rigid_beam.model import RigidBeam as RigidBeam
+from .models.rigid_block.model import RigidBlock as RigidBlock
+from .models.rocking.model import HousnerBlock as HousnerBlock
+from .motion import Motion as Motion
+from .motion import harmonic as harmonic
+from .motion import pulses as pulses
+from .motion import stochastic_motion as stochastic_motion
+from .motion.pulses import cosine_pulse as cosine_pulse
+from .motion.pulses import gabor as gabor
+from .motion.pulses import half_sine_pulse as half_sine_pulse
+from .motion.pulses import mavroeidis_papageorgiou as mavroeidis_papageorgiou
+from .motion.pulses import rectangular_pulse as rectangular_pulse
+from .motion.pulses import ricker as ricker
+from .motion.pulses import sine_pulse as sine_pulse
+from .motion.readers import read_motion as read_motion
+from .motion.readers import read_suite as read_suite
+from .motion.readers import sample_motion as sample_motion
+from .outcome import Outcome as Outcome
+from .response import Response as Response
+from .response import load_response as load_response
+from .simulate import simulate as simulate
+from .simulate import simulate_assembly as simulate_assembly
+from .simulate import simulate_many as simulate_many
+
+__version__: str
