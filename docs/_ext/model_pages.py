@@ -34,10 +34,11 @@ PAGES = {
     "rigid-beam": "rigid_beam",
     "rigid-block": "rigid_block",
     "dem2d": "distinct_element_2d",
+    "dem3d": "distinct_element_3d",
 }
 
-#: Options and models in a sentence: name=value, a name with an underscore after more than a letter, dem2d.
-OPTION = re.compile(r"\b\w+=\w+|\b\w{2,}_\w+|\bdem2d\b")
+#: Options and models in a sentence: name=value, a name with an underscore after more than a letter, dem2d, dem3d.
+OPTION = re.compile(r"\b\w+=\w+|\b\w{2,}_\w+|\bdem[23]d\b")
 
 
 def texts(out):

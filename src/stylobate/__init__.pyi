@@ -24,9 +24,11 @@ from .errors import InputError as InputError
 from .errors import OutOfRangeWarning as OutOfRangeWarning
 from .errors import StylobateError as StylobateError
 from .models.dem2d.model import DistinctElement2D as DistinctElement2D
+from .models.dem3d.model import DistinctElement3D as DistinctElement3D
 from .models.rigid_beam.model import RigidBeam as RigidBeam
 from .models.rigid_block.model import RigidBlock as RigidBlock
 from .models.rocking.model import HousnerBlock as HousnerBlock
+from .models.shared.start import Start as Start
 from .motion import Motion as Motion
 from .motion import harmonic as harmonic
 from .motion import pulses as pulses

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     import pandas
 
     from .column.assembly import Assembly
+    from .models.shared.start import Start
     from .response.assembly_response import AssemblyResponse
 
 
@@ -32,6 +33,7 @@ def simulate(
     output_interval: float = 0.01,
     until_end: bool = False,
     until_rest: bool = False,
+    start: Start | None = None,
 ) -> Response:
     """Shake one column once and record what happens.
 
@@ -49,6 +51,8 @@ def simulate(
         Go on after the collapse is certain.
     until_rest : bool
         Go on until everything lies still, on the ground if need be (``DistinctElement2D``; others refuse).
+    start : Start, optional
+        Release the column from a pose, with a velocity, instead of rest (``DistinctElement3D``; others refuse).
 
     Returns
     -------
@@ -59,7 +63,9 @@ def simulate(
     InputError
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
-    options = _options(tail, output_interval, until_end, until_rest)
+    options = dataclasses.replace(_options(tail, output_interval, until_end, until_rest), start=start)
+    if start is not None and not model.takes_start:
+        raise InputError(f"{model.name} starts from rest; leave start out, or use dem3d (DistinctElement3D).")
     if until_rest and not model.follows_to_rest:
         raise InputError(
             f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or leave "

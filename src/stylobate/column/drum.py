@@ -9,6 +9,9 @@ from ..errors import InputError, check_range
 
 SECTIONS = ("circular", "rectangular")
 
+#: Places (−1 … 1) and weights of Gauss's rule with three points.
+GAUSS_POINTS = ((-math.sqrt(0.6), 5.0 / 9.0), (0.0, 8.0 / 9.0), (math.sqrt(0.6), 5.0 / 9.0))
+
 #: Lengths [m] and densities [kg/m³] that a body can have: from a model's chip to a hill, from foam to the heaviest metal.
 LENGTHS, DENSITIES = (1e-4, 1e3), (1.0, 1e5)
 
@@ -96,13 +99,24 @@ class Drum:
         polynomial of degree 4 at most, so three Gauss points are exact.
         """
         b, t, h, zc = self.bottom_width, self.top_width, self.height, self.centroid_height
-        node = math.sqrt(0.6)
         total = 0.0
-        for x, weight in ((-node, 5.0 / 9.0), (0.0, 8.0 / 9.0), (node, 5.0 / 9.0)):
+        for x, weight in GAUSS_POINTS:
             z = 0.5 * h * (1.0 + x)
             q = b + (t - b) * z / h
             area, second = section_area(self.section, q, self.depth), section_second_moment(self.section, q, self.depth)
             total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
+        return self.density * total
+
+    @property
+    def axial_inertia(self) -> float:
+        """Moment of inertia about the drum's own axis [kg m²]; exact by three Gauss points over the height."""
+        b, t, h = self.bottom_width, self.top_width, self.height
+        total = 0.0
+        for x, weight in GAUSS_POINTS:
+            q = b + (t - b) * 0.5 * (1.0 + x)
+            own = section_second_moment(self.section, q, self.depth)
+            other = own if self.circular else q * self.depth**3 / 12.0
+            total += 0.5 * h * weight * (own + other)
         return self.density * total
 
     def as_prism(self) -> Drum:

@@ -14,6 +14,7 @@ from ..column import Column
 from ..errors import InputError, suggest
 from ..motion import Motion
 from ..response import Measures, Response
+from .shared.start import Start
 
 #: Beyond it no motion is one, and numbers overflow [m/s²].
 LARGEST_ACCELERATION = 1e6
@@ -40,12 +41,15 @@ class RunOptions:
         Go on after a collapse is certain.
     until_rest : bool
         Go on after the motion until everything lies still (models that follow a collapse to the ground).
+    start : Start, optional
+        Pose and velocity at the start, instead of rest (models with ``takes_start``).
     """
 
     tail: float = 0.0
     output_interval: float = 0.01
     until_end: bool = False
     until_rest: bool = False
+    start: Start | None = None
 
 
 @dataclass(frozen=True)
@@ -54,7 +58,7 @@ class Model:
 
     Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
     ``assumptions`` and ``limits`` in sentences; ``takes_as_found`` says whether it computes columns that are not as built,
-    ``follows_to_rest`` whether it can go on until everything lies still.
+    ``follows_to_rest`` whether it can go on until everything lies still, ``takes_start`` whether it can start from a pose.
     """
 
     name: ClassVar[str] = ""
@@ -64,6 +68,7 @@ class Model:
     limits: ClassVar[tuple[str, ...]] = ()
     takes_as_found: ClassVar[bool] = False
     follows_to_rest: ClassVar[bool] = False
+    takes_start: ClassVar[bool] = False
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""

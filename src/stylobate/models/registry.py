@@ -14,6 +14,7 @@ MODELS = {
     "rigid-beam": ("rigid_beam.model", "RigidBeam"),
     "rigid-block": ("rigid_block.model", "RigidBlock"),
     "dem2d": ("dem2d.model", "DistinctElement2D"),
+    "dem3d": ("dem3d.model", "DistinctElement3D"),
 }
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -281,14 +282,17 @@ class DrumBlock:
             )
         if outcome is not Outcome.COLLAPSED:
             return ""
-        side = "right" if watch["side"][lane] > 0 else "left"
         parted = bool(watch["parted"][lane])
         # what is lost above some joint turns about the joint that is widest open, there or higher up
         joint = 1 + int(watch["which" if parted else "about"][lane])
         drums = len(self.drum) - 1
         part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
         how = f"left the support at joint {joint}" if parted else f"overturned about joint {joint}"
-        return f"{part} {how}, to the {side}"
+        return f"{part} {how}, {self.direction(lane)}"
+
+    def direction(self, lane: int) -> str:
+        """Where a collapse goes, in words."""
+        return "to the right" if self.watch["side"][0, lane] > 0 else "to the left"
 
 
 def ledger_balance(change: np.ndarray, largest: float, column: Column) -> tuple[float, bool]:
@@ -309,7 +313,7 @@ def ledger_balance(change: np.ndarray, largest: float, column: Column) -> tuple[
     return missing / largest, missing <= allowed
 
 
-def histories(motion: Motion, states: list[dict[str, Any]]) -> Histories:
+def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories from the snapshots of a run."""
     stack = {key: np.array([state[key] for state in states]) for key in states[0]}
     energy = stack["energy"]

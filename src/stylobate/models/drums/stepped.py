@@ -6,12 +6,12 @@ import math
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, ClassVar
 
 from ...column import Column
 from ...errors import InputError, OutOfRangeWarning, check_range
 from ...motion import Motion
-from ...response import Measures, Response
+from ...response import Histories, Measures, Response
 from ..base import Case, Model, RunOptions
 from ..shared.lanes import run_lanes
 from .block import DrumBlock, PackedColumn, histories
@@ -19,7 +19,7 @@ from .block import DrumBlock, PackedColumn, histories
 
 @dataclass(frozen=True, kw_only=True)
 class SteppedDrums(Model):
-    """Base of the plane models whose kernels step rigid drums explicitly. A model gives its kernel, types and packing.
+    """Base of the models whose kernels step rigid drums explicitly. A model gives its kernel, types and packing.
 
     Parameters
     ----------
@@ -32,6 +32,9 @@ class SteppedDrums(Model):
     mass_damping : float
         α: force −α m v on every drum, v relative to the base [1/s].
     """
+
+    #: Whether the second horizontal component of a motion is taken.
+    takes_lateral: ClassVar[bool] = False
 
     step_factor: float = 0.4
     time_step: float | None = None
@@ -70,13 +73,21 @@ class SteppedDrums(Model):
         """Largest stable time step of the closed column [s]."""
         raise NotImplementedError
 
+    def make_block(self, drums: int, options: RunOptions) -> Any:
+        """A block of lanes for columns of so many drums."""
+        return DrumBlock(self, drums, options)
+
+    def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
+        """Histories from the snapshots of a run."""
+        return histories(motion, states)
+
     # -- shared --------------------------------------------------------------------------------------------------
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse an unstable step; say what a plane model leaves out."""
         super().check(column, motion)
         self.step_for(column)
-        if motion.lateral is not None:
+        if motion.lateral is not None and not self.takes_lateral:
             warnings.warn(
                 f"the second horizontal component of {motion.name!r} is left out: {self.name} is a plane model.",
                 OutOfRangeWarning,
@@ -103,7 +114,7 @@ class SteppedDrums(Model):
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, through the same kernel as a batch."""
-        block = DrumBlock(self, column.n, options)
+        block = self.make_block(column.n, options)
         block.load(0, Case(column, motion))
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
@@ -114,7 +125,7 @@ class SteppedDrums(Model):
             states.append(block.snapshot(0))
         provenance = {"time_step_s": float(block.dt[0]), "residual_acceleration_at_start_m_s2": residual}
         measures = block.collect(0)
-        return Response(column, histories(motion, states), measures, self.name, provenance)
+        return Response(column, self.histories(motion, states), measures, self.name, provenance)
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
@@ -123,5 +134,5 @@ class SteppedDrums(Model):
             by_drums.setdefault(case.column.n, []).append(index)
         for drums, indices in by_drums.items():
             some = [cases[index] for index in indices]
-            for k, measures in run_lanes(lambda drums=drums: DrumBlock(self, drums, options), some, threads):
+            for k, measures in run_lanes(lambda drums=drums: self.make_block(drums, options), some, threads):
                 yield indices[k], measures

@@ -1,0 +1,189 @@
+"""What is looked at between chunks of steps: peaks, collapses, ends of runs; axes get their length back."""
+
+import math
+
+from ..drums.lanes import CHUNK, FAILED, FAR, LANES, RUNNING, SUPPORT_MARGIN, end_runs
+from ..jit import kernel, law, strict
+from .pose import cross, faces, in_body, in_space, lean
+
+#: Sine of a tilt below which a direction of lean means nothing [-].
+UPRIGHT = 1e-3
+
+
+@strict
+def check_finite(drum, watch):
+    """Lanes whose state is no number, or far away, have failed."""
+    w = watch[0]
+    for i in range(1, drum.shape[0]):
+        u = drum[i]
+        for l in range(LANES):
+            size = abs(u.x[l]) + abs(u.y[l]) + abs(u.z[l]) + abs(u.wx[l]) + abs(u.wy[l]) + abs(u.wz[l])
+            lost = w.status[l] == RUNNING and not (size < FAR)
+            w.status[l] = FAILED if lost else w.status[l]
+
+
+@law
+def straighten(u, l):
+    """Gives the axes of a drum their length and right angles back."""
+    each = 1.0 / math.sqrt(u.kx[l] * u.kx[l] + u.ky[l] * u.ky[l] + u.kz[l] * u.kz[l])
+    kx, ky, kz = u.kx[l] * each, u.ky[l] * each, u.kz[l] * each
+    along = u.ix[l] * kx + u.iy[l] * ky + u.iz[l] * kz
+    ix, iy, iz = u.ix[l] - along * kx, u.iy[l] - along * ky, u.iz[l] - along * kz
+    each = 1.0 / math.sqrt(ix * ix + iy * iy + iz * iz)
+    ix, iy, iz = ix * each, iy * each, iz * each
+    u.ix[l], u.iy[l], u.iz[l] = ix, iy, iz
+    u.kx[l], u.ky[l], u.kz[l] = kx, ky, kz
+    u.jx[l], u.jy[l], u.jz[l] = cross(kx, ky, kz, ix, iy, iz)
+
+
+@law
+def joint_numbers(u, v, l):
+    """Opening of a joint [m], slip in the axes of the drum below [m], twist [rad]."""
+    nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+    _, _, _, cx, cy, cz = faces(u, v, l)
+    zx, zy, zz = v.kx[l], v.ky[l], v.kz[l]
+    _, _, _, _, _, _, sine, _ = lean(nx, ny, nz, zx, zy, zz, v.ix[l], v.iy[l], v.iz[l])
+    a, b, c = in_body(v, l, cx, cy, cz)
+    over = min(c + u.rb[l] * sine, cx * nx + cy * ny + cz * nz + v.rt[l] * sine)
+    p, q, _ = in_body(v, l, u.ix[l], u.iy[l], u.iz[l])
+    r, s, _ = in_body(v, l, u.jx[l], u.jy[l], u.jz[l])
+    return max(over, 0.0), a, b, math.atan2(q - r, p + s)
+
+
+@law
+def top_place(u, l):
+    """Middle of a drum's upper face along the base [m]."""
+    return u.x[l] + u.ht[l] * u.kx[l], u.y[l] + u.ht[l] * u.ky[l]
+
+
+@kernel
+def observe(drum, joint, lane, feed, watch):
+    """Look at all lanes: peaks, and certain collapses.
+
+    A collapse is certain when, for the part of the column above a joint, its centroid lies beyond the overlap of the two
+    faces, moves outward, and the moment of its weight about the edge exceeds what the strongest acceleration of the
+    motion, the slope of the base and its own spin could ever set against it (for joints between drums, with
+    SUPPORT_MARGIN on top); or when two faces no longer overlap.  # Eq. (E9)
+    """
+    drums = drum.shape[0] - 1
+    o = lane[0]
+    f = feed[0]
+    w = watch[0]
+    for l in range(LANES):
+        if w.status[l] != RUNNING:
+            continue
+        standing = w.when[l] < 0
+        w.m[l] = w.x[l] = w.y[l] = w.z[l] = w.px[l] = w.py[l] = 0.0
+        w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
+        for i in range(1, drums + 1):
+            u = drum[i]
+            straighten(u, l)
+            m = u.m[l]
+            w.m[l] += m
+            w.x[l] += m * u.x[l]
+            w.y[l] += m * u.y[l]
+            w.z[l] += m * u.z[l]
+            w.px[l] += m * u.vx[l]
+            w.py[l] += m * u.vy[l]
+            if standing:
+                w.turn[l] = max(w.turn[l], 1.0 - u.kz[l])
+        if standing:
+            tx, ty = top_place(drum[drums], l)
+            tx -= w.sx[l]
+            ty -= w.sy[l]
+            w.topx[l] = max(w.topx[l], abs(tx))
+            w.topy[l] = max(w.topy[l], abs(ty))
+            w.top[l] = max(w.top[l], math.sqrt(tx * tx + ty * ty))
+        for j in range(drums):
+            u = drum[j + 1]
+            v = drum[j]
+            e = joint[j]
+            opening, a, b, twist = joint_numbers(u, v, l)
+            if standing:
+                w.open[l] = max(w.open[l], opening)
+                w.spin[l] = max(w.spin[l], abs(twist - e.ot[l]))
+                a0, b0 = a - e.ox[l], b - e.oy[l]
+                w.slide[l] = max(w.slide[l], a0 * a0 + b0 * b0)
+            # centroid of the part above, and how far it is beyond both faces on the side to which it leans
+            each = 1.0 / w.m[l]
+            gx, gy, gz = w.x[l] * each, w.y[l] * each, w.z[l] * each
+            _, _, _, cx, cy, cz = faces(u, v, l)
+            hx, hy, hz = v.x[l] + v.ht[l] * v.kx[l], v.y[l] + v.ht[l] * v.ky[l], v.z[l] + v.ht[l] * v.kz[l]
+            ru, rl = u.rb[l], v.rt[l]
+            gap = math.sqrt(a * a + b * b)
+            parted = gap >= ru + rl
+            # the middle of the overlap, along the line of the two centres
+            middle = 0.5 * (max(-rl, gap - ru) + min(rl, gap + ru)) / max(gap, 1e-12)
+            mx, my, _ = in_space(v, l, a * middle, b * middle, 0.0)
+            dx, dy = gx - hx - mx, gy - hy - my
+            size = max(math.sqrt(dx * dx + dy * dy), 1e-12)
+            dx, dy = dx / size, dy / size
+            nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+            # ends of the upper and of the lower disc in that direction; the overlap reaches no further than either
+            su = dx * nx + dy * ny
+            sl = dx * v.kx[l] + dy * v.ky[l]
+            eu = math.sqrt(max(1.0 - su * su, 0.0))
+            el = math.sqrt(max(1.0 - sl * sl, 0.0))
+            end_u = (cx + hx) * dx + (cy + hy) * dy + ru * eu
+            end_l = hx * dx + hy * dy + rl * el
+            upper = end_u < end_l
+            if upper:
+                scale = ru / max(eu, 1e-12)
+                ex, ey, ez = (
+                    cx + hx + scale * (dx - su * nx),
+                    cy + hy + scale * (dy - su * ny),
+                    cz + hz - scale * su * nz,
+                )
+            else:
+                scale = rl / max(el, 1e-12)
+                ex, ey = hx + scale * (dx - sl * v.kx[l]), hy + scale * (dy - sl * v.ky[l])
+                ez = hz - scale * sl * v.kz[l]
+            out = (gx - ex) * dx + (gy - ey) * dy
+            up = max(gz - ez, 0.0)
+            bx, by, _ = cross(v.wx[l], v.wy[l], v.wz[l], ex - v.x[l], ey - v.y[l], ez - v.z[l])
+            outward = (w.px[l] * each - v.vx[l] - bx) * dx + (w.py[l] * each - v.vy[l] - by) * dy
+            down = max(o.g[2, l] - w.vmax[l], 0.0)
+            against = max(w.amax[l] + o.g[0, l] * dx + o.g[1, l] * dy, 0.0) + (SUPPORT_MARGIN if j > 0 else 0.0)
+            # what spin about the own axis can hold while the body rolls round its rim
+            axial = abs(u.wx[l] * u.kx[l] + u.wy[l] * u.ky[l] + u.wz[l] * u.kz[l])
+            about = math.sqrt(u.wx[l] * u.wx[l] + u.wy[l] * u.wy[l] + u.wz[l] * u.wz[l])
+            tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
+            gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
+            lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + gyro)
+            hit = (lost | parted) & standing
+            if hit and w.when[l] < 0:
+                w.when[l] = f.step[l]
+                w.which[l] = j
+                w.ex[l] = dx
+                w.ey[l] = dy
+                w.parted[l] = 1 if parted else 0
+            if w.when[l] == f.step[l] and opening > w.wide[l]:
+                w.wide[l] = opening
+                w.about[l] = j
+            if parted:  # a joint that has parted does not close again
+                e.kn[l] = e.ks[l] = e.co[l] = 0.0
+            m = u.m[l]
+            w.m[l] -= m
+            w.x[l] -= m * u.x[l]
+            w.y[l] -= m * u.y[l]
+            w.z[l] -= m * u.z[l]
+            w.px[l] -= m * u.vx[l]
+            w.py[l] -= m * u.vy[l]
+
+
+@strict
+def joint_state(drum, l, opening, slip, twist):
+    """Opening [m], slip in the axes of the drum below [m] and twist [rad] of every joint of one lane."""
+    for j in range(drum.shape[0] - 1):
+        opening[j], slip[j, 0], slip[j, 1], twist[j] = joint_numbers(drum[j + 1], drum[j], l)
+
+
+@kernel
+def close_chunk(drum, joint, lane, feed, watch):
+    """What follows every chunk of steps: running lanes are that much further on, and all are looked at."""
+    for l in range(LANES):
+        if watch[0].status[l] == RUNNING:
+            feed[0].step[l] += CHUNK
+    check_finite(drum, watch)
+    observe(drum, joint, lane, feed, watch)
+    end_runs(lane, feed, watch)

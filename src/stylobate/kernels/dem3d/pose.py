@@ -1,0 +1,64 @@
+"""Where two drums stand to each other at a joint, and how fast that changes. Laws of numbers, in space axes."""
+
+import math
+
+from ..jit import law
+
+
+@law
+def in_space(v, l, a, b, c):
+    """The vector whose components in the axes of a drum are a, b, c."""
+    return (
+        a * v.ix[l] + b * v.jx[l] + c * v.kx[l],
+        a * v.iy[l] + b * v.jy[l] + c * v.ky[l],
+        a * v.iz[l] + b * v.jz[l] + c * v.kz[l],
+    )
+
+
+@law
+def in_body(v, l, x, y, z):
+    """Components of a vector in the axes of a drum."""
+    return (
+        x * v.ix[l] + y * v.iy[l] + z * v.iz[l],
+        x * v.jx[l] + y * v.jy[l] + z * v.jz[l],
+        x * v.kx[l] + y * v.ky[l] + z * v.kz[l],
+    )
+
+
+@law
+def cross(ax, ay, az, bx, by, bz):
+    """a × b."""
+    return ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx
+
+
+@law
+def faces(u, v, l):
+    """From the upper drum's centroid to the middle of its lower face, and from the middle of the face below to there."""
+    rx, ry, rz = in_space(u, l, u.fx[l], u.fy[l], u.fz[l])
+    ht = v.ht[l]
+    return (
+        rx,
+        ry,
+        rz,
+        u.x[l] + rx - v.x[l] - ht * v.kx[l],
+        u.y[l] + ry - v.y[l] - ht * v.ky[l],
+        u.z[l] + rz - v.z[l] - ht * v.kz[l],
+    )
+
+
+@law
+def lean(nx, ny, nz, zx, zy, zz, ix, iy, iz):
+    """Direction h in which a face of normal n leans over one of normal z, t = z × h, and sine and cosine of the angle.
+
+    Faces that are parallel to rounding lean along the lower drum's first axis i.
+    """
+    cosine = nx * zx + ny * zy + nz * zz
+    hx, hy, hz = nx - cosine * zx, ny - cosine * zy, nz - cosine * zz
+    sine = math.sqrt(hx * hx + hy * hy + hz * hz)
+    flat = sine < 1e-15
+    each = 1.0 / max(sine, 1e-15)
+    hx = ix if flat else hx * each
+    hy = iy if flat else hy * each
+    hz = iz if flat else hz * each
+    tx, ty, tz = cross(zx, zy, zz, hx, hy, hz)
+    return hx, hy, hz, tx, ty, tz, sine, cosine

@@ -1,0 +1,218 @@
+"""A block of lanes of drums in space: the way of a case into the kernels' arrays, and of its results out of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ...motion import Motion
+from ...outcome import Outcome, classify
+from ...response import Histories, Measures
+from ..base import Case, ground_history
+from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_balance, whole_steps
+from .pose import placed
+from .verdict import stands_for_good
+
+
+class SpaceBlock(DrumBlock):
+    """See :class:`stylobate.models.shared.lanes.LaneBlock`; parameters as for :class:`DrumBlock`."""
+
+    def load(self, lane: int, case: Case) -> None:
+        """Start a case in a lane."""
+        self.cases[lane] = case
+        column, motion = case
+        packed = self.model.pack(column)
+        for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
+            for name, values in fields.items():
+                array[name][..., lane] = values
+        self.joint["d"][..., lane] = 0.0
+        dt, chunks = whole_steps(motion, self.options.tail, packed.step, self.chunk)
+        steps = chunks * self.chunk
+        feed, watch = self.feed[0], self.watch[0]
+        for name, samples in (("x", motion.samples), ("y", motion.y_samples), ("z", motion.z_samples)):
+            feed[name][lane] = 0 if samples is None else samples.ctypes.data
+        feed["last"][lane] = motion.steps - 1
+        feed["step"][lane] = 0
+        feed["end"][lane] = steps
+        feed["ratio"][lane] = dt / motion.dt
+        feed["factor"][lane] = motion.factor
+        feed["r"][:, lane] = np.eye(3).ravel()
+        for name in watch.dtype.names:
+            watch[name][lane] = 0
+        watch["status"][lane] = self.kernel.RUNNING
+        watch["follow"][lane] = self.options.until_end
+        watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
+        sides = np.zeros(2) if motion.y_samples is None else motion.y_samples
+        flat = motion.samples**2 + sides**2 if len(sides) == motion.steps else motion.samples**2
+        watch["amax"][lane] = math.sqrt(float(flat.max())) * abs(motion.factor)
+        high = 0.0 if motion.z_samples is None else float(np.abs(motion.z_samples).max())
+        watch["vmax"][lane] = high * abs(motion.factor)
+        self.lane["dt"][0, lane] = self.dt[lane] = dt
+        watch["sx"][lane], watch["sy"][lane] = self.top_place(lane)
+        _, slip, twist = self.joints(lane)
+        self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane] = slip.T
+        self.joint["ot"][:-1, lane] = twist
+        if self.options.start is not None:
+            pose = placed(column, self.options.start, self.drum, self.joint, lane)
+            for array, fields in zip((self.drum, self.joint), pose, strict=True):
+                for name, values in fields.items():
+                    array[name][..., lane] = values
+        self._half_a_step_back(lane)
+        self.steps[lane] = steps
+        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
+        self.start[lane] = self.energies(lane)
+
+    def _half_a_step_back(self, lane: int) -> None:
+        """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
+        half, drum = 0.5 * self.dt[lane], self.drum
+        kick = np.repeat(self.ground_acceleration(lane, 0.0)[None], len(drum) - 1, axis=0)
+        if self.options.start is not None:
+            force, moment = self.net(lane)
+            kick = kick + self.lane["g"][0, :, lane] - force * drum["im"][1:, lane, None]
+            for c, name in enumerate(("lx", "ly", "lz")):
+                drum[name][1:, lane] -= half * moment[:, c]
+        for c, name in enumerate(("vx", "vy", "vz")):
+            drum[name][1:, lane] += half * kick[:, c]
+        if self.model.planar:
+            for name in ("vy", "lx", "lz"):
+                drum[name][1:, lane] = 0.0
+
+    def ground_acceleration(self, lane: int, time: float) -> np.ndarray:
+        """Acceleration of the base in its own axes at a time [m/s²], shape (3,)."""
+        case = self.cases[lane]
+        assert case is not None
+        motion = case.motion
+        place, a = time / motion.dt, np.zeros(3)
+        for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):
+            if samples is not None and place <= motion.steps - 1:
+                i = min(int(place), motion.steps - 2)
+                a[c] = (samples[i] + (samples[i + 1] - samples[i]) * (place - i)) * motion.factor
+        return self.feed["r"][0, :, lane].reshape(3, 3) @ a
+
+    def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Opening of every joint [m], where the drum above it is along it [m], and its twist [rad]: (n,), (n, 2), (n,)."""
+        n = len(self.drum) - 1
+        opening, slip, twist = np.empty(n), np.empty((n, 2)), np.empty(n)
+        self.kernel.joint_state(self.drum, lane, opening, slip, twist)
+        return opening, slip, twist
+
+    def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Slip [m] and twist [rad] of every joint since the start, shapes (n, 2) and (n,)."""
+        _, slip, twist = self.joints(lane)
+        first = np.stack((self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane]), axis=1)
+        return slip - first, twist - self.joint["ot"][:-1, lane]
+
+    def top_place(self, lane: int) -> np.ndarray:
+        """Place of the middle of the topmost face along the base [m], shape (2,)."""
+        d = self.drum[-1]
+        return np.array([d[c][lane] + d["ht"][lane] * d["k" + c][lane] for c in "xy"])
+
+    def axes(self, lane: int) -> np.ndarray:
+        """Axes of every drum as the columns of a matrix [-], shape (n, 3, 3)."""
+        return np.stack([np.stack([self.drum[a + c][1:, lane] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
+
+    def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Forces [N] and moments [N m] of its joints on every drum in its present position, each of shape (n, 3)."""
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = 0.0
+        self.kernel.forces(self.drum, joint, state)
+        force, up, lo = (joint[name][:, :, lane] for name in ("f", "up", "lo"))
+        return force[:-1] - force[1:], up[:-1] + lo[1:]
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        ground = np.zeros(1, self.ground.dtype)
+        ground["a"][0, :, lane] = self.ground_acceleration(lane, self.time(lane))
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = self.dt[lane]
+        self.kernel.forces(self.drum, joint, state)
+        out = np.empty(6)
+        self.kernel.ledger(self.drum, joint, state, ground, 0, self.dt[lane], lane, out)
+        return out
+
+    def residual_acceleration(self, lane: int) -> float:
+        """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
+        force, moment = self.net(lane)
+        linear = force * self.drum["im"][1:, lane, None] - self.lane["g"][0, :, lane]
+        turning = moment * (self.drum["ia"] * self.drum["rb"])[1:, lane, None]
+        return float(max(np.abs(linear).max(), np.abs(turning).max()))
+
+    def snapshot(self, lane: int) -> dict[str, Any]:
+        """Everything that a history keeps of the present state."""
+        drum = self.drum
+        slip, twist = self.since_start(lane)
+        axes = self.axes(lane)
+        foot = np.array([drum[name][1, lane] for name in ("fx", "fy", "fz")])
+        return {
+            "time": self.time(lane),
+            "position": np.stack([drum[c][1:, lane] for c in "xyz"], axis=-1),
+            "axes": axes,
+            "opening": self.joints(lane)[0],
+            "slip": slip,
+            "twist": twist,
+            "base": np.array([drum[c][1, lane] for c in "xy"]) + (axes[0] @ foot)[:2],
+            "top": self.top_place(lane),
+            "energy": self.energies(lane),
+        }
+
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run is over."""
+        case = self.cases[lane]
+        assert case is not None
+        column, watch = case.column, self.watch[0]
+        change = self.energies(lane) - self.start[lane]
+        largest = max(float(watch["wmax"][lane]), float(self.start[lane, 3]))
+        if self.options.start is not None:  # what the pose and the velocity hold
+            largest = max(largest, float(self.start[lane, 1]), abs(float(change[1])))
+        imbalance, balanced = ledger_balance(change, largest, column)
+        slip, _ = self.since_start(lane)
+        slips = np.hypot(*slip.T)
+        collapsed = watch["status"][lane] == self.kernel.COLLAPSED
+        failed = watch["status"][lane] == self.kernel.FAILED or not balanced
+        widths = column.joint_widths
+        outcome = classify(collapsed, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max()))
+        mechanical = float(change[1] + change[2] + change[3])
+        return Measures(
+            outcome=outcome,
+            decided=outcome is Outcome.COLLAPSED
+            or (not failed and stands_for_good(column, self.drum, lane, slip, mechanical)),
+            collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
+            peak_top_displacement=float(watch["top"][lane]),
+            residual_top_displacement=float(np.hypot(*(self.top_place(lane) - (watch["sx"][lane], watch["sy"][lane])))),
+            peak_rotation=math.acos(max(-1.0, 1.0 - float(watch["turn"][lane]))),
+            peak_joint_opening=float(watch["open"][lane]),
+            residual_joint_slip=float(slips.max()),
+            energy_imbalance=imbalance,
+            time_step=float(self.dt[lane]),
+            steps=int(self.feed["step"][0, lane]),
+            reason=self.reason(lane, outcome, imbalance),
+        )
+
+    def direction(self, lane: int) -> str:
+        """Where a collapse goes, in words."""
+        azimuth = math.degrees(math.atan2(self.watch["ey"][0, lane], self.watch["ex"][0, lane]))
+        return f"towards azimuth {azimuth:.0f}° (from x towards y)"
+
+
+def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
+    """Histories from the snapshots of a run."""
+    stack = {key: np.array([state[key] for state in states]) for key in states[0]}
+    energy, position, axes = stack["energy"], stack["position"], stack["axes"]
+    acceleration, displacement = ground_history(motion, stack["time"])
+    terms = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
+    return Histories(
+        time=stack["time"],
+        drum_x=position[..., 0] - position[0, :, 0],
+        drum_z=position[..., 2] - position[0, :, 2],
+        drum_rotation=np.arctan2(-axes[..., 0, 2], axes[..., 2, 2]),
+        joint_opening=stack["opening"],
+        joint_slip=stack["slip"][..., 0],
+        base_displacement=stack["base"][:, 0] - stack["base"][0, 0],
+        top_displacement=stack["top"][:, 0] - stack["top"][0, 0],
+        ground_acceleration=acceleration,
+        ground_displacement=displacement,
+        energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(terms)},
+    )

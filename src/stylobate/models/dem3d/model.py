@@ -1,0 +1,137 @@
+"""Distinct elements in space: rigid drums with round faces on soft frictional joints, stepped explicitly."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any, ClassVar
+
+from ...column import Column
+from ...errors import InputError, check_range
+from ...motion import Motion
+from ...response import Histories
+from ..base import RunOptions
+from ..dem2d.model import joint_stiffnesses
+from ..drums.block import PackedColumn
+from ..drums.stepped import SteppedDrums
+from .block import SpaceBlock, histories
+from .packing import drum_fields, joint_fields, lane_fields
+from .stability import highest_frequency, largest_step
+
+#: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
+LAWS = {"rim": ("rim_forces", 1.0)}
+
+
+@dataclass(frozen=True, kw_only=True)
+class DistinctElement3D(SteppedDrums):
+    """Rigid round drums in space: no-tension joints that carry on the rims of their overlap, Coulomb friction and torsion.
+
+    Parameters
+    ----------
+    law : {"rim"}
+        Where a joint carries: ``rim`` puts its stiffness on the rim of the overlap of the two faces.
+    pivot_friction : float
+        Share of the torsional friction that acts, from 0 (a rim pivots freely about its point of contact) to 1.
+    planar : bool
+        Hold the motion in the plane of x and z: the plane twin of the same law, for comparison.
+    block_modulus : float, optional
+        Young's modulus of the stone [Pa]: half of each drum's height acts as a spring in series with its joints. None for
+        rigid drums.
+    step_factor : float
+        Time step as a share of the largest stable one.
+    time_step : float, optional
+        Time step [s], instead of ``step_factor``.
+    stiffness_damping : float
+        β: the depth of contact is taken as depth + β × its rate, so that no contact ever pulls; β times the stiffness in
+        shear and torsion [s].
+    mass_damping : float
+        α: force −α m v on every drum, v relative to the base, and moment −α L [1/s].
+
+    Notes
+    -----
+    A run ends as ``collapsed`` when the part above some joint is lost for good: its centroid is beyond the overlap of the
+    faces, moves outward, and its weight has a larger moment about the edge than the strongest acceleration of the motion
+    and its own spin could set against it (for a joint between drums, with 1 g in reserve, because the drum below can
+    move); or when a drum has left its support.
+    """
+
+    name: ClassVar[str] = "dem3d"
+    title: ClassVar[str] = "distinct elements in space"
+    references: ClassVar[tuple[str, ...]] = ("cundall1971", "cundall1979")
+    assumptions: ClassVar[tuple[str, ...]] = (
+        "Drums are rigid, with their true shape; the stone's flexibility can be put into the joints (block_modulus).",
+        "Round faces carry on the rims of their overlap, without tension, with Coulomb friction in shear and torsion.",
+        "The base is a rigid half-space that moves with the record, in all three directions.",
+    )
+    limits: ClassVar[tuple[str, ...]] = (
+        "What an impact loses depends on the law of contact, on friction and on damping.",
+        "A drum touches its neighbours and the base only.",
+        "Drums do not crack, chip or wear.",
+        "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
+    )
+    takes_lateral: ClassVar[bool] = True
+    takes_start: ClassVar[bool] = True
+
+    law: str = "rim"
+    pivot_friction: float = 1.0
+    planar: bool = False
+    block_modulus: float | None = None
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.law not in LAWS:
+            raise InputError(f"law is {self.law!r}; allowed is {', '.join(LAWS)}.")
+        check_range("pivot_friction", self.pivot_friction, 0.0, 1.0)
+        if self.block_modulus is not None:
+            check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
+
+    # -- what a block of lanes needs -----------------------------------------------------------------------------
+
+    def kernel(self) -> Any:
+        """Module of kernels."""
+        from ...kernels.dem3d import rim_forces
+
+        return rim_forces
+
+    def record_types(self) -> tuple:
+        """Record types of the kernel's arrays."""
+        return self.kernel().block_types(self.damped)
+
+    def pack(self, column: Column) -> PackedColumn:
+        """A column as the kernel wants it."""
+        return _pack(column, self)
+
+    def stable_step(self, column: Column) -> float:
+        """Largest stable time step of the closed column [s]."""
+        return _stable_step(column, self)
+
+    def make_block(self, drums: int, options: RunOptions) -> SpaceBlock:
+        """A block of lanes for columns of so many drums."""
+        return SpaceBlock(self, drums, options)
+
+    def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
+        """Histories from the snapshots of a run."""
+        return histories(motion, states)
+
+    def check(self, column: Column, motion: Motion) -> None:
+        """Refuse what this model cannot compute."""
+        if column.section != "circular":
+            raise InputError(
+                f"{self.name} computes drums with circular sections, and those of {column.name!r} are {column.section}; "
+                'give section = "circular", or use dem2d.'
+            )
+        super().check(column, motion)
+
+
+@lru_cache(maxsize=4096)
+def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
+    kn, ks = joint_stiffnesses(column, model.block_modulus)
+    drums = drum_fields(column, column.joint_weights / (kn * column.joint_areas))
+    return PackedColumn((drums, joint_fields(column, kn, ks), lane_fields(column, model)), model.step_for(column))
+
+
+@lru_cache(maxsize=4096)
+def _stable_step(column: Column, model: DistinctElement3D) -> float:
+    kn, ks = joint_stiffnesses(column, model.block_modulus)
+    return largest_step(highest_frequency(column, kn, ks, LAWS[model.law][1]), model.stiffness_damping)

@@ -1,0 +1,111 @@
+"""A column in space that starts tilted about its rim: where its drums are, how they move, and what holds it there."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...column import Column
+from ..shared.start import Start
+
+
+def placed(
+    column: Column, start: Start, drum: np.ndarray, joint: np.ndarray, lane: int
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
+    """Fields of drums and joints of a column that stands tilted and turns as one rigid body.
+
+    The depth and the friction of the base's contact are those that carry the rigid body rolling from there, so that
+    nothing rings at the start.
+
+    Parameters
+    ----------
+    column : Column
+    start : Start
+    drum, joint : array
+        Records of the column upright and at rest.
+    lane : int
+    """
+    h = np.array([math.cos(start.azimuth), math.sin(start.azimuth), 0.0])
+    turn = rotation(np.cross([0.0, 0.0, 1.0], h), start.tilt)
+    radius, omega = float(drum["rb"][1, lane]), np.array(start.angular_velocity)
+    centroids = np.stack([drum[c][1:, lane] for c in "xyz"], axis=-1)
+    centroids[:, 2] += -drum["fz"][1, lane] - drum["z"][1, lane]  # the base's joint as yet open
+    rim = radius * h
+    arms = (centroids - rim) @ turn.T
+    mass, axial = drum["m"][1:, lane], turn[:, 2]
+    transverse = 1.0 / drum["ia"][1:, lane]
+    difference = 1.0 / (drum["ic"][1:, lane] + drum["ia"][1:, lane]) - transverse
+    momentum = np.outer(transverse, omega) + np.outer(difference * (axial @ omega), axial)
+    # the column as one body, rolling
+    whole = mass @ arms / mass.sum()
+    spread = arms - whole
+    own = float(transverse.sum()) * np.eye(3) + float(difference.sum()) * np.outer(axial, axial)
+    inertia = own + sum(m * (r @ r * np.eye(3) - np.outer(r, r)) for m, r in zip(mass, spread, strict=True))
+    force = _rolling_force(float(mass.sum()), inertia, -whole, axial, omega, column.gravity)
+    depth = toe_depth(max(force[2], 0.0), float(joint["kn"][0, lane]), radius, start.tilt)
+    places = rim + arms - (0.0, 0.0, depth)
+    velocities = np.cross(omega, arms)
+    fields = {}
+    for c, name in enumerate("xyz"):
+        fields[name] = np.concatenate(([0.0], places[:, c]))
+        fields["v" + name] = np.concatenate(([0.0], velocities[:, c]))
+        fields["l" + name] = np.concatenate(([0.0], momentum[:, c]))
+        fields["w" + name] = np.concatenate(([0.0], np.full(column.n, omega[c])))
+        for a, axis in enumerate("ijk"):
+            fields[axis + name] = np.concatenate(([float(a == c)], np.full(column.n, turn[c, a])))
+    for name in "xyz":  # the base stays where it is
+        fields[name][0] = drum[name][0, lane]
+    shear = np.zeros((column.n + 1, 3))
+    shear[0, :2] = force[:2]
+    return fields, {"s": shear}
+
+
+def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
+    """Matrix of a rotation by an angle [rad] about an axis of length 1."""
+    x, y, z = axis
+    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.eye(3) + math.sin(angle) * skew + (1.0 - math.cos(angle)) * skew @ skew
+
+
+def _rolling_force(
+    mass: float, inertia: np.ndarray, arm: np.ndarray, axis: np.ndarray, omega: np.ndarray, gravity: float
+) -> np.ndarray:
+    """Force of the ground on a round body that rolls without slipping [N], shape (3,).
+
+    ``arm`` goes from the centroid to the contact [m]. The contact stays lowest, so that ``arm`` turns with the direction of
+    lean, not with the body: v + ω × r = 0 at all times gives a = −ω̇ × r − ω × (Ω × r).
+    """
+    up = np.array([0.0, 0.0, 1.0])
+    sine2 = axis[0] ** 2 + axis[1] ** 2
+    frame = np.zeros(3)
+    if sine2 > 0.0:
+        change = np.cross(omega, axis)  # of the axis
+        frame = np.cross(axis, change) + axis * axis[2] * (axis[0] * change[1] - axis[1] * change[0]) / sine2
+    centripetal = np.cross(omega, np.cross(frame, arm))
+
+    def moment(turning: np.ndarray) -> np.ndarray:
+        return inertia @ turning + mass * np.cross(arm, np.cross(turning, arm))
+
+    matrix = np.stack([moment(column) for column in np.eye(3)], axis=1)
+    given = np.cross(arm, mass * (gravity * up - centripetal)) - np.cross(omega, inertia @ omega)
+    turning = np.linalg.solve(matrix, given)
+    return mass * (gravity * up - np.cross(turning, arm) - centripetal)
+
+
+def toe_depth(force: float, stiffness: float, radius: float, tilt: float) -> float:
+    """Depth of the lowest point of a rim that carries a normal force under the rim law [m], by bisection."""
+    slope, rho = radius * math.sin(tilt), 0.5 * radius * math.cos(tilt)
+
+    def carried(depth: float) -> float:
+        d = depth - slope
+        phi = math.pi if d >= slope else math.acos(max(-1.0, min(1.0, -d / slope)))
+        return stiffness * rho * radius * 2.0 * (d * phi + slope * math.sin(phi))
+
+    low, high = 0.0, 1e-12
+    while carried(high) < force:
+        high *= 2.0
+    for _ in range(200):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if carried(middle) < force else (low, middle)
+    return high
