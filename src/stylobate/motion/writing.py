@@ -34,6 +34,8 @@ def write_csv(motion: Motion, path: str | Path) -> Path:
     for key in ("station", "network", "event", "start_time", "stage", "terms"):
         if motion.metadata.get(key):
             notes.append(f"# {key}: {_one_line(str(motion.metadata[key]))}")
+    as_written = Motion(motion.dt, *(motion.acceleration, motion.lateral, motion.vertical))
+    notes.append(f"# sha256: {as_written.digest}")
     notes += [f"# processing {i}: {_one_line(step)}" for i, step in enumerate(motion.processing, 1)]
     components = motion.components
     header = ",".join(["time_s", *(f"a{axis}_m_s2" for axis in components)])

@@ -5,12 +5,16 @@ from __future__ import annotations
 import re
 
 from ...errors import InputError
-from .numbers import read_numbers
+from .checks import CUT, check_length, check_step, printed, warn_of_missing
+from .numbers import number_in, read_numbers
 from .record import Component, oriented
 from .source import Source
 from .volume1 import channel_end, length, points, unit
 
 TEXT_LINES, HEADER_LINES = 13, 27
+#: Line of the reals, from the first line of the channel, that begins with the samples per second.
+RATE_LINE = 21
+_AZIMUTHS = re.compile(r"azimuth\s+l\s+(?P<l>\d{1,3})\s+t\s+(?P<t>\d{1,3})(?!\d)", re.IGNORECASE)
 
 
 def recognises(source: Source) -> bool:
@@ -28,25 +32,9 @@ def read(source: Source) -> tuple[list[Component], dict]:
         if not lines[start].strip():
             start += 1
             continue
-        text = lines[start : start + TEXT_LINES]
-        data = start + HEADER_LINES
-        if data >= len(lines):
-            raise InputError(
-                f"{file}, line {start + 1}: the channel that begins here ends within its header; fetch it again."
-            )
-        count = points(text, file, start)
-        total = length(text)
-        if total is None or total <= 0.0:
-            raise InputError(f"{file}, below line {start + 1}: expected the length of the record in s; fetch it again.")
-        end = channel_end(lines, data)
-        values = read_numbers(lines[data:end], data, file, "accelerations", count=count, width=13)
-        component = Component(values, total / (count - 1), text[4].strip())
-        component.metadata["unit"], size = unit(text, "g/10")
-        component.values = values * size
-        component = oriented(component)
-        component.azimuth = _azimuth(component.label, text[7])
+        component, start = _component(lines, start, file)
         components.append(component)
-        start = end + 1
+    warn_of_missing(len(components), 3, file)
     number = re.search(r":\s*([^/\s]+)", lines[0])
     return components, {
         "format": "BHRC V1",
@@ -59,8 +47,41 @@ def read(source: Source) -> tuple[list[Component], dict]:
     }
 
 
-def _azimuth(label: str, place: str) -> float | None:
-    """Azimuth of the longitudinal (L) or transverse (T) component: the 4th and 5th number after the word station."""
-    numbers = re.findall(r"[+-]?(?:\d+\.?\d*|\.\d+)", re.split(r"station", place, flags=re.IGNORECASE)[-1])
-    index = {"L": 3, "T": 4}.get(label.strip().upper())
-    return float(numbers[index]) % 360.0 if index is not None and len(numbers) > index else None
+def _component(lines: list[str], start: int, file: str) -> tuple[Component, int]:
+    text = lines[start : start + TEXT_LINES]
+    data = start + HEADER_LINES
+    if data >= len(lines):
+        raise InputError(
+            f"{file}, line {start + 1}: the channel that begins here ends within its header; fetch it again."
+        )
+    count = points(text, file, start)
+    total = length(text)
+    if total is None or printed(total)[0] <= 0.0:
+        raise InputError(f"{file}, below line {start + 1}: expected the length of the record in s; fetch it again.")
+    label = text[4].strip()
+    again = re.match(r"\s*comp\s+([a-z]+)", text[6], re.IGNORECASE)
+    if again is not None and again.group(1).upper() != label.upper():
+        raise InputError(
+            f"{file}, lines {start + 5} and {start + 7}: the component is {label!r} and {again.group(1)!r}; {CUT}."
+        )
+    dt = check_step(_step(printed(total)[0], count, number_in(lines[start + RATE_LINE])), file, start + 11)
+    check_length(count, dt, total, file, start + 11)
+    end = channel_end(lines, data, file)
+    values = read_numbers(lines[data:end], data, file, "accelerations", count=count, width=13)
+    component = Component(values, dt, label)
+    component.metadata["unit"], size = unit(text, "g/10", file, start)
+    component.values = values * size
+    component = oriented(component)
+    if not component.vertical and (found := _AZIMUTHS.search(text[7])) and label.upper() in ("L", "T"):
+        component.azimuth = float(found[label.lower()]) % 360.0
+    return component, end + 1
+
+
+def _step(total: float, count: int, rate: float | None) -> float:
+    """Step from the length, which runs to the last sample or a step beyond it, and the rate where it is stated."""
+    candidates = (total / (count - 1), total / count)
+    if rate is not None and rate > 0.0:
+        near = min(candidates, key=lambda dt: abs(dt * rate - 1.0))
+        return 1.0 / rate if abs(near * rate - 1.0) < 1e-3 else near
+    # The one that is a short decimal: 0.005 s, not 0.0050005 s.
+    return min(candidates, key=lambda dt: abs(dt - float(f"{dt:.2g}")) / dt)

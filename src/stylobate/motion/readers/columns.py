@@ -7,15 +7,17 @@ import re
 import numpy as np
 
 from ...errors import InputError
+from ..motion import Motion
 from ..specs import TIME_UNITS, acceleration_unit
-from .numbers import PIECE, count_numbers, read_numbers
-from .record import Component, UnstatedError
+from .checks import CUT, check_length, check_peak, check_same_step
+from .comments import Stated, stated
+from .record import Component, UnstatedError, oriented
 from .source import Source
 from .steps import ROUNDING_SHARE, first_bad_step, step_of
+from .tables import number_rows, read_series, read_table
 
 #: Lines of text that may stand above the numbers.
 MAX_TITLE_LINES = 60
-COLUMNS = "columns of numbers"
 _COMMENT = ("#", "%", "!", "//", ";", "*", "'", '"#')
 _FIELD = re.compile(r"""["']?\s*(?P<name>[^()\[\]"']*?)\s*(?:[(\[]\s*(?P<unit>[^)\]]*)\s*[)\]])?\s*["']?""")
 _AXES = {"ax": "x", "ay": "y", "az": "z", "a": "x", "acc": "x", "accel": "x", "acceleration": "x"}
@@ -44,8 +46,10 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     titles = [line.strip() for line in lines[:start] if line.strip()]
     comments = _comments(titles)
     names = _column_names(lines, start)
-    rows, first = _rows(lines, start)
-    table = _table(rows, first, source.name)
+    rows, first = number_rows(lines, start)
+    said = stated(_free(titles, names), source.name) if names is None else Stated()
+    series = None if names is not None else read_series(rows, first, source.name, said)
+    table = read_table(rows, first, source.name) if series is None else series
     columns = table.shape[1]
     if len(table) < 2:
         raise InputError(f"{source.name}, line {first + 1}: one row of numbers; give one row per time, at least two.")
@@ -55,7 +59,7 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
             "one per name."
         )
     if names is None:
-        components, time, unit_found = _bare(table, source.name, unit, dt)
+        components, time, unit_found = _bare(table, source.name, unit, dt, said)
     else:
         components, time, unit_found = _named(table, names, source.name, unit)
     if time is not None:
@@ -63,6 +67,12 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     elif "dt_s" in comments:
         for one in components:
             one.dt = _comment_number(comments, "dt_s", source.name)
+    elif said.step is not None:
+        for one in components:
+            one.dt = said.step
+    _check(components, said, source.name, first)
+    if "sha256" in comments:
+        _check_digest(components, comments["sha256"], source.name)
     for axis, one in zip("xyz", components):
         if f"azimuth_{axis}_deg" in comments:
             one.azimuth = _comment_number(comments, f"azimuth_{axis}_deg", source.name)
@@ -75,6 +85,38 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     if time is not None and abs(time[0]) > 0.0:
         facts["first_time"] = float(time[0])
     return components, facts
+
+
+def _free(titles: list[str], names: object) -> list[str]:
+    """Lines that may speak of the columns: not those of our own that say what was done."""
+    return [line for line in titles if not re.match(r"#\s*(processing \d+|name|event|station|terms)\s*:", line)]
+
+
+def _check(components: list[Component], said: Stated, file: str, first: int) -> None:
+    """Count, step, length and peaks that the lines above the numbers state are those of the numbers."""
+    count = len(components[0].values)
+    if said.count is not None and said.count != count:
+        raise InputError(f"{file}: the lines above the numbers promise {said.count} samples, {count} are there; {CUT}.")
+    dt = components[0].dt
+    if np.isfinite(dt):
+        if said.step is not None:
+            check_same_step(said.step, dt, file, first)
+        check_length(count, dt, said.length, file, first)
+    _, size = acceleration_unit(said.unit or "m/s2")
+    for one in components:
+        high, low = (said.extremes or {}).get(one.label.upper(), (None, None))
+        for extreme, value in ((high, one.values.max()), (low, one.values.min())):
+            check_peak(np.array([value]), extreme, size, file, first, wrong=0.05)
+
+
+def _check_digest(components: list[Component], written: str, file: str) -> None:
+    parts = {one.label: one.values for one in components}
+    found = Motion(components[0].dt, parts["x"], parts.get("y"), parts.get("z")).digest
+    if found != written:
+        raise InputError(
+            f"{file}: the numbers are not those that were written with the line '# sha256: …'; fetch the file again, or "
+            "remove that line if you changed them."
+        )
 
 
 def _first_row(lines: list[str]) -> int | None:
@@ -130,56 +172,6 @@ def _column_name(field: str) -> tuple[str, str | None]:
     return name, unit
 
 
-def _rows(lines: list[str], start: int) -> tuple[list[str], int]:
-    """Lines of numbers, with the separators made blanks and decimal commas made points."""
-    rows = lines[start:]
-    sample = rows[0]
-    if ";" in sample or "," in sample:
-        text = "\n".join(rows)
-        if ";" in sample:
-            decimal_comma = "," in sample and "." not in sample
-            text = text.replace(";", " ").replace(",", "." if decimal_comma else ",")
-        else:
-            text = text.replace(",", " ")
-        rows = text.split("\n")
-    return rows, start
-
-
-def _table(rows: list[str], first: int, file: str) -> np.ndarray:
-    """Numbers as a table, shape (rows, columns); blank and comment lines are skipped."""
-    kept = [(i, row) for i, row in enumerate(rows) if row.strip() and not row.lstrip().startswith(("#", "%"))]
-    texts = [row for _, row in kept]
-    try:
-        table = np.loadtxt(texts, dtype=np.float64, comments=None, ndmin=2)
-        if np.isfinite(table).all():
-            return table
-    except ValueError:  # numbers that touch, exponents of Fortran, or a line to be named
-        pass
-    columns = len(read_numbers(texts[:1], first, file, "the first row"))
-    values = _parts(kept, texts, first, file)
-    counts = [count_numbers(row) for row in texts]
-    for (index, _), found in zip(kept, counts):
-        if found != columns:
-            raise InputError(
-                f"{file}, line {first + index + 1}: {found} numbers where the rows above have {columns}; "
-                "every row needs the same columns."
-            )
-    return values.reshape(-1, columns)
-
-
-def _parts(kept: list[tuple[int, str]], texts: list[str], first: int, file: str) -> np.ndarray:
-    """All numbers in a row; a line that holds none is named as the file counts it."""
-    found = []
-    for start in range(0, len(texts), PIECE):
-        try:
-            found.append(read_numbers(texts[start : start + PIECE], first, file, COLUMNS))
-        except InputError:
-            for index, row in kept[start : start + PIECE]:
-                read_numbers([row], first + index, file, COLUMNS)
-            raise
-    return np.concatenate(found)
-
-
 def _named(
     table: np.ndarray, names: list[tuple[str, str | None]], file: str, unit: str | None
 ) -> tuple[list[Component], np.ndarray | None, str]:
@@ -211,28 +203,58 @@ def _named(
 
 
 def _bare(
-    table: np.ndarray, file: str, unit: str | None, dt: float | None
+    table: np.ndarray, file: str, unit: str | None, dt: float | None, said: Stated
 ) -> tuple[list[Component], np.ndarray | None, str]:
-    """Numbers without column names: time, then x, y, z; the time is known by its growth."""
+    """Numbers without column names: as the lines above them say, else time, then x, y, z; time is known by its growth."""
     columns = table.shape[1]
     grows = columns > 1 and bool((np.diff(table[:, 0]) >= 0.0).all()) and table[-1, 0] > table[0, 0]
-    time = table[:, 0] if grows else None
-    values = table[:, 1:] if time is not None else table
-    if values.shape[1] > 3:
-        raise InputError(
-            f"{file} has rows of {columns} numbers without column names, and no format that is known here; give one "
-            "column of acceleration, or time and up to three components, or a header such as time_s,ax_g."
-        )
-    if unit is None:
+    order = _order(said, columns, grows, file)
+    if order is None:
+        labels = [("time", 1.0)] * grows + [(axis, 1.0) for axis in "xyz"]
+        if columns > len(labels):
+            raise InputError(
+                f"{file} has rows of {columns} numbers without column names, and no format that is known here; give "
+                "one column of acceleration, or time and up to three components, or a header such as time_s,ax_g."
+            )
+        order = tuple(labels[:columns])
+    if unit is None and said.unit is None:
         raise UnstatedError(_no_unit(file))
-    label, size = acceleration_unit(unit)
-    if time is None and dt is None:
+    label, size = acceleration_unit(unit or said.unit or "")
+    if unit is not None and said.unit is not None and acceleration_unit(said.unit)[1] != size:
+        raise InputError(f"{file}: the line {said.unit_line!r} says {said.unit}, but unit is given as {unit!r}.")
+    time = next((table[:, i] for i, (name, _) in enumerate(order) if name == "time"), None)
+    if time is None and dt is None and said.step is None:
         raise UnstatedError(f"{file} has no time column; state the step: dt=0.01 (--dt 0.01s).")
-    axes = "xyz"[: values.shape[1]]
-    return (
-        [Component(_scaled(values[:, i], size), np.nan, axis, vertical=axis == "z") for i, axis in enumerate(axes)],
-        time,
-        label,
+    components = []
+    for i, (name, sign) in enumerate(order):
+        if name == "time":
+            continue
+        one = Component(_scaled(table[:, i], size * sign), np.nan, name.lower() if name in ("X", "Y") else name)
+        if said.order is None:
+            one.vertical = name == "z"
+        else:
+            one = oriented(one)
+        if sign < 0.0:
+            one.processing.insert(0, "sign turned, as the line that names the columns says (-)")
+        components.append(one)
+    return components, time, label
+
+
+def _order(said: Stated, columns: int, grows: bool, file: str) -> tuple[tuple[str, float], ...] | None:
+    """Labels of the columns as a line names them; a line that does not fit the numbers is refused."""
+    order = said.order
+    if order is None:
+        return None
+    timed = any(name == "time" for name, _ in order)
+    if len(order) == columns and timed == (grows or timed):
+        return order
+    if len(order) == columns - 1 and not timed and grows:
+        return (("time", 1.0), *order)
+    if len(order) == 2 and not timed:  # two words of a title, not columns
+        return None
+    raise InputError(
+        f"{file}: the line {said.order_line!r} names {len(order)} columns ({', '.join(name for name, _ in order)}), the "
+        f"rows hold {columns} numbers; write the columns under a header such as time_s,ax_g."
     )
 
 

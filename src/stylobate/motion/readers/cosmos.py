@@ -13,8 +13,9 @@ import numpy as np
 from ...constants import g
 from ...errors import InputError
 from ..specs import acceleration_unit
-from .numbers import fortran_width, read_numbers
-from .record import Component, check_count, direction, oriented
+from .checks import CUT, check_ended, check_length, check_peak, check_peak_time, check_step
+from .numbers import NUMBER, fortran_width, read_numbers
+from .record import Component, check_count, check_direction, direction, oriented
 from .source import Source
 
 _HEADER = re.compile(
@@ -28,6 +29,11 @@ _BLOCK = re.compile(
 )
 _END = re.compile(r"^\s*(?:/&|end-of-data)", re.IGNORECASE)
 _CHANNEL = re.compile(r"^\s*sta\s+cha\w*[\s:]*[^\s:]*\s*:\s*(?P<label>.*?)\s*(?:\(|location|$)", re.IGNORECASE)
+_LENGTH = re.compile(rf"record length\s*=\s*(?P<length>{NUMBER})\s*sec", re.IGNORECASE)
+_PEAK = re.compile(
+    rf"(?<!uncor )\bmax\s*=\s*(?P<peak>{NUMBER})\s*(?P<unit>[a-z][a-z/0-9]*)\s*,?\s*at\s+(?P<time>{NUMBER})\s*sec",
+    re.IGNORECASE,
+)
 _SCNL = re.compile(r"<SCNL>\s*(?P<station>[^.\s]*)\.(?P<channel>[^.\s]*)\.(?P<network>[^.\s]*)", re.IGNORECASE)
 _STATION = re.compile(r"code:\s*(?P<network>[^-\s]+)-(?P<station>\S+)\s*(?P<name>.*?)\s*$", re.IGNORECASE)
 _UNKNOWN = -999.0
@@ -85,6 +91,7 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
             f"{file}, line {at + 1}: the block holds {block['what'].strip()!r}, not acceleration; "
             "give the file of accelerations."
         )
+    check_ended(end < len(lines), file, end, "End-of-data")
     count = check_count(float(block["count"]), file, at + 1)
     width = fortran_width(lines[at])
     values = read_numbers(lines[at + 1 : stop], at + 1, file, "accelerations", count=count, width=width)
@@ -92,8 +99,44 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
     component.metadata = _facts(text, comments)
     component.label = _label(text, comments, integers)
     stage = {0: "raw counts", 1: "uncorrected", 2: "corrected", 3: "spectra"}.get(int(integers[0]), "not stated")
+    if "count" in block["unit"].lower():
+        _check_counts(values, reals, component.dt, file, start)
     _scale(component, block["unit"].strip(), reals, file, at)
-    return oriented(component), stage, end + 1
+    _check(component, text, reals, stage, file, start)
+    component = oriented(component)
+    check_direction(component, float(integers[53]), file, start + 1)
+    return component, stage, end + 1
+
+
+def _check(component: Component, text: list[str], reals: np.ndarray, stage: str, file: str, start: int) -> None:
+    """Length, step and peak as the header states them: real 63 the length, 64 the peak, 65 its time; text lines too."""
+    count, dt = len(component.values), component.dt
+    if reals[62] > 0.0:
+        check_length(count, dt, float(reals[62]), file, start + 1)
+    if stage == "corrected":
+        for number, line in enumerate(text, start + 1):
+            if found := _PEAK.search(line):
+                check_peak(component.values, found["peak"], acceleration_unit(found["unit"])[1], file, number)
+                check_peak_time(component.values, dt, found["time"], file, number)
+    else:
+        lengths = [found["length"] for line in text if (found := _LENGTH.search(line))]
+        check_length(count, dt, lengths[0] if lengths else None, file, start + 1)
+    if reals[63] != _UNKNOWN and component.metadata["unit"] != "counts":
+        check_peak(component.values, float(reals[63]), component.metadata["m_s2"], file, start + 1)
+        check_peak_time(component.values, dt, float(reals[64]), file, start + 1)
+
+
+def _check_counts(values: np.ndarray, reals: np.ndarray, dt: float, file: str, start: int) -> None:
+    """Raw counts: the largest one (real 64), its time (65) and the mean that was taken off (66)."""
+    if reals[63] not in (_UNKNOWN, 0.0):
+        check_peak(values, float(reals[63]), 1.0, file, start + 1, wrong=0.0, what="largest count")
+        check_peak_time(values, dt, float(reals[64]), file, start + 1)
+    stated, mean = float(reals[65]), float(values.mean())
+    if stated not in (_UNKNOWN, 0.0) and min(abs(mean + stated), abs(mean - stated)) > 1e-4:
+        raise InputError(
+            f"{file}, line {start + 1}: the header states a mean of {-stated:g} counts (real 66), the samples hold "
+            f"{mean:.6f}; {CUT}."
+        )
 
 
 def _numbers(lines: list[str], start: int, kind: str, file: str) -> tuple[int, np.ndarray]:
@@ -117,22 +160,22 @@ def _numbers(lines: list[str], start: int, kind: str, file: str) -> tuple[int, n
 def _step(reals: np.ndarray, length: float, count: int, file: str, line: int) -> float:
     """Step of the samples: real 62, in milliseconds; the one of real 34 is the recorder's."""
     if reals[61] > 0.0:
-        dt = float(reals[61]) / 1000.0
+        dt = check_step(float(reals[61]) / 1000.0, file, line + 1)
         if length > 0.0 and abs(count * dt - length) > max(2.0, 0.02 * length):
             raise InputError(
                 f"{file}, line {line + 1}: {count} samples in about {length:g} s disagree with the step of {dt:g} "
-                "s in the "
-                "header (real 62); fetch the file again, or convert it to columns."
+                f"s in the header (real 62); {CUT}."
             )
         return dt
     if length > 0.0:
-        return length / count
+        return check_step(length / count, file, line + 1)
     raise InputError(f"{file}, line {line + 1}: no step between the samples is stated; convert the file to columns.")
 
 
 def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: int) -> None:
     if "count" not in unit.lower():
         component.metadata["unit"], size = acceleration_unit(unit)
+        component.metadata["m_s2"] = size
         component.values = component.values * size
         return
     microvolt, sensitivity, gain = (float(reals[i]) for i in (21, 41, 46))  # reals 22, 42 and 47

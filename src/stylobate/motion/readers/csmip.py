@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 
-import numpy as np
-
 from ...errors import InputError
 from ..specs import acceleration_unit
-from .numbers import fortran_width, read_numbers
-from .record import Component, check_count, oriented
+from .checks import check_ended, check_length, check_peak, check_peak_time, check_same_step, check_step, warn_of_missing
+from .numbers import NUMBER, fortran_width, read_numbers
+from .record import Component, check_count, check_direction, oriented
 from .source import Source
+from .volume1 import pairs
 
 _BLOCK = re.compile(
     r"^\s*(?P<count>\d+)\s+(?:points\s+of\s+)?(?P<what>accel|veloc|displ)\w*\.?\s+(?:points|pts|data)", re.IGNORECASE
@@ -22,7 +22,15 @@ _BLOCK = re.compile(
 _UNITS = re.compile(r"units?\s*(?::|of\s+uncor\s+\w+\s+are\s+sec\s+and|of)\s*(?P<unit>[a-z][a-z/0-9]*)", re.IGNORECASE)
 _IN_UNITS = re.compile(r"\bsec(?:onds?)?,\s+in\s+(?P<unit>[a-z][a-z/0-9]*)", re.IGNORECASE)
 _CHANNEL = re.compile(r"^\s*chan(?:nel)?\.?\s*\d+\s*:\s*(?P<label>.*?)\s*$", re.IGNORECASE)
-_POINTS = re.compile(r"no\.\s+of\s+points\s*=\s*(?P<count>\d+)", re.IGNORECASE)
+_PEAK = re.compile(
+    rf"(?:peak\s+(?P<what>acceleration|velocity|displacement)|(?<!uncor )max)\s*=\s*(?P<peak>{NUMBER})\s*"
+    rf"(?P<unit>[a-z][a-z/0-9]*)\s*,?\s*at\s+(?P<time>{NUMBER})\s*sec",
+    re.IGNORECASE,
+)
+_LENGTH = re.compile(rf"record\s+length\s*=\s*(?P<length>{NUMBER})\s*sec", re.IGNORECASE)
+_SPACED = re.compile(rf"equally-spaced\s+intervals\s+of\s+(?P<step>{NUMBER})\s+sec", re.IGNORECASE)
+_CHANNELS = re.compile(r"\(\s*(?P<count>\d+)\s+chns\b", re.IGNORECASE)
+_POINTS = re.compile(r"no\.\s+of\s+points\s*=\s*(?P<count>\d+)(?![\w.])", re.IGNORECASE)
 _STATION = re.compile(r"station\s+(?:no|id)\.?\s*(?P<code>\S+)", re.IGNORECASE)
 _START = re.compile(r"(?:trigger|start)\s+time:\s*(?P<time>.*?)\s*$", re.IGNORECASE)
 _STEP = re.compile(r"spaced\s+at\s+(?P<step>[\d.]+)\s+sec", re.IGNORECASE)
@@ -43,6 +51,7 @@ def recognises(source: Source) -> bool:
         re.match(r"(un)?corrected accelerogram", first)
         and re.search(r"^\s*chan(nel)?\.?\s*\d+\s*:", source.head, re.MULTILINE)
         and "usc" not in first.split("\n")[0]
+        and "renadic" not in source.head
     )
 
 
@@ -53,12 +62,15 @@ def read(source: Source) -> tuple[list[Component], dict]:
     components = []
     start = 0
     facts: dict = {}
-    for end in [i for i, line in enumerate(lines) if line.lstrip().startswith("/&")] + [len(lines)]:
+    marks = [i for i, line in enumerate(lines) if line.lstrip().startswith("/&")]
+    for end in [*marks, len(lines)]:
         if any(line.strip() for line in lines[start:end]):
             component = _channel(lines, start, end, volume, source.name)
+            check_ended(end < len(lines), source.name, end, "/&")
             components.append(component)
             facts = facts or component.metadata
         start = end + 1
+    warn_of_missing(len(components), _channel_count(lines, volume), source.name)
     keep = ("station", "station_name", "event", "start_time")
     return components, {
         "format": f"CSMIP V{volume}",
@@ -84,9 +96,42 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
         component = _pairs(lines, first, end, text, file)
     else:
         component = _samples(lines, block, end, text, file)
+        for line in (*text, *lines[block:end]):
+            if (found := _SPACED.search(line[:WIDTH])) or (found := _STEP.search(line[:WIDTH])):
+                check_same_step(component.dt, float(found["step"].rstrip(".")), file, block + 1)
+        if found := next((found for line in text if (found := _LENGTH.search(line))), None):
+            check_length(len(component.values), component.dt, found["length"], file, start + text_lines)
+    _check_peak(component, text, start, file)
     component.label = label
     component.metadata |= facts
-    return oriented(component)
+    component = oriented(component)
+    integers = read_numbers(
+        lines[start + text_lines : start + text_lines + integer_lines],
+        start + text_lines,
+        file,
+        "header integers",
+        count=100,
+        width=5,
+    )
+    check_direction(component, float(integers[26]), file, start + text_lines + 2)
+    return component
+
+
+def _channel_count(lines: list[str], volume: int) -> int | None:
+    """Channels of the record, as the first header says."""
+    text = lines[: HEADER_LINES[volume][0]]
+    return next((int(found["count"]) for line in text if (found := _CHANNELS.search(line))), None)
+
+
+def _check_peak(component: Component, text: list[str], start: int, file: str) -> None:
+    for i, line in enumerate(text):
+        found = _PEAK.search(line)
+        if found is None or (found["what"] or "acceleration").lower() != "acceleration":
+            continue
+        size = acceleration_unit(found["unit"].rstrip("."))[1]
+        check_peak(component.values, found["peak"], size, file, start + i + 1)
+        if component.time is None:
+            check_peak_time(component.values, component.dt, found["time"], file, start + i + 1)
 
 
 def _samples(lines: list[str], block: int, end: int, text: list[str], file: str) -> Component:
@@ -105,24 +150,31 @@ def _samples(lines: list[str], block: int, end: int, text: list[str], file: str)
         lines[block + 1 : following], block + 1, file, "accelerations", count=count, width=fortran_width(header)
     )
     unit, size = _unit([header, *text], file, block)
-    return Component(values * size, _step([header, *text], file, block), metadata={"unit": unit})
+    _check_blocks(lines, following, end, file)
+    dt = check_step(_step([header, *text], file, block), file, block + 1)
+    return Component(values * size, dt, metadata={"unit": unit})
+
+
+def _check_blocks(lines: list[str], following: int, end: int, file: str) -> None:
+    """The blocks of velocity and displacement hold as many numbers as they promise."""
+    starts = [i for i in range(following, end) if _BLOCK.match(lines[i][:WIDTH])]
+    for i, stop in zip(starts, [*starts[1:], end]):
+        found = _BLOCK.match(lines[i][:WIDTH])
+        assert found is not None
+        count = check_count(float(found["count"]), file, i + 1)
+        what = {"veloc": "velocities", "displ": "displacements"}.get(found["what"].lower(), "accelerations")
+        read_numbers(lines[i + 1 : stop], i + 1, file, what, count=count, width=fortran_width(lines[i]))
 
 
 def _pairs(lines: list[str], first: int, end: int, text: list[str], file: str) -> Component:
     """Pairs of time and acceleration, as digitised from film at unequal steps."""
     stated = next((float(found["count"]) for line in text if (found := _POINTS.search(line))), None)
     count = check_count(stated, file, first)
-    numbers = read_numbers(
-        lines[first:end], first, file, "pairs of time and acceleration", count=2 * count, width=7
-    ).reshape(-1, 2)
-    unit, size = _unit(text, file, first)
-    time = numbers[:, 0].copy()
-    if (np.diff(time) < 0.0).any():
-        bad = int(np.flatnonzero(np.diff(time) < 0.0)[0]) + 1
-        raise InputError(
-            f"{file}, below line {first + 1}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it."
-        )
-    return Component(numbers[:, 1] * size, np.nan, time=time, metadata={"unit": unit})
+    total = next((found["length"] for line in text if (found := _LENGTH.search(line))), None)
+    component = pairs(lines, first, end, count, file, width=7, total=total)
+    component.metadata["unit"], size = _unit(text, file, first)
+    component.values = component.values * size
+    return component
 
 
 def _unit(texts: list[str], file: str, line: int) -> tuple[str, float]:

@@ -1,51 +1,143 @@
-"""Europe's Engineering Strong-Motion database and Italy's ITACA: ASCII with a DYNA header, one component each.
+"""One component under lines ``Key : value``: Europe's ESM and Italy's ITACA (DYNA headers), and their predecessors.
 
-The Turkish network publishes its recent records with the same header.
+The Turkish network publishes its recent records with the header of ESM. Files of the European strong-motion CD-ROMs and
+of the first ITACA (``.cor``, ``.cor.acc``) name the same things in other words.
 """
 
 from __future__ import annotations
 
+import re
+
+import numpy as np
+
 from ...errors import InputError
 from ..specs import acceleration_unit
-from .keyed import is_numeric, keyed, number_of
-from .numbers import read_numbers
+from .checks import CUT, check_length, check_peak, check_peak_time, check_step
+from .keyed import is_numeric
+from .numbers import number_in, read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
 
+#: How the keys begin, after ``_`` has become a blank.
+_KEYS = {
+    "count": re.compile(r"n ?data\b|npts\b|(total )?(number|no\.?|num\.?) of (data|samples|points)\b"),
+    "step": re.compile(r"(sampling|sample|time) (interval|period|step)\b|delta t\b|dt\b"),
+    "rate": re.compile(r"(sampling|sample) (rate|frequency)\b"),
+    "unit": re.compile(r"units?\b"),
+    "label": re.compile(r"stream\b|component\b|channel\b|orientation\b"),
+    "length": re.compile(r"duration\b|(record )?length\b"),
+    "peak": re.compile(r"pga\b|peak (ground )?acceleration\b"),
+    "peak time": re.compile(r"time pga\b|time of (pga|peak)"),
+    "type": re.compile(r"data type\b"),
+}
+#: Of Italy's older headers: west-east is positive to the east.
+_TO_EAST = {"WE": "EW", "W-E": "E-W"}
+#: Width of the numbers in the older files, five to a line.
+WIDTH = 14
+
 
 def recognises(source: Source) -> bool:
-    """Whether the header carries the keys of the format."""
-    return "sampling_interval_s" in source.head and "ndata:" in source.head.replace(" ", "")
+    """Whether lines ``Key : value`` at the beginning name a number of samples and their step."""
+    lines = source.head.split("\n")
+    keys = [_key(line) for line in lines if ":" in line and not line.startswith("#")]
+    return (
+        len(keys) >= 4
+        and ":" in next((line for line in lines if line.strip()), "")
+        and any(_KEYS["count"].match(key) for key in keys)
+        and any(_KEYS["step"].match(key) or _KEYS["rate"].match(key) for key in keys)
+    )
 
 
 def read(source: Source) -> tuple[list[Component], dict]:
     """The component and what the header says."""
     lines, file = source.lines, source.name
     start = next((i for i, line in enumerate(lines) if is_numeric(line)), len(lines))
-    header = keyed(lines[:start])
-    text = {key: value for key, (value, _) in header.items()}
-    if text.get("data_type", "ACCELERATION").upper() not in ("ACCELERATION", ""):
-        raise InputError(
-            f"{file}, line {header['data_type'][1]}: data_type is {text['data_type']}; give the file of accelerations."
-        )
-    if not text.get("units"):
-        raise InputError(f"{file}: the header states no UNITS; add them, as in UNITS: cm/s^2.")
-    unit, size = acceleration_unit(text["units"])
-    dt, _ = number_of(header, "sampling_interval_s", file)
-    stated, line = number_of(header, "ndata", file)
-    count = check_count(stated, file, line)
-    values = read_numbers(lines[start:], start, file, "accelerations", count=count)
-    label = text.get("stream", "") or text.get("component", "")
+    text: dict[str, tuple[str, int]] = {}
+    for number, line in enumerate(lines[:start], 1):
+        key, colon, value = line.partition(":")
+        if colon and key.strip():
+            text.setdefault(_key(key), (value.strip(), number))
+    found = {name: _find(text, pattern) for name, pattern in _KEYS.items()}
+    kind, line = found["type"]
+    if kind and ("ACCELERATION" not in kind.upper() or "SPECTRUM" in kind.upper()):
+        raise InputError(f"{file}, line {line}: data_type is {kind}; give the file of accelerations.")
+    unit, size = _unit(found["unit"], file)
+    count = check_count(_number(found["count"], "NDATA", file), file, found["count"][1])
+    if found["step"][0]:
+        dt = check_step(_number(found["step"], "SAMPLING_INTERVAL", file), file, found["step"][1])
+    else:
+        rate = _number(found["rate"], "SAMPLING RATE", file)
+        dt = check_step(1.0 / rate if rate > 0.0 else None, file, found["rate"][1])
+    values = _values(lines, start, count, file)
+    label = _TO_EAST.get(found["label"][0].upper(), found["label"][0])
     component = oriented(Component(values * size, dt, label, metadata={"unit": unit}))
-    terms = [text[key] for key in ("data_license", "data_citation") if text.get(key) and "NOT PRESENT" not in text[key]]
+    check_length(count, dt, _first_word(found["length"][0]), file, found["length"][1])
+    check_peak(component.values, _first_word(found["peak"][0]), size, file, found["peak"][1])
+    check_peak_time(component.values, dt, _first_word(found["peak time"][0]), file, found["peak time"][1])
+    facts = {key: value for key, (value, _) in text.items() if value}
+    terms = [
+        facts[key] for key in ("data license", "data citation") if key in facts and "NOT PRESENT" not in facts[key]
+    ]
+    dyna = "header format" in text or "database version" in text or "sampling interval s" in text
     return [component], {
-        "format": "ESM / ITACA ASCII (DYNA)",
-        "stage": text.get("processing") or text.get("baseline_correction") or None,
+        "format": "ESM / ITACA ASCII (DYNA)" if dyna else "ESM / ITACA ASCII",
+        "stage": facts.get("processing") or facts.get("baseline correction"),
         "unit": unit,
-        "station": text.get("station_code") or None,
-        "station_name": text.get("station_name") or None,
-        "network": text.get("network") or None,
-        "event": text.get("event_name") or text.get("event_id") or None,
-        "start_time": text.get("date_time_first_sample_yyyymmdd_hhmmss") or None,
+        "station": facts.get("station code"),
+        "station_name": facts.get("station name"),
+        "network": facts.get("network"),
+        "event": facts.get("event name") or facts.get("event id") or facts.get("earthquake name"),
+        "start_time": facts.get("date time first sample yyyymmdd hhmmss") or facts.get("time of first sample"),
         "terms": "; ".join(terms) or None,
     }
+
+
+def _values(lines: list[str], start: int, count: int, file: str) -> np.ndarray:
+    """The accelerations; blocks of velocity and displacement may follow, each as long."""
+    end = next((i for i in range(start, len(lines)) if not _is_data(lines[i])), len(lines))
+    values = read_numbers(lines[start:end], start, file, "accelerations", count=count, width=WIDTH)
+    while end < len(lines):
+        if not re.match(r"\s*(->|stop\b|$)", lines[end], re.IGNORECASE):
+            shown = lines[end].strip()[:40]
+            raise InputError(f"{file}, line {end + 1}: expected numbers (accelerations), found {shown!r}; {CUT}.")
+        first = end + 1
+        end = next((i for i in range(first, len(lines)) if not _is_data(lines[i])), len(lines))
+        if end > first:
+            read_numbers(lines[first:end], first, file, "velocities or displacements", count=count, width=WIDTH)
+    return values
+
+
+def _is_data(line: str) -> bool:
+    return bool(line.strip()) and (is_numeric(line) or not re.match(r"\s*(->|stop\b)", line, re.IGNORECASE))
+
+
+def _unit(stated: tuple[str, int], file: str) -> tuple[str, float]:
+    """The first unit of acceleration in the value: ``cm/s^2``, or ``m/s*s, m/s & s`` for three blocks."""
+    value, line = stated
+    if not value:
+        raise InputError(f"{file}: the header states no UNITS; add them, as in UNITS: cm/s^2.")
+    return acceleration_unit(re.split(r"[,;&]", value)[0].strip().replace("/s*s", "/s2").replace("(s*s)", "s2"))
+
+
+def _number(stated: tuple[str, int], key: str, file: str) -> float:
+    value, line = stated
+    number = number_in(value)
+    if number is None:
+        where = f"line {line}" if line else "header"
+        raise InputError(f"{file}, {where}: expected a number after {key!r}, found {value!r}; fetch it again.")
+    return number
+
+
+def _first_word(value: str) -> str | None:
+    """The number that a value begins with, as printed; None where it begins with none."""
+    found = re.match(r"[+-]?[0-9.]+(?:[eEdD][+-]?[0-9]+)?", value.strip())
+    return found.group() if found and number_in(found.group()) is not None else None
+
+
+def _key(line: str) -> str:
+    """``SAMPLING_INTERVAL_S: 0.005`` → ``sampling interval s``."""
+    return " ".join(line.partition(":")[0].lower().replace("_", " ").split())
+
+
+def _find(text: dict[str, tuple[str, int]], pattern: re.Pattern) -> tuple[str, int]:
+    return next((entry for key, entry in text.items() if pattern.match(key) and entry[0]), ("", 0))

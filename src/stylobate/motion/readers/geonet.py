@@ -4,15 +4,33 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
+
 from ...errors import InputError
 from ..specs import acceleration_unit
-from .numbers import read_numbers
-from .record import Component, check_count, oriented
+from .checks import (
+    CUT,
+    check_length,
+    check_peak,
+    check_peak_time,
+    check_same_step,
+    check_step,
+    warn_of_missing,
+)
+from .numbers import NUMBER, read_numbers
+from .record import Component, check_count, check_direction, oriented
 from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 16, 4, 6
 _UNIT = re.compile(r"units\s+of\s+(?P<size>[\d.]+)\s*(?P<unit>[a-z][a-z/0-9]*)", re.IGNORECASE)
-_PEAK = re.compile(r"acceleration:\s+peak\s+[-\d.]+\s*(?P<unit>[a-z][a-z/0-9]*)", re.IGNORECASE)
+_PEAK = re.compile(
+    rf"acceleration:\s+peak\s+(?P<peak>{NUMBER})\s*(?P<unit>[a-z][a-z/0-9]*)(?:\s+at\s+(?P<time>{NUMBER})\s*s)?",
+    re.IGNORECASE,
+)
+_POINTS = re.compile(
+    rf"number\s+of\s+points\s+(?P<count>\d+)(?:\s+duration\s+(?P<length>{NUMBER})\s*s)?", re.IGNORECASE
+)
+_STEP = re.compile(rf"at\s+(?:intervals\s+of\s+)?(?P<step>{NUMBER})\s*s(?:ec)?(?:\s+intervals)?\s*$", re.IGNORECASE)
 _START = re.compile(r"^\s*(un)?corrected\s+accelerogram", re.IGNORECASE)
 
 
@@ -27,6 +45,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     lines, file = source.lines, source.name
     starts = [i for i, line in enumerate(lines) if _START.match(line)]
     components = [_component(lines, a, b, file) for a, b in zip(starts, [*starts[1:], len(lines)])]
+    warn_of_missing(len(components), 3, file)
     first = lines[:TEXT_LINES]
     corrected = not lines[0].lower().lstrip().startswith("un")
     return components, {
@@ -55,11 +74,9 @@ def _component(lines: list[str], start: int, end: int, file: str) -> Component:
     count = check_count(float(integers[33]), file, integers_at + 4)  # accelerations; then velocities, displacements
     rows = -(-count // 10)
     values = read_numbers(lines[first : min(first + rows, end)], first, file, "accelerations", count=count, width=8)
-    dt = float(reals[25])
-    if not dt > 0.0:
-        raise InputError(
-            f"{file}, line {reals_at + 3}: expected the step of the samples, found {dt:g}; fetch it again."
-        )
+    _check_rest(lines, first + rows, end, integers, file)
+    dt = check_step(float(reals[25]), file, reals_at + 3)
+    _check_header(text, start, count, dt, file)
     factor = 1.0
     for line in text:
         if found := _UNIT.search(line) or _PEAK.search(line):
@@ -71,4 +88,41 @@ def _component(lines: list[str], start: int, end: int, file: str) -> Component:
     stated = next((line for line in text if line.lower().startswith("component")), "")
     component = Component(values * (size * factor), dt, " ".join(stated.split()[1:2]))
     component.metadata["unit"] = unit if factor == 1.0 else f"{factor:g} {unit}"
-    return oriented(component)
+    for number, line in enumerate(text, start + 1):
+        if found := _PEAK.search(line):
+            check_peak(component.values, found["peak"], acceleration_unit(found["unit"])[1], file, number)
+            _check_time(component, reals, found["time"], file, number)
+    component = oriented(component)
+    check_direction(component, float(integers[27]), file, integers_at + 3)
+    return component
+
+
+def _check_time(component: Component, reals: np.ndarray, stated: str | None, file: str, line: int) -> None:
+    """The time of the peak counts from the record's first sample, after the padding that real 22 states."""
+    if stated is not None:
+        time = float(stated) + max(0.0, float(reals[21]))
+        check_peak_time(component.values, component.dt, time, file, line)
+
+
+def _check_rest(lines: list[str], at: int, end: int, integers: np.ndarray, file: str) -> None:
+    """Velocities and displacements follow, as many as the header promises, and nothing else."""
+    for stated, what in ((integers[34], "velocities"), (integers[35], "displacements")):
+        if stated <= 0.0:
+            continue
+        count = check_count(float(stated), file, at + 1)
+        rows = -(-count // 10)
+        read_numbers(lines[min(at, end) : min(at + rows, end)], at, file, what, count=count, width=8)
+        at += rows
+    if at < end and any(line.strip() for line in lines[at:end]):
+        raise InputError(f"{file}, line {at + 1}: more follows than the header promises; {CUT}.")
+
+
+def _check_header(text: list[str], start: int, count: int, dt: float, file: str) -> None:
+    """Count, length and step in the text are those of the numbers."""
+    for number, line in enumerate(text, start + 1):
+        if found := _POINTS.search(line):
+            if int(found["count"]) != count:
+                raise InputError(f"{file}, line {number}: {found['count']} points, but {count} further below; {CUT}.")
+            check_length(count, dt, found["length"], file, number)
+        if found := _STEP.search(line):
+            check_same_step(dt, float(found["step"]), file, number)

@@ -6,8 +6,9 @@ import re
 from collections.abc import Sequence
 
 from ...errors import InputError
+from .numbers import number_in
 
-_NUMERIC = re.compile(r"\s*[+-]?(\d|\.\d)[\d\s.eEdD+-]*")
+_NUMERIC = re.compile(r"\s*[+-]?([0-9]|\.[0-9])[0-9\s.eEdD+-]*")
 
 
 def is_numeric(line: str) -> bool:
@@ -34,8 +35,8 @@ def number_of(header: dict[str, tuple[str, int]], key: str, file: str) -> tuple[
         The key is missing, or holds no number.
     """
     value, line = next((entry for name, entry in header.items() if name.startswith(key)), ("", 0))
-    match = re.search(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?", value)
-    if match is None:
+    number = number_in(value)
+    if number is None:
         where = f"line {line}" if line else "header"
         raise InputError(f"{file}, {where}: expected a number after {key.upper()!r}, found {value!r}; fetch it again.")
-    return float(match.group()), line
+    return number, line

@@ -6,11 +6,12 @@ import re
 from datetime import datetime, timedelta
 
 from ...errors import InputError
+from .checks import CUT, check_peak, check_step
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
 
-_KEYS = ("origin time", "station code", "sampling freq", "scale factor", "dir.", "record time", "duration time")
+_KEYS = ("origin time", "station code", "sampling freq", "scale factor", "dir.", "record time", "duration time", "max. acc")
 _SCALE = re.compile(r"(?P<full>[\d.]+)\s*\(\s*gal\s*\)\s*/\s*(?P<counts>[\d.]+)", re.IGNORECASE)
 #: KiK-net numbers its sensors: 1 to 3 at the bottom of the borehole, 4 to 6 at the surface.
 _KIK = {"1": "N-S", "2": "E-W", "3": "U-D", "4": "N-S", "5": "E-W", "6": "U-D"}
@@ -38,18 +39,21 @@ def read(source: Source) -> tuple[list[Component], dict]:
     rate = re.match(r"[\d.]+", header.get("sampling freq", ("", 0))[0])
     if rate is None or float(rate.group()) <= 0.0:
         raise InputError(f"{file}: expected a sampling frequency such as 100Hz in the header; fetch the file again.")
-    frequency = float(rate.group())
+    frequency = 1.0 / check_step(1.0 / float(rate.group()), file, header["sampling freq"][1])
     counts = read_numbers(lines[start:], start, file, "counts")
     check_count(len(counts), file, start + 1, "counts")
     length = re.match(r"[\d.]+", header.get("duration time", ("", 0))[0])
-    if length is not None and abs(len(counts) - float(length.group()) * frequency) > 1.0 + frequency:
+    # Whole seconds: one that is missing is seen.
+    if length is not None and not 0.0 <= len(counts) / frequency - float(length.group()) < 1.0:
         raise InputError(
-            f"{file}: {len(counts)} counts at {frequency:g} Hz are there, the header promises {length.group()} s; "
-            "the file is cut, fetch it again."
+            f"{file}, line {header['duration time'][1]}: {len(counts)} counts at {frequency:g} Hz last "
+            f"{len(counts) / frequency:g} s, the header promises {length.group()} s; {CUT}."
         )
     zero = float(counts.mean())
     raw = header.get("dir.", ("", 0))[0]
     component = oriented(Component((counts - zero) * size, 1.0 / frequency, _KIK.get(str(raw), str(raw))))
+    peak, line = header.get("max. acc", ("", 0))
+    check_peak(component.values, peak or None, 0.01, file, line, wrong=0.1)  # of their own zero level
     component.metadata = {"unit": "counts", "m_s2_per_count": size, "direction_as_found": raw}
     component.processing.insert(
         0, f"counts × {size:.6g} m/s², after the zero level of {zero:.6g} counts (their mean) was taken off"

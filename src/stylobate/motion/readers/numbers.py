@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 
@@ -10,10 +11,14 @@ import numpy as np
 from ...errors import InputError
 
 #: A sign that follows a digit or a point directly begins a new number: Fortran fills its fields to the brim.
-_GLUED = re.compile(r"(?<=[\d.])(?=[+-])")
-_STRANGE = re.compile(r"[^\d\s.eEdD+\-]")
+_GLUED = re.compile(r"(?<=[0-9.])(?=[+-])")
+_STRANGE = re.compile(r"[^0-9\s.eEdD+\-]")
 _FORTRAN = re.compile(r"\(\s*(?:\d*[pP]\s*,?\s*)?(\d*)\s*[feigFEIG](\d+)(?:\.\d+)?(?:[eE]\d+)?\s*\)")
-_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+
+#: A number as headers write it, with the exponents of Fortran too.
+NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eEdD][+-]?[0-9]+)?"
+#: The same, not followed by what would make it another number or a word; seconds and hertz may touch it.
+_FIRST = re.compile(rf"(?<![\w.]){NUMBER}(?=(?:s|sec|hz)\b|(?!\w|\.[0-9]))", re.IGNORECASE)
 
 
 #: Lines that are turned into numbers at once.
@@ -27,10 +32,11 @@ def fortran_width(text: str) -> int | None:
     return width if 1 <= width <= 40 else None
 
 
-def first_number(text: str) -> float | None:
-    """First number in ``text``, or None."""
-    found = _NUMBER.search(text)
-    return float(found.group()) if found else None
+def number_in(text: str) -> float | None:
+    """The first number in ``text``, or None; letters that touch it (``5V``) make it none."""
+    found = _FIRST.search(text)
+    value = float(re.sub(r"[dD]", "e", found.group())) if found else math.nan
+    return value if math.isfinite(value) else None
 
 
 def count_numbers(line: str) -> int:
@@ -111,12 +117,14 @@ def _parse(lines: Sequence[str], width: int | None) -> np.ndarray | None:
             text = "\n".join(piece)
         else:
             text = "\n".join(
-                line[i : i + width].strip().replace(" ", "_")  # a blank inside a field: not laid out as declared
+                line[i : i + width].strip().replace(" ", "?")  # a blank inside a field: not laid out as declared
                 for line in map(str.rstrip, piece)
                 for i in range(0, len(line), width)
             )
+        if _STRANGE.search(text):
+            return None
         found = _floats(text)
-        if found is None and not _STRANGE.search(text):
+        if found is None:
             text = text.replace("D", "e").replace("d", "e")
             found = _floats(_GLUED.sub(" ", text) if width is None else text)
         if found is None:

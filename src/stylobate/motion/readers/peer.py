@@ -6,8 +6,9 @@ import re
 
 from ...errors import InputError
 from ..specs import acceleration_unit
+from .checks import check_length, check_step
 from .keyed import is_numeric
-from .numbers import read_numbers
+from .numbers import NUMBER, number_in, read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
 
@@ -15,15 +16,18 @@ _UNIT = re.compile(
     r"accel\w*\s+time\s+(?:series|history)\s+in\s+units\s+of\s+(?P<unit>[a-z][a-z/0-9^]*)", re.IGNORECASE
 )
 _COUNT = (
-    re.compile(r"npts\s*=\s*(?P<value>\d+)", re.IGNORECASE),
+    re.compile(r"npts\s*=\s*(?P<value>\d+)(?![\w.])", re.IGNORECASE),
     re.compile(r"^\s*(?P<value>\d+)\s+[\d.eE+-]+\s+npts\s*,\s*dt", re.IGNORECASE),
 )
 #: Lines above the numbers, whatever their order.
 HEADER_LINES = 4
 _STEP = (
-    re.compile(r"\bdt\s*=\s*(?P<value>\d*\.?\d+(?:e[+-]?\d+)?)", re.IGNORECASE),
-    re.compile(r"^\s*\d+\s+(?P<value>[\d.eE+-]+)\s+npts\s*,\s*dt", re.IGNORECASE),
+    re.compile(rf"\bdt\s*=\s*(?P<value>{NUMBER})(?=\s|,|s|$)", re.IGNORECASE),
+    re.compile(rf"^\s*\d+\s+(?P<value>{NUMBER})\s+npts\s*,\s*dt", re.IGNORECASE),
 )
+
+
+_LENGTH = re.compile(rf"\bduration\s*=\s*(?P<length>{NUMBER})", re.IGNORECASE)
 
 
 def recognises(source: Source) -> bool:
@@ -43,6 +47,10 @@ def read(source: Source) -> tuple[list[Component], dict]:
     dt = _value(head, _STEP)
     if not dt:
         raise InputError(f"{file}, line {at + 1}: expected the step, as in DT= .0050 SEC; add it.")
+    check_step(dt, file, at + 1)
+    for number, line in enumerate(head, 1):
+        if found := _LENGTH.search(line):
+            check_length(count, dt, found["length"], file, number)
     stated = next((found for line in head if (found := _UNIT.search(line))), None)
     if stated is None:
         raise InputError(
@@ -65,8 +73,5 @@ def _value(head: list[str], patterns: tuple[re.Pattern, ...]) -> float | None:
     for line in head:
         for pattern in patterns:
             if found := pattern.search(line):
-                try:
-                    return float(found["value"])
-                except ValueError:
-                    continue
+                return number_in(found["value"])
     return None

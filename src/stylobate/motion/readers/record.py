@@ -231,6 +231,18 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
             )
 
 
+def check_direction(component: Component, stated: float, file: str, line: int) -> None:
+    """An azimuth in the numbers of a header is that of the label; codes beyond 360 are none."""
+    if component.azimuth is None or not 0.0 < stated <= 360.0:
+        return
+    apart = abs((component.azimuth - stated + 180.0) % 360.0 - 180.0)
+    if apart > 1.0:
+        raise InputError(
+            f"{file}, line {line}: the text states the direction {component.label!r}, the numbers {stated:g}°; "
+            "the file is damaged, fetch it again."
+        )
+
+
 def check_count(count: float | None, file: str, line: int, what: str = "samples") -> int:
     """A number of samples as a header states it, refused when it is impossible."""
     if count is None or not math.isfinite(count) or count != int(count) or not 2 <= count <= MAX_SAMPLES:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import re
 
 from ...errors import InputError
+from .checks import warn_of_missing
 from .record import Component, oriented
 from .source import Source
-from .volume1 import channel_end, pairs, points, unit
+from .volume1 import channel_end, check_stated_peak, length, pairs, points, unit
 
 TEXT_LINES, HEADER_LINES = 13, 27
+_CHANNELS = re.compile(r"\(\s*(?P<count>\d+)\s+chns\b", re.IGNORECASE)
 
 
 def recognises(source: Source) -> bool:
@@ -33,14 +35,17 @@ def read(source: Source) -> tuple[list[Component], dict]:
                 f"{file}, line {start + 1}: the channel that begins here ends within its header; fetch it again."
             )
         count = points(text, file, start)
-        end = channel_end(lines, data)
-        component = pairs(lines, data, end, count, file, width=7)
-        component.metadata["unit"], size = unit(text, "g/10")
+        end = channel_end(lines, data, file)
+        component = pairs(lines, data, end, count, file, width=7, total=length(text))
+        component.metadata["unit"], size = unit(text, "g/10", file, start)
         component.values = component.values * size
+        check_stated_peak(component, text, file, start)
         component.label = re.sub(r"^\W*(comp\w*|chan\w*|canal)\W*(\d+\W+)?", "", text[6].strip(), flags=re.IGNORECASE)
         component.label = component.label.split()[0] if component.label.split() else ""
         components.append(oriented(component))
         start = end + 1
+    stated = next((int(found["count"]) for line in lines[:TEXT_LINES] if (found := _CHANNELS.search(line))), None)
+    warn_of_missing(len(components), None if stated is None else min(stated, 3), file)
     name = lines[5].upper().split("S/N")[0].strip() or None
     return components, {
         "format": "RENADIC V1",

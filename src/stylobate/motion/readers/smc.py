@@ -7,6 +7,7 @@ import re
 import numpy as np
 
 from ...errors import InputError
+from .checks import check_peak, check_peak_time, check_step
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
@@ -48,7 +49,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
             raise InputError(
                 f"{file}, line {at + 1}: expected the sampling rate, found {rate:g}; fetch the file again."
             )
-        component = Component(numbers * 0.01, 1.0 / rate)
+        component = Component(numbers * 0.01, check_step(1.0 / rate, file, at + 1))
     else:
         if stated % 2:
             raise InputError(f"{file}, line {TEXT_LINES + 3}: {stated} values are not pairs of time and acceleration.")
@@ -59,6 +60,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
                 f"{file}, below line {start + 1}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it."
             )
         component = Component(values * 0.01, np.nan, time=time)
+    _check_peaks(component, reals, file, at + 6)
     if left_out:
         component.processing.append(f"{left_out} numbers beyond the {stated} that the header promises were left out")
     component.label = _label(int(integers[12]), int(integers[13]), lines[5])
@@ -75,6 +77,17 @@ def read(source: Source) -> tuple[list[Component], dict]:
         "network": head[7].split("data source =")[-1].strip() if "data source =" in head[7] else None,
         "comments": terms or None,
     }
+
+
+def _check_peaks(component: Component, reals: np.ndarray, file: str, line: int) -> None:
+    """Reals 29 to 32: time and value of the largest and of the smallest acceleration."""
+    for time, peak in (reals[28:30], reals[30:32]):
+        if abs(peak) > 1e6 or abs(time) > 1e6:  # 1.7e38: not stated
+            continue
+        extreme = component.values.max() if peak > 0.0 else component.values.min()
+        check_peak(np.array([extreme]), float(peak), 0.01, file, line)
+        if component.time is None:
+            check_peak_time(np.maximum(component.values * np.sign(peak), 0.0), component.dt, float(time), file, line)
 
 
 def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.ndarray, int]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from ...errors import InputError
+from .checks import check_length, check_step
 from .keyed import is_numeric, keyed
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
@@ -30,6 +31,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     channels = min(len(labels), len(steps), len(counts))
     if channels == 0:
         raise InputError(f"{file}: the header describes no channel (ORIENTACION C1-C6); fetch the file again.")
+    at = header_line(header, "intervalo de muestreo")
+    steps = [check_step(step, file, at) for step in steps]
     last = max(line for _, line in header.values())
     start = next(
         (
@@ -45,6 +48,9 @@ def read(source: Source) -> tuple[list[Component], dict]:
     table = read_numbers(
         lines[start:], start, file, f"rows of {channels} accelerations", count=channels * count
     ).reshape(-1, channels)
+    lengths = _channels(header, "duracion del registro")
+    for count_of, step, length in zip(counts, steps, lengths):
+        check_length(int(count_of), step, length, file, header_line(header, "duracion del registro"))
     components = []
     for i in range(channels):
         one = table[: check_count(counts[i], file, header_line(header, "num. total de muestras")), i]
@@ -65,6 +71,12 @@ def read(source: Source) -> tuple[list[Component], dict]:
 def header_line(header: dict[str, tuple[str, int]], key: str) -> int:
     """Line of the first key that begins so."""
     return next((line for name, (_, line) in header.items() if name.startswith(key)), 0)
+
+
+def _channels(header: dict[str, tuple[str, int]], key: str) -> list[str]:
+    """Values of the channels where they are stated."""
+    value, _ = next((entry for name, entry in header.items() if name.startswith(key)), ("", 0))
+    return [part.strip() for part in value.split("/") if part.strip()]
 
 
 def _list(header: dict[str, tuple[str, int]], key: str, file: str) -> list[str]:

@@ -61,13 +61,13 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
     reals = read_numbers(lines[reals_at : reals_at + 7], reals_at, file, "header reals", count=50, width=10)
     count = check_count(float(integers[27]), file, first + 2)
     data = reals_at + 7
-    end = channel_end(lines, data)
-    component = pairs(lines, data, end, count, file, width=7)
+    end = channel_end(lines, data, file)
+    component = pairs(lines, data, end, count, file, width=7, total=float(reals[2]))
     fraction = float(reals[4])
     if fraction > 0.0:
         size, label = fraction * g, "g/10" if abs(fraction - 0.1) < 1e-9 else f"{fraction:g} g"
     else:
-        label, size = unit(lines[start:first], "g/10")
+        label, size = unit(lines[start:first], "g/10", file, start)
     component.values = component.values * size
     component.metadata["unit"] = label
     code = int(integers[26])

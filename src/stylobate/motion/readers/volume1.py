@@ -1,5 +1,4 @@
-"""What the descendants of Caltech's volume 1 share: blocks of text, integers and reals, then times and "
-"accelerations."""
+"""What the descendants of Caltech's volume 1 share: blocks of text, integers and reals, then times and accelerations."""
 
 from __future__ import annotations
 
@@ -10,13 +9,20 @@ import numpy as np
 
 from ...errors import InputError
 from ..specs import acceleration_unit
-from .numbers import read_numbers
+from .checks import CUT, check_ended, check_peak, check_peak_time, printed
+from .numbers import NUMBER, read_numbers
 from .record import Component, check_count
+from .steps import step_of
 
-_POINTS = re.compile(r"(?:no\.?|num\w*)\s*(?:of)?\s*(?:points|data|samples)\D*?(?P<count>\d+)", re.IGNORECASE)
-_LENGTH = re.compile(r"(?:duration|record\s+length|length)\D*?(?P<length>\d*\.?\d+)\s*sec", re.IGNORECASE)
+_POINTS = re.compile(
+    r"(?:no\.?|num\w*)\s*(?:of)?\s*(?:points|data|samples)[^\w+-]*(?P<count>\d+)(?![\w.])", re.IGNORECASE
+)
+_LENGTH = re.compile(rf"(?:duration|record\s+length|length)\s*[=:]?\s*(?P<length>{NUMBER})(?=\s|s|$)", re.IGNORECASE)
 _UNIT = re.compile(
     r"units?\b.*?\band\s+(?P<unit>[a-z][a-z/0-9]*)|in units of\s+(?P<only>[a-z][a-z/0-9]*)", re.IGNORECASE
+)
+_PEAK = re.compile(
+    rf"\bmax\s*=\s*(?P<peak>{NUMBER})\s*(?P<unit>[a-z][a-z/0-9]*)\s*,?\s*at\s+(?P<time>{NUMBER})\s*sec", re.IGNORECASE
 )
 
 #: A line between two channels.
@@ -33,24 +39,33 @@ def points(text: Sequence[str], file: str, first: int) -> int:
     )
 
 
-def length(text: Sequence[str]) -> float | None:
-    """Length of the record as the text block states it [s]."""
-    return next((float(found["length"]) for line in text if (found := _LENGTH.search(line))), None)
+def length(text: Sequence[str]) -> str | None:
+    """Length of the record as the text block states it [s], as printed."""
+    return next((found["length"] for line in text if (found := _LENGTH.search(line))), None)
 
 
-def unit(text: Sequence[str], otherwise: str) -> tuple[str, float]:
-    """Unit that the text block states, or the one of the format."""
-    for line in text:
+def unit(text: Sequence[str], otherwise: str, file: str, first: int) -> tuple[str, float]:
+    """Unit that the text block states, or the one of the format where it states none."""
+    for number, line in enumerate(text, first + 1):
         if found := _UNIT.search(line):
+            stated = (found["unit"] or found["only"]).rstrip(".")
             try:
-                return acceleration_unit((found["unit"] or found["only"]).rstrip("."))
-            except InputError:
-                continue
+                return acceleration_unit(stated)
+            except InputError as error:
+                raise InputError(f"{file}, line {number}: {error}") from None
     return acceleration_unit(otherwise)
 
 
-def pairs(lines: list[str], first: int, end: int, count: int, file: str, width: int) -> Component:
-    """Pairs of time and acceleration, as digitised from film at unequal steps; values are not scaled yet."""
+def pairs(
+    lines: list[str], first: int, end: int, count: int, file: str, width: int, total: str | float | None = None
+) -> Component:
+    """Pairs of time and acceleration, as digitised from film at unequal steps; values are not scaled yet.
+
+    Parameters
+    ----------
+    total : str or float, optional
+        Length of the record that the header states [s].
+    """
     numbers = read_numbers(
         lines[first:end], first, file, "pairs of time and acceleration", count=2 * count, width=width
     )
@@ -60,9 +75,29 @@ def pairs(lines: list[str], first: int, end: int, count: int, file: str, width: 
         raise InputError(
             f"{file}, below line {first + 1}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it."
         )
-    return Component(values, np.nan, time=time)
+    if total is not None and (stated := printed(total))[0] > 0.0:
+        # Counted from zero or from the first sample, to the last one or a step further.
+        slack = 2.0 * float(np.diff(time).max()) + stated[1]
+        if min(abs(time[-1] - stated[0]), abs(time[-1] - time[0] - stated[0])) > slack:
+            raise InputError(
+                f"{file}, below line {first + 1}: the times run from {time[0]:g} to {time[-1]:g} s, the header states a "
+                f"length of {stated[0]:g} s; {CUT}."
+            )
+    step = step_of(time)
+    return Component(values, np.nan, time=time) if step is None else Component(values, step)
 
 
-def channel_end(lines: list[str], first: int) -> int:
+def check_stated_peak(component: Component, text: Sequence[str], file: str, first: int) -> None:
+    """The peak that the text block states, as in ``MAX = -.353 G, AT 48.355 SEC``, is that of the samples."""
+    for number, line in enumerate(text, first + 1):
+        if (found := _PEAK.search(line)) and not re.search(r"uncor\s+max", line, re.IGNORECASE):
+            check_peak(component.values, found["peak"], acceleration_unit(found["unit"])[1], file, number)
+            if component.time is None:
+                check_peak_time(component.values, component.dt, found["time"], file, number)
+
+
+def channel_end(lines: list[str], first: int, file: str) -> int:
     """Index of the line that ends the samples which begin at ``first``."""
-    return next((i for i in range(first, len(lines)) if re.search(r"[a-df-zA-DF-Z&*/]", lines[i])), len(lines))
+    end = next((i for i in range(first, len(lines)) if re.search(r"[a-df-zA-DF-Z&*/]", lines[i])), len(lines))
+    check_ended(end < len(lines) and END.match(lines[end]) is not None, file, end + 1, "/&")
+    return end

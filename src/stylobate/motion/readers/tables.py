@@ -1,0 +1,79 @@
+"""Rows of numbers as a table: separators, decimal commas, numbers that touch, a series written several to a line."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...errors import InputError
+from .comments import Stated
+from .numbers import PIECE, count_numbers, read_numbers
+
+COLUMNS = "columns of numbers"
+
+
+def number_rows(lines: list[str], start: int) -> tuple[list[str], int]:
+    """Lines of numbers, with the separators made blanks and decimal commas made points."""
+    rows = lines[start:]
+    sample = rows[0]
+    if ";" in sample or "," in sample:
+        text = "\n".join(rows)
+        if ";" in sample:
+            decimal_comma = "," in sample and "." not in sample
+            text = text.replace(";", " ").replace(",", "." if decimal_comma else ",")
+        else:
+            text = text.replace(",", " ")
+        rows = text.split("\n")
+    return rows, start
+
+
+def read_series(rows: list[str], first: int, file: str, said: Stated) -> np.ndarray | None:
+    """One series written several numbers to a line, as a column; known by the stated count or by a shorter last row."""
+    texts = [row for row in rows if row.strip() and not row.lstrip().startswith(("#", "%"))]
+    if len(texts) < 2:
+        return None
+    width, last = count_numbers(texts[0]), count_numbers(texts[-1])
+    total = width * (len(texts) - 1) + last
+    if width < 2 or (said.count != total and (width < 5 or last >= width)):
+        return None
+    if said.order is not None and len(said.order) == width:
+        return None
+    values = read_numbers(texts, first, file, COLUMNS, count=total, width=None)
+    heads = values[::width]
+    if said.count != total and bool((np.diff(heads) > 0.0).all()):  # a table with its times, which was cut
+        return None
+    return values[:, None]
+
+
+def read_table(rows: list[str], first: int, file: str) -> np.ndarray:
+    """Numbers as a table, shape (rows, columns); blank and comment lines are skipped."""
+    kept = [(i, row) for i, row in enumerate(rows) if row.strip() and not row.lstrip().startswith(("#", "%"))]
+    texts = [row for _, row in kept]
+    try:
+        table = np.loadtxt(texts, dtype=np.float64, comments=None, ndmin=2)
+        if np.isfinite(table).all():
+            return table
+    except ValueError:  # numbers that touch, exponents of Fortran, or a line to be named
+        pass
+    columns = len(read_numbers(texts[:1], first, file, "the first row"))
+    values = _parts(kept, texts, first, file)
+    counts = [count_numbers(row) for row in texts]
+    for (index, _), found in zip(kept, counts):
+        if found != columns:
+            raise InputError(
+                f"{file}, line {first + index + 1}: {found} numbers where the rows above have {columns}; "
+                "every row needs the same columns."
+            )
+    return values.reshape(-1, columns)
+
+
+def _parts(kept: list[tuple[int, str]], texts: list[str], first: int, file: str) -> np.ndarray:
+    """All numbers in a row; a line that holds none is named as the file counts it."""
+    found = []
+    for start in range(0, len(texts), PIECE):
+        try:
+            found.append(read_numbers(texts[start : start + PIECE], first, file, COLUMNS))
+        except InputError:
+            for index, row in kept[start : start + PIECE]:
+                read_numbers([row], first + index, file, COLUMNS)
+            raise
+    return np.concatenate(found)
