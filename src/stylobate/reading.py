@@ -32,7 +32,10 @@ def read_bytes(path: str | Path, most: int, remedy: str = "give another file") -
     check_file(path, most, remedy)
     try:
         with Path(path).open("rb") as file:
-            data = file.read(most + 1)  # no more, even of one that grows, or whose size is not told beforehand
+            told = min(os.fstat(file.fileno()).st_size, most)
+            data = file.read(told + 1)  # a buffer of this size: not of the most that is allowed
+            if len(data) > told:  # it grows, or its size is not told beforehand; no more even so
+                data += file.read(most + 1 - len(data))
     except OSError as error:
         raise _unreadable(path, error) from None
     if len(data) > most:

@@ -7,295 +7,13 @@ import warnings
 
 import numpy as np
 import pytest
+from fuzz.record_files import COUNT, DT, FILM, FORMATS, WAVES, cosmos, csmip_v2, esm, geonet, knet, peer_nga
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from records import FOLDER, SHIPPED
 
-from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import MAX_SAMPLES, read_motion
-
-COUNT, DT = 23, 0.01
-WAVES = [
-    np.round(np.sin(np.arange(COUNT) * 0.9 + phase) * size, 3) for phase, size in ((0.0, 1.5), (1.0, -1.2), (2.0, 0.7))
-]
-
-
-def rows(values, per_line, form, glue=""):
-    texts = [form % value for value in values]
-    return "\n".join(glue.join(texts[i : i + per_line]) for i in range(0, len(texts), per_line)) + "\n"
-
-
-def integers(places, lines, per_line, width):
-    values = [places.get(i, 0) for i in range(100 if per_line > 8 else lines * per_line)]
-    return rows(values, per_line, f"%{width}d")
-
-
-# -- one small file per format: name → (text, unit of the numbers in m/s², azimuths, axes) ---------------------------
-
-
-def csmip_v2(end="\n"):
-    text = ""
-    for i, label in enumerate(("90 Deg", "Up", "360 Deg")):
-        count = COUNT - (i == 2)
-        head = [
-            "Corrected accelerogram   12345-A1",
-            "Uncorrected Accelerogram Data   Processed: today",
-            "SMALL EARTHQUAKE",
-        ]
-        head += [
-            "May 2, 1983",
-            "12345-A1   Start time: 05/02/83, 23:42:48 UTC",
-            "Station No. 12345  35.9N, 120.5W",
-            "A PLACE",
-        ]
-        head += [f"Chan  {i + 1}: {label}", *(["line"] * 17)]
-        text += "\n".join(head) + "\n" + integers({}, 7, 16, 5) + rows([0.0] * 100, 8, "%10.3f")
-        for what, unit in (("accel", "cm/sec/sec"), ("veloc", "cm/sec"), ("displ", "cm")):
-            text += f" {count} points of {what} data equally spaced at  .010 sec.  (units: {unit})\n"
-            text += rows(WAVES[i][:count], 8, "%10.3f")
-        text += f"/&  ----------  End of data for channel  {i + 1}  ----------\n"
-    return text.replace("\n", end)
-
-
-def csmip_v1():
-    """Pairs of time and g/10, film steps, numbers that touch."""
-    head = [
-        "UNCORRECTED ACCELEROGRAM DATA   PROCESSED",
-        "SMALL EARTHQUAKE",
-        "date",
-        "A   TRIGGER TIME: 1",
-        "STATION NO. 1",
-    ]
-    head += ["A PLACE", "CHAN  1: N10E", "e", "h", "i", f"NO. OF POINTS = {COUNT}  RECORD LENGTH = 0.22 SEC"]
-    head += ["UNITS OF UNCOR ACCEL ARE SEC AND G/10.  MAX = 1", "rms"]
-    times = 99.9 + DT * np.arange(COUNT) + 0.001 * (np.arange(COUNT) % 3)
-    pairs = np.column_stack([times, WAVES[0]]).ravel()
-    return (
-        "\n".join(head)
-        + "\n"
-        + integers({}, 7, 16, 5)
-        + rows([0.0] * 50, 8, "%10.3f")
-        + rows(pairs, 10, "%7.3f")
-        + "/&\n"
-    )
-
-
-def cosmos(real62=10.0):
-    reals = [-999.0] * 100
-    reals[33], reals[61] = 0.005, real62  # the recorder's step is another one
-    text = "Corrected acceleration  (Format v01.20 with 13 text lines)\nRecord of Small Earthquake\n" + "x\n" * 2
-    text += "Statn No: 01-1 Code:CE-ABC  Net A Place\nCoords: 1 2\nRecorder: x\n"
-    text += "Rcrd start time: 2019/05/05 06:47:39 (Q=5)\n"
-    text += "Sta Chan   1: 340 deg (Rcrdr Chan  1) Location:\n" + "x\n" * 4
-    text += " 100 Integer-header values follow on  10 lines, Format= (10I8)\n" + rows([1] + [-999] * 99, 10, "%8d")
-    text += " 100 Real-header values follow on  20 lines, Format= (5F15.6)\n" + rows(reals, 5, "%15.6f")
-    text += '  1 Comment line(s) follow, each starting with a "|":\n| nothing\n'
-    text += f"   {COUNT} acceleration pts, approx  0 secs, units=cm/sec2(04),Format=(8F10.5)\n" + rows(
-        WAVES[0], 8, "%10.5f"
-    )
-    return text + "End-of-data for channel\n"
-
-
-def smc():
-    ints = [-32768] * 48
-    ints[12], ints[13], ints[15], ints[16] = 90, 65, 2, COUNT
-    reals = [1.7e38] * 50
-    reals[1] = 100.0
-    text = "2 CORRECTED ACCELEROGRAM\n*\nABC\n 1989 10 18 0004 Small, CA\nMoment Mag= 7\n"
-    text += "station = A Place  component=     65\n"
-    text += "epicentral dist = 1\ninst type=SMA-1      data source = USGS\n*\n*\n*\n"
-    text += rows(ints, 8, "%10d") + rows(reals, 5, "%15.7E") + "|\n|a comment\n"
-    return text + "".join("".join(fortran(v) for v in WAVES[0][i : i + 8]) + "\n" for i in range(0, COUNT, 8))
-
-
-def fortran(value):
-    """Ten wide with a one-digit exponent, so that numbers touch: 1p, e10.4e1."""
-    mantissa, exponent = f"{value:.4E}".split("E")
-    return f"{mantissa:>7}E{int(exponent):+d}"
-
-
-def geonet():
-    text = ""
-    for i, label in enumerate(("N10E", "N80W", "Up")):
-        reals = [0.0] * 60
-        reals[24], reals[25] = 0.005, DT
-        ints = [0] * 40
-        ints[33] = COUNT
-        head = [
-            "Uncorrected accelerogram 1_ABC_20 GNS Science",
-            "Site ABC     42 31 24S  172 49 50E",
-            "A Place",
-            "Instrument",
-        ]
-        head += [
-            "Resolution",
-            "Accelerogram",
-            "5 km off",
-            "2016 November 13  11:02:56 UT",
-            "Epicentre",
-            f"Number of points {COUNT}",
-        ]
-        head += [
-            "Raw readings in units of 2.00 mm/s/s  at intervals of 0.010 s",
-            "Data is unfiltered",
-            f"Component {label}",
-        ]
-        head += ["Acceleration:  Peak 1 mm/s/s", "Velocity", "Displacement"]
-        text += "\n".join(head) + "\n" + rows(ints, 10, "%8d") + rows(reals, 10, "%8.3f") + rows(WAVES[i], 10, "%8.3f")
-    return text
-
-
-def usc():
-    text = ""
-    for code, wave in ((90, 0), (500, 2)):
-        reals = [0.0] * 50
-        reals[2], reals[4] = 0.22, 0.1
-        head = [
-            "VOLUME I   OF UNCORRECTED ACCELEROGRAM DATA OF A QUAKE",
-            "SMALL EARTHQUAKE        10",
-            *["x"] * 3,
-            "A PLACE      7",
-            *["x"] * 7,
-        ]
-        pairs = np.column_stack([DT * np.arange(COUNT) + 0.001 * (np.arange(COUNT) % 2), WAVES[wave]]).ravel()
-        text += "\n".join(head) + "\n" + integers({8: 54, 26: code, 27: COUNT}, 7, 16, 5) + rows(reals, 8, "%10.3f")
-        text += rows(pairs, 10, "%7.3f") + "------- END OF RECORD -------\n"
-    return text
-
-
-def peer_nga():
-    text = "PEER NGA STRONG MOTION DATABASE RECORD\nSmall Quake-06, 10/15/1979, A Place, 230\n"
-    text += f"ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   {COUNT}, DT=   .0100 SEC,\n"
-    return text + rows(WAVES[0], 5, "%15.7E")
-
-
-def peer_old():
-    """Lower case, lines in another order, the count before its name."""
-    text = "PACIFIC ENGINEERING AND ANALYSIS STRONG-MOTION DATA\n acceleration time history in units of g\n"
-    text += f" SMALL QUAKE 10/15/79 2319, A PLACE, 230\n npts=  {COUNT}, dt= .01000 sec\n"
-    return text + rows(WAVES[0], 5, "%15.7E")
-
-
-def esm():
-    head = [
-        "EVENT_NAME: SMALL",
-        "NETWORK: IT",
-        "STATION_CODE: ABC",
-        "STATION_NAME: Città",
-        "SAMPLING_INTERVAL_S: 0.010000",
-    ]
-    head += [
-        f"NDATA: {COUNT}",
-        "STREAM: HNE",
-        "UNITS: cm/s^2",
-        "DATA_TYPE: ACCELERATION",
-        "PROCESSING: manual",
-        "DATA_LICENSE: CC BY 4.0",
-    ]
-    return "\n".join(head) + "\n" + rows(WAVES[0], 1, "%.6f")
-
-
-def knet():
-    fields = [("Origin Time", "2003/07/26"), ("Lat.", "38"), ("Long.", "141"), ("Depth. (km)", "12"), ("Mag.", "6.2")]
-    fields += [("Station Code", "MYG007"), ("Station Lat.", "1"), ("Station Long.", "1"), ("Station Height(m)", "1")]
-    fields += [
-        ("Record Time", "2003/07/26 00:13:24"),
-        ("Sampling Freq(Hz)", "100Hz"),
-        ("Duration Time(s)", "0"),
-        ("Dir.", "N-S"),
-    ]
-    fields += [("Scale Factor", "2000(gal)/1000"), ("Max. Acc. (gal)", "3"), ("Last Correction", "x"), ("Memo.", "")]
-    counts = np.round(WAVES[0] * 1000).astype(int) + 5000  # a zero level left in
-    return "".join(f"{key:<18}{value}\n" for key, value in fields) + rows(counts, 8, "%9d")
-
-
-def afad():
-    head = [
-        "STRONG GROUND MOTION RECORDS OF TURKIYE",
-        "PLACE\t:\tA PLACE",
-        "EARTHQUAKE DATE : 17/08/1999 00:01:39 (GMT)",
-    ]
-    head += [
-        "STATION ID : 8101",
-        "RECORD TIME : 17/08/1999",
-        f"NUMBER OF DATA : {COUNT}",
-        "SAMPLING INTERVAL (sec) : 0.01",
-    ]
-    head += ["RAW PGA VALUES (gal): 1 1 1", "", "  N-S   E-W   U-D"]
-    return "\n".join(head) + "\n" + rows(np.column_stack(WAVES).ravel(), 3, "%12.3f")
-
-
-def unam():
-    head = ["RED", "x", "x", "x", "x", "x", "     ARCHIVO ESTANDAR DE ACELERACION", "CLAVE DE LA ESTACION  : ABCD"]
-    head += [
-        "ORIENTACION C1-C6 (rumbo;orientacion)   : /S00E;+L/+V/N90W;+T/",
-        "INTERVALO DE MUESTREO, C1-C6 (s) : /.01/.01/.01/",
-    ]
-    head += [
-        f"NUM. TOTAL DE MUESTRAS, C1-C6 : /{COUNT}/{COUNT}/{COUNT}/",
-        "FECHA DEL SISMO [GMT] : 1985/09/19",
-        "-----",
-    ]
-    head += ["   CANAL-1     CANAL-2     CANAL-3", "   S00E      V       N90W"]
-    return "\n".join(head) + "\n" + rows(np.column_stack([WAVES[0], WAVES[2], WAVES[1]]).ravel(), 3, "%10.3f")
-
-
-def renadic():
-    text = ""
-    for label, wave in (("NS", 0), ("EW", 1), ("Z", 2)):
-        head = [
-            "PROCESSED: 1",
-            "SMALL EARTHQUAKE",
-            "x",
-            "2/27/2010 06:34:11 GMT",
-            "x",
-            "VIÑA DEL MAR   S/N 675",
-            f"CHANNEL: {label}",
-        ]
-        head += [
-            "UNIVERSIDAD DE CHILE - RENADIC",
-            "x",
-            "INSTR PERIOD = 1",
-            f"NO. OF POINTS = {COUNT}  DURATION = 0.22 SEC",
-        ]
-        head += ["UNITS ARE SEC AND G/10", "x"]
-        pairs = np.column_stack([DT * np.arange(COUNT), WAVES[wave]]).ravel()
-        text += (
-            "\n".join(head) + "\n" + integers({}, 7, 16, 5) + rows([0.0] * 50, 8, "%10.3f") + rows(pairs, 10, "%7.3f")
-        )
-        text += f"/&  END OF DATA {label}\n"
-    return text
-
-
-def bhrc():
-    text = ""
-    for label, wave in (("L", 0), ("V", 2), ("T", 1)):
-        head = ["* VOL1DS  REC NO : 3333-01/02", "INSTR = SSA-2", "SMALL QUAKE", "x", label, "x", f"COMP {label}"]
-        head += ["A PLACE   Station 35.1 51.2 1200 L 40 T 130", "x", "PERIOD 0.02 DAMPING 0.7"]
-        head += [f"NO. OF POINTS {COUNT} DURATION 0.22 SEC", "UNITS ARE SEC AND G/10", "x"]
-        text += "\n".join(head) + "\n" + integers({}, 7, 16, 5) + rows([0.0] * 50, 8, "%10.3f")
-        text += rows(WAVES[wave], 10, "%13.5f") + "*END OF RECORD\n"
-    return text
-
-
-# name: text, m/s² per number, label of the format, azimuths of x and y, whether there is a z
-FORMATS = {
-    "csmip_v2": (csmip_v2(), 0.01, "CSMIP V2", (90.0, 0.0), True),
-    "csmip_v1": (csmip_v1(), g / 10, "CSMIP V1", (10.0,), False),
-    "cosmos": (cosmos(), 0.01, "COSMOS 1.20", (340.0,), False),
-    "smc": (smc(), 0.01, "USGS SMC V2", (65.0,), False),
-    "geonet": (geonet(), 0.002, "GeoNet V1A", (10.0, 280.0), True),
-    "usc": (usc(), g / 10, "USC V1", (90.0,), True),
-    "peer_nga": (peer_nga(), g, "PEER AT2", (230.0,), False),
-    "peer_old": (peer_old(), g, "PEER AT2", (230.0,), False),
-    "esm": (esm(), 0.01, "ESM / ITACA ASCII (DYNA)", (90.0,), False),
-    "afad": (afad(), 0.01, "AFAD text", (0.0, 90.0), True),
-    "unam": (unam(), 0.01, "UNAM ASA", (180.0, 270.0), True),
-    "renadic": (renadic(), g / 10, "RENADIC V1", (0.0, 90.0), True),
-    "bhrc": (bhrc(), g / 10, "BHRC V1", (40.0, 130.0), True),
-}
-FILM = ("csmip_v1", "usc")
 
 
 @pytest.fixture
@@ -377,7 +95,7 @@ def test_components_by_number_label_and_azimuth(put):
     path = put(geonet())
     for wanted in (2, "2", "N80W", "280"):
         assert read(path, component=wanted).acceleration == pytest.approx(WAVES[1] * 0.002)
-    with pytest.raises(InputError, match=r"no component '7'; it holds 1 \(N10E\)"):
+    with pytest.raises(InputError, match=r"no component '7'; it holds 1 \(N10E, axis x\)"):
         read(path, component=7)
 
 
@@ -408,7 +126,7 @@ def test_azimuth_that_the_file_does_not_know(put):
         ("usc", "   23", "   29", "promises 58 numbers"),
         ("afad", "DATA : 23", "DATA : 21", "promises 63 numbers"),
         ("unam", "/23/23/23/", "/23/23/2x/", "where a number is expected"),
-        ("bhrc", "0.22 SEC", "nothing", "length of the record"),
+        ("bhrc", "DURATION =   0.230", "nothing", "length of the record"),
         ("csmip_v1", "G/10.", "LBS.", "no unit of acceleration"),
         ("csmip_v1", "99.911", " 0.000", "time falls"),
         ("csmip_v2", "(units: cm/sec/sec)", "(units: lbs)", "no unit of acceleration"),
@@ -423,7 +141,7 @@ def test_damaged_files_are_refused_with_the_reason(name, old, new, said, put):
 
 
 def test_knet_that_is_cut_is_refused(put):
-    with pytest.raises(InputError, match="the file is cut"):
+    with pytest.raises(InputError, match="promises 300 s"):
         read(put(knet().replace("Duration Time(s)  0", "Duration Time(s)  300")))
 
 
@@ -440,7 +158,7 @@ def test_a_stated_unit_is_not_overruled(put):
 
 def test_a_step_that_contradicts_the_length_is_refused(put):
     with pytest.raises(InputError, match="disagree with the step"):
-        read(put(cosmos(5000.0).replace("approx  0 secs", "approx  9 secs")))
+        read(put(cosmos(100.0).replace("approx  0 secs", "approx  9 secs")))
 
 
 @pytest.mark.parametrize("name", sorted(FORMATS))
@@ -481,8 +199,8 @@ def test_several_records_in_one_file_are_refused_with_the_way_to_choose(put):
         ("esm", "NDATA: 23", "NDATA: 0"),
         ("afad", "DATA : 23", "DATA : 0"),
         ("unam", "/23/23/23/", "/0/23/23/"),
-        ("renadic", "NO. OF POINTS = 23", "NO. OF POINTS = 0"),
-        ("bhrc", "NO. OF POINTS 23", "NO. OF POINTS 0"),
+        ("renadic", "NO. OF POINTS =     23", "NO. OF POINTS = 0"),
+        ("bhrc", "NO. OF POINTS =     23", "NO. OF POINTS = 0"),
     ],
 )
 def test_empty_components_are_refused(name, old, new, put):

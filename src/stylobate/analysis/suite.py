@@ -69,8 +69,8 @@ def suite_table(
     -------
     pandas.DataFrame
         One row per column and record, ``number`` that of the record: outcome and measures as the JSON keys of
-        ``stylobate run``, and the intensity measures of the record along x, with those that relate it to the column
-        (:data:`INTENSITIES`).
+        ``stylobate run``, the factor by which the record was multiplied, and its intensity measures along x, with
+        those that relate it to the column (:data:`INTENSITIES`).
     """
     import pandas
 
@@ -93,7 +93,11 @@ def suite_table(
 
 def _record(motion: Motion) -> dict[str, Any]:
     summary = motion_summary(motion)
-    found: dict[str, Any] = {"vertical": motion.vertical is not None, "duration_s": motion.duration}
+    found: dict[str, Any] = {
+        "factor": motion.factor,
+        "vertical": motion.vertical is not None,
+        "duration_s": motion.duration,
+    }
     found |= {key: summary[key]["x"] for key in MEASURES}
     found |= {key: summary.get(key) for key in SCALARS}
     return found | {f"psa_{key.replace(' ', '')}_g": value for key, value in summary.get("psa_5_percent_g", {}).items()}

@@ -239,8 +239,15 @@ def scaled(motion: Motion, scale: str | None = None, pga: str | None = None) -> 
         motion = motion.scaled(factor).replace(name=f"{motion.name} × {factor:g}", processing=said)
     if pga is not None:
         peak = parse_acceleration(pga)
-        said = (*motion.processing, f"scaled to a peak of {pga} along x")
-        motion = motion.scaled_to_pga(peak).replace(name=f"{motion.name}, scaled to {pga}", processing=said)
+        before = motion
+        motion = motion.scaled_to_pga(peak)
+        times = motion.factor / before.factor if before.factor else 0.0
+        said = (*motion.processing, f"multiplied by {times:.4g}: scaled to a peak of {pga} along x")
+        motion = motion.replace(name=f"{before.name}, scaled to {pga}", processing=said)
+    if scale is not None or pga is not None:
+        from ..motion.conditioning import warn_of_scaling
+
+        warn_of_scaling(motion)
     return motion
 
 
@@ -260,6 +267,7 @@ def input_facts(motion: Motion) -> dict[str, Any]:
     return {
         "motion": motion.name,
         "azimuth_deg": azimuths.get("x"),
+        "factor": motion.factor,
         "vertical": motion.z_samples is not None,
         "left_out": [*unused, *motion.metadata.get("left_out", ())],
         "processing": list(motion.processing),

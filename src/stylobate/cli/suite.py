@@ -14,6 +14,7 @@ from . import options as o
 SHOWN = (
     "number",
     "record",
+    "factor",
     "pga_g",
     "pgv_m_s",
     "pga_over_g_tan_alpha",

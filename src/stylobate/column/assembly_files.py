@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError
+from ..errors import InputError, OutOfRangeWarning
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
@@ -116,4 +117,7 @@ def _assembly(table: AssemblyTable, default_name: str) -> Assembly:
         raise InputError("ground is true; give its level in m, or false for none.")
     ground = None if table.ground is False else float(table.ground)
     joint = Joint(**table.joint.model_dump())
+    laws = (joint, *(block.surface for block in blocks if block.surface), *(law for _, _, law in overrides))
+    for doubt in [doubt for law in laws for doubt in law.doubts][:1]:
+        warnings.warn(f"{doubt}: is the unit right?", OutOfRangeWarning, stacklevel=4)
     return Assembly(tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides))

@@ -188,6 +188,7 @@ def _doubt_units(column: Column, friction_angles: Sequence[float | None]) -> Non
         for angle in friction_angles
         if angle is not None and angle < SLIPPERIEST
     ]
+    doubts += [doubt for joint in dict.fromkeys(column.joints) for doubt in joint.doubts]
     if doubts:
         warnings.warn(f"{doubts[0]}: is the unit right?", OutOfRangeWarning, stacklevel=4)
 

@@ -7,15 +7,22 @@ function scales.
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Callable
 from fractions import Fraction
 
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, check_range
+from ..errors import InputError, OutOfRangeWarning, check_range
 from .integration import arias_growth, displacement
 from .motion import MAX_SAMPLES, Motion, integrate
+
+#: An end with less than this share of the peak is quiet.
+QUIET_SHARE = 0.01
+
+#: A record scaled by more than this is another earthquake.
+LARGEST_SCALING = 10.0
 
 
 def demean(motion: Motion, pre_event: float | None = None) -> Motion:
@@ -251,7 +258,15 @@ def resample(motion: Motion, dt: float) -> Motion:
     return _changed(motion, at_new_step, text, dt=motion.dt * p / q)
 
 
-def trim(motion: Motion, low: float = 0.05, high: float = 0.95, *, before: float = 0.0, after: float = 0.0) -> Motion:
+def trim(
+    motion: Motion,
+    low: float = 0.05,
+    high: float = 0.95,
+    *,
+    before: float = 0.0,
+    after: float = 0.0,
+    ends: float | None = None,
+) -> Motion:
     """Keep the significant duration: from ``low`` to ``high`` of the Arias intensity of all components together.
 
     Parameters
@@ -261,10 +276,14 @@ def trim(motion: Motion, low: float = 0.05, high: float = 0.95, *, before: float
         Shares of the intensity [-].
     before, after : float
         More to keep before and after it [s].
+    ends : float, optional
+        Length of the half cosine that leads an end to zero where the cut lies in the middle of motion [s], within what
+        is kept; 0 leaves the ends as they are. By default a quarter of a second, at most a twentieth of what is kept.
 
     Notes
     -----
-    The cut ends are as they are; :func:`taper` leads them to zero.
+    A column at rest cannot enter the middle of a motion: a first sample that is not near zero acts as a jerk. An end
+    counts as quiet where no component there exceeds a hundredth of its peak.
     """
     check_range("low share", low, 0.0, 1.0, open_high=True)
     check_range("high share", high, low, 1.0, open_low=True)
@@ -274,7 +293,17 @@ def trim(motion: Motion, low: float = 0.05, high: float = 0.95, *, before: float
     i = max(0, math.floor(t1 / motion.dt))
     j = min(motion.steps - 1, math.ceil(t2 / motion.dt))
     text = f"trimmed to {i * motion.dt:g} … {j * motion.dt:g} s ({low:.0%} to {high:.0%} of the Arias intensity)"
-    return _changed(motion, lambda a: a[i : j + 1], text)
+    kept = _changed(motion, lambda a: a[i : j + 1], text)
+    length = min(0.25, 0.05 * kept.duration) if ends is None else check_range("ends", ends, 0.0, 0.5 * kept.duration)
+    loud = [
+        max(abs(a[at]) / max(float(np.abs(a).max()), 1e-300) for a in kept.components.values()) > QUIET_SHARE
+        for at in (0, -1)
+    ]
+    start, end = loud[0] and i > 0, loud[1] and j < motion.steps - 1
+    if length < kept.dt or not (start or end):
+        return kept
+    led = taper(kept, length, start=start, end=end)
+    return led.replace(processing=(*motion.processing, f"{text}; {led.processing[-1]}"))
 
 
 def scale_to_pgv(motion: Motion, pgv: float) -> Motion:
@@ -307,9 +336,27 @@ def _scaled_to(motion: Motion, wanted: float, found: float, text: str) -> Motion
     if found == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to a {text}.")
     factor = wanted / found
-    return motion.replace(
+    scaled = motion.replace(
         factor=motion.factor * factor, processing=(*motion.processing, f"scaled by {factor:.6g} to a {text}")
     )
+    warn_of_scaling(scaled)
+    return scaled
+
+
+def warn_of_scaling(motion: Motion) -> None:
+    """Say that a record was scaled by more than ten times, which is mostly a slip of units.
+
+    Warns
+    -----
+    OutOfRangeWarning
+    """
+    if motion.metadata.get("file") and abs(motion.factor) > LARGEST_SCALING:
+        warnings.warn(
+            f"{motion.metadata['file']} is scaled by {motion.factor:.4g}, more than {LARGEST_SCALING:g} times what was "
+            "recorded; check the units, or choose a stronger record.",
+            OutOfRangeWarning,
+            stacklevel=4,
+        )
 
 
 def _changed(

@@ -79,9 +79,7 @@ def _component(lines: list[str], start: int, file: str) -> tuple[Component, int]
 
 def _step(total: float, count: int, rate: float | None) -> float:
     """Step from the length, which runs to the last sample or a step beyond it, and the rate where it is stated."""
-    candidates = (total / (count - 1), total / count)
     if rate is not None and rate > 0.0:
-        near = min(candidates, key=lambda dt: abs(dt * rate - 1.0))
-        return 1.0 / rate if abs(near * rate - 1.0) < 1e-3 else near
+        return 1.0 / rate
     # The one that is a short decimal: 0.005 s, not 0.0050005 s.
-    return min(candidates, key=lambda dt: abs(dt - float(f"{dt:.2g}")) / dt)
+    return min((total / (count - 1), total / count), key=lambda dt: abs(dt - float(f"{dt:.2g}")) / dt)

@@ -207,7 +207,7 @@ def _bare(
 ) -> tuple[list[Component], np.ndarray | None, str]:
     """Numbers without column names: as the lines above them say, else time, then x, y, z; time is known by its growth."""
     columns = table.shape[1]
-    grows = columns > 1 and bool((np.diff(table[:, 0]) >= 0.0).all()) and table[-1, 0] > table[0, 0]
+    grows = columns > 1 and bool((np.diff(table[:, 0]) >= 0.0).all() and table[-1, 0] > table[0, 0])
     order = _order(said, columns, grows, file)
     if order is None:
         labels = [("time", 1.0)] * grows + [(axis, 1.0) for axis in "xyz"]

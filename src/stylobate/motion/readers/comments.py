@@ -22,7 +22,7 @@ _CODE = re.compile(r"[BHEC][NLG][NEZ12]")
 _SPELLING = r"[a-z]+/s(?:ec)?(?:\^?2|\*\*2|/s(?:ec)?|²)|gals?|milli-g|mg|g/10|g"
 _UNIT = re.compile(rf"(?:\bin|\bunits?(?:\s+of)?\s*[:=]?)\s+(?P<word>{_SPELLING})(?![\w/^])", re.IGNORECASE)
 _BRACKETED = re.compile(rf"[(\[]\s*(?P<word>{_SPELLING})\s*[)\]]", re.IGNORECASE)
-_UNIT_KEY = re.compile(r"^\W*[\w ]*unit\w*\s*[:=]\s*(?P<value>.*\S)", re.IGNORECASE)
+_UNIT_KEY = re.compile(r"^\W*[\w ]*unit[\w ()]*[:=]\s*(?P<value>.*\S)", re.IGNORECASE)
 _COUNT = re.compile(
     r"\b(?:npts|ndata|(?:number|no\.?)\s+of\s+(?:points|samples|data)|samples)\s*[:=]?\s*(?P<count>\d+)(?![\w.])",
     re.IGNORECASE,
@@ -32,7 +32,9 @@ _STEP = re.compile(
     re.IGNORECASE,
 )
 _COUNT_STEP = re.compile(rf"^\W*(?P<count>\d+)[\s,]+(?P<step>{NUMBER})[\s,]+npts\s*,\s*dt", re.IGNORECASE)
-_RATE = re.compile(rf"\bsampl\w*\s*(?:rate|freq\w*)\s*(?:\(hz\))?\s*[:=]\s*(?P<rate>{NUMBER})(?=\s|hz|$)", re.IGNORECASE)
+_RATE = re.compile(
+    rf"\bsampl\w*\s*(?:rate|freq\w*)\s*(?:\(hz\))?\s*[:=]\s*(?P<rate>{NUMBER})(?=\s|hz|$)", re.IGNORECASE
+)
 _LENGTH = re.compile(
     rf"\b(?:record\s*length|duration)\s*(?:\(s(?:ec)?\))?\s*[:=]\s*(?P<length>{NUMBER})(?=\s|s|$)", re.IGNORECASE
 )
@@ -87,9 +89,7 @@ def stated(titles: Sequence[str], file: str) -> Stated:
         raise InputError(f"{file}: {shown} name different columns; keep the one that is right.")
     unit, unit_line = _unit(titles, file)
     counts = [int(found["count"]) for line in titles if (found := _COUNT_STEP.search(line) or _COUNT.search(line))]
-    steps = [
-        number_in(found["step"]) for line in titles if (found := _COUNT_STEP.search(line) or _STEP.search(line))
-    ]
+    steps = [number_in(found["step"]) for line in titles if (found := _COUNT_STEP.search(line) or _STEP.search(line))]
     rates = [number_in(found["rate"]) for line in titles if (found := _RATE.search(line))]
     steps += [1.0 / rate for rate in rates if rate is not None and rate > 0.0]
     lengths = [found["length"] for line in titles if (found := _LENGTH.search(line))]

@@ -113,7 +113,7 @@ def _is_data(line: str) -> bool:
 
 def _unit(stated: tuple[str, int], file: str) -> tuple[str, float]:
     """The first unit of acceleration in the value: ``cm/s^2``, or ``m/s*s, m/s & s`` for three blocks."""
-    value, line = stated
+    value, _ = stated
     if not value:
         raise InputError(f"{file}: the header states no UNITS; add them, as in UNITS: cm/s^2.")
     return acceleration_unit(re.split(r"[,;&]", value)[0].strip().replace("/s*s", "/s2").replace("(s*s)", "s2"))

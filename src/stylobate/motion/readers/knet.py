@@ -11,7 +11,16 @@ from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
 
-_KEYS = ("origin time", "station code", "sampling freq", "scale factor", "dir.", "record time", "duration time", "max. acc")
+_KEYS = (
+    "origin time",
+    "station code",
+    "sampling freq",
+    "scale factor",
+    "dir.",
+    "record time",
+    "duration time",
+    "max. acc",
+)
 _SCALE = re.compile(r"(?P<full>[\d.]+)\s*\(\s*gal\s*\)\s*/\s*(?P<counts>[\d.]+)", re.IGNORECASE)
 #: KiK-net numbers its sensors: 1 to 3 at the bottom of the borehole, 4 to 6 at the surface.
 _KIK = {"1": "N-S", "2": "E-W", "3": "U-D", "4": "N-S", "5": "E-W", "6": "U-D"}

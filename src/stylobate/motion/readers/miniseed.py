@@ -13,11 +13,15 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
+from .checks import CUT
 from .record import Component
 from .source import Source
 
 #: StationXML files beside the record that are looked into.
 MAX_BESIDE, MAX_XML_BYTES = 50, 20_000_000
+
+#: Longest record that is looked for [bytes].
+MAX_RECORD = 1 << 16
 
 
 def recognises(source: Source) -> bool:
@@ -49,11 +53,12 @@ def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component
     """
     obspy = _obspy(source.name)
     try:
-        with _without_complaints():
+        with _complaints_raised():
             stream = obspy.read(io.BytesIO(source.data), format="MSEED")
             stream.merge(method=0)
     except Exception as error:  # ObsPy raises many kinds for a damaged file
         raise InputError(f"{source.name} cannot be decoded as miniSEED ({_one_line(error)}); fetch it again.") from None
+    _check_records(source)
     if len(stream) == 0:
         raise InputError(f"{source.name} holds no samples; fetch it again.")
     components, used = [], set()
@@ -73,6 +78,26 @@ def read(source: Source, descriptions: Sequence[Source]) -> tuple[list[Component
         "start_time": str(stats.starttime),
         "response": ", ".join(sorted(used)),
     }
+
+
+def _check_records(source: Source) -> None:
+    """The file is whole records to its end; ObsPy itself lets some cuts within a record pass."""
+    from obspy.io.mseed.util import get_record_information
+
+    at, data = 0, source.data
+    while at < len(data):
+        try:
+            with _complaints_raised():
+                length = int(get_record_information(io.BytesIO(data[at : at + MAX_RECORD]))["record_length"])
+        except Exception as error:  # as above
+            raise InputError(
+                f"{source.name}, byte {at}: no miniSEED record begins here ({_one_line(error)}); {CUT}."
+            ) from None
+        if (len(data) - at) % length == 0:  # so are mostly all of them
+            return
+        at += length
+    if at > len(data):
+        raise InputError(f"{source.name}, byte {len(data)}: the last miniSEED record is cut; fetch the file again.")
 
 
 def _component(trace: Any, channel: Any, file: str) -> Component:
@@ -141,15 +166,20 @@ def _beside(source: Source) -> list[Source]:
 
 
 @contextlib.contextmanager
-def _without_complaints() -> Iterator[None]:
-    """Neither warnings nor the traces that ObsPy's callbacks print on a damaged header; the error itself comes "
-    "through."""
+def _complaints_raised() -> Iterator[None]:
+    """What ObsPy warns of (records that are cut or skipped, samples that disagree with their checks) is an error.
+
+    The traces that its callbacks print on a damaged header are kept quiet; the error itself comes through.
+    """
     hook = sys.unraisablehook
     sys.unraisablehook = lambda _: None
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
+        with warnings.catch_warnings(record=True) as complaints:
+            warnings.simplefilter("always")
             yield
+        for one in complaints:
+            if not issubclass(one.category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning)):
+                raise ValueError(str(one.message))
     finally:
         sys.unraisablehook = hook
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...constants import g
 from ...errors import InputError, OutOfRangeWarning
-from ..motion import MAX_SAMPLES, Motion
+from ..motion import MAX_SAMPLES, Motion, integrate
 from .steps import resampled, same_step
 
 #: A mean beyond this share of the peak is not an earthquake: an instrument's offset was left in.
@@ -19,6 +19,12 @@ OFFSET_SHARE = 0.1
 
 #: A peak beyond every recorded one [g]: the unit is wrong.
 LARGEST_PEAK = 5.0
+
+#: A peak below which nobody records on purpose [g]: the unit is wrong, or the numbers are raw counts or something else.
+SMALLEST_PEAK = 1e-3
+
+#: A velocity beyond every recorded one [m/s]: the unit is wrong, or the baseline has drifted away.
+LARGEST_VELOCITY = 10.0
 
 
 class UnstatedError(InputError):
@@ -47,6 +53,8 @@ class Component:
         What this component's own header says.
     processing : list of str
         What the reader did to the values.
+    file : str
+        Name of the file it was read from.
     """
 
     values: np.ndarray
@@ -57,6 +65,7 @@ class Component:
     time: np.ndarray | None = None
     metadata: dict = field(default_factory=dict)
     processing: list[str] = field(default_factory=list)
+    file: str = ""
 
 
 _COMPASS = re.compile(r"\b([NS])\s*(\d{1,3})\s*(?:DEG)?\s*([EW])\b")
@@ -136,6 +145,7 @@ def assemble(
     """
     if component is not None:
         chosen = _choose(components, component, name)
+        name = chosen.file or name
         components, rest = [chosen], [one for one in components if one is not chosen]
         chosen.vertical = False
         dropped = [one.label or "?" for one in rest]
@@ -169,7 +179,7 @@ def assemble(
     values = {axis: one.values[: min(lengths)] for axis, one in zip(axes, used)}
     for axis, one in zip(axes, used):
         processing += [f"{axis}: {text}" for text in one.processing]
-    _warn_of_peak(values, name)
+    _warn_of_peak(values, step, name)
     _warn_of_offset(values, name)
     facts = metadata | {
         "azimuths": {axis: one.azimuth for axis, one in zip(axes, used)},
@@ -191,26 +201,57 @@ def assemble(
 
 
 def _choose(components: list[Component], wanted: str, name: str) -> Component:
+    """The component of a label, a number, an azimuth or an axis x, y, z as the whole record would have it."""
     text = str(wanted).strip()
-    exact = [one for one in components if one.label.strip().lower() == text.lower()]
+    folded = " ".join(text.lower().split())
+    exact = [one for one in components if " ".join(one.label.lower().split()) == folded]
     if len(exact) == 1:
         return exact[0]
-    if re.fullmatch(r"\d{1,3}", text) and 1 <= int(text) <= len(components):
+    if re.fullmatch(r"[0-9]{1,3}", text) and 1 <= int(text) <= len(components):
         return components[int(text) - 1]
-    if re.fullmatch(r"\d{1,3}(\.\d+)?", text):
+    if re.fullmatch(r"[0-9]{1,3}(\.[0-9]+)?", text):
         near = [one for one in components if one.azimuth is not None and abs(one.azimuth - float(text) % 360.0) < 0.5]
         if len(near) == 1:
             return near[0]
-    labels = ", ".join(f"{i} ({one.label or 'no label'})" for i, one in enumerate(components, 1))
-    raise InputError(f"{name} has no component {wanted!r}; it holds {labels}: give a number or a label.")
+    horizontal = [one for one in components if not one.vertical]
+    vertical = [one for one in components if one.vertical]
+    axes = dict(zip("xy", horizontal)) | ({"z": vertical[0]} if len(vertical) == 1 else {})
+    if folded in axes and len(horizontal) <= 2:
+        return axes[folded]
+    azimuth, upright, _ = direction(text)
+    alike = vertical if upright else [one for one in horizontal if azimuth is not None and one.azimuth == azimuth]
+    if len(alike) == 1 and not text[:1].isdigit():
+        return alike[0]
+    by_axis = {id(one): axis for axis, one in axes.items()}
+    labels = ", ".join(
+        f"{i} ({one.label or 'no label'}{', axis ' + by_axis[id(one)] if id(one) in by_axis else ''})"
+        for i, one in enumerate(components, 1)
+    )
+    raise InputError(f"{name} has no component {wanted!r}; it holds {labels}: give a number, a label or an axis.")
 
 
-def _warn_of_peak(values: dict[str, np.ndarray], name: str) -> None:
-    for axis, array in values.items():
-        peak = float(np.abs(array).max(initial=0.0)) / g
+def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None:
+    peaks = {axis: float(np.abs(array).max(initial=0.0)) / g for axis, array in values.items()}
+    for axis, peak in peaks.items():
         if peak > LARGEST_PEAK:
             warnings.warn(
                 f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit.",
+                OutOfRangeWarning,
+                stacklevel=4,
+            )
+    if 0.0 < max(peaks.values()) < SMALLEST_PEAK:
+        warnings.warn(
+            f"{name}: the peak is {max(peaks.values()):.3g} g, which shakes no column; check the unit, and whether these "
+            "are accelerations.",
+            OutOfRangeWarning,
+            stacklevel=4,
+        )
+    for axis, array in values.items():
+        fastest = float(np.abs(integrate(array, step)).max())
+        if fastest > LARGEST_VELOCITY and peaks[axis] <= LARGEST_PEAK:
+            warnings.warn(
+                f"{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
+                "unit and the step, or take off the drift of the baseline (--condition baseline).",
                 OutOfRangeWarning,
                 stacklevel=4,
             )

@@ -24,6 +24,7 @@ from . import (
     unam,
     usc,
 )
+from .checks import check_whole
 from .record import Component, assemble
 from .source import Source
 
@@ -109,6 +110,8 @@ def read_motion(
         found, metadata = _read_file(source, descriptions, unit, dt)
         if source.sample is not None:
             metadata = metadata | {key: value for key, value in source.sample.facts.items() if not metadata.get(key)}
+        for one in found:
+            one.file = source.name
         components += found
         if facts and metadata.get("station") != facts.get("station"):
             raise InputError(
@@ -128,6 +131,8 @@ def _read_file(
 ) -> tuple[list[Component], dict]:
     if miniseed.recognises(source):
         return miniseed.read(source, descriptions)
+    if source.is_text:
+        check_whole(source.lines, source.ends_with_newline, source.name)
     matches = [one for one in FORMATS if one.recognises(source)]
     if len(matches) > 1:
         raise InputError(

@@ -81,6 +81,11 @@ class Source:
         controls = sum(start.count(bytes([c])) for c in range(32) if c not in (9, 10, 12, 13, 26))
         return b"\x00" not in self.data and controls <= len(start) // 500
 
+    @property
+    def ends_with_newline(self) -> bool:
+        """Whether the last line of the text is ended, as a whole file's mostly is."""
+        return self._decoded.rstrip(" \t\x1a").endswith(("\n", "\r"))
+
     @cached_property
     def lines(self) -> list[str]:
         """Lines of the text, without their ends; any mixture of LF, CR-LF, CR-CR-LF and CR.

@@ -1,0 +1,340 @@
+"""Records that are damaged, cut or odd: what a header states is compared with what was read, and nothing is guessed."""
+
+import io
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from fuzz.record_files import (
+    COUNT,
+    DT,
+    FORMATS,
+    WAVES,
+    bhrc,
+    csmip_v2,
+    esm,
+    geonet,
+    itaca,
+    knet,
+    peak_of,
+    renadic,
+    taiwan,
+)
+
+from stylobate.constants import g
+from stylobate.errors import InputError, OutOfRangeWarning
+from stylobate.motion import Motion, read_motion, read_suite, write_csv
+
+RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
+
+
+@pytest.fixture
+def put(tmp_path):
+    def write(text, name="record.txt"):
+        path = tmp_path / name
+        path.write_bytes(text if isinstance(text, bytes) else text.encode("latin-1"))
+        return path
+
+    return write
+
+
+def read(path, **options):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)
+        return read_motion(path, **options)
+
+
+def warned(path, **options):
+    """All warnings of a reading, in one text."""
+    with warnings.catch_warnings(record=True) as seen:
+        warnings.simplefilter("always")
+        read_motion(path, **options)
+    assert all(issubclass(one.category, OutOfRangeWarning) for one in seen)
+    return "\n".join(str(one.message) for one in seen)
+
+
+# -- miniSEED -------------------------------------------------------------------------------------------------------
+
+
+def mseed(put):
+    """A miniSEED file made here, with a StationXML beside it."""
+    obspy = pytest.importorskip("obspy")
+    from obspy.core.inventory import Channel, Inventory, Network, Response, Site, Station
+    from obspy.core.inventory.response import InstrumentSensitivity
+
+    counts = np.round(1e5 * np.sin(np.arange(6000) * 0.05)).astype(np.int32)
+    trace = obspy.Trace(counts, {"network": "XX", "station": "ABC", "channel": "HNE", "sampling_rate": 100.0})
+    data = io.BytesIO()
+    obspy.Stream([trace]).write(data, format="MSEED", encoding="STEIM2", reclen=512)
+    response = Response(instrument_sensitivity=InstrumentSensitivity(1e5, 1.0, "M/S**2", "COUNTS"))
+    channel = Channel("HNE", "", 0.0, 0.0, 0.0, 0.0, azimuth=90.0, dip=0.0, sample_rate=100.0, response=response)
+    station = Station("ABC", 0.0, 0.0, 0.0, channels=[channel], site=Site("A Place"))
+    text = io.BytesIO()
+    Inventory([Network("XX", stations=[station])], source="test").write(text, format="STATIONXML")
+    put(text.getvalue(), "ABC.xml")
+    return data.getvalue()
+
+
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")
+def test_damaged_miniseed_is_refused_with_what_obspy_says(put):
+    data = mseed(put)
+    assert read(put(data, "a.mseed")).steps == 6000
+    for bytes_left in (40, 130, 300):  # ObsPy itself says nothing of the last
+        with pytest.raises(InputError, match=r"Unexpected end of file|Last record only|is cut"):
+            read(put(data[: 512 * 5 + bytes_left], "cut.mseed"))
+    middle = bytearray(data)
+    middle[512 * 3 + 200] ^= 0x10  # within the samples of the fourth record
+    with pytest.raises(InputError, match="integrity check"):
+        read(put(bytes(middle), "flipped.mseed"))
+
+
+# -- cut files ------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["csmip_v2", "csmip_v1", "cosmos", "renadic", "bhrc", "usc"])
+def test_a_missing_end_mark_is_a_cut_file(name, put):
+    lines = FORMATS[name][0].rstrip("\n").splitlines(keepends=True)
+    with pytest.raises(InputError, match="without the mark"):
+        read(put("".join(lines[:-1])))
+
+
+def test_blocks_of_velocity_and_displacement_are_counted(put):
+    text = csmip_v2()
+    lines = text.splitlines(keepends=True)
+    block = max(i for i, line in enumerate(lines) if "displ data" in line)
+    with pytest.raises(InputError, match=r"promises 22 numbers \(displacements\)"):
+        read(put("".join(lines[: block + 2] + lines[block + 3 :])))
+    two = geonet_v2()
+    assert read(put(two)).steps == COUNT
+    with pytest.raises(InputError, match=r"promises 23 numbers \(displacements\)"):
+        read(put("".join(two.splitlines(keepends=True)[:-1])))
+
+
+def geonet_v2():
+    """Three components with velocities and displacements after the accelerations."""
+    parts = geonet().split("Uncorrected")[1:]
+    found = ""
+    for part in parts:
+        lines = ("Corrected" + part).splitlines(keepends=True)
+        numbers = lines[26:]
+        old = lines[19].split()
+        lines[19] = "".join(f"{int(one):8d}" for one in [*old[:3], COUNT, COUNT, COUNT, *old[6:]]) + "\n"
+        found += "".join(lines[:26] + numbers * 3)
+    return found
+
+
+def test_fewer_components_than_the_header_speaks_of_are_warned_about(put):
+    text = renadic()
+    first = text[: text.index("/&") + len(text[text.index("/&") :].split("\n")[0]) + 1]
+    assert "speaks of 3 components, the file holds 1" in warned(put(first))
+    one = geonet()
+    assert "speaks of 3 components, the file holds 2" in warned(put(one[: one.rindex("Uncorrected")]))
+
+
+def test_a_second_that_is_missing_from_knet_is_seen(put):
+    long = knet().replace("Duration Time(s)  0", "Duration Time(s)  1").replace("100Hz", "20Hz")
+    assert read(put(long)).steps == COUNT
+    with pytest.raises(InputError, match="promises 1 s"):
+        read(put("".join(long.splitlines(keepends=True)[:-1])))  # 16 of 20 counts
+
+
+@pytest.mark.parametrize("end", [-2, -3])
+def test_a_number_cut_in_the_middle_is_seen(end, put):
+    with pytest.raises(InputError, match="other digits than those before it"):
+        read(put(esm()[:end]))
+    assert read(put(esm()[:-1])).steps == COUNT  # only the line end is missing
+
+
+# -- what headers state ---------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "old", "new", "said"),
+    [
+        ("esm", "SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S: 500", "states a step of 500 s"),
+        ("esm", "SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S: 0.020000", "the header states 0.23 s"),
+        ("esm", "SAMPLING_INTERVAL_S: 0.010000", "SAMPLING_INTERVAL_S: 1d3", "states a step of 1000 s"),
+        ("esm", "NDATA: 23", "NDATA: 2d1", "promises 20 numbers"),
+        ("esm", "PGA_CM/S^2: -", "PGA_CM/S^2: -1", "states a peak of"),
+        ("afad", "(sec) : 0.01", "(sec) : 10", "states a step of 10 s"),
+        ("afad", "(sec) : 0.01", "(sec) : 1d3", "states a step of 1000 s"),
+        ("peer_nga", "DT=   .0100", "DT=   1d3", "states a step of 1000 s"),
+        ("peer_nga", "NPTS=   23", "NPTS=   2d1", "promises"),
+        ("knet", "100Hz", "1Hz", "states a step of 1 s"),
+        ("unam", "/.01/.01/.01/", "/10/10/10/", "states a step of 10 s"),
+        ("smc", "  1.0000000E+02", "  1.0000000E-02", "states a step of 100 s"),
+        (
+            "csmip_v2",
+            "At equally-spaced intervals of    .010",
+            "At equally-spaced intervals of    .020",
+            "one of 0.02 s",
+        ),
+        ("csmip_v2", "Record length = 0.230", "Record length = 0.330", "states 0.33 s"),
+        ("csmip_v2", "Peak acceleration =     1.", "Peak acceleration =     7.", "states a peak of 7"),
+        ("csmip_v1", "RECORD LENGTH = 0.22", "RECORD LENGTH = 0.52", "length of 0.52 s"),
+        ("csmip_v1", "MAX = .150 G", "MAX = .950 G", "states a peak of 0.95"),
+        ("cosmos", "      10.000000", "      20.000000", "the header states 0.23 s"),
+        ("geonet", "Number of points 23", "Number of points 28", "28 points, but 23"),
+        ("geonet", "Duration 0.23", "Duration 0.83", "states 0.83 s"),
+        ("geonet", "intervals of 0.010", "intervals of 0.020", "one of 0.02 s"),
+        ("geonet", "      10      10", "      10      70", "states the direction 'N10E', the numbers 70"),
+        ("usc", "     0.220     0.000     0.100", "     0.720     0.000     0.100", "length of 0.72 s"),
+        ("renadic", "RECORD LENGTH =   0.230", "RECORD LENGTH =   0.930", "length of 0.93 s"),
+        (
+            "renadic",
+            "UNITS OF UNCOR ACCEL ARE SEC AND G/10.",
+            "UNITS OF UNCOR ACCEL ARE SEC AND LBS.",
+            "allowed is g, m/s2",
+        ),
+        ("bhrc", "DURATION =   0.230", "DURATION =   0.930", "states 0.93 s"),
+        ("bhrc", "COMP L1", "COMP T1", "the component is 'L' and 'T'"),
+        ("taiwan", "SampleRate(Hz): 100", "SampleRate(Hz): 200", "one of 0.01 s"),
+        ("taiwan", "RecordLength(sec):   0.230", "RecordLength(sec):   9.230", "states 9.23 s"),
+    ],
+)
+def test_what_is_stated_twice_must_agree(name, old, new, said, put):
+    text = knet() if name == "knet" else FORMATS[name][0]
+    assert old in text
+    with pytest.raises(InputError, match=said):
+        read(put(text.replace(old, new)))
+
+
+def test_a_peak_at_another_time_is_warned_about(put):
+    stated = f"TIME_PGA_S: {peak_of(WAVES[0])[1]:.6f}"
+    assert stated in esm()
+    assert "states its peak at 0.06 s" in warned(put(esm().replace(stated, "TIME_PGA_S: 0.060000")))
+
+
+@pytest.mark.parametrize("text", ["1_0 0.1\n20 0.2\n", "0 0.1\n\u0661 0.2\n"])
+def test_what_only_python_takes_for_numbers_is_refused(text, tmp_path):
+    path = tmp_path / "odd.txt"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(InputError):
+        read(path, unit="g")
+
+
+def test_a_blank_inside_a_fixed_field_is_no_digit_separator(put):
+    text = FORMATS["cosmos"][0]
+    value = f"{WAVES[0][1]:10.5f}"
+    with pytest.raises(InputError, match="promises 23 numbers"):
+        read(put(text.replace(value, value[:-2] + " " + value[-1:], 1)))
+
+
+# -- real headers of other networks ---------------------------------------------------------------------------------
+
+
+def test_bhrc_takes_the_step_that_its_rate_states(put):
+    assert read(put(bhrc())).dt == DT
+    # 0.23 s of 23 samples: to the step after the last one. Without the rate, the shorter decimal counts.
+    assert read(put(bhrc().replace("1.000000E+02", "0.000000E+00"))).dt == pytest.approx(DT, rel=1e-12)
+
+
+def test_renadic_keeps_its_equal_steps(put):
+    motion = read(put(renadic()))
+    assert motion.dt == DT
+    assert not any("resampled" in text for text in motion.processing)
+
+
+def test_the_older_itaca_counts_west_to_east(put):
+    motion = read(put(itaca()))
+    assert motion.metadata["labels"]["x"] == "EW"
+    assert motion.acceleration == pytest.approx(WAVES[0] * 0.01)
+    with pytest.raises(InputError, match="states no UNITS"):
+        read(put(itaca().replace("Units : cm/s^2\n", "")))
+
+
+def test_europe_s_cdrom_files_with_three_blocks(put):
+    head = ["file:                 000001xa.cor", "orientation of transducer:    NS", "sampling period:  0.010000s"]
+    head += [f"number of samples:   {COUNT}", f"record length:    {COUNT * DT:.3f}s", "units:    m/s*s, m/s & s"]
+    numbers = "".join("".join(f"{v:14.5E}" for v in WAVES[0][i : i + 5]) + "\n" for i in range(0, COUNT, 5))
+    blocks = "".join(f"-> corrected {what} time histories\n{numbers}" for what in ("acceleration", "velocity"))
+    motion = read(put("\n".join(head) + "\n" + blocks + "STOP\n"))
+    assert motion.acceleration == pytest.approx(WAVES[0], abs=1e-5)
+    assert motion.metadata["azimuths"] == {"x": 0.0}
+    lines = blocks.splitlines(keepends=True)
+    with pytest.raises(InputError, match="promises 23 numbers"):
+        read(put("\n".join(head) + "\n" + "".join(lines[:-1])))
+
+
+def test_columns_named_in_a_comment_are_read_with_their_sense(put):
+    motion = read(put(taiwan()))
+    assert motion.vertical == pytest.approx(WAVES[2] * 0.01)
+    assert motion.metadata["azimuths"] == {"x": 0.0, "y": 90.0, "z": None}
+    turned = read(put(taiwan().replace("U(+)", "U(-)").replace("#AmplitudeMAX. U", "#x")))
+    assert turned.vertical == pytest.approx(-WAVES[2] * 0.01)
+    titles = read(put("Time (s)  NS  EW  UD\n0 1 2 3\n0.1 -1 -2 -3\n"), unit="gal")
+    assert titles.acceleration == pytest.approx([0.01, -0.01])
+    assert titles.vertical == pytest.approx([0.03, -0.03])
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "said"),
+    [
+        ("# columns: Time U(+); N(+); E(+)\n0 1 2\n0.1 1 2\n", {"unit": "gal"}, "names 4 columns .time, U, N, E."),
+        ("# unit of data: furlong\n0 1\n0.1 -1\n", {}, "names a unit that is not known"),
+        ("# acceleration in gal\n0 1\n0.1 -1\n", {"unit": "g"}, "says gal, but unit is given as 'g'"),
+        ("# in gal\n# unit: g\n0 1\n0.1 -1\n", {}, "name different units"),
+        ("# NPTS= 3\n0 1\n0.1 -1\n", {"unit": "g"}, "promise 3 samples, 2 are there"),
+        ("# component: UP\n0 1\n0.1 -1\n", {"unit": "g"}, "only the vertical component"),
+    ],
+)
+def test_comments_that_cannot_be_followed_are_refused_with_what_was_seen(text, options, said, put):
+    with pytest.raises(InputError, match=said):
+        read(put(text), **options)
+
+
+def test_a_unit_in_a_comment_is_read(put):
+    assert read(put("# acceleration in gal\n0 1\n0.1 -1\n")).pga == pytest.approx(0.01)
+    assert read(put("#AmplitudeUnit:  gal. DCoffset(corr)\n0 1\n0.1 -1\n")).pga == pytest.approx(0.01)
+
+
+def test_a_series_of_several_numbers_to_a_line_with_a_short_last_row(put):
+    numbers = "".join("".join(f"{v:12.5f}" for v in WAVES[0][i : i + 5]) + "\n" for i in range(0, COUNT, 5))
+    stated = read(put(f"A RECORD\n NPTS= {COUNT}, DT= 0.010 SEC\n" + numbers), unit="g")
+    assert stated.acceleration == pytest.approx(WAVES[0] * g)
+    assert stated.dt == DT
+    assert read(put(numbers), unit="g", dt=DT).digest == stated.digest
+    with pytest.raises(InputError):  # a table of times that was cut, not a series
+        read(put("0.0 1 2 3 4\n0.1 1 2 3 4\n0.2 1 2\n"), unit="g", dt=DT)
+
+
+# -- what nobody meant ----------------------------------------------------------------------------------------------
+
+
+def test_a_peak_below_a_thousandth_of_g_and_a_velocity_beyond_all_are_noticed(put):
+    assert "which shakes no column; check the unit" in warned(put("0 0.0001\n0.01 -0.0001\n"), unit="g")
+    slow = "".join(f"{i * 0.1:.1f} 1.0\n" for i in range(400))
+    assert "velocity of 39.9 m/s, more than was ever recorded" in warned(put(slow), unit="m/s2")
+
+
+def test_our_own_files_are_known_to_be_whole(put, tmp_path):
+    path = write_csv(Motion(0.01, WAVES[0], vertical=WAVES[2]), tmp_path / "a.csv")
+    text = path.read_text()
+    assert read(path).steps == COUNT
+    for damaged in (text.replace("0.22,1.221", "0.22,1.231"), "\n".join(text.splitlines()[:-1]) + "\n"):
+        assert damaged != text
+        with pytest.raises(InputError, match="not those that were written"):
+            read(put(damaged))
+
+
+def test_the_motion_has_the_name_of_the_file_whose_component_it_is(put):
+    files = [put(esm(), "east.asc"), put(esm().replace("HNE", "HNN"), "north.asc")]
+    assert read(files, component=2).name == "north.asc"
+    assert read(files).name == "east.asc"
+
+
+@pytest.mark.parametrize("wanted", ["x", "y", "z", "N80W", "n80w", "Up", "UD"])
+def test_components_by_axis_and_label(wanted, put):
+    wave = {"x": 0, "y": 1, "z": 2, "n80w": 1, "up": 2, "ud": 2}[wanted.lower()]
+    assert read(put(geonet()), component=wanted).acceleration == pytest.approx(WAVES[wave] * 0.002)
+
+
+def test_a_suite_with_a_damaged_record_names_it(put, tmp_path):
+    put(esm(), "whole.asc")
+    put(esm()[:-3], "cut.asc")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)
+        suite = read_suite(tmp_path)
+    assert [motion.name for motion in suite.motions] == ["whole.asc"]
+    assert "damaged or cut" in suite.refused["cut.asc"]
