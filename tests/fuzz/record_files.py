@@ -56,7 +56,7 @@ def csmip_v2(end="\n"):
             f"Peak acceleration = {peak:9.3f}    cm/sec/sec  at   {time:.3f}   sec.",
             *(["line"] * 7),
         ]
-        text += "\n".join(head) + "\n" + integers({}, 7, 16, 5) + rows([0.0] * 100, 8, "%10.3f")
+        text += "\n".join(head) + "\n" + integers({3: 3, 4: 3}, 7, 16, 5) + rows([0.0] * 100, 8, "%10.3f")
         for what, unit in (("accel", "cm/sec/sec"), ("veloc", "cm/sec"), ("displ", "cm")):
             text += f" {count} points of {what} data equally spaced at  .010 sec.  (units: {unit})\n"
             text += rows(WAVES[i][:count], 8, "%10.3f")
@@ -219,8 +219,8 @@ def knet():
     fields += [("Station Code", "MYG007"), ("Station Lat.", "1"), ("Station Long.", "1"), ("Station Height(m)", "1")]
     fields += [
         ("Record Time", "2003/07/26 00:13:24"),
-        ("Sampling Freq(Hz)", "100Hz"),
-        ("Duration Time(s)", "0"),
+        ("Sampling Freq(Hz)", f"{COUNT}Hz"),
+        ("Duration Time(s)", "1"),
         ("Dir.", "N-S"),
     ]
     fields += [

@@ -142,7 +142,7 @@ def test_damaged_files_are_refused_with_the_reason(name, old, new, said, put):
 
 def test_knet_that_is_cut_is_refused(put):
     with pytest.raises(InputError, match="promises 300 s"):
-        read(put(knet().replace("Duration Time(s)  0", "Duration Time(s)  300")))
+        read(put(knet().replace("Duration Time(s)  1", "Duration Time(s)  300")))
 
 
 def test_a_file_of_two_formats_is_refused(put):

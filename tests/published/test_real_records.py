@@ -139,7 +139,7 @@ def test_a_file_that_ends_early_is_refused(name, tmp_path):
     if name.startswith("twocol"):
         assert read_motion(path, unit="g").steps < 2688  # nothing in it says how long it should be
         return
-    with pytest.raises(InputError, match=r"promises|ends within|describes|expected"):
+    with pytest.raises(InputError, match=r"promises|ends within|describes|expected|without the mark"):
         read_motion(path)
 
 

@@ -102,8 +102,8 @@ def check_peak_time(values: np.ndarray, dt: float, stated: str | float | None, f
     time, half = printed(stated)
     if time <= 0.0:
         return
-    first = max(0, int(np.floor((time - half) / dt)) - 1)
-    last = int(np.ceil((time + half) / dt)) + 1
+    first = max(0, round((time - half) / dt) - 1)
+    last = round((time + half) / dt) + 1
     near = np.abs(values[first : last + 1])
     if near.size == 0 or near.max() < 0.98 * np.abs(values).max():
         at = int(np.abs(values).argmax()) * dt

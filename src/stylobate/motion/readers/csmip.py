@@ -70,7 +70,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
             components.append(component)
             facts = facts or component.metadata
         start = end + 1
-    warn_of_missing(len(components), _channel_count(lines, volume), source.name)
+    warn_of_missing(len(components), _channel_count(lines, volume, source.name), source.name)
     keep = ("station", "station_name", "event", "start_time")
     return components, {
         "format": f"CSMIP V{volume}",
@@ -117,10 +117,14 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
     return component
 
 
-def _channel_count(lines: list[str], volume: int) -> int | None:
-    """Channels of the record, as the first header says."""
-    text = lines[: HEADER_LINES[volume][0]]
-    return next((int(found["count"]) for line in text if (found := _CHANNELS.search(line))), None)
+def _channel_count(lines: list[str], volume: int, file: str) -> int | None:
+    """Channels of the record, as the first header's text says, or else its fourth integer."""
+    first = HEADER_LINES[volume][0]
+    found = next((found for line in lines[:first] if (found := _CHANNELS.search(line))), None)
+    if found is not None:
+        return int(found["count"])
+    stated = int(read_numbers(lines[first : first + 7], first, file, "header integers", count=100, width=5)[3])
+    return stated if 1 <= stated <= 3 else None
 
 
 def _check_peak(component: Component, text: list[str], start: int, file: str) -> None:

@@ -52,8 +52,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     counts = read_numbers(lines[start:], start, file, "counts")
     check_count(len(counts), file, start + 1, "counts")
     length = re.match(r"[\d.]+", header.get("duration time", ("", 0))[0])
-    # Whole seconds: one that is missing is seen.
-    if length is not None and not 0.0 <= len(counts) / frequency - float(length.group()) < 1.0:
+    # The network writes whole seconds.
+    if length is not None and abs(len(counts) - float(length.group()) * frequency) >= 1.0:
         raise InputError(
             f"{file}, line {header['duration time'][1]}: {len(counts)} counts at {frequency:g} Hz last "
             f"{len(counts) / frequency:g} s, the header promises {length.group()} s; {CUT}."
