@@ -163,6 +163,10 @@ def test_a_suite_of_two_columns_scaled_and_turned(command, folder, tmp_path):
     assert [row["column"] for row in result["runs"]] == ["paper-monolithic"] * 3 + ["stone"] * 3
     assert [row["number"] for row in result["runs"]] == [1, 2, 3] * 2
     assert {round(row["pga_g"], 9) for row in result["runs"]} == {0.25}
+    factors = [row["factor"] for row in result["runs"]]
+    assert factors[1] < 0.5 < 2.0 < factors[0] == factors[2]  # strong.csv is scaled down, weak.csv up
+    assert [one["factor"] for one in result["inputs"]] == factors[:3]
+    assert "multiplied by" in result["inputs"][0]["processing"][-1]
     assert {row["vertical"] for row in result["runs"]} == {False}
     assert all(one["azimuth_deg"] == 75.0 for one in result["inputs"])
 
@@ -247,6 +251,21 @@ def test_every_step_of_conditioning_can_be_typed(name):
     for example in condition_specs.STEPS[name].example.split(" or "):
         motion = condition_specs.conditioned(shaking(), example.replace("20s", "10s"))
         assert len(motion.processing) == 1
+
+
+def test_a_record_scaled_by_more_than_ten_is_warned_about(record, capsys):
+    assert call([*RUN, "--motion", str(record), "--scale", "12"]) == 0
+    assert "three.csv is scaled by 12, more than 10 times what was recorded" in capsys.readouterr().err
+    assert call([*RUN, "--harmonic", "1Hz,0.01g", "--scale", "12"]) == 0
+    assert "more than 10" not in capsys.readouterr().err
+
+
+def test_the_motion_is_named_after_the_file_of_the_chosen_component(command, tmp_path):
+    files = [
+        write_csv(st.Motion(0.01, np.sin(np.arange(300) * 0.1) * size), tmp_path / f"{size}.csv") for size in (1, 2)
+    ]
+    result = command(*RUN, "--motion", files[0], "--motion", files[1], "--component", "2", "--json")
+    assert result["motion"] == "2.csv"
 
 
 def test_a_simulated_motion(command):

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from stylobate.errors import InputError
+from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import (
     Motion,
     along,
@@ -229,3 +229,24 @@ def test_scaling_meets_its_target(record):
 def test_impossible_steps_are_refused(record, step, said):
     with pytest.raises(InputError, match=said):
         step(record)
+
+
+def test_a_trim_that_begins_in_the_middle_of_motion_leads_its_ends_to_zero(record):
+    kept = trim(record, 0.3, 0.6)
+    assert kept.acceleration[0] == 0.0
+    assert kept.acceleration[-1] == 0.0
+    assert "cosine taper of 0.25 s at start and end" in kept.processing[-1]
+    bare = trim(record, 0.3, 0.6, ends=0.0)
+    assert abs(bare.acceleration[0]) > 0.0
+    away = round(0.25 / record.dt)
+    assert kept.acceleration[away:-away] == pytest.approx(bare.acceleration[away:-away])
+    quiet = Motion(0.01, np.concatenate([np.zeros(500), np.sin(np.arange(1000) * 0.1), np.zeros(500)]))
+    whole = trim(quiet, 0.0, 1.0)
+    assert np.array_equal(whole.acceleration, quiet.acceleration[: whole.steps])  # quiet ends are left alone
+
+
+def test_a_record_scaled_by_more_than_ten_is_warned_about(record):
+    real = record.replace(metadata={"file": "a.asc"})
+    with pytest.warns(OutOfRangeWarning, match=r"a\.asc is scaled by"):
+        scale_to_pgv(real, 20.0 * real.pgv)
+    scale_to_pgv(record, 20.0 * record.pgv)  # not a record

@@ -245,3 +245,23 @@ def test_a_column_that_is_neither_preset_nor_file(tmp_path):
         load_column(tmp_path / "binary.toml")
     with pytest.raises(st.InputError, match="does not exist"):
         write_column(preset("paper-monolithic"), tmp_path / "none" / "column.toml")
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("friction_coefficient = 3.5", "friction_coefficient is 3.5, and nobody has measured more than 2"),
+        ("normal_stiffness = 5e6", "normal_stiffness is 5e\\+06 N/m³, and nobody has measured less than 1e\\+07"),
+        ("shear_stiffness = 5e13", "shear_stiffness is 5e\\+13 N/m³, and nobody has measured"),
+    ],
+)
+def test_joints_that_nobody_has_measured_are_warned_about(line, said, tmp_path):
+    joint = {"normal_stiffness": "5e10", "shear_stiffness": "2.5e10", "friction_coefficient": "0.7"}
+    key, _, value = line.partition(" = ")
+    rows = "\n".join(f"{name} = {one}" for name, one in (joint | {key: value}).items())
+    path = tmp_path / "column.toml"
+    path.write_text(
+        "density = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.6\ntop_width = 0.6\ndrums = 1\n[joint]\n" + rows
+    )
+    with pytest.warns(OutOfRangeWarning, match=said):
+        read_column(path)
