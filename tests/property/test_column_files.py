@@ -263,5 +263,5 @@ def test_joints_that_nobody_has_measured_are_warned_about(line, said, tmp_path):
     path.write_text(
         "density = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.6\ntop_width = 0.6\ndrums = 1\n[joint]\n" + rows
     )
-    with pytest.warns(OutOfRangeWarning, match=said):
+    with pytest.warns(st.OutOfRangeWarning, match=said):
         read_column(path)
