@@ -6,7 +6,7 @@ import dataclasses
 import os
 import platform
 import time
-from collections.abc import Generator, Iterable, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .column import Column
@@ -72,6 +72,7 @@ def simulate(
             "it off: --tail and --until-end are for every model."
         )
     model.check(column, motion)
+    model.check_length(column, motion, options)
     started = time.perf_counter()
     response = model.run(column, motion, options)
     wall = time.perf_counter() - started
@@ -144,6 +145,7 @@ def simulate_iter(
     options = _options(tail, 0.01, until_end)
     for column, motion in _to_check(cases):
         model.check(column, motion)
+        model.check_length(column, motion, options)
     yield from model.run_many(cases, options, thread_count(threads))
 
 
@@ -192,8 +194,13 @@ def simulate_many(
     return pandas.DataFrame(rows)
 
 
-def _to_check(cases: Sequence[Case]) -> Iterable[Case]:
+#: Cases that are kept while it is looked which of them stand for others.
+CHECKED_TOGETHER = 1000
+
+
+def _to_check(cases: Sequence[Case]) -> Iterator[Case]:
     # One case for all that share column and samples, the largest factor of each sign: what holds for it holds for them.
+    # Of so many at a time, as every case may have a column of its own.
     largest: dict[tuple, Case] = {}
     for case in cases:
         motion = case.motion
@@ -201,7 +208,10 @@ def _to_check(cases: Sequence[Case]) -> Iterable[Case]:
         key = (id(case.column), *samples, motion.dt, motion.factor < 0.0)
         if key not in largest or abs(motion.factor) > abs(largest[key].motion.factor):
             largest[key] = case
-    return largest.values()
+        if len(largest) >= CHECKED_TOGETHER:
+            yield from largest.values()
+            largest.clear()
+    yield from largest.values()
 
 
 def thread_count(threads: int | None) -> int:

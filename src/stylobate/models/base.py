@@ -19,6 +19,9 @@ from .shared.start import Start
 #: Beyond it no motion is one, and numbers overflow [m/s²].
 LARGEST_ACCELERATION = 1e6
 
+#: Longest run, by the estimate [s], and most states times bodies of its histories.
+LONGEST_RUN, MOST_STATES = 3600.0, 5e7
+
 
 class Case(NamedTuple):
     """One run of a batch."""
@@ -82,6 +85,17 @@ class Model:
                     f"{LARGEST_ACCELERATION:g} m/s²: check its unit and its factor."
                 )
 
+    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
+        """Time step that a run will take, and about what a step costs on one core, both [s]; the cost of a single run."""
+        return motion.dt, 0.0
+
+    def check_length(self, column: Column, motion: Motion, options: RunOptions) -> None:
+        """Refuse a run that would not end, and histories that no memory holds, with the estimate (InputError)."""
+        length = motion.duration + options.tail
+        step, cost = self.expected_step(column, motion)
+        refuse_endless(f"{column.name!r} under {motion.name!r}", length, step, cost)
+        refuse_long_histories(length / options.output_interval, column.n)
+
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories."""
         raise NotImplementedError
@@ -112,6 +126,32 @@ class Model:
                 raise InputError(f"{cls.name} has no option {key!r}; {suggest(key, allowed)}options are {options}.")
             values[key] = _parse(key, text, hints[key])
         return cls(**values)
+
+
+def refuse_endless(what: str, length: float, step: float, cost: float) -> None:
+    """Refuse a run of a length in steps of a length [s] that cost so much each [s], if it takes more than an hour."""
+    steps = length / step
+    if steps * cost > LONGEST_RUN:
+        raise InputError(
+            f"a run of {what} would take {steps:.2g} steps of {step:.2g} s, about {_long(steps * cost)}; allowed is up to "
+            f"{_long(LONGEST_RUN)}: lower the joints' stiffness, take fewer bodies, a larger time_step, or less time."
+        )
+
+
+def refuse_long_histories(states: float, bodies: int) -> None:
+    """Refuse histories of so many states of so many bodies, if there are more than any memory holds."""
+    if states * bodies > MOST_STATES:
+        raise InputError(
+            f"the histories would hold {states:.2g} states of {bodies} bodies; allowed is up to {MOST_STATES:.0e} "
+            "together: give a longer output interval, or less time."
+        )
+
+
+def _long(seconds: float) -> str:
+    for name, size in (("years", 3.15576e7), ("days", 86400.0), ("hours", 3600.0)):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:.2g} {name}"
+    return f"{seconds / 60.0:.0f} minutes"
 
 
 def ground_history(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

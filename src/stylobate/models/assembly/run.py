@@ -11,7 +11,7 @@ from ...column.assembly import Assembly
 from ...errors import InputError, OutOfRangeWarning
 from ...motion import Motion
 from ...response.assembly_response import AssemblyResponse
-from ..base import RunOptions, ground_history
+from ..base import RunOptions, ground_history, refuse_endless, refuse_long_histories
 from ..dem2d.model import DistinctElement2D
 from ..drums.block import LARGEST_IMBALANCE
 from .engine import LONGEST_WAIT, RESTITUTION_TO_REST, Engine, stable_step
@@ -54,6 +54,10 @@ def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, o
             f"time_step is {step:g} s; the largest stable step for {assembly.name!r} is {stable:.4g} s: "
             f"give at most {0.9 * stable:.3g} s, or leave it out."
         )
+    length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
+    step = min(step, motion.duration / engine.kernel.CHUNK)
+    refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
+    refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
     balanced = engine.settle()
     if not balanced and model.start == "settle":

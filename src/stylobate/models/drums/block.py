@@ -16,7 +16,7 @@ from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Histories, Measures
 from ..base import Case, RunOptions, ground_history
-from ..shared.lanes import aligned_zeros
+from ..shared.lanes import aligned_zeros, longest_piece
 from .standing import lowest_barrier, stands_for_good
 
 #: Half width of the base, wide enough to be a half-plane [m].
@@ -121,6 +121,7 @@ class DrumBlock:
         self.slip = np.zeros((self.lanes, drums))
         self.cases: list[Case | None] = [None] * self.lanes
         self.chunks_per_call = 1
+        self.piece = longest_piece(model.cost(drums), self.chunk)
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
@@ -165,8 +166,11 @@ class DrumBlock:
 
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
-        count = self.chunks_per_call if chunks is None else chunks
-        self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
+        left = min(self.chunks_per_call, self.piece) if chunks is None else chunks
+        while left > 0:
+            count = min(left, self.piece)
+            self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
+            left -= count
 
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended."""

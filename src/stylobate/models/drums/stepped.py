@@ -13,8 +13,8 @@ from ...errors import InputError, OutOfRangeWarning, check_range
 from ...motion import Motion
 from ...response import Histories, Measures, Response
 from ..base import Case, Model, RunOptions
-from ..shared.lanes import run_lanes
-from .block import DrumBlock, PackedColumn, histories
+from ..shared.lanes import run_alike
+from .block import DrumBlock, PackedColumn, histories, whole_steps
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,6 +81,10 @@ class SteppedDrums(Model):
         """Histories from the snapshots of a run."""
         return histories(motion, states)
 
+    def cost(self, drums: int) -> float:
+        """About what a step of a single run costs on one core [s]; a batch shares it among its lanes."""
+        return 1.2e-7 * drums
+
     # -- shared --------------------------------------------------------------------------------------------------
 
     def check(self, column: Column, motion: Motion) -> None:
@@ -112,6 +116,11 @@ class SteppedDrums(Model):
             )
         return self.time_step
 
+    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
+        """Time step and its cost [s]; whole chunks of steps fill the motion."""
+        chunk = self.kernel().CHUNK
+        return whole_steps(motion, 0.0, self.step_for(column), chunk)[0], self.cost(column.n)
+
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, through the same kernel as a batch."""
         block = self.make_block(column.n, options)
@@ -129,10 +138,4 @@ class SteppedDrums(Model):
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
-        by_drums: dict[int, list[int]] = {}
-        for index, case in enumerate(cases):
-            by_drums.setdefault(case.column.n, []).append(index)
-        for drums, indices in by_drums.items():
-            some = [cases[index] for index in indices]
-            for k, measures in run_lanes(lambda drums=drums: self.make_block(drums, options), some, threads):
-                yield indices[k], measures
+        return run_alike(lambda case: case.column.n, lambda drums: self.make_block(drums, options), cases, threads)

@@ -14,6 +14,7 @@ from ...motion import Motion
 from ...response import Histories, Measures
 from ..base import Case, RunOptions
 from ..rocking.block import lightest_weight, off_the_ground
+from ..shared.lanes import longest_piece
 from .equations import tridiagonal
 from .state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
 from .verdict import faces
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 #: Wanted time between two looks at a run [s], and calls of the kernel per run.
 LOOK = 0.01
 CALLS_PER_RUN = 20
+
+#: About what a step of a single run costs on one core for each drum [s]; a batch shares it among its lanes.
+COST = 2e-7
 
 
 class Loop(NamedTuple):
@@ -64,6 +68,7 @@ class BeamLanes:
         self.start = np.zeros((self.lanes, 3))
         self.cases: list[tuple[Case, PackedBeam] | None] = [None] * self.lanes
         self.calls = 1
+        self.piece = longest_piece(COST * loop.drums, loop.steps)
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane that is free."""
@@ -113,8 +118,11 @@ class BeamLanes:
         """Advance all lanes by a share of a run."""
         loop = self.loop
         flags = (loop.sliding or None, loop.bed, loop.vertical or None, loop.damped or None)
-        count = self.calls if chunks is None else chunks
-        kernel.advance(self.drum, self.lane, self.watch, self.a, self.g, count, loop.steps, *flags)
+        left = min(self.calls, self.piece) if chunks is None else chunks
+        while left > 0:
+            count = min(left, self.piece)
+            kernel.advance(self.drum, self.lane, self.watch, self.a, self.g, count, loop.steps, *flags)
+            left -= count
 
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended."""

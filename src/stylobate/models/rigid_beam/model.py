@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -15,12 +15,9 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..rocking.block import RockingBlock
-from ..rocking.model import warn, warn_components
-from ..shared.lanes import MOST_SAMPLES, run_lanes
+from ..rocking.model import warn, warn_components, warn_sliding
+from ..shared.lanes import MOST_SAMPLES, run_alike
 from .equations import BeamMatrices
-
-if TYPE_CHECKING:
-    from .lanes import Loop
 
 LAWS = ("winkler", "bilinear", "trilinear", "housner")
 
@@ -226,6 +223,18 @@ class RigidBeam(Model):
         """Time step for a column under a motion, whose samples it may pass over by a few [s]; ``column`` idealised."""
         return self.time_step or min(self.longest_step(column), MOST_SAMPLES * motion.dt)
 
+    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
+        """Time step and its cost [s]."""
+        seen = self.idealised(column)
+        if self.moment_law == "housner":
+            from ..rocking.single import longest_step
+
+            return longest_step(self.block(seen).p, motion), 3e-4
+        step = min(self.step_for(seen, motion), motion.duration)
+        from .lanes import COST
+
+        return step, 5e-4 if self.solver == "adaptive" else COST * column.n
+
     def highest_rate(self, column: Column) -> float:
         """Highest rate of the column with all joints closed, ω_max or faster where damped [1/s]; ``column`` idealised."""
         shear = None
@@ -284,6 +293,8 @@ class RigidBeam(Model):
                 raise InputError(
                     f"time_step is {self.time_step:g} s; allowed is up to {largest:.3g} s ({which}), or leave it out."
                 )
+        if not self.sliding:
+            warn_sliding(seen, seen.slenderness, self.name, "with sliding=true the beam slides")
         if abs(self.initial_rotation) >= seen.slenderness:
             raise InputError(
                 f"initial_rotation is {self.initial_rotation:g} rad; allowed is less than the slenderness "
@@ -318,16 +329,13 @@ class RigidBeam(Model):
         if self.moment_law == "housner":
             from ..rocking.lanes import RockingLanes
 
-            vertical = any(case.motion.z_samples is not None for case in cases)
             step, start = self.time_step, self.initial_rotation
-            yield from run_lanes(lambda: RockingLanes(self.block, options, start, step, vertical), cases, threads)
-            return
+            return run_alike(
+                lambda case: case.motion.z_samples is not None,
+                lambda vertical: RockingLanes(self.block, options, start, step, vertical),
+                cases,
+                threads,
+            )
         from .lanes import BeamLanes, loop_for
 
-        alike: dict[Loop, list[int]] = {}
-        for index, case in enumerate(cases):
-            alike.setdefault(loop_for(self, case), []).append(index)
-        for loop, indices in alike.items():
-            some = [cases[index] for index in indices]
-            for k, measures in run_lanes(lambda loop=loop: BeamLanes(self, loop, options), some, threads):
-                yield indices[k], measures
+        return run_alike(lambda case: loop_for(self, case), lambda loop: BeamLanes(self, loop, options), cases, threads)

@@ -23,6 +23,9 @@ from .verdict import Passes
 if TYPE_CHECKING:
     from .model import RigidBeam
 
+#: Why a column that falls by itself has no verdict: the motion has no part in it.
+TOO_SOFT = "the joints are too soft to hold the column upright under its own weight; raise normal_stiffness"
+
 
 @dataclass(frozen=True, eq=False)
 class PackedBeam:
@@ -107,7 +110,7 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
     0: none), side, time of collapse, end, failure, top, residual, turn, opening, step, steps.
     """
     column, passes = beam.seen, beam.passes
-    failure = found["failure"]
+    failure = found["failure"] or ("" if passes.stands else TOO_SOFT)
     imbalance = relative(found["unaccounted"], found["work"], found["start"], passes.lowest_rigid)
     state = (*found["theta"], *found["slip"], found["energy"], imbalance)
     if not failure and not all(map(math.isfinite, state)):

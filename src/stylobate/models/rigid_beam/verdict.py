@@ -109,7 +109,7 @@ class Passes:
         """
         n = self.column.n
         height, top = self.heights.max(axis=0), self.heights.argmax(axis=0)
-        if n == 1 or not self.geometric:
+        if n == 1 or not self.geometric or not self.stands:
             return np.zeros(n)
         summit = self.angles[top, np.arange(n)]
         share = np.geomspace(1e-9, 0.5, 80)
@@ -140,6 +140,14 @@ class Passes:
             ratio[:] = np.inf
         ratio[0] = np.inf
         return np.minimum.accumulate(ratio[::-1])[::-1]
+
+    @cached_property
+    def stands(self) -> bool:
+        """Whether the column stands upright under its own weight: every way out goes up, and so does every small sway."""
+        if not self.geometric:
+            return True
+        uphill = bool(self.heights.max(axis=0).min() > 0.0)
+        return uphill and (not self.has_potential or bool(np.real(self.modes[0]).min() > 0.0))
 
     @cached_property
     def lowest_rigid(self) -> float:

@@ -13,7 +13,7 @@ from ...errors import InputError, OutOfRangeWarning, check_range
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
-from ..shared.lanes import run_lanes
+from ..shared.lanes import run_alike
 from .block import RockingBlock
 
 #: Slenderness beyond which the linearised equation departs visibly from the nonlinear one [rad]; Housner's own limit.
@@ -110,11 +110,7 @@ class HousnerBlock(Model):
             raise InputError(
                 f"time_step is {self.time_step:g} s; allowed is up to {0.2 / block.p:.3g} s (0.2/p) for this block."
             )
-        if math.tan(block.alpha) > column.joints[0].tan_phi:
-            warn(
-                f"tan α = {math.tan(block.alpha):.3f} is above the friction coefficient "
-                f"{column.joints[0].tan_phi:.3f}: the block slides before it rocks, and this model has no sliding."
-            )
+        warn_sliding(column, block.alpha, self.name, "dem2d has sliding")
         if self.linear and block.alpha > SLENDER:
             warn(f"the slenderness is {math.degrees(block.alpha):.1f}°; the linearised equation is for up to 20°.")
         if self.restitution is None and column.restitution < 0.0:
@@ -123,6 +119,12 @@ class HousnerBlock(Model):
                 "0 is used, and the block stops at its first impact."
             )
         warn_components(column, motion, self.name)
+
+    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
+        """Longest step of the adaptive solver, which is the dearer one, and its cost [s]."""
+        from .single import longest_step
+
+        return longest_step(column.frequency_parameter, motion), 3e-4
 
     def block(self, column: Column) -> RockingBlock:
         """The numbers of the rocking equation for a column of one drum."""
@@ -150,16 +152,27 @@ class HousnerBlock(Model):
         """Many runs by the lane kernel, impacts located."""
         from .lanes import RockingLanes
 
-        def make_block() -> RockingLanes:
+        def make_block(vertical: bool) -> RockingLanes:
             return RockingLanes(self.block, options, self.initial_rotation, self.time_step, vertical)
 
-        vertical = any(case.motion.z_samples is not None for case in cases)
-        return run_lanes(make_block, cases, threads)
+        return run_alike(lambda case: case.motion.z_samples is not None, make_block, cases, threads)
 
 
 def warn(text: str) -> None:
     """Warn that a model is used outside a limit it declares."""
     warnings.warn(text, OutOfRangeWarning, stacklevel=4)
+
+
+def warn_sliding(column: Column, alpha: float, name: str, remedy: str) -> None:
+    """Warn of joints on which a column of slenderness α [rad] slides before it rocks, in a model without sliding."""
+    joint = min(range(column.n), key=lambda i: column.joints[i].tan_phi)
+    friction = column.joints[joint].tan_phi
+    if math.tan(alpha) > friction:
+        where = "" if column.n == 1 else f" of joint {joint + 1}"
+        warn(
+            f"tan α = {math.tan(alpha):.3f} is above the friction coefficient {friction:.3f}{where}: the column slides "
+            f"before it rocks, and {name} as it is set has no sliding; {remedy}."
+        )
 
 
 def warn_components(column: Column, motion: Motion, name: str) -> None:

@@ -67,6 +67,11 @@ class Ground:
         return begin + (end - begin) * (-low / (high - low) if low < 0.0 else 0.0), side
 
 
+def longest_step(p: float, motion: Motion) -> float:
+    """Longest step of the solver for a block of frequency parameter p [1/s]: no start of the motion is stepped over [s]."""
+    return min(0.02 / p, 16.0 * motion.dt)
+
+
 def run_single(
     block: RockingBlock, motion: Motion, options: RunOptions, initial_rotation: float
 ) -> tuple[Histories, Measures]:
@@ -119,7 +124,7 @@ def run_single(
     largest = 0.0
     peaks = {1.0: 0.0, -1.0: 0.0, side: abs(initial_rotation)}
     collapse_time, steps, impacts, smallest, failure = -1.0, 0, 0, math.inf, ""
-    largest_step = min(0.02 / block.p, max(motion.dt, 16.0 * motion.dt))
+    largest_step = longest_step(block.p, motion)
 
     def write_until(t: float, dense=None) -> None:
         nonlocal written

@@ -6,13 +6,18 @@ here and loaded with the next case. A run's result does not depend on its lane, 
 
 from __future__ import annotations
 
+import itertools
+import math
+import operator
 import queue
 import threading
-from collections.abc import Callable, Iterator, Sequence
-from typing import Protocol
+from collections.abc import Callable, Hashable, Iterable, Iterator
+from typing import Any, Protocol, TypeVar
 
 import numpy as np
 
+from ...errors import InputError
+from ...outcome import Outcome
 from ...response import Measures
 from ..base import Case
 
@@ -42,6 +47,15 @@ class LaneBlock(Protocol):
 #: Samples of a motion that a fixed step of the rocking models may pass over.
 MOST_SAMPLES = 4
 
+#: Longest call of a compiled loop [s], by the estimate: Ctrl-C and a batch that is closed have to wait for its end.
+LONGEST_CALL = 0.1
+
+
+def longest_piece(cost: float, chunk: int) -> int:
+    """Most chunks of steps that a call takes, from about what a step costs [s]."""
+    return max(1, int(LONGEST_CALL / (cost * chunk)))
+
+
 #: Arrays of lanes start at a multiple of this [bytes], so that no vector straddles two lines of the cache.
 CACHE_LINE = 64
 
@@ -54,39 +68,103 @@ def aligned_zeros(shape: int, dtype: np.dtype) -> np.ndarray:
     return raw[start : start + size].view(dtype)
 
 
-def run_lanes(
-    make_block: Callable[[], LaneBlock], cases: Sequence[Case], threads: int
+#: Cases that are looked at together, to put those next to each other that share blocks, and results that may wait.
+WINDOW = 4096
+
+Key = TypeVar("Key", bound=Hashable)
+
+
+def run_alike(
+    key: Callable[[Case], Key], make_block: Callable[[Key], LaneBlock], cases: Iterable[Case], threads: int
 ) -> Iterator[tuple[int, Measures]]:
-    """Run all cases; yields (index, measures) as they finish. Closing the iterator stops the threads."""
-    if not cases:
-        return
-    todo = iter(range(len(cases)))
+    """Run cases of several kinds, those of one kind together; yields as :func:`run_lanes` does.
+
+    Parameters
+    ----------
+    key : callable
+        Kind of a case: cases of one kind can share a block.
+    make_block : callable
+        A block for cases of a kind.
+    cases : iterable of Case
+        Asked for one by one, :data:`WINDOW` ahead of the runs at most.
+    threads : int
+    """
+    lost: list[tuple[int, Measures]] = []
+
+    def kinds() -> Iterator[tuple[Key, int, Case]]:
+        numbered, last = enumerate(cases), None
+        while window := list(itertools.islice(numbered, WINDOW)):
+            by_kind: dict[Key, list[tuple[int, Case]]] = {}
+            for index, case in window:
+                try:
+                    by_kind.setdefault(key(case), []).append((index, case))
+                except NOT_COMPUTED as error:
+                    lost.append((index, not_computed(error)))
+            # the kind of the window before first: its blocks go on
+            for kind in sorted(by_kind, key=lambda kind: kind != last):
+                last = kind
+                for index, case in by_kind[kind]:
+                    yield kind, index, case
+
+    for kind, some in itertools.groupby(kinds(), key=operator.itemgetter(0)):
+        yield from run_lanes(lambda kind=kind: make_block(kind), (one[1:] for one in some), threads, numbered=True)
+    yield from lost
+
+
+def run_lanes(
+    make_block: Callable[[], LaneBlock], cases: Iterable[Any], threads: int, *, numbered: bool = False
+) -> Iterator[tuple[int, Measures]]:
+    """Run all cases; yields (index, measures) as they finish. Closing the iterator stops the threads.
+
+    Parameters
+    ----------
+    make_block : callable
+    cases : iterable of Case
+        Asked for one by one, as lanes become free. With ``numbered``: of (index, Case).
+    threads : int
+    numbered : bool
+    """
+    todo: Iterator[tuple[int, Case]] = iter(cases if numbered else enumerate(cases))
     take = threading.Lock()
     results: queue.SimpleQueue = queue.SimpleQueue()
     stop = threading.Event()
 
-    def next_case() -> int | None:
+    def next_case() -> tuple[int, Case] | None:
         with take:
             return next(todo, None)
+
+    def load(block: LaneBlock, lane: int) -> int | None:
+        """Fill a lane; a case that cannot be loaded is a result, and the next one is taken."""
+        while (one := next_case()) is not None:
+            try:
+                block.load(lane, one[1])
+                return one[0]
+            except NOT_COMPUTED as error:
+                results.put((one[0], not_computed(error)))
+        return None
 
     def work() -> None:
         try:
             block = make_block()
             running: dict[int, int] = {}
             while not stop.is_set():
+                while results.qsize() > WINDOW and not stop.wait(0.01):  # a slow caller is waited for
+                    pass
                 for lane in range(block.lanes):
-                    if lane in running:
-                        continue
-                    index = next_case()
-                    if index is None:
-                        break
-                    block.load(lane, cases[index])
-                    running[lane] = index
+                    if lane not in running:
+                        index = load(block, lane)
+                        if index is None:
+                            break
+                        running[lane] = index
                 if not running:
                     break
                 block.advance()
                 for lane in [lane for lane in running if block.is_over(lane)]:
-                    results.put((running.pop(lane), block.collect(lane)))
+                    try:
+                        results.put((running[lane], block.collect(lane)))
+                    except NOT_COMPUTED as error:
+                        results.put((running[lane], not_computed(error)))
+                    del running[lane]
             results.put(None)
         except BaseException as error:  # handed to the caller's thread, which raises it
             results.put(error)
@@ -108,3 +186,13 @@ def run_lanes(
         stop.set()
         for worker in workers:
             worker.join()
+
+
+#: What ends one run of a batch and not the batch.
+NOT_COMPUTED = (InputError, ArithmeticError, np.linalg.LinAlgError)
+
+
+def not_computed(error: Exception) -> Measures:
+    """Measures of a case that could not be computed, with the reason."""
+    what = str(error) if isinstance(error, InputError) else f"could not be computed: {type(error).__name__}: {error}"
+    return Measures(Outcome.FAILED, False, *[math.nan] * 8, steps=0, reason=what.rstrip("."))

@@ -1,0 +1,221 @@
+"""Batches ask for their cases one by one, keep none of them, and go on where one cannot be computed."""
+
+import threading
+import tracemalloc
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.errors import OutOfRangeWarning
+from stylobate.models.base import Case
+from stylobate.models.shared.lanes import LONGEST_CALL, WINDOW, run_alike, run_lanes
+from stylobate.simulate import simulate_iter
+
+JOINT = st.Joint(5e9, 2.5e9, friction_angle=35.0)
+
+
+def column(drums=2, joint=JOINT):
+    return st.Column.tapered(
+        height=5.0, bottom_width=0.96, top_width=0.66, drums=drums, density=1600.0, joint=joint, name=f"{drums} drums"
+    )
+
+
+class Block:
+    """A block of lanes whose runs end at once."""
+
+    lanes = 16
+
+    def __init__(self, kind=None):
+        self.kind, self.loaded = kind, {}
+
+    def load(self, lane, case):
+        if isinstance(case, str):
+            raise st.InputError("this one is odd.")
+        self.loaded[lane] = case
+
+    def advance(self):
+        pass
+
+    def is_over(self, lane):
+        return True
+
+    def collect(self, lane):
+        return self.kind, self.loaded.pop(lane)
+
+
+def test_cases_are_asked_for_as_lanes_become_free():
+    asked, most = 0, 0
+
+    def cases():
+        nonlocal asked
+        for number in range(20_000):
+            asked += 1
+            yield number
+
+    done = 0
+    for index, (_, case) in run_lanes(Block, cases(), 1):
+        assert index == case
+        done += 1
+        most = max(most, asked - done)
+    assert done == asked == 20_000
+    assert most <= WINDOW + 2 * Block.lanes + 1
+    # nothing but what waits to be handed over is ahead of the caller
+    stream = run_lanes(Block, (number for number in iter(int, 1)), 1)  # without end
+    assert next(stream)[0] >= 0
+    stream.close()
+    assert threading.active_count() < 10
+
+
+def test_memory_is_flat_however_many_cases_there_are():
+    def peak(count):
+        tracemalloc.start()
+        for _ in run_alike(lambda case: "one", Block, (np.full(1000, number) for number in range(count)), 1):
+            pass
+        found = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        return found
+
+    few, many = peak(WINDOW), peak(4 * WINDOW)
+    assert many < 2.0 * few
+
+
+def test_kinds_share_blocks_and_every_case_is_run_once():
+    cases = [number % 3 for number in range(2 * WINDOW + 100)]
+    found = dict(run_alike(lambda case: case, Block, iter(cases), 2))
+    assert found == {index: (case, case) for index, case in enumerate(cases)}
+
+
+def test_a_case_that_cannot_be_loaded_is_failed_and_the_others_go_on():
+    cases = ["odd" if number % 50 == 7 else number for number in range(500)]
+    found = dict(run_lanes(Block, cases, 2))
+    assert len(found) == 500
+    for index, case in enumerate(cases):
+        if case == "odd":
+            assert found[index].outcome.label == "failed"
+            assert found[index].reason == "this one is odd"
+        else:
+            assert found[index] == (None, case)
+
+
+class Kept(Sequence):
+    """Cases that are made when asked for; says how many live at the same time."""
+
+    def __init__(self, count):
+        self.count = count
+        self.alive = self.most = 0
+        self.motion = st.harmonic(2.0, 0.5, 0.05)
+
+    def __len__(self):
+        return self.count
+
+    def __getitem__(self, index):
+        if not 0 <= index < self.count:
+            raise IndexError(index)
+        return Case(BLOCK, self.motion.scaled(1.0 + index / self.count))
+
+
+BLOCK = column(1)
+
+
+@pytest.mark.parametrize("model", [st.HousnerBlock(), st.RigidBeam(), st.DistinctElement2D()], ids=lambda one: one.name)
+def test_models_take_sequences_that_make_their_cases(model):
+    cases = Kept(40)
+    lazily = dict(simulate_iter(cases, model, threads=2))
+    listed = dict(simulate_iter(list(cases), model, threads=1))
+    assert {k: one.row() for k, one in lazily.items()} == {k: one.row() for k, one in listed.items()}
+    assert sorted(lazily) == list(range(40))
+
+
+def test_a_beam_on_joints_that_do_not_hold_it_is_failed_and_aborts_no_batch():
+    soft = st.Joint(1e6, 5e5, friction_angle=35.0)
+    motion = st.harmonic(1.0, 1.0, 1.0)
+    some = [column(4), column(4, soft), column(1, soft), column(4)]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)
+        table = st.simulate_many(some, [motion] * 4, st.RigidBeam())
+        single = st.simulate(some[1], motion, st.RigidBeam())
+    assert list(table.outcome) == ["rocked", "failed", "failed", "rocked"]
+    assert "too soft to hold the column upright" in table.reason[1]
+    assert single.outcome.label == "failed"
+    assert single.measures.reason == table.reason[1]
+
+
+def test_absurd_numbers_of_steps_are_refused_with_the_estimate():
+    endless = [
+        (column(200, st.Joint(1e15, 5e14)), st.harmonic(1.0, 1.0, 10.0), st.DistinctElement2D()),
+        (column(1), st.harmonic(1.0, 1.0, 1e-12), st.DistinctElement2D()),
+        (column(1), st.harmonic(1.0, 1.0, 1e-12), st.RigidBlock()),
+        (column(1), st.harmonic(1.0, 1.0, 1e-12), st.RigidBeam()),
+        (column(1), st.harmonic(1.0, 1.0, 1e-12), st.HousnerBlock()),
+        (column(12), st.harmonic(1.0, 1.0, 10.0), st.DistinctElement2D(time_step=1e-12)),
+    ]
+    for stone, motion, model in endless:
+        with pytest.raises(st.InputError, match=r"would take .* steps of .* s, about .*; allowed is up to 60 minutes"):
+            st.simulate(stone, motion, model, tail=5.0)
+        with pytest.raises(st.InputError, match="would take"):
+            st.simulate_many(stone, [motion], model, tail=5.0)
+    with pytest.raises(st.InputError, match="longer output interval"):
+        st.simulate(column(1), st.harmonic(1.0, 1.0, 10.0), st.HousnerBlock(), output_interval=1e-12)
+    for drums in (1, 12):  # what is usual is far below
+        stone, motion = column(drums, st.Joint(1e12, 1e12)), st.harmonic(1.0, 1.0, 120.0)
+        step, cost = st.DistinctElement2D().expected_step(stone, motion)
+        assert motion.duration / step * cost < 200.0
+
+
+@pytest.mark.parametrize(
+    "model", [st.DistinctElement2D(points=32), st.RigidBeam(), st.RigidBlock()], ids=lambda m: m.name
+)
+def test_compiled_calls_are_short_however_long_the_run(model):
+    from stylobate.models.drums.block import DrumBlock
+    from stylobate.models.rigid_beam.lanes import BeamLanes, loop_for
+    from stylobate.simulate import RunOptions
+
+    stone, motion = column(60, st.Joint(1e12, 1e12)), st.harmonic(1.0, 1.0, 100.0)
+    case = Case(stone, motion)
+    if isinstance(model, st.RigidBeam):
+        block = BeamLanes(model, loop_for(model, case), RunOptions())
+        chunk = block.loop.steps
+    else:
+        block = DrumBlock(model, stone.n, RunOptions())
+        chunk = block.chunk
+    calls = []
+    block.load(0, case)
+
+    class Kernel:
+        def __getattr__(self, name):
+            return getattr(real, name)
+
+        def advance(self, *arguments):
+            calls.append(next(one for one in reversed(arguments[:7]) if isinstance(one, int) and one != chunk))
+
+    if isinstance(model, st.RigidBeam):
+        from stylobate.models.rigid_beam import lanes
+
+        real, lanes.kernel = lanes.kernel, Kernel()
+        try:
+            block.advance()
+            block.advance(10_000)
+        finally:
+            lanes.kernel = real
+    else:
+        real, block.kernel = block.kernel, Kernel()
+        block.advance()
+        block.advance(10_000)
+    _, cost = model.expected_step(stone, motion)
+    assert sum(calls[1:]) == 10_000
+    assert max(calls) == 1 or max(calls) * chunk * cost <= LONGEST_CALL
+
+
+@pytest.mark.parametrize("drums", [1, 3])
+def test_a_beam_that_would_slide_says_so(drums):
+    slippery = column(drums, st.Joint(5e9, 2.5e9, friction_angle=5.0))
+    motion = st.harmonic(1.0, 0.1, 0.1)
+    with pytest.warns(OutOfRangeWarning, match="slides before it rocks, and rigid-beam as it is set has no sliding"):
+        st.simulate(slippery, motion, st.RigidBeam())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        st.simulate(slippery, motion, st.RigidBeam(sliding=True))
+        st.simulate(column(drums), motion, st.RigidBeam())
