@@ -1,7 +1,9 @@
 """Housner's block: batch against single run, order of the cases and number of threads, refused input."""
 
+import gc
 import math
 import warnings
+import weakref
 
 import numpy as np
 import pytest
@@ -9,8 +11,9 @@ import pytest
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
-from stylobate.kernels.rocking.step import LANES, trigonometry
+from stylobate.kernels.rocking.step import A_ADDRESS, LANES, trigonometry
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.rocking import lanes as rocking_lanes
 from stylobate.models.rocking.lanes import RockingLanes
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
@@ -175,3 +178,17 @@ def test_the_largest_motion_of_a_batch_is_checked_in_any_order():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         simulate_many(COLUMN, [bump.scaled(factor) for factor in (4.0, 1.0)], HousnerBlock())
+
+
+def test_a_lane_that_has_ended_keeps_the_samples_that_the_kernel_still_reads(monkeypatch):
+    # The loop over lanes reads the input of those, too, that nothing is left to run for.
+    monkeypatch.setattr(rocking_lanes, "MOST_TABLES", 1)
+    block = RockingLanes(HousnerBlock().block, RunOptions(), 0.0, None, False)
+    block.load(0, Case(COLUMN, harmonic(2.0, 0.01 * g, 1.0)))
+    samples = weakref.ref(block.cases[0][2][0])
+    while not block.is_over(0):
+        block.advance()
+    block.collect(0)
+    block.load(1, Case(COLUMN, harmonic(3.0, 0.01 * g, 1.0)))  # the tables are full: the first is no longer kept there
+    gc.collect()
+    assert block.whole[A_ADDRESS, 0] == 0 or samples() is not None

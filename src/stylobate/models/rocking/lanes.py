@@ -114,8 +114,9 @@ class RockingLanes:
         """Measures of a lane whose run has ended."""
         loaded = self.cases[lane]
         assert loaded is not None
-        case, block, _, steps = loaded
-        self.cases[lane] = None
+        case, block, _, steps = (
+            loaded  # kept until the lane is loaded anew: the kernel still reads the motion's samples
+        )
         x, v, side, work, work_max, right, left, loss, step, collapse = (
             float(self.row(name)[lane])
             for name in ("X", "V", "SIDE", "WORK", "WORK_MAX", "TO_RIGHT", "TO_LEFT", "LOSS", "STEP", "COLLAPSE")
@@ -140,7 +141,7 @@ class RockingLanes:
         """Motion along x and z and what is left of it at half steps, shared by all runs of the same samples and step."""
         key = (id(motion.samples), id(motion.z_samples), motion.dt, step)
         if key not in self.tables:
-            if len(self.tables) >= MOST_TABLES:  # lanes that run keep theirs alive
+            if len(self.tables) >= MOST_TABLES:  # lanes keep theirs alive
                 self.tables.clear()
             z = motion.z_samples
             vertical = None if z is None else half_steps(z, motion.dt, step, steps)
