@@ -11,7 +11,9 @@ from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
 MONOLITH, TWELVE = preset("paper-monolithic"), preset("paper-12-drums")
-AMPLITUDES = np.linspace(0.28, 0.32, 16) * g  # one block of lanes
+AMPLITUDES = np.linspace(0.28, 0.32, 48) * g  # three blocks of lanes
+
+pytestmark = pytest.mark.processor
 
 
 def unequal() -> Column:
@@ -74,9 +76,12 @@ def imbalances(column, unit, step_factor, **options):
     ],
 )
 def test_ledger_closes_with_every_option(column, unit, options, limit):
-    coarse, half = (imbalances(column, unit, s, **options) for s in (0.4, 0.2))
-    assert np.median(coarse) < limit
-    assert 2.0 < np.median(coarse) / np.median(half) < 8.0
+    # What is left over is of order two in the step, and in a single run a matter of the last impacts. Over 16 runs the
+    # logarithm of the ratio of the root mean squares scatters by 0.18 where it scatters most (as found; by drawing
+    # from 96 runs), over 48 by 0.11: from 4 to either limit it is more than six times that.
+    coarse, half = (np.sqrt(np.mean(imbalances(column, unit, s, **options) ** 2)) for s in (0.4, 0.2))
+    assert coarse < limit
+    assert 2.0 < coarse / half < 8.0
 
 
 def test_every_term_of_the_ledger_is_there():

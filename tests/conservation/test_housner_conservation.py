@@ -21,6 +21,9 @@ def shaken(amplitude: float, vertical: float = 0.0) -> Motion:
     return Motion(1e-3, amplitude * np.sin(2 * np.pi * time), vertical=up)
 
 
+pytestmark = pytest.mark.processor
+
+
 @pytest.mark.parametrize("linear", [False, True])
 @pytest.mark.parametrize("vertical", [0.0, 0.3 * g])
 def test_ledger_closes(linear, vertical):
@@ -44,16 +47,21 @@ def test_mirror_symmetry():
 
 
 def test_similarity():
-    # Lengths × λ, times × √λ, the same accelerations: the same rotations (p scales with 1/√λ).
+    # Lengths × λ, times × √λ, the same accelerations: the same rotations (p scales with 1/√λ). With λ = 4 every number
+    # differs by a power of two, which no rounding sees: equal to the last bit on every processor, impacts and all.
     size = 4.0
     joint = Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_coefficient=0.7)
     small = Column.of_drums([Drum(2.0, 0.5, 0.4, 1600.0)], joint)
     large = Column.of_drums([Drum(2.0 * size, 0.5 * size, 0.4 * size, 1600.0)], joint)
     motion = harmonic(1.6, 0.35 * g, 5.0)
     stretched = motion.replace(dt=motion.dt * math.sqrt(size))
-    one, two = simulate(small, motion, HousnerBlock()), simulate(large, stretched, HousnerBlock())
-    assert one.peak_rotation == pytest.approx(two.peak_rotation, rel=1e-6)
-    assert two.peak_top_displacement == pytest.approx(size * one.peak_top_displacement, rel=1e-6)
+    one = simulate(small, motion, HousnerBlock(), output_interval=0.01)
+    two = simulate(large, stretched, HousnerBlock(), output_interval=0.02)
+    assert np.count_nonzero(np.diff(np.sign(one.drum_rotation[:, 0]))) > 5  # impacts
+    assert np.array_equal(two.time, 2.0 * one.time)
+    assert np.array_equal(two.drum_rotation, one.drum_rotation)
+    assert two.peak_rotation == one.peak_rotation
+    assert two.peak_top_displacement == size * one.peak_top_displacement
 
 
 def test_a_small_rotation_moves_points_as_a_rigid_body_does():

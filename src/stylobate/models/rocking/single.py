@@ -11,7 +11,7 @@ from ...response import Histories, Measures
 from ..base import RunOptions
 from .block import REST, RockingBlock, lightest_weight, off_the_ground, remaining_peak
 
-#: Of the solver; the absolute one over the slenderness.
+#: Of the solver; the absolute one over the natural size of each variable: α, p α and (p α)².
 RELATIVE_TOLERANCE = 1e-8
 ABSOLUTE_TOLERANCE = 1e-9
 
@@ -95,6 +95,7 @@ def run_single(
     ground = Ground(motion, block.gravity, block.push)
     end = motion.duration + options.tail
     p2, alpha = block.p**2, block.alpha
+    absolute = ABSOLUTE_TOLERANCE * np.array([alpha, block.p * alpha, p2 * alpha**2])
     remaining, lightest = (
         remaining_peak(motion) * abs(motion.factor) * block.push / block.gravity,
         lightest_weight(motion, block.gravity),
@@ -148,10 +149,10 @@ def run_single(
             side, moving = start[1], True
         begun = state["t"]
         before = begun < motion.duration  # no step stands across the end of the motion
-        solver = DOP853(
-            rates, begun if before else math.nextafter(begun, math.inf),
-            np.array([state["x"], state["v"], state["work"]]), min(motion.duration, end) if before else end,
-            rtol=RELATIVE_TOLERANCE, atol=ABSOLUTE_TOLERANCE * alpha, max_step=largest_step,
+        begin, bound = (begun, min(motion.duration, end)) if before else (math.nextafter(begun, math.inf), end)
+        solver = DOP853(  # no size or time in it is absolute, so that similar blocks move alike to the last bit
+            rates, begin, np.array([state["x"], state["v"], state["work"]]), bound,
+            rtol=RELATIVE_TOLERANCE, atol=absolute, max_step=largest_step, first_step=min(largest_step, bound - begin),
         )  # fmt: skip
         while solver.status == "running" and moving:
             message = solver.step()
@@ -222,7 +223,7 @@ def _crossing(dense, t0: float, t1: float, brentq) -> float:
         up = np.flatnonzero(x > 0.0)
         if up.size:
             down = up[0] + np.flatnonzero(x[up[0] :] <= 0.0)
-            return brentq(lambda t: dense(t)[0], times[down[0] - 1], times[down[0]], xtol=1e-15) if down.size else t1
+            return brentq(lambda t: dense(t)[0], times[down[0] - 1], times[down[0]], xtol=1e-300) if down.size else t1
         end = float(times[1])
     return t1
 
