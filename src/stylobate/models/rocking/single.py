@@ -152,7 +152,9 @@ def run_single(
         begin, bound = (begun, min(motion.duration, end)) if before else (math.nextafter(begun, math.inf), end)
         solver = DOP853(  # no size or time in it is absolute, so that similar blocks move alike to the last bit
             rates, begin, np.array([state["x"], state["v"], state["work"]]), bound,
-            rtol=RELATIVE_TOLERANCE, atol=absolute, max_step=largest_step, first_step=min(largest_step, bound - begin),
+            rtol=RELATIVE_TOLERANCE,
+            atol=absolute,  # pyright: ignore[reportArgumentType] (one per variable)
+            max_step=largest_step, first_step=min(largest_step, bound - begin),
         )  # fmt: skip
         while solver.status == "running" and moving:
             message = solver.step()
