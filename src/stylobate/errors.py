@@ -16,6 +16,10 @@ class OutOfRangeWarning(UserWarning):
     """A run is possible, but outside a limit that the model declares; the message names the limit."""
 
 
+class DamagedFileWarning(UserWarning):
+    """A file that this package keeps for itself was damaged; the message says what became of it."""
+
+
 def suggest(word: str, known: Iterable[str]) -> str:
     """The clause of a message about an unknown word: ``did you mean dem2d? ``, empty where no known word is like it."""
     import difflib

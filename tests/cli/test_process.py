@@ -88,7 +88,7 @@ def test_ctrl_c_keeps_finished_cells_and_the_same_command_goes_on(tmp_path):
     assert out == ""
     finished = kept(ledger)
     assert 0 < finished < 96
-    assert f"interrupted; {finished} of 96 cells are kept in {tmp_path}" in err
+    assert f"interrupted; {finished} of 96 runs are kept in {tmp_path}" in err
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     result = json.loads(done.stdout)

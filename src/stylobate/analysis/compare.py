@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..campaign.runner import Stopped
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
@@ -114,10 +116,12 @@ def compare_domains(
     tail: float = 0.0,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
+    ledgers: Sequence[str | Path | None] | None = None,
 ) -> DomainComparison:
     """One domain through several models; parameters as in :func:`stylobate.collapse_domain`.
 
-    ``progress`` counts the runs of all models. An interrupt (Ctrl-C) is passed on: half a comparison is none.
+    ``progress`` counts the runs of all models; ``ledgers``, one per model, keep finished runs and stay for the caller to
+    remove. An interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runner.Stopped`: half a comparison is none.
     """
     _at_least_one(models)
     cells = len(frequencies) * len(amplitudes)
@@ -128,11 +132,22 @@ def compare_domains(
             if progress:
                 progress(i * cells + done, len(models) * cells)
 
+        ledger = None if ledgers is None else ledgers[i]
         domain = collapse_domain(
-            column, model, frequencies, amplitudes, duration, tail=tail, threads=threads, progress=advance
+            column,
+            model,
+            frequencies,
+            amplitudes,
+            duration,
+            tail=tail,
+            threads=threads,
+            progress=advance,
+            ledger=ledger,
         )
         if not domain.complete:
-            raise KeyboardInterrupt
+            raise Stopped(
+                i * cells + len(domain.rows) - domain.counts[v.NOT_RUN], len(models) * cells, *(ledgers or ())
+            )
         domains.append(domain)
     return DomainComparison(domains)
 

@@ -7,11 +7,12 @@ bisection would return one of many boundaries.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..campaign.runner import Progress, run_campaign
+from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
 from ..constants import g
 from ..errors import InputError, check_range
@@ -128,6 +129,7 @@ def critical_amplitude(
     tail: float = 0.0,
     threads: int | None = None,
     progress: Progress | None = None,
+    ledger: str | Path | None = None,
 ) -> CriticalAmplitude:
     """Run a column under one motion at every amplitude of a grid.
 
@@ -147,6 +149,8 @@ def critical_amplitude(
         All cores by default.
     progress : callable, optional
         Called with (finished, all).
+    ledger : path, optional
+        File that keeps finished runs: a call that was stopped goes on from there. It stays for the caller to remove.
 
     Returns
     -------
@@ -156,15 +160,18 @@ def critical_amplitude(
     ------
     InputError
         An impossible grid, or input that the model refuses.
+    Stopped
+        Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     amplitudes = amplitude_grid(start, stop, step)
     as_is = motion.pga if nominal is None else nominal
     if as_is == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
     cases = [Case(column, motion.scaled(a / as_is)) for a in amplitudes]
-    result = run_campaign(cases, model, tail=tail, threads=threads, progress=progress)
+    key = {"column": column.digest, "motion": motion.digest, "as_is": as_is, "amplitudes": amplitudes.tolist()}
+    result = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
     if result.interrupted:
-        raise KeyboardInterrupt
+        raise Stopped(sum(row is not None for row in result.rows), len(cases), ledger)
     rows = [row for row in result.rows if row is not None]
     return CriticalAmplitude(column, motion, model.name, amplitudes, rows, result.wall_time)
 

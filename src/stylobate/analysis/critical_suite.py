@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.runner import Progress, run_campaign
+from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
 from ..constants import g
 from ..errors import InputError
@@ -109,6 +110,7 @@ def critical_suite(
     tail: float = 0.0,
     threads: int | None = None,
     progress: Progress | None = None,
+    ledger: str | Path | None = None,
 ) -> CriticalSuite:
     """Run a column under every record at every amplitude of a grid.
 
@@ -118,7 +120,7 @@ def critical_suite(
     motions : sequence of Motion
         Each is scaled, all its components alike, so that its peak along x takes the amplitudes of the grid.
     model : Model
-    start, stop, step, tail, threads, progress
+    start, stop, step, tail, threads, progress, ledger
         As for :func:`stylobate.analysis.critical.critical_amplitude`.
 
     Returns
@@ -137,9 +139,14 @@ def critical_suite(
         if motion.pga == 0.0:
             raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
     cases = [Case(column, motion.scaled_to_pga(a)) for motion in motions for a in amplitudes]
-    campaign = run_campaign(cases, model, tail=tail, threads=threads, progress=progress)
+    key = {
+        "column": column.digest,
+        "motions": [motion.digest for motion in motions],
+        "amplitudes": amplitudes.tolist(),
+    }
+    campaign = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
     if campaign.interrupted:
-        raise KeyboardInterrupt
+        raise Stopped(sum(row is not None for row in campaign.rows), len(cases), ledger)
     rows = [row for row in campaign.rows if row is not None]
     count = len(amplitudes)
     return CriticalSuite(

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..atomic import replacing
-from ..campaign.ledger import discard
+from ..campaign.ledger import PROGRESS_FILE, discard
 from ..campaign.runner import Progress, run_campaign
 from ..column import Column
 from ..constants import g
@@ -28,9 +28,6 @@ if TYPE_CHECKING:
 
 #: Largest number of cells.
 MAX_CELLS = 1_000_000
-
-#: File in the output folder that keeps finished runs until the domain is complete.
-PROGRESS_FILE = "progress.sqlite"
 
 _GRIDS = {
     "collapse_time_s": ("s", "time at which the collapse became certain"),
@@ -259,6 +256,7 @@ def collapse_domain(
     threads: int | None = None,
     progress: Progress | None = None,
     out: str | Path | None = None,
+    ledger: str | Path | None = None,
 ) -> Domain:
     """Run a column under harmonic base motions of all frequencies and amplitudes.
 
@@ -281,6 +279,8 @@ def collapse_domain(
     out : path, optional
         Folder that keeps finished runs (``progress.sqlite``) until the domain is complete; a call with the same folder
         and the same input goes on from there. When it is complete, ``domain.nc`` and ``domain.csv`` are written there.
+    ledger : path, optional
+        Instead of ``out``: the file that keeps finished runs, for a caller that writes the domain, and removes it then.
 
     Returns
     -------
@@ -300,9 +300,10 @@ def collapse_domain(
     units = [harmonic(float(one), 1.0, duration) for one in f]
     cases = [Case(column, unit.scaled(float(amplitude))) for unit in units for amplitude in a]
     key = {"column": column.digest, "frequencies": f.tolist(), "amplitudes": a.tolist(), "duration": float(duration)}
-    ledger = None if out is None else Path(out) / PROGRESS_FILE
-    if ledger is not None and not ledger.parent.is_dir():
-        raise InputError(f"folder {ledger.parent} does not exist; create it first.")
+    if out is not None:
+        ledger = Path(out) / PROGRESS_FILE
+    if ledger is not None and not Path(ledger).parent.is_dir():
+        raise InputError(f"folder {Path(ledger).parent} does not exist; create it first.")
     result = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
     provenance = {
         **key,
@@ -315,10 +316,10 @@ def collapse_domain(
         "version": __version__,
     }
     domain = Domain(column, model.name, f, a, result.rows, result.wall_time, provenance)
-    if ledger is not None and domain.complete:
-        domain.save(ledger.parent / "domain.nc")
-        domain.save(ledger.parent / "domain.csv")
-        discard(ledger)
+    if out is not None and domain.complete:
+        domain.save(Path(out) / "domain.nc")
+        domain.save(Path(out) / "domain.csv")
+        discard(Path(out) / PROGRESS_FILE)
     return domain
 
 

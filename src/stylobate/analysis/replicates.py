@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..campaign.ledger import discard
+from ..campaign.ledger import PROGRESS_FILE, discard
 from ..campaign.runner import Progress, finished_runs
 from ..column import Column
 from ..column.imperfections import Imperfection, imperfect_columns
@@ -25,7 +25,7 @@ from ..motion import Motion, harmonic
 from ..response import Measures
 from ..version import __version__
 from . import verdicts as v
-from .domain import MAX_CELLS, PROGRESS_FILE, grid_axis
+from .domain import MAX_CELLS, grid_axis
 from .probability import CollapseProbability
 
 #: Largest number of variations, and of runs in all.

@@ -5,11 +5,12 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..campaign.runner import Progress
+from ..campaign.runner import Progress, Stopped
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
@@ -58,19 +59,31 @@ def compare_steps(
     tail: float = 0.0,
     threads: int | None = None,
     progress: Progress | None = None,
+    ledger: str | Path | None = None,
 ) -> StepComparison:
     """Run a domain under the model's step and under half of it; parameters as in :func:`stylobate.collapse_domain`.
 
-    ``domain`` is the one under the model's own step, where that is known already. An interrupt (Ctrl-C) is passed on.
+    ``domain`` is the one under the model's own step, where that is known already; ``ledger`` keeps finished runs with the
+    half step and stays for the caller to remove. An interrupt (Ctrl-C) is passed on, as
+    :class:`~stylobate.campaign.runner.Stopped`.
     """
     finest = harmonic(float(np.max(frequencies)), 1.0, duration)
     pair = [] if domain is None else [domain]
-    for one in [model, halved_step(model, column, finest)][len(pair) :]:
+    both = [(model, None), (halved_step(model, column, finest), ledger)]
+    for one, keeping in both[len(pair) :]:
         found = collapse_domain(
-            column, one, frequencies, amplitudes, duration, tail=tail, threads=threads, progress=progress
+            column,
+            one,
+            frequencies,
+            amplitudes,
+            duration,
+            tail=tail,
+            threads=threads,
+            progress=progress,
+            ledger=keeping,
         )
         if not found.complete:
-            raise KeyboardInterrupt
+            raise Stopped(len(found.rows) - found.counts[v.NOT_RUN], len(found.rows), keeping)
         pair.append(found)
     return StepComparison(*pair)
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..campaign.runner import Progress
+from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
-from ..simulate import simulate_iter
 from .verdicts import verdict
 
 if TYPE_CHECKING:
@@ -49,6 +49,7 @@ def suite_table(
     tail: float = 0.0,
     threads: int | None = None,
     progress: Progress | None = None,
+    ledger: str | Path | None = None,
 ) -> pandas.DataFrame:
     """Shake every column with every record.
 
@@ -64,6 +65,8 @@ def suite_table(
         All cores by default.
     progress : callable, optional
         Called with (finished, all).
+    ledger : path, optional
+        File that keeps finished runs: a call that was stopped goes on from there. It stays for the caller to remove.
 
     Returns
     -------
@@ -71,6 +74,11 @@ def suite_table(
         One row per column and record, ``number`` that of the record: outcome and measures as the JSON keys of
         ``stylobate run``, the factor by which the record was multiplied, and its intensity measures along x, with
         those that relate it to the column (:data:`INTENSITIES`).
+
+    Raises
+    ------
+    Stopped
+        Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     import pandas
 
@@ -82,12 +90,14 @@ def suite_table(
             relation = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
             rows.append({"number": number, "record": motion.name, "column": column.name} | record | relation)
     cases = [Case(column, motion) for column in stands for motion in motions]
-    for done, (index, measures) in enumerate(simulate_iter(cases, model, tail=tail, threads=threads), 1):
-        row = measures.row()
-        size = row["peak_top_displacement_m"] / cases[index].column.base_width
-        rows[index] |= row | {"verdict": verdict(row), "peak_top_over_base_width": size, "model": model.name}
-        if progress:
-            progress(done, len(cases))
+    key = {"columns": [one.digest for one in stands], "motions": [one.digest for one in motions]}
+    found = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
+    if found.interrupted:
+        raise Stopped(sum(row is not None for row in found.rows), len(cases), ledger)
+    for case, row, line in zip(cases, found.rows, rows):
+        if row is not None:
+            size = row["peak_top_displacement_m"] / case.column.base_width
+            line |= row | {"verdict": verdict(row), "peak_top_over_base_width": size, "model": model.name}
     return pandas.DataFrame(rows)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence, Set
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +13,7 @@ from ..models.base import Case, Model
 from ..response import Measures
 from ..simulate import simulate_iter
 from ..version import __version__
-from .ledger import Ledger
+from .ledger import Ledger, what_is_kept
 
 #: Called with (finished runs, all runs) whenever a run finishes.
 Progress = Callable[[int, int], None]
@@ -104,10 +104,12 @@ def finished_runs(
     keep : callable
         What of a run goes into the ledger and to the caller.
     """
-    book = Ledger(ledger, _full_key(model, tail, key or {})) if ledger is not None else None
+    book = Ledger(ledger, full_key(model, tail, key or {}), len(cases)) if ledger is not None else None
     try:
-        known = book.rows() if book else {}
-        yield from known.items()
+        known: set[int] = set()
+        for number, row in book.rows() if book else ():
+            known.add(number)
+            yield number, row
         todo = _Others(cases, known)
         with closing(simulate_iter(todo, model, tail=tail, threads=threads)) as finished:
             for index, measures in finished:
@@ -120,10 +122,25 @@ def finished_runs(
             book.close()
 
 
+class Stopped(KeyboardInterrupt):
+    """A campaign was interrupted; the message says what is kept of it.
+
+    Parameters
+    ----------
+    done, total : int
+        Finished runs, and all.
+    *ledgers : path
+        Where the finished ones are kept.
+    """
+
+    def __init__(self, done: int, total: int, *ledgers: str | Path | None) -> None:
+        super().__init__(what_is_kept(done, total, *ledgers))
+
+
 class _Others(Sequence):
     """The cases that are not known yet."""
 
-    def __init__(self, cases: Sequence[Case], known: Mapping[int, Any]) -> None:
+    def __init__(self, cases: Sequence[Case], known: Set[int]) -> None:
         self.cases = cases
         self.numbers = [number for number in range(len(cases)) if number not in known]
 
@@ -134,7 +151,8 @@ class _Others(Sequence):
         return self.cases[self.numbers[index]]
 
 
-def _full_key(model: Model, tail: float, key: Mapping[str, Any]) -> dict[str, Any]:
+def full_key(model: Model, tail: float, key: Mapping[str, Any]) -> dict[str, Any]:
+    """Everything that decides the results of a campaign: its own key, the model, the version and the laws."""
     from ..kernels.jit import source_digest  # a resumed campaign never mixes two laws
 
     return {

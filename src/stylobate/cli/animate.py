@@ -39,7 +39,7 @@ def animate(
     if response.is_dir():
         response = response / "response.nc"
     loaded = load_response(response)
-    with console.folder(out) as folder:
+    with console.folder(out or response.parent, f"{response.stem}.{to}") as folder:
         target = (folder or response.parent) / f"{response.stem}.{to}"
         if to == "html":
             write_player(loaded, target, frames_per_second=frames, speed=pace)

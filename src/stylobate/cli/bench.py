@@ -19,7 +19,7 @@ def bench(
     from ..analysis.benchmark import bench as measure
     from . import console
 
-    with console.folder(out) as folder:
+    with console.folder(out, "bench.json") as folder:
         found = measure(
             o.the_threads(threads), full=full, say=lambda text: None if as_json else print(text, flush=True)
         )

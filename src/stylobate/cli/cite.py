@@ -43,7 +43,7 @@ def cite(
         raise InputError(f"{' and '.join(given)} are both given; give one of RESULT, --model and --all.")
     found = _citation(result, model, everything)
     summary, files = found.summary(), []
-    with console.folder(out) as folder:
+    with console.folder(out, "citation.txt", "citation.bib") as folder:
         if folder is not None:
             files = [
                 console.write_text(folder / "citation.txt", found.text),

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
@@ -32,9 +33,13 @@ def columns(
     o.the_threads(threads)
     chosen = [load_column(name) for name in which or PRESETS]
     files = []
-    with console.folder(out) as folder:
+    names = [f"{Path(one.name).name or 'column'}.toml" for one in chosen]
+    double = next((name for name in names if names.count(name) > 1), None)
+    if out is not None and double is not None:
+        raise InputError(f"two of the columns would be written to {double}; give each a name of its own.")
+    with console.folder(out, *names) as folder:
         if folder is not None:
-            files = [write_column(one, folder / f"{Path(one.name).name or 'column'}.toml") for one in chosen]
+            files = [write_column(one, folder / name) for one, name in zip(chosen, names)]
     if as_json:
         console.emit({"columns": [properties(one) for one in chosen], "files": [str(file) for file in files]})
         return

@@ -67,9 +67,17 @@ def compare(
         if harmonic or pulse or synthetic or motion:
             raise InputError("both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
-        with console.folder(out) as folder, console.progress("cells") as progress:
-            domains = compare_domains(stone, chosen, *grid, tail=after, threads=count, progress=progress)
+        each = [one for name in names for one in (f"domain-{name}.nc", f"domain-{name}")]
+        with (
+            console.folder(out, "comparison.csv", "comparison", *each) as folder,
+            console.progress("cells") as progress,
+        ):
+            ledgers = [console.ledger(folder, name) for name in names]
+            domains = compare_domains(
+                stone, chosen, *grid, tail=after, threads=count, progress=progress, ledgers=ledgers
+            )
             files = [] if folder is None else _write_domains(domains, folder)
+            console.done_with(*ledgers)
         table = domains.table
         result |= {"domains": [one.summary() for one in domains.domains], "differences": table.to_dict("records")}
     else:
@@ -88,7 +96,11 @@ def compare(
             pga=pga,
             vertical=vertical,
         )
-        with console.folder(out) as folder, console.progress("models") as progress:
+        each = [f"response-{name}.nc" for name in names]
+        with (
+            console.folder(out, "comparison.csv", "comparison", *each) as folder,
+            console.progress("models") as progress,
+        ):
             comparison = compare_models(stone, shaking, chosen, tail=after, progress=progress)
             files = [] if folder is None else _write_histories(comparison, folder)
         table, said = comparison.table, o.input_lines(shaking)

@@ -14,10 +14,6 @@ if TYPE_CHECKING:
     import pandas
 
 
-class Interrupted(Exception):
-    """A command was stopped by Ctrl-C; the message says what is kept of its work."""
-
-
 def emit(result: Mapping[str, Any]) -> None:
     """Print the result as one JSON object."""
     print(as_json(result))
@@ -72,11 +68,35 @@ def print_refused(refused: Mapping[str, str]) -> None:
         print(f"not used: {name}: {reason}")
 
 
-def folder(out: Path | None) -> AbstractContextManager[Path | None]:
-    """The output folder, made and tried before anything is computed; None if no files are wanted."""
+def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None]:
+    """The output folder, made and tried before anything is computed; None if no files are wanted.
+
+    ``writes`` are the names of the files to be, a picture by its name without an ending: what is there and is somebody
+    else's is refused before anything is computed.
+    """
     from ..atomic import output_folder
 
-    return nullcontext() if out is None else output_folder(out)
+    if out is None:
+        return nullcontext()
+    names = [name for one in writes for name in ((one,) if "." in one else (f"{one}.png", f"{one}.svg"))]
+    return output_folder(out, names)
+
+
+def ledger(folder: Path | None, part: str = "") -> Path | None:
+    """Where a command, or a part of it, keeps its finished runs until it has written what it makes of them."""
+    from ..campaign.ledger import PROGRESS_FILE
+
+    place = Path(PROGRESS_FILE)
+    return None if folder is None else folder / (place.with_stem(f"{place.stem}-{part}") if part else place)
+
+
+def done_with(*ledgers: Path | None) -> None:
+    """The results are written: the finished runs need no longer be kept apart."""
+    from ..campaign.ledger import discard
+
+    for one in ledgers:
+        if one is not None:
+            discard(one)
 
 
 @contextmanager

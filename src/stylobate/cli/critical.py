@@ -81,15 +81,17 @@ def critical(
     shaking = o.plane(o.shaped(shaking, azimuth, condition), vertical)
     if condition:
         nominal = None  # the peak that the conditioned motion has
-    with console.folder(out) as folder:
+    with console.folder(out, "critical.csv", "critical.json", "critical") as folder:
         with console.progress("amplitudes") as progress:
+            ledger = console.ledger(folder)
             result = critical_amplitude(
-                stone, shaking, how, *grid, nominal=nominal, tail=after, threads=count, progress=progress
+                stone, shaking, how, *grid, nominal=nominal, tail=after, threads=count, progress=progress, ledger=ledger
             )
         summary, files = result.summary() | o.input_facts(shaking), []
         if folder is not None:
             files = write(result, summary, folder)
             summary["files"] = [str(file) for file in files]
+            console.done_with(ledger)
     if as_json:
         console.emit(summary)
     else:
@@ -110,9 +112,12 @@ def over_suite(
     from ..analysis.critical_suite import critical_suite
     from . import console
 
-    with console.folder(out) as folder:
+    with console.folder(out, "critical.csv", "runs.csv", "critical.json", "critical") as folder:
         with console.progress("runs") as progress:
-            result = critical_suite(column, suite.motions, model, *grid, tail=tail, threads=threads, progress=progress)
+            ledger = console.ledger(folder)
+            result = critical_suite(
+                column, suite.motions, model, *grid, tail=tail, threads=threads, progress=progress, ledger=ledger
+            )
         summary, files = result.summary() | {"refused": suite.refused}, []
         if folder is not None:
             from .. import plots
@@ -124,6 +129,7 @@ def over_suite(
                 *plots.save(plots.draw_record_verdicts(result), folder / "critical"),
             ]
             summary["files"] = [str(file) for file in files]
+            console.done_with(ledger)
     if as_json:
         console.emit(summary)
         return

@@ -60,6 +60,7 @@ def domain(
     interrupted goes on where it was.
     """
     from ..analysis.domain import collapse_domain
+    from ..campaign.runner import Stopped
     from . import console
 
     count = o.the_threads(threads)
@@ -75,7 +76,8 @@ def domain(
             raise InputError(
                 f"{option} is for variations of the column; give --replicates as well, e.g. --replicates 20."
             )
-    with console.folder(out) as folder:
+    with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain") as folder:
+        ledger, half = console.ledger(folder), console.ledger(folder, "half-step")
         with console.progress("cells") as progress:
             result = collapse_domain(
                 study.column,
@@ -86,10 +88,10 @@ def domain(
                 tail=study.tail,
                 threads=count,
                 progress=progress,
-                out=folder,
+                ledger=ledger,
             )
         if not result.complete:
-            raise console.Interrupted(_what_is_kept(result, folder))
+            raise Stopped(len(result.rows) - result.counts["not run"], len(result.rows), ledger)
         summary = result.summary()
         if half_step:
             from ..analysis.step_sensitivity import compare_steps
@@ -97,10 +99,12 @@ def domain(
             grid = (study.frequencies, study.amplitudes, study.duration)
             with console.progress("cells, half step") as progress:
                 pair = compare_steps(
-                    study.column, study.model, *grid, domain=result, tail=study.tail, threads=count, progress=progress
-                )
+                    study.column, study.model, *grid, domain=result, tail=study.tail, threads=count, progress=progress,
+                    ledger=half,
+                )  # fmt: skip
             summary["half_step"] = pair.summary()
         files = [] if folder is None else write(result, folder, summary)
+        console.done_with(ledger, half)
     if as_json:
         console.emit(summary | {"files": [str(file) for file in files]})
         return
@@ -111,13 +115,13 @@ def domain(
 
 
 def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
-    """Summary and figure, beside the files of the domain itself."""
+    """The domain, its summary and its figure."""
     from .. import plots
     from . import console
 
     return [
-        folder / "domain.nc",
-        folder / "domain.csv",
+        result.save(folder / "domain.nc"),
+        result.save(folder / "domain.csv"),
         *plots.save(plots.draw_domain(result), folder / "domain"),
         console.write_json(folder / "domain.json", summary),
     ]
@@ -126,9 +130,10 @@ def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
 def run_probability(study: Study, population: dict, threads: int, out: Path | None, as_json: bool) -> None:
     """The domain with many variations in every cell."""
     from ..analysis.replicates import collapse_probability
+    from ..campaign.runner import Stopped
     from . import console
 
-    with console.folder(out) as folder:
+    with console.folder(out, "probability.nc", "probability.csv", "probability.json", "probability") as folder:
         with console.progress("runs") as progress:
             result = collapse_probability(
                 study.column,
@@ -144,12 +149,7 @@ def run_probability(study: Study, population: dict, threads: int, out: Path | No
             )
         summary = result.summary()
         if not result.complete:
-            where = (
-                "nothing is kept: with --out DIR it would go on from there"
-                if folder is None
-                else (f"they are kept in {folder}: the same command goes on from there")
-            )
-            raise console.Interrupted(f"interrupted after {summary['runs']} of {result.codes.size} runs; {where}.")
+            raise Stopped(summary["runs"], result.codes.size, console.ledger(folder))
         files = []
         if folder is not None:
             from .. import plots
@@ -295,10 +295,3 @@ def _needed(option: str, value: str | None, example: str) -> str:
     if value is None:
         raise InputError(f"{option} is missing; a domain of a column needs it, e.g. {option} {example}.")
     return value
-
-
-def _what_is_kept(result: Domain, folder: Path | None) -> str:
-    done, cells = len(result.rows) - result.counts["not run"], len(result.rows)
-    if folder is None:
-        return f"interrupted after {done} of {cells} cells; nothing is kept: with --out DIR it would go on from there."
-    return f"interrupted; {done} of {cells} cells are kept in {folder}: the same command goes on from there."

@@ -36,7 +36,7 @@ def limit(
     o.the_threads(threads)
     stone = load_column(column)
     loads = the_loads(pattern, tilt, compressive_strength)
-    with console.folder(out) as folder:
+    with console.folder(out, "limit.json", "limit") as folder:
         found = limit_analysis(stone, flow=flow, **loads)
         summary, files = summarize(found), []
         if folder is not None:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sys
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import wraps
 from typing import Annotated, Any
 
 import typer
 
-from ..errors import InputError, OutOfRangeWarning, StylobateError
+from ..errors import DamagedFileWarning, InputError, OutOfRangeWarning, StylobateError
 from ..version import __version__
 from . import (
     animate,
@@ -24,10 +25,10 @@ from . import (
     pushover,
     reproduce,
     run,
+    signals,
     spectrum,
     suite,
 )
-from .console import Interrupted
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
 
@@ -41,25 +42,40 @@ app = typer.Typer(
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-app.command("run")(run.run)
-app.command("critical")(critical.critical)
-app.command("domain")(domain.domain)
-app.command("pushover")(pushover.pushover)
-app.command("limit")(limit.limit)
-app.command("compare")(compare.compare)
-app.command("suite")(suite.suite)
-app.command("motion")(motion.motion)
-app.command("spectrum")(spectrum.spectrum)
-app.command("columns")(columns.columns)
-app.command("animate")(animate.animate)
-app.command("reproduce")(reproduce.reproduce)
-app.command("cite")(cite.cite)
-app.command("bench")(bench.bench)
+
+
+class Interrupted(Exception):
+    """A command was stopped; the message says what is kept of its work."""
+
+
+def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
+    """The command, whose end keeps its words: typer makes numbers of interrupts."""
+
+    @wraps(command)
+    def wrapped(*args: Any, **kwargs: Any) -> None:
+        try:
+            command(*args, **kwargs)
+        except KeyboardInterrupt as interrupt:
+            raise Interrupted(str(interrupt) or "interrupted; nothing is kept.") from None
+        except EOFError as error:  # no interrupt, which typer takes it for: nothing is asked of anybody
+            raise RuntimeError(f"a file ended too soon: {error}") from error
+
+    return wrapped
+
+
+for _room in (
+    run, critical, domain, pushover, limit, compare, suite, motion, spectrum, columns, animate, reproduce, cite, bench
+):  # fmt: skip
+    _name = _room.__name__.rpartition(".")[2]
+    app.command(_name)(_passing_on(getattr(_room, _name)))
 
 
 def main() -> None:
     """Run the command line and end the process."""
-    sys.exit(call(sys.argv[1:]))
+    signals.listen(INTERRUPTED)
+    code = call(sys.argv[1:])
+    signals.said()
+    sys.exit(code)
 
 
 def call(arguments: Sequence[str]) -> int:
@@ -74,6 +90,7 @@ def call(arguments: Sequence[str]) -> int:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", OutOfRangeWarning)
+        warnings.simplefilter("always", DamagedFileWarning)
         warnings.showwarning = _Warner()
         try:
             code = app(list(arguments), prog_name="stylobate", standalone_mode=False)

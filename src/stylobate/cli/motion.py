@@ -43,7 +43,7 @@ def motion(
     o.the_threads(threads)  # reading has one thread
     found = o.scaled(o.shaped(o.the_record(files, unit, dt, component), azimuth, condition), scale, pga)
     summary, written = motion_summary(found), []
-    with console.folder(out) as folder:
+    with console.folder(out, "motion.json", "motion.csv", "motion", "spectra") as folder:
         if folder is not None:
             from .. import plots
             from ..motion.writing import write_csv

@@ -59,7 +59,7 @@ def pushover(
     stone = load_column(column)
     loads = the_loads(pattern, tilt, compressive_strength)
     far = None if to is None else number("--to", to)
-    with console.folder(out) as folder:
+    with console.folder(out, "pushover.csv", "pushover.json", "pushover") as folder:
         path = follow(stone, control=control, geometric=not linear, to=far, **loads)
         summary, files = summarize(path), []
         if folder is not None:

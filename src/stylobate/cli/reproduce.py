@@ -52,10 +52,11 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None) -
     from ..paper.page import NAMES, case_rows, domain_rows, doubt_rows, write_paper_page
     from ..paper.statements import statements, statements_markdown
     from ..paper.study import run_study
-    from . import console
+    from . import console, signals
 
     started = time.perf_counter()
-    with console.folder(folder):
+    kept = f"interrupted; what is finished is kept in {folder}: the same command goes on from there."
+    with console.folder(folder), signals.keeping(kept):
         try:
             with console.stages() as report:
                 results = run_study(folder, quick, threads, report, grids)
@@ -63,9 +64,7 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None) -
                 rows = statements(results)
                 pictures = draw(results, folder)
         except KeyboardInterrupt:
-            raise console.Interrupted(
-                f"interrupted; what is finished is kept in {folder}: the same command goes on from there."
-            ) from None
+            raise KeyboardInterrupt(kept) from None
         tables = folder / "tables"
         tables.mkdir(exist_ok=True)
         numbers = {"domains": domain_rows(results), "certainty": doubt_rows(results)}

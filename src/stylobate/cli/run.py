@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -86,16 +87,11 @@ def run(
     follow = partial(
         run_one, stone, model=how, tail=length, interval=interval, until_end=until_end, until_rest=until_rest
     )
-    summaries, found = [], []
-    with console.folder(out) as folder:
-        for one in motions:
-            response = follow(one)
-            place = folder if folder is None or refused is None else folder / safe_name(one.name, found)
-            summary, files = conclude(response, one, place)
-            summaries.append(summary)
-            found.append(place)
-            if not as_json:
-                describe(response, one, files)
+    if refused is None:
+        summaries = [conclude(follow, stone, motions[0], out, as_json)]
+    else:
+        asked = {"tail": length, "interval": interval, "until_end": until_end, "until_rest": until_rest}
+        summaries = each_record(stone, motions, how, follow, out, asked, as_json)
     if as_json:
         console.emit(summaries[0] if refused is None else {"runs": summaries, "refused": refused})
     else:
@@ -121,18 +117,68 @@ def run_one(
     return simulate_assembly(stone, motion, model, **following)
 
 
-def conclude(response: AnyResponse, motion: Motion, folder: Path | None) -> tuple[dict, list[Path]]:
-    """Summary of a run, and its files where a folder is given."""
+def each_record(
+    stone: Column | Assembly,
+    motions: Sequence[Motion],
+    model: Model,
+    follow: Callable[[Motion], AnyResponse],
+    out: Path | None,
+    asked: dict[str, Any],
+    quiet: bool,
+) -> list[dict]:
+    """One run after the other, each with a folder of its own; those that are finished already are not run again."""
+    from ..campaign.ledger import Ledger
+    from ..campaign.runner import Stopped, full_key
+    from ..response import load_response
     from . import console
 
-    summary = response.summary() | o.input_facts(motion)
-    if folder is None:
-        return summary, []
-    with console.folder(folder):
-        files = [*write(response, motion, folder), folder / "run.json"]
-        summary["files"] = [str(file) for file in files]
-        console.write_json(files[-1], summary)
-    return summary, files
+    key = {"structure": stone.digest, "motions": [one.digest for one in motions], **asked}
+    summaries, places = [], []
+    for one in motions:
+        places.append(None if out is None else out / safe_name(one.name, places))
+    with console.folder(out) as folder:
+        ledger = console.ledger(folder)
+        book = None if ledger is None else Ledger(ledger, full_key(model, asked["tail"], key), len(motions))
+        try:
+            known = dict(book.rows()) if book else {}
+            for number, (one, place) in enumerate(zip(motions, places)):
+                summary = known.get(number)
+                if summary is None or not all(Path(file).is_file() for file in summary["files"]):
+                    summary = conclude(follow, stone, one, place, quiet)
+                    if book:
+                        book.record(number, json.loads(console.as_json(summary)))
+                elif not quiet and place is not None:
+                    describe(load_response(place / "response.nc"), one, [Path(file) for file in summary["files"]])
+                summaries.append(summary)
+        except KeyboardInterrupt:
+            if book:
+                book.close()
+            raise Stopped(len(summaries), len(motions), ledger) from None
+        finally:
+            if book:
+                book.close()
+        console.done_with(ledger)
+    return summaries
+
+
+def conclude(
+    follow: Callable[[Motion], AnyResponse], stone: Column | Assembly, motion: Motion, out: Path | None, quiet: bool
+) -> dict:
+    """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
+    from ..column import Column
+    from . import console
+
+    pictures = ["histories", "filmstrip", *(["joints"] if isinstance(stone, Column) else []), "energy", "motion"]
+    with console.folder(out, "response.nc", "run.json", *pictures) as folder:
+        response = follow(motion)
+        summary, files = response.summary() | o.input_facts(motion), []
+        if folder is not None:
+            files = [*write(response, motion, folder), folder / "run.json"]
+            summary["files"] = [str(file) for file in files]
+            console.write_json(files[-1], summary)
+    if not quiet:
+        describe(response, motion, files)
+    return summary
 
 
 def safe_name(name: str, taken: Sequence[Path | None]) -> str:

@@ -88,7 +88,7 @@ def spectrum(
     else:
         share = 0.05 if damping is None else o.number("--damping", damping)
         compute = partial(response, motion, _values("--periods", periods, geometric=True), share)
-    with console.folder(out) as folder:
+    with console.folder(out, "spectrum.csv", "spectrum.json", "spectrum") as folder:
         result, said, written = compute(folder)
         result = {"kind": kind, **o.input_facts(motion), **result}
         if folder is not None:

@@ -69,9 +69,12 @@ def suite(
         o.the_suite(sources, unit, dt, component),
         lambda one: o.plane(o.scaled(o.shaped(one, azimuth, condition), scale, pga), vertical),
     )
-    with console.folder(out) as folder:
+    with console.folder(out, "suite.csv", "suite.json", "suite") as folder:
+        ledger = console.ledger(folder)
         with console.progress("runs") as progress:
-            table = suite_table(stones, records.motions, how, tail=after, threads=workers, progress=progress)
+            table = suite_table(
+                stones, records.motions, how, tail=after, threads=workers, progress=progress, ledger=ledger
+            )
         counts = {name: Counter(rows["verdict"]) for name, rows in table.groupby("column", sort=False)}
         result = {
             "runs": table.astype(object).where(table.notna(), None).to_dict("records"),
@@ -90,6 +93,7 @@ def suite(
                 *plots.save(plots.draw_suite(table, against), folder / "suite"),
             ]
             result["files"] = [str(file) for file in files]
+            console.done_with(ledger)
     if as_json:
         console.emit(result)
         return

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
-from ..errors import InputError
+from ..atomic import replacing
 from .motion import Motion
 
 
@@ -41,13 +40,8 @@ def write_csv(motion: Motion, path: str | Path) -> Path:
     header = ",".join(["time_s", *(f"a{axis}_m_s2" for axis in components)])
     rows = zip(motion.time.tolist(), *(values.tolist() for values in components.values()))
     text = "\n".join([*notes, header, *(",".join(map(repr, row)) for row in rows), ""])
-    part = place.with_name(f".{place.name}.{os.getpid()}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(place)
-    except OSError as error:
-        part.unlink(missing_ok=True)
-        raise InputError(f"{place} cannot be written: {error.strerror}; choose another place.") from None
+    with replacing(place) as partial:
+        partial.write_text(text, encoding="utf-8")
     return place
 
 

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..analysis import verdicts as v
-from ..analysis.domain import PROGRESS_FILE, Domain, collapse_domain
+from ..analysis.domain import Domain, collapse_domain
 from ..analysis.probability import CollapseProbability
 from ..analysis.replicates import collapse_probability
 from ..atomic import replacing
-from ..campaign.ledger import discard
+from ..campaign.ledger import PROGRESS_FILE, discard
 from ..campaign.runner import Progress
 from ..column import Column, preset
 from ..column.presets import PRESETS

@@ -1,0 +1,58 @@
+"""One process at a time: the hold on a ledger, which the system lets go of however the process ends."""
+
+from __future__ import annotations
+
+import os
+import sqlite3
+from contextlib import suppress
+from pathlib import Path
+
+from ..errors import InputError
+
+
+class Holding:
+    """The hold of this process on a file.
+
+    SQLite's lock on an empty file beside it: there on every system, and gone with the process.
+
+    Parameters
+    ----------
+    path : path
+        What is held; the empty file is called the same with ``-lock`` behind.
+
+    Raises
+    ------
+    InputError
+        Another process holds it.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.place = path, Path(f"{path}-lock")
+        while True:
+            os.close(os.open(self.place, os.O_RDONLY | os.O_CREAT, 0o666))
+            before = self._inode()
+            self._file = sqlite3.connect(self.place, timeout=0.0, isolation_level=None, check_same_thread=False)
+            try:
+                self._file.execute("BEGIN EXCLUSIVE")
+            except sqlite3.Error as error:
+                self._file.close()
+                busy = "locked" in str(error)
+                why = "another process is at work on it" if busy else f"it cannot be locked ({error})"
+                remedy = "wait for its end, or choose another folder" if busy else "choose another folder"
+                raise InputError(f"{path} is not free: {why}; {remedy}.") from None
+            if before is not None and before == self._inode():
+                return
+            self._file.close()  # removed meanwhile by the process that let go of it: a lock on nothing
+
+    def release(self) -> None:
+        """Let go."""
+        with suppress(OSError):
+            if self.place.stat().st_size == 0:
+                self.place.unlink()
+        self._file.close()
+
+    def _inode(self) -> int | None:
+        try:
+            return self.place.stat().st_ino
+        except OSError:
+            return None

@@ -1,0 +1,88 @@
+"""What a command does when it is told to stop: SIGTERM and SIGHUP as Ctrl-C, and an answer within a second.
+
+Python hands a signal to the main thread between two of its instructions, and a compiled loop is one. So a thread of its
+own hears of each signal as well; where the main thread has not ended in time, it writes what the ledgers have not written
+yet, removes the temporary files of this process, and ends it.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import socket
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+
+#: Time that the main thread has to end by itself [s].
+PATIENCE = 0.8
+
+#: Signals that stop a command, beside the one of Ctrl-C; each where the system has it and nobody has turned it off.
+STOPPING = ("SIGTERM", "SIGHUP", "SIGBREAK")
+
+#: What is said of a command that keeps more than one ledger.
+KEPT: list[str] = []
+
+_said = threading.Event()
+
+
+def listen(interrupted: int) -> None:
+    """Stop at every such signal, within a second; for the main thread of a process.
+
+    Parameters
+    ----------
+    interrupted : int
+        Exit code after an interrupt.
+    """
+    heard = {int(signal.SIGINT)} if signal.getsignal(signal.SIGINT) is signal.default_int_handler else set()
+    for number in (getattr(signal, name) for name in STOPPING if hasattr(signal, name)):
+        if signal.getsignal(number) == signal.SIG_DFL:  # not below nohup, which has it ignored
+            signal.signal(number, signal.default_int_handler)
+            heard.add(int(number))
+    ear, mouth = socket.socketpair()
+    mouth.setblocking(False)
+    signal.set_wakeup_fd(mouth.fileno(), warn_on_full_buffer=False)
+    threading.Thread(target=_watch, args=(ear, mouth, heard, interrupted), name="signals", daemon=True).start()
+
+
+@contextmanager
+def keeping(sentence: str) -> Iterator[None]:
+    """What is said inside the block if the command is stopped there."""
+    KEPT.append(sentence)
+    try:
+        yield
+    finally:
+        KEPT.remove(sentence)
+
+
+def said() -> None:
+    """Say that a person has been told how the command ended: what is left is to end."""
+    _said.set()
+
+
+def _watch(ear: socket.socket, _: socket.socket, heard: set[int], interrupted: int) -> None:
+    while heard.isdisjoint(ear.recv(64)):
+        pass
+    time.sleep(PATIENCE)
+    end_now(interrupted)
+
+
+def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
+    """End the process without its main thread; what is finished is on disk, what is half-written is removed."""
+    sentence = KEPT[-1] if KEPT else "interrupted; nothing is kept."
+    ledgers, atomic = sys.modules.get("stylobate.campaign.ledger"), sys.modules.get("stylobate.atomic")
+    with suppress(Exception):
+        for book in list(ledgers.OPEN) if ledgers else ():
+            book.flush()
+            if ledgers and not KEPT:
+                sentence = ledgers.what_is_kept(0, book.total, book.path)
+    for partial in list(atomic.PARTIAL) if atomic else ():
+        with suppress(OSError):
+            partial.unlink(missing_ok=True)
+    with suppress(Exception):
+        if not _said.is_set():
+            shown = "\r\x1b[2K\x1b[?25h" if sys.stderr.isatty() else ""  # the bar goes, the cursor comes back
+            os.write(2, f"{shown}stylobate: {sentence}\n".encode(errors="replace"))
+    leave(code)
