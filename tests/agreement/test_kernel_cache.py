@@ -1,5 +1,8 @@
 """Compiled kernels are kept by the digest of their sources: an edit anywhere in the folder asks for new code."""
 
+import json
+import os
+import pickle
 import shutil
 import subprocess
 import sys
@@ -34,7 +37,7 @@ def test_digest_changes_with_any_kernel_file(tmp_path):
     assert jit.cache_folder(copy).name == before
 
 
-def test_an_edited_law_is_used_by_a_cached_loop(tmp_path, monkeypatch):
+def trial(tmp_path):
     package = tmp_path / "trial" / "kernels"
     package.mkdir(parents=True)
     (package.parent / "__init__.py").write_text("", encoding="utf-8")
@@ -45,8 +48,12 @@ def test_an_edited_law_is_used_by_a_cached_loop(tmp_path, monkeypatch):
         "@kernel\ndef total(n):\n    out = 0\n    for i in range(n):\n        out += rule(i)\n    return out\n",
         encoding="utf-8",
     )
+    return package, LOOP.format(root=str(tmp_path), name="trial.kernels")
+
+
+def test_an_edited_law_is_used_by_a_cached_loop(tmp_path, monkeypatch):
+    package, script = trial(tmp_path)
     monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path / "cache"))
-    script = LOOP.format(root=str(tmp_path), name="trial.kernels")
 
     def total(factor):
         (package / "rule.py").write_text(
@@ -59,3 +66,74 @@ def test_an_edited_law_is_used_by_a_cached_loop(tmp_path, monkeypatch):
     assert total(1) == 3
     assert total(10) == 30
     assert len(list((tmp_path / "cache" / "kernels").iterdir())) == 2
+
+
+RULE = "from .jit import law\n\n@law\ndef rule(i):\n    return 7 * i\n"
+DAMAGES = {
+    "nothing left": lambda data: b"",
+    "cut short": lambda data: data[: len(data) // 2],
+    "zeros, as after a power cut": lambda data: bytes(len(data)),
+    "noise": lambda data: bytes((137 * i + 41) % 256 for i in range(len(data))),
+    "one bit": lambda data: data[:-100] + bytes([data[-100] ^ 4]) + data[-99:],
+    "a pickle of something else": lambda data: pickle.dumps({"some": "thing"}),
+}
+
+
+# Every start of a process as an import anew: damages the files, and says what came of it.
+STARTS = """
+import importlib, json, sys, warnings
+from pathlib import Path
+sys.path.insert(0, {root!r})
+sys.path.insert(0, {here!r})
+from test_kernel_cache import DAMAGES
+import trial.kernels.loop as loop
+
+def start():
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        importlib.reload(loop)
+        return [loop.total(3), sorted({{str(one.message)[-33:] for one in said}})]
+
+found = [["first", "", loop.total(3), []]]
+for path in sorted(Path({cache!r}).rglob("*.nb[ic]")):
+    sound = path.read_bytes()
+    for name, damage in DAMAGES.items():
+        path.write_bytes(damage(sound))
+        found += [[path.suffix, name, *start()], [path.suffix, "after " + name, *start()]]
+print(json.dumps(found))
+"""
+
+
+def test_damaged_compiled_code_is_made_anew_with_a_warning(tmp_path, monkeypatch):
+    package, _ = trial(tmp_path)
+    (package / "rule.py").write_text(RULE, encoding="utf-8")
+    cache = str(tmp_path / "cache")
+    monkeypatch.setenv("STYLOBATE_CACHE", cache)
+    script = STARTS.format(root=str(tmp_path), here=str(Path(__file__).parent), cache=cache)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    first, *found = json.loads(done.stdout)
+    assert len(found) == 2 * 2 * len(DAMAGES)
+    assert {total for _, _, total, _ in (first, *found)} == {21}
+    for suffix, name, _, said in found:
+        expected = [] if name.startswith("after") else ["was damaged and is compiled anew."]
+        assert said == expected, (suffix, name)
+
+
+def test_a_command_says_that_the_cache_was_damaged_and_gives_its_answer(tmp_path):
+    cache = tmp_path / "cache"
+    command = [
+        sys.executable, "-c", "from stylobate.cli.main import main; main()", "spectrum", "--harmonic",
+        "1Hz,0.5g,1s", "--json",
+    ]  # fmt: skip
+    first, second = (_after(cache, command, damage) for damage in (False, True))
+    assert (first.returncode, second.returncode) == (0, 0), second.stderr
+    assert "was damaged and is compiled anew" in second.stderr
+    assert first.stdout == second.stdout
+
+
+def _after(cache, command, damage):
+    for path in cache.rglob("*.nb[ic]") if damage else ():
+        path.write_bytes(b"")
+    environment = os.environ | {"STYLOBATE_CACHE": str(cache)}
+    return subprocess.run(command, capture_output=True, text=True, check=False, env=environment)

@@ -55,8 +55,8 @@ def test_a_collapse_is_a_result(command):
 def test_run_writes_its_files_and_says_which(command, tmp_path):
     folder = tmp_path / "new" / "folder"
     result = command(*RUN, "--json", "--out", folder)
-    assert sorted(result["files"]) == sorted(str(path) for path in folder.iterdir())
-    names = {path.name for path in folder.iterdir()}
+    assert sorted(result["files"]) == sorted(str(path) for path in folder.glob("[!.]*"))
+    names = {path.name for path in folder.glob("[!.]*")}
     pictures = {
         f"{name}.{ending}"
         for name in ("histories", "filmstrip", "joints", "energy", "motion")
@@ -122,7 +122,7 @@ def test_critical_states_its_grid_and_how_verdicts_alternate(command, tmp_path):
     assert result["runs"] == 6
     assert result["critical_g"] == result["first_collapse_g"] == pytest.approx(0.25)
     assert sum(stretch["runs"] for stretch in result["alternation"]) == 6
-    assert {path.name for path in tmp_path.iterdir()} == {
+    assert {path.name for path in tmp_path.glob("[!.]*")} == {
         "critical.csv",
         "critical.json",
         "critical.png",
@@ -152,7 +152,7 @@ def test_domain_counts_cells_and_writes_table_file_and_figure(command, tmp_path)
     assert {"cells", "collapsed", "runs", "wall_s", "files"} <= set(result)
     assert (result["cells"], result["runs"]) == (12, 12)
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 12
-    names = {path.name for path in tmp_path.iterdir()}
+    names = {path.name for path in tmp_path.glob("[!.]*")}
     assert names == {"domain.nc", "domain.csv", "domain.png", "domain.svg", "domain.json"}
     assert sorted(result["files"]) == sorted(str(tmp_path / name) for name in names)
     text = command("domain", "paper-monolithic", *DOMAIN)
@@ -181,7 +181,7 @@ def test_compare_models_under_one_motion_and_over_a_domain(command, tmp_path):
     assert [run["model"] for run in result["runs"]] == ["housner", "dem2d"]
     peaks = [run["peak_top_displacement_m"] for run in result["runs"]]
     assert peaks[1] == pytest.approx(peaks[0], rel=0.03)
-    names = {path.name for path in (tmp_path / "motion").iterdir()}
+    names = {path.name for path in (tmp_path / "motion").glob("[!.]*")}
     assert names == {"comparison.csv", "comparison.png", "comparison.svg", "response-housner.nc", "response-dem2d.nc"}
     grid = ["--frequencies", "0.5:2:2", "--amplitudes", "0.1g:0.5g:3", "--duration", "4s"]
     result = command(
@@ -203,7 +203,7 @@ def test_motion_tells_what_a_file_holds(command, tmp_path):
     assert result["pga_g"]["x"] == pytest.approx(0.4)
     # The velocity is V (1 − cos 2πt) with V = a/2π.
     assert result["pgv_m_s"]["x"] == pytest.approx(2 * 0.4 * st.g / (2 * math.pi), rel=1e-3)
-    names = {file.name for file in (tmp_path / "out").iterdir()}
+    names = {file.name for file in (tmp_path / "out").glob("[!.]*")}
     assert names == {"motion.json", "motion.csv", "motion.png", "motion.svg", "spectra.png", "spectra.svg"}
     text = command("motion", path, "--unit", "g", "--dt", "10ms")
     assert "pga [g]" in text

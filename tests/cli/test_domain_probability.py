@@ -25,7 +25,7 @@ def test_replicates_give_counts_table_file_and_figure(capsys, tmp_path):
         "geometry": 0.05, "friction": 0.0, "stiffness": 0.0, "amplitude": 0.0, "phase": 0.1,
     }  # fmt: skip
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 60
-    names = {path.name for path in tmp_path.iterdir()}
+    names = {path.name for path in tmp_path.glob("[!.]*")}
     assert names == {f"probability.{ending}" for ending in ("nc", "csv", "png", "svg", "json")}
     assert sorted(result["files"]) == sorted(str(tmp_path / name) for name in names)
 

@@ -89,7 +89,7 @@ def test_the_response_spectrum_of_every_component_and_of_all_directions(command,
     result = command("spectrum", record, "--periods", "0.2:4:9", "--damping", "0.02", "--out", out, "--json")
     assert result["kind"] == "response"
     assert result["period_s"] == pytest.approx(np.geomspace(0.2, 4.0, 9))
-    names = {path.name for path in out.iterdir()}
+    names = {path.name for path in out.glob("[!.]*")}
     assert names == {"spectrum.csv", "spectrum.json", "spectrum.png", "spectrum.svg"}
     expected = rotated_spectrum(shaking(), (50.0, 100.0), result["period_s"], 0.02)
     assert result["psa_rotd100_g"] == pytest.approx(expected[100.0] / st.g, rel=1e-9)
@@ -140,7 +140,7 @@ def test_a_suite_is_a_table_a_figure_and_the_files_that_were_not_used(command, f
     assert [row["outcome"] for row in result["runs"]] == ["collapsed", "at_rest"]
     assert result["verdicts"] == {"paper-monolithic": {"collapsed": 1, "stands": 1}}
     assert set(result["refused"]) == {"README.txt"}
-    assert {path.name for path in out.iterdir()} == {"suite.csv", "suite.json", "suite.png", "suite.svg"}
+    assert {path.name for path in out.glob("[!.]*")} == {"suite.csv", "suite.json", "suite.png", "suite.svg"}
     assert set(INTENSITIES) <= set(result["runs"][0])
     motions = [st.read_motion(folder / name) for name in ("strong.csv", "weak.csv")]
     with pytest.warns(OutOfRangeWarning, match="second horizontal component"):
@@ -186,7 +186,7 @@ def test_critical_over_a_folder_of_records(command, folder, tmp_path):
     result = command(*arguments, "--out", tmp_path / "out", "--json")
     assert result["runs"] == 12
     assert [row["record"] for row in result["records"]] == ["strong.csv", "weak.csv"]
-    names = {path.name for path in (tmp_path / "out").iterdir()}
+    names = {path.name for path in (tmp_path / "out").glob("[!.]*")}
     assert names == {"critical.csv", "critical.json", "critical.png", "critical.svg", "runs.csv"}
     # Each record alone has the same answer; of all of them, the lowest counts, and the highest.
     alone = [command(*arguments[:5], folder / row["record"], *grid, "--json") for row in result["records"]]
@@ -201,7 +201,7 @@ def test_run_over_a_folder_of_records(command, folder, tmp_path):
     result = command(*RUN, "--motion", folder, "--out", tmp_path / "out", "--json")
     assert [run["outcome"] for run in result["runs"]] == ["collapsed", "at_rest"]
     assert set(result["refused"]) == {"README.txt"}
-    assert {path.name for path in (tmp_path / "out").iterdir()} == {"strong.csv", "weak.csv"}
+    assert {path.name for path in (tmp_path / "out").glob("[!.]*")} == {"strong.csv", "weak.csv"}
     assert json.loads((tmp_path / "out" / "weak.csv" / "run.json").read_text()) == result["runs"][1]
 
 

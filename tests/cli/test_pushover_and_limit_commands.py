@@ -16,7 +16,7 @@ def test_pushover_writes_curve_and_figure(tmp_path, capsys):
     assert len(found["mechanism"]) == 12
     assert len(found["curve"]["multiplier_g"]) == found["steps"]
     names = {"pushover.csv", "pushover.json", "pushover.png", "pushover.svg"}
-    assert {file.name for file in tmp_path.iterdir()} == names
+    assert {file.name for file in tmp_path.glob("[!.]*")} == names
 
 
 def test_limit_writes_the_mechanism(tmp_path, capsys):

@@ -29,8 +29,7 @@ class Holding:
     def __init__(self, path: Path) -> None:
         self.path, self.place = path, Path(f"{path}-lock")
         while True:
-            os.close(os.open(self.place, os.O_RDONLY | os.O_CREAT, 0o666))
-            before = self._inode()
+            before = self._inode() or self._made()
             self._file = sqlite3.connect(self.place, timeout=0.0, isolation_level=None, check_same_thread=False)
             try:
                 self._file.execute("BEGIN EXCLUSIVE")
@@ -50,6 +49,12 @@ class Holding:
             if self.place.stat().st_size == 0:
                 self.place.unlink()
         self._file.close()
+
+    def _made(self) -> int | None:
+        # Opened only where it is new: a process that closes a file loses all its locks on it.
+        with suppress(FileExistsError):
+            os.close(os.open(self.place, os.O_RDONLY | os.O_CREAT | os.O_EXCL, 0o666))
+        return self._inode()
 
     def _inode(self) -> int | None:
         try:

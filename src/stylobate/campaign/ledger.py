@@ -106,6 +106,7 @@ class Ledger:
     def rows(self) -> Iterator[tuple[int, dict]]:
         """(number, row) of the finished runs, those without a valid checksum left out."""
         with closing(sqlite3.connect(self.path)) as file:  # of its own: the writer goes on meanwhile
+            file.text_factory = salvage.text
             for number, line in file.execute("SELECT number, line FROM runs ORDER BY number"):
                 if (found := salvage.read_line(line, self.campaign)) is not None and found[0] == number:
                     yield found
@@ -215,6 +216,7 @@ def connect(path: Path) -> tuple[sqlite3.Connection, str]:
     if path.stat().st_size == 0:
         raise Damaged("it is empty")
     file = sqlite3.connect(path, timeout=10.0, isolation_level=None, check_same_thread=False)
+    file.text_factory = salvage.text
     try:
         marks = [file.execute(f"PRAGMA {name}").fetchone()[0] for name in ("application_id", "user_version")]
         if marks != [APPLICATION, LAYOUT]:
@@ -231,6 +233,9 @@ def connect(path: Path) -> tuple[sqlite3.Connection, str]:
         file.close()
         if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT) & 0xFF in _SOUND_FILE:
             raise _cannot(path, str(error)) from None
+        raise Damaged(str(error)) from None
+    except ValueError as error:  # what SQLite says of it is no text
+        file.close()
         raise Damaged(str(error)) from None
     except BaseException:
         file.close()

@@ -68,8 +68,15 @@ def _in_table(path: Path, campaign: str) -> dict[int, str]:
     return found
 
 
+def text(data: bytes) -> str:
+    """A text of a file that may be damaged: checksums tell, not the decoder."""
+    return data.decode("utf-8", "replace")
+
+
 def _read_only(path: Path) -> sqlite3.Connection:
-    return sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)
+    file = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True)
+    file.text_factory = text
+    return file
 
 
 def _sum(rest: str, campaign: str) -> str:

@@ -7,9 +7,17 @@ asked for before the compiler is loaded.
 
 from __future__ import annotations
 
+import glob
 import hashlib
 import os
+import pickle
+import time
+import warnings
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
+
+from stylobate.errors import DamagedFileWarning
 
 
 def source_digest(folder: Path | None = None) -> str:
@@ -45,7 +53,7 @@ def _prepare() -> None:
 _prepare()
 
 import numba  # noqa: E402
-from numba.core import cpu, options  # noqa: E402
+from numba.core import caching, cpu, options  # noqa: E402
 
 numba.config.reload_config()
 # The compiler can be told that the arrays of a loop do not overlap, but numba gives this flag no name of its own.
@@ -54,14 +62,83 @@ cpu.CPUTargetOptions.noalias = options.TargetOptions.Mapping("noalias")
 #: Multiply-add contraction, and sums whose sign of zero does not matter; no reordering, so that results keep their bits.
 FAST = {"contract", "nsz", "arcp", "nnan"}
 
+
+#: Age of a half-written file of compiled code that nobody is writing any more [s].
+ABANDONED = 3600.0
+
+
+class _CacheFiles(caching.IndexDataCacheFile):
+    """Files of compiled code behind their checksum: what a power cut left of one is compiled anew, never run."""
+
+    def _dump(self, obj: Any) -> bytes:
+        data = super()._dump(obj)
+        return hashlib.sha256(data).digest() + data
+
+    def _load_index(self) -> dict:
+        try:
+            with open(self._index_path, "rb") as file:
+                version = pickle.load(file)
+                if isinstance(version, str) and version != self._version:
+                    return {}
+                stamp, overloads = self._whole(file.read())
+        except FileNotFoundError:
+            return {}
+        except Exception:  # whatever unpickling makes of it
+            return self._damaged(self._index_path) or {}
+        return overloads if stamp == self._source_stamp else {}
+
+    def _load_data(self, name: str) -> Any:
+        path = self._data_path(name)
+        with open(path, "rb") as file:
+            data = file.read()
+        try:
+            return self._whole(data)
+        except Exception:
+            self._damaged(path)
+            raise FileNotFoundError(path) from None  # as if it were not there: compiled and written again
+
+    def save(self, key: Any, data: Any) -> None:
+        """Keep compiled code, if there is room for it."""
+        try:
+            super().save(key, data)
+            for left in Path(self._cache_path).glob(f"{glob.escape(Path(self._index_path).stem)}.*.tmp.*"):
+                if time.time() - left.stat().st_mtime > ABANDONED:
+                    left.unlink()  # of a process that was killed while it wrote
+        except OSError as error:
+            warnings.warn(
+                f"compiled code cannot be kept in {self._cache_path}: {error}.", DamagedFileWarning, stacklevel=2
+            )
+
+    def _whole(self, data: bytes) -> Any:
+        if hashlib.sha256(data[32:]).digest() != data[:32]:
+            raise ValueError("checksum")
+        return pickle.loads(data[32:])
+
+    def _damaged(self, path: str) -> None:
+        warnings.warn(
+            f"compiled code in {Path(path).parent} was damaged and is compiled anew.", DamagedFileWarning, stacklevel=2
+        )
+
+
+def _compiler(**how: Any) -> Callable:
+    def compiled(function: Callable) -> Any:
+        made = numba.njit(cache=True, nogil=True, error_model="numpy", **how)(function)
+        files = getattr(getattr(made, "_cache", None), "_cache_file", None)
+        if files is not None:  # there is none where the compiler is turned off
+            files.__class__ = _CacheFiles
+        return made
+
+    return compiled
+
+
 #: For loops over lanes; releases the interpreter's lock.
-kernel = numba.njit(cache=True, nogil=True, fastmath=FAST, error_model="numpy")
+kernel = _compiler(fastmath=FAST)
 
 #: For loops over lanes whose array arguments never overlap: spares the checks before every loop.
-apart = numba.njit(cache=True, nogil=True, fastmath=FAST, error_model="numpy", noalias=True)
+apart = _compiler(fastmath=FAST, noalias=True)
 
 #: For the scalar laws that several kernels share.
 law = numba.njit(inline="always", fastmath=FAST, error_model="numpy")
 
 #: For what looks at non-finite values: no assumption about them. Said outright, or the first fast caller would pass its own.
-strict = numba.njit(cache=True, nogil=True, fastmath=False, error_model="numpy")
+strict = _compiler(fastmath=False)

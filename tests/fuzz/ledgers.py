@@ -1,0 +1,91 @@
+"""Ledgers of campaigns, damaged in every way: what is whole in one is kept, nothing is altered, and the campaign goes on."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import random
+import warnings
+from contextlib import closing
+from pathlib import Path
+
+from stylobate.campaign.ledger import Ledger
+from stylobate.campaign.salvage import write_line
+
+from .target import Fault, Target, sentence
+
+KEY = {"column": "a digest", "amplitudes": [0.1, 0.2]}
+CAMPAIGN = hashlib.sha256(json.dumps(KEY, sort_keys=True).encode()).hexdigest()
+
+
+def row(number):
+    """What a run leaves."""
+    return {"outcome": "rocked", "peak_m": number / 7.0, "time_s": None, "note": "x" * 400}
+
+
+def damaged(data, rng):
+    """A kind of damage, and the file after it."""
+    kind = rng.choice(["cut", "empty", "noise", "zeros", "hole", "bytes", "foreign", "header", "shifted", "appended"])
+    size = len(data)
+    if kind == "cut":
+        return kind, data[: rng.randrange(size)]
+    if kind == "empty":
+        return kind, b""
+    if kind == "noise":
+        return kind, rng.randbytes(rng.randrange(1, 2 * size))
+    if kind == "zeros":
+        return kind, bytes(size)
+    if kind == "hole":
+        start = rng.randrange(size)
+        length = rng.randrange(1, 8192)
+        return kind, data[:start] + bytes(len(data[start : start + length])) + data[start + length :]
+    if kind == "foreign":
+        return kind, rng.choice([b"\x89PNG\r\n\x1a\n", b"\x89HDF\r\n\x1a\n", b"PK\x03\x04", b"a,b\n1,2\n"]) * 50
+    if kind == "shifted":
+        return kind, data[rng.randrange(1, size) :] + data[:100]
+    if kind == "appended":
+        return kind, data + rng.randbytes(rng.randrange(1, 10_000))
+    new = bytearray(data)
+    for _ in range(rng.randrange(1, 40)):
+        new[rng.randrange(100 if kind == "header" else size)] = rng.randrange(256)
+    return kind, bytes(new)
+
+
+def one(rng: random.Random, folder: Path) -> str:
+    """Fill a ledger, damage it, and open it again."""
+    path, runs = folder / "progress.sqlite", rng.choice([0, 1, 30, 200])
+    with closing(Ledger(path, KEY)) as book:
+        for number in range(runs):
+            book.record(number, row(number))
+    kind, bad = damaged(path.read_bytes(), rng)
+    path.write_bytes(bad)
+    if rng.random() < 0.3:
+        path.with_name(f"{path.name}-wal").write_bytes(rng.randbytes(rng.randrange(5000)))
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        found = rows(path)
+    if any(line != row(number) for number, line in found.items()):
+        raise Fault(f"{kind}: a row was altered")
+    if len(said) > 1:
+        raise Fault(f"{kind}: said {[str(one.message) for one in said]}")
+    for text in said:
+        sentence(text.message)
+        if path.with_name(f"{path.name}.damaged-1").read_bytes() != bad:
+            raise Fault(f"{kind}: what was set aside was changed")
+    whole = [number for number in range(runs) if write_line(number, row(number), CAMPAIGN).encode() in bad]
+    if not set(whole) <= set(found) <= set(range(runs)):
+        raise Fault(f"{kind}: {len(whole)} rows are whole in the file, {len(found)} were kept")
+    with closing(Ledger(path, KEY)) as book:
+        book.record(runs, row(runs))
+    if set(rows(path)) != {*found, runs}:
+        raise Fault(f"{kind}: the campaign does not go on")
+    return "all kept" if len(found) == runs else "part kept" if found else "none kept"
+
+
+def rows(path):
+    """Rows of a ledger by their number."""
+    with closing(Ledger(path, KEY)) as book:
+        return dict(book.rows())
+
+
+TARGET = Target("ledgers", 1000, 25, one)
