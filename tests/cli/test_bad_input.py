@@ -62,7 +62,7 @@ def with_options(command, column, tmp_path, **changes):
     ("changes", "words"),
     [
         ({"model": "dem2"}, ["no model 'dem2'", "did you mean dem2d?", "housner"]),
-        ({"model": "dem3d"}, ["no model 'dem3d'"]),
+        ({"model": "dem4d"}, ["no model 'dem4d'"]),
         ({"model": None}, ["--model"]),
         ({"set": "restitutoin=0.9"}, ["'restitutoin'", "did you mean restitution?"]),
         ({"set": "restitution"}, ["'restitution'", "name=value"]),
