@@ -17,6 +17,7 @@ from ...outcome import Outcome, classify
 from ...response import Histories, Measures
 from ..base import Case, RunOptions, ground_history
 from ..shared.lanes import aligned_zeros, longest_piece
+from ..shared.soft_joints import resolving
 from .standing import lowest_barrier, stands_for_good
 
 #: Half width of the base, wide enough to be a half-plane [m].
@@ -69,10 +70,12 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def whole_steps(motion: Motion, tail: float, step: float, chunk: int) -> tuple[float, int]:
-    """Largest step up to ``step`` of which whole chunks fill the motion [s], and how many chunks there are with the tail.
+    """Largest step up to ``step`` that resolves the motion and of which whole chunks fill it [s], and how many chunks
+    there are with the tail.
 
     The tail has no say in the step: what happens before it does not depend on it.
     """
+    step = resolving(step, motion)
     dt = motion.duration / (chunk * max(1, math.ceil(motion.duration / (chunk * step))))
     return dt, math.ceil((motion.duration + tail) / (chunk * dt) * (1.0 - 1e-12))
 

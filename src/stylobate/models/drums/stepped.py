@@ -14,6 +14,7 @@ from ...motion import Motion
 from ...response import Histories, Measures, Response
 from ..base import Case, Model, RunOptions
 from ..shared.lanes import run_alike
+from ..shared.soft_joints import check_sinking, check_step_resolves
 from .block import DrumBlock, PackedColumn, histories, whole_steps
 
 
@@ -88,9 +89,11 @@ class SteppedDrums(Model):
     # -- shared --------------------------------------------------------------------------------------------------
 
     def check(self, column: Column, motion: Motion) -> None:
-        """Refuse an unstable step; say what a plane model leaves out."""
+        """Refuse joints too soft, and a step that is unstable or passes over the motion; say what is left out."""
         super().check(column, motion)
+        check_sinking(column)
         self.step_for(column)
+        check_step_resolves(self.time_step, motion)
         if motion.lateral is not None and not self.takes_lateral:
             warnings.warn(
                 f"the second horizontal component of {motion.name!r} is left out: {self.name} is a plane model.",
