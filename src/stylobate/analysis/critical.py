@@ -178,9 +178,11 @@ def critical_amplitude(
 
 def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:
     """Amplitudes from ``start`` to ``stop`` in steps [m/s²]; the last one is the last step not beyond ``stop``."""
-    low = check_range("the smallest amplitude", start, 0.0, 1e4, unit="m/s²", open_low=True)
-    high = check_range("the largest amplitude", stop, low, 1e4, unit="m/s²", remedy="it must not be below the smallest")
-    width = check_range("the amplitude step", step, 0.0, 1e4, unit="m/s²", open_low=True)
+    low, high, width = (float(value) for value in (start, stop, step))
+    least = "it must not be below the smallest"
+    check_range("the smallest amplitude", low / g, 0.0, 1e3, unit="g", open_low=True)
+    check_range("the largest amplitude", high / g, low / g, 1e3, unit="g", remedy=least)
+    check_range("the amplitude step", width / g, 0.0, 1e3, unit="g", open_low=True)
     steps = int((high - low) / width * (1.0 + 1e-12) + 1e-9)
     if steps >= MAX_AMPLITUDES:
         raise InputError(

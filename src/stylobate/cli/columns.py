@@ -67,6 +67,7 @@ def properties(column: Column) -> dict:
         "frequency_parameter_rad_s": column.frequency_parameter,
         "restitution": column.restitution,
         "uplift_g": column.uplift_acceleration / g,
+        "as_found": column.to_dict().get("as_found"),
     }
 
 
@@ -80,4 +81,26 @@ def _facts(column: Column) -> dict[str, str]:
         "slenderness": f"{p['slenderness_rad']:.4f} rad",
         "frequency parameter": f"{p['frequency_parameter_rad_s']:.4f} rad/s",
         "static uplift": f"{p['uplift_g']:.4f} g",
+        **_as_found(column),
     }
+
+
+def _as_found(column: Column) -> dict[str, str]:
+    """What is not as built, one line for the base and one for each drum."""
+    facts = {}
+    if column.as_found.base_tilt != 0.0:
+        facts["as found, base"] = f"slopes by {column.as_found.base_tilt:g}°, up to the right"
+    for one in column.as_found.drums:
+        said = [
+            f"{word} {getattr(one, name):g} {unit}"
+            for name, word, unit in (
+                ("offset", "offset", "m"),
+                ("tilt", "tilted", "degrees"),
+                ("chip_left", "chipped on the left by", "m"),
+                ("chip_right", "chipped on the right by", "m"),
+            )
+            if getattr(one, name) != 0.0
+        ]
+        if said:
+            facts[f"as found, drum {one.drum}"] = ", ".join(said)
+    return facts

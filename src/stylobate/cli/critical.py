@@ -19,10 +19,10 @@ if TYPE_CHECKING:
 
 def critical(
     column: o.ColumnName,
-    model: o.ModelName,
     start: Annotated[str, typer.Option("--from", metavar="A", help="Smallest amplitude, such as 0.05g.")],
     stop: Annotated[str, typer.Option("--to", metavar="A", help="Largest amplitude, such as 1.0g.")],
     step: Annotated[str, typer.Option("--step", metavar="A", help="Step of the grid.")] = "0.005g",
+    model: o.ModelName = "dem2d",
     harmonic: Annotated[
         str | None, typer.Option("--harmonic", metavar="F,?g,T", help="Sine from rest, such as 1.0Hz,?g,10s.")
     ] = None,
@@ -161,11 +161,18 @@ def describe(result: CriticalAmplitude, files: list[Path]) -> None:
     if result.critical is None:
         sentence = f"No amplitude from {low:g} to {high:g} g collapses the column."
     else:
-        sentence = f"The column collapses from {result.critical / g:.4g} g on."
-        if result.all_collapse_above is None:
-            sentence += f" Not every larger amplitude up to {high:g} g collapses it."
-        elif result.all_collapse_above > result.critical:
-            sentence += f" From {result.all_collapse_above / g:.4g} g on every amplitude up to {high:g} g does."
+        first, all_above = result.critical / g, result.all_collapse_above
+        if all_above is None:
+            sentence = (
+                f"The column first collapses at {first:.4g} g; from there to {high:g} g some amplitudes collapse it."
+            )
+        elif all_above > result.critical:
+            sentence = (
+                f"The column first collapses at {first:.4g} g; from there some amplitudes collapse it, and from "
+                f"{all_above / g:.4g} g to {high:g} g all do."
+            )
+        else:
+            sentence = f"The column collapses from {first:.4g} g on."
     for one, meaning in (("undecided", "ended far from rest (try --tail 5s)"), ("failed", "could not be computed")):
         if counts[one]:
             sentence += f" {counts[one]} of {len(result.rows)} runs {meaning} and are not counted as collapse."

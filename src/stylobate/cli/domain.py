@@ -21,7 +21,9 @@ def domain(
     what: Annotated[
         str, typer.Argument(metavar="STUDY|COLUMN", help="A study file (TOML), or a column: preset or column file.")
     ],
-    model: Annotated[str | None, typer.Option("--model", metavar="MODEL", help="How it is computed.")] = None,
+    model: Annotated[
+        str | None, typer.Option("--model", metavar="MODEL", help="How it is computed; dem2d by default.")
+    ] = None,
     frequencies: Annotated[
         str | None, typer.Option("--frequencies", metavar="F:F:N", help="First, last and number, such as 0.33:4:24.")
     ] = None,
@@ -283,7 +285,7 @@ def _study(
     column = load_column(what)
     return Study(
         column,
-        o.the_model(_needed("--model", model, "dem2d"), settings),
+        o.the_model(model or "dem2d", settings),
         frequency_range(_needed("--frequencies", frequencies, "0.33:4:24")),
         amplitude_range(_needed("--amplitudes", amplitudes, "0.05g:0.6g:32")),
         parse_time(duration or "10s"),

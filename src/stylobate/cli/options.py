@@ -23,7 +23,12 @@ StructureName = Annotated[
         metavar="COLUMN", help="Name of a preset, or a file (TOML) of a column or of an assembly of blocks."
     ),
 ]
-ModelName = Annotated[str, typer.Option("--model", metavar="MODEL", help="How it is computed: dem2d, housner …")]
+ModelName = Annotated[
+    str,
+    typer.Option(
+        "--model", metavar="MODEL", help="How it is computed: dem2d, dem3d, rigid-block, rigid-beam, housner."
+    ),
+]
 Settings = Annotated[
     list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Option of the model; may be repeated.")
 ]

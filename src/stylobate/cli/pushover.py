@@ -25,7 +25,9 @@ Tilt = Annotated[
 ]
 Strength = Annotated[
     str | None,
-    typer.Option("--compressive-strength", metavar="PA", help="Strength of the joints; unlimited by default."),
+    typer.Option(
+        "--compressive-strength", metavar="P", help="Strength of the joints, such as 2MPa; unlimited by default."
+    ),
 ]
 
 
@@ -133,10 +135,10 @@ def number(option: str, text: str) -> float:
 
 def the_loads(pattern: str | None, tilt: str, compressive_strength: str | None) -> dict:
     """Arguments of the analyses that the options describe."""
+    from ..motion.specs import parse_pressure
+
     return {
         "pattern": None if pattern is None else [number("--pattern", one) for one in pattern.split(",")],
         "base_tilt": number("--tilt", tilt),
-        "compressive_strength": (
-            None if compressive_strength is None else number("--compressive-strength", compressive_strength)
-        ),
+        "compressive_strength": (None if compressive_strength is None else parse_pressure(compressive_strength)),
     }

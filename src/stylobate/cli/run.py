@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 def run(
     column: o.StructureName,
-    model: o.ModelName,
+    model: o.ModelName = "dem2d",
     harmonic: o.Harmonic = None,
     pulse: o.Pulse = None,
     synthetic: o.Synthetic = None,

@@ -27,7 +27,7 @@ SHOWN = (
 def suite(
     column: o.ColumnName,
     sources: Annotated[list[Path], typer.Argument(metavar="DIR|FILE...", help="Folders of records, or records.")],
-    model: o.ModelName,
+    model: o.ModelName = "dem2d",
     also: Annotated[
         list[str] | None, typer.Option("--also", metavar="COLUMN", help="A further column; may be repeated.")
     ] = None,

@@ -17,15 +17,6 @@ def displacement(acceleration: np.ndarray, dt: float) -> np.ndarray:
     return out
 
 
-def peak_velocity(acceleration: np.ndarray, dt: float) -> float:
-    """Largest absolute velocity from rest, also between samples, where the acceleration passes zero [m/s]."""
-    v = integrate(acceleration, dt)
-    a, b = acceleration[:-1], acceleration[1:]
-    crossing = a * b < 0.0
-    between = v[:-1][crossing] + 0.5 * dt * a[crossing] ** 2 / (a[crossing] - b[crossing])
-    return float(max(np.abs(v).max(), np.abs(between).max(initial=0.0)))
-
-
 def square_integral(acceleration: np.ndarray, dt: float) -> np.ndarray:
     """Running integral of the square, from zero, same shape."""
     a, b = acceleration[:-1], acceleration[1:]

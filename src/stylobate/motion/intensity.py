@@ -9,8 +9,8 @@ import numpy as np
 
 from ..constants import g
 from ..errors import check_range
-from .integration import absolute_integral, arias, displacement, peak_velocity, square_integral, time_above
-from .motion import Motion
+from .integration import absolute_integral, arias, displacement, square_integral, time_above
+from .motion import Motion, peak_velocity
 from .pulse_match import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 

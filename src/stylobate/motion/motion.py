@@ -139,8 +139,8 @@ class Motion:
 
     @property
     def pgv(self) -> float:
-        """Largest absolute velocity along x by the trapezoidal rule from rest [m/s]."""
-        return float(np.abs(integrate(self.acceleration, self.dt)).max())
+        """Largest absolute velocity along x from rest, also between samples [m/s]."""
+        return peak_velocity(self.acceleration, self.dt)
 
     # -- changed copies ------------------------------------------------------------------------------------------
 
@@ -221,3 +221,12 @@ def integrate(values: np.ndarray, dt: float) -> np.ndarray:
     out = np.zeros_like(values)
     np.cumsum(0.5 * dt * (values[1:] + values[:-1]), out=out[1:])
     return out
+
+
+def peak_velocity(acceleration: np.ndarray, dt: float) -> float:
+    """Largest absolute velocity from rest, also between samples, where the acceleration passes zero [m/s]."""
+    v = integrate(acceleration, dt)
+    a, b = acceleration[:-1], acceleration[1:]
+    crossing = a * b < 0.0
+    between = v[:-1][crossing] + 0.5 * dt * a[crossing] ** 2 / (a[crossing] - b[crossing])
+    return float(max(np.abs(v).max(), np.abs(between).max(initial=0.0)))

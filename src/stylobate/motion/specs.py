@@ -61,6 +61,8 @@ _SPELLINGS = {
 #: Units of time in s and of frequency in Hz.
 TIME_UNITS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "min": 60.0}
 FREQUENCY_UNITS = {"hz": 1.0, "khz": 1e3}
+#: Units of pressure in Pa.
+PRESSURE_UNITS = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9, "n/m2": 1.0, "n/mm2": 1e6, "bar": 1e5}
 
 #: Pulses by the name they have on the command line.
 PULSES: dict[str, Callable[..., Motion]] = {
@@ -100,6 +102,17 @@ def parse_acceleration(text: str) -> float:
 def parse_time(text: str) -> float:
     """A time such as ``5s`` or ``20ms`` in s."""
     return _quantity(text, "time", "5s")
+
+
+def parse_pressure(text: str) -> float:
+    """A pressure or strength such as ``2MPa`` in Pa; a number alone is in Pa."""
+    match = _QUANTITY.fullmatch(text)
+    size = None if match is None or match.group(1) == "?" else PRESSURE_UNITS.get((match.group(2) or "Pa").lower())
+    if match is None or size is None:
+        raise InputError(
+            f"pressure {text!r} is not understood; write it with its unit, as in '2MPa' (Pa, kPa, MPa, GPa)."
+        )
+    return _number(match.group(1), f"pressure {text!r}") * size
 
 
 def parse_frequency(text: str) -> float:
@@ -248,7 +261,9 @@ def _measure(text: str, where: str, example: str) -> tuple[str, float]:
         raise InputError(f"{where}: {text.strip()!r} is not a number with a unit; write it as {example!r}.")
     number, unit = match.group(1), match.group(2)
     if unit is None:
-        raise InputError(f"{where}: {text.strip()!r} has no unit; write it as {example!r}.")
+        sample = None if "," in example else _QUANTITY.fullmatch(example)
+        as_meant = f"with one, such as {number}{sample.group(2)}" if sample is not None else f"as {example!r}"
+        raise InputError(f"{where}: {text.strip()!r} has no unit; write it {as_meant}.")
     name = unit.lower()
     for kind, units in (("frequency", FREQUENCY_UNITS), ("time", TIME_UNITS)):
         if name in units and number != "?":

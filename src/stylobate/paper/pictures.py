@@ -113,7 +113,7 @@ def draw_moment_laws() -> Figure:
         axes.grid(True)
     whole.set_ylabel("moment / M$_u$ [–]")
     figure.suptitle(
-        f"Moment–rotation laws, monolith: M$_u$ = {ultimate / 1e3:.1f} kN m, α = {alpha:.3f} rad",
+        f"Moment–rotation laws, monolith: Mᵤ = {ultimate / 1e3:.1f} kN m, α = {alpha:.3f} rad",
         x=0.01,
         ha="left",
         size=10.0,

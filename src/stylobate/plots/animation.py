@@ -13,7 +13,7 @@ from ..atomic import replacing
 from ..errors import InputError, check_range
 from ..response import AnyResponse
 from .scene import Scene, draw_bodies, scale_bar, scene_of
-from .style import BLACK, GREY, RED, styled
+from .style import BLACK, GREY, RED, plain, styled
 
 #: Size [inch] and resolution of a frame.
 SIZE, DOTS_PER_INCH = (6.4, 4.8), 100
@@ -107,7 +107,7 @@ def _turn_to(figure: Figure, scene: Scene, index: int) -> None:
 
 
 def _words(scene: Scene, index: int) -> str:
-    return f"{scene.name}: {scene.time[index]:.2f} s"
+    return plain(f"{scene.name}: {scene.time[index]:.2f} s")
 
 
 def write_gif(response: AnyResponse, path: str | Path, *, frames_per_second: float = 20.0, speed: float = 1.0) -> Path:

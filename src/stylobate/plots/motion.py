@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from ..constants import g
 from ..motion import Motion, integrate
-from ..motion.integration import peak_velocity
+from ..motion.motion import peak_velocity
 from .style import BLACK, BLUE, WIDTH, styled, zero_line
 
 #: Components in words.

@@ -10,7 +10,7 @@ from matplotlib.patches import Patch
 from ..analysis.critical_suite import CriticalSuite
 from ..constants import g
 from .domain import FILL, edges_of
-from .style import BLACK, BLUE, WIDTH, styled
+from .style import BLACK, BLUE, WIDTH, plain, styled
 
 #: Longer names of records are cut.
 LONGEST = 30
@@ -46,7 +46,7 @@ def draw_record_verdicts(suite: CriticalSuite, title: str | None = None) -> Figu
             lower.add_collection(PolyCollection(cells, antialiaseds=False, **fill))
             frame = {"edgecolor": "#999999", "linewidth": 0.5}
             handles.append(Patch(label=f"{one} ({len(cells)})", **(fill | frame if "hatch" not in fill else fill)))
-    lower.set_yticks(range(count), [_short(one.motion.name) for one in suite.results], fontsize=7.5)
+    lower.set_yticks(range(count), [plain(_short(one.motion.name)) for one in suite.results], fontsize=7.5)
     lower.set_ylim(count - 0.5, -0.5)
     lower.set_xlim(edges[0], edges[-1])
     lower.set_xlabel("peak ground acceleration [g]")

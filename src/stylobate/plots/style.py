@@ -9,8 +9,10 @@ from typing import Any, ParamSpec
 
 import matplotlib
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 from matplotlib.patheffects import AbstractPathEffect, Normal, Stroke
+from matplotlib.text import Text
 
 from ..atomic import replacing
 
@@ -18,6 +20,9 @@ P = ParamSpec("P")
 
 #: Width of a picture across the text of a page [inch].
 WIDTH = 7.0
+
+#: Longest text in a picture [characters].
+LONGEST_TEXT = 140
 
 #: Resolution of the PNG files.
 DOTS_PER_INCH = 200
@@ -71,14 +76,16 @@ _STYLE: dict[Any, Any] = {
 
 
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Draw in the style of this package, whatever the settings around it."""
+    """Draw in the style of this package, whatever the settings around it; titles and legends are plain text."""
 
     @wraps(draw)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> Figure:
         with matplotlib.rc_context():
             matplotlib.rcdefaults()
             matplotlib.rcParams.update(_STYLE)
-            return draw(*args, **kwargs)
+            figure = draw(*args, **kwargs)
+            _make_plain(figure)
+            return figure
 
     return wrapped
 
@@ -98,6 +105,20 @@ def save(figure: Figure, stem: str | Path) -> list[Path]:
         with replacing(svg) as partial:
             figure.savefig(partial, facecolor="white", metadata={"Date": None})  # same picture, same bytes
     return [png, svg]
+
+
+def plain(text: object) -> str:
+    """A text with names by other people as a picture can show it: no mathematics after a dollar, no control characters."""
+    shown = "".join(one if one.isprintable() or one == "\n" else "\N{REPLACEMENT CHARACTER}" for one in str(text))
+    shown = shown if len(shown) <= LONGEST_TEXT else shown[: LONGEST_TEXT - 1] + "…"
+    return shown.replace(r"\$", "$").replace("$", r"\$")
+
+
+def _make_plain(figure: Figure) -> None:
+    ticks = {text for axis in figure.findobj(Axis) for text in axis.findobj(Text)}  # formatters write mathematics
+    for text in figure.findobj(Text):
+        if text not in ticks and text.get_text() != plain(text.get_text()):
+            text.set_text(plain(text.get_text()))
 
 
 def zero_line(axes: Axes) -> None:

@@ -1,0 +1,134 @@
+"""What a new user stumbled over: answers in the units that were typed, defaults, and sentences that do not contradict."""
+
+import json
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis.critical import CriticalAmplitude
+from stylobate.cli import critical as command
+from stylobate.cli.main import call
+from stylobate.column.files import load_column
+from stylobate.motion.intensity import motion_summary
+
+FOUND = """\
+density = 1600.0
+[tapered]
+height = 5.0
+bottom_width = 0.96
+top_width = 0.66
+drums = 3
+[joint]
+normal_stiffness = 5.0e10
+shear_stiffness = 2.5e10
+[as_found]
+base_tilt = 0.5
+[[as_found.drum]]
+index = 2
+offset = 0.03
+chip_left = 0.05
+"""
+
+
+@pytest.fixture
+def said(capsys):
+    def run(*arguments, code=0):
+        assert call([str(one) for one in arguments]) == code
+        found = capsys.readouterr()
+        return found.out if code == 0 else found.err
+
+    return run
+
+
+def test_a_step_without_unit_is_told_how_it_is_written(said, tmp_path):
+    record = tmp_path / "record.txt"
+    record.write_text("0.0\n0.1\n-0.1\n0.0\n")
+    text = said("motion", record, "--unit", "g", "--dt", "0.02", code=2)
+    assert "'0.02' has no unit; write it with one, such as 0.02s." in text
+    assert "such as 5s" in said("run", "paper-monolithic", "--harmonic", "1Hz,0.1g,1s", "--tail", "5", code=2)
+
+
+def test_amplitudes_are_answered_in_g(said):
+    text = said(
+        "critical",
+        "paper-monolithic",
+        "--model",
+        "housner",
+        "--harmonic",
+        "1Hz,?g,1s",
+        "--from",
+        "1.0g",
+        "--to",
+        "0.2g",
+        code=2,
+    )
+    assert "the largest amplitude is 0.2 g; allowed is [1, 1000] g; it must not be below the smallest." in text
+    assert "m/s²" not in text
+
+
+def test_a_model_need_not_be_named(said):
+    for arguments in (
+        ("run", "paper-monolithic", "--harmonic", "1Hz,0.1g,0.2s"),
+        ("critical", "paper-monolithic", "--harmonic", "1Hz,?g,0.2s", "--from", "0.1g", "--to", "0.1g"),
+    ):
+        assert json.loads(said(*arguments, "--json"))["model"] == "dem2d"
+    arguments = ("--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2", "--duration", "0.1s")
+    assert json.loads(said("domain", "paper-monolithic", *arguments, "--json"))["model"] == "dem2d"
+
+
+@pytest.mark.parametrize(("text", "value"), [("2MPa", 2e6), ("2e6", 2e6), ("2 N/mm2", 2e6), ("0.002GPa", 2e6)])
+def test_strengths_have_units(said, text, value):
+    found = [
+        json.loads(said("limit", "paper-12-drums", "--compressive-strength", one, "--json"))["collapse_multiplier_g"]
+        for one in (text, f"{value}")
+    ]
+    assert found[0] == found[1]
+    assert found[0] < json.loads(said("limit", "paper-12-drums", "--json"))["collapse_multiplier_g"]
+
+
+def test_a_strength_that_is_not_understood_is_told_how_it_is_written(said):
+    assert "'2MPa'" in said("limit", "paper-12-drums", "--compressive-strength", "2 tons", code=2)
+
+
+def test_columns_say_what_is_as_found(said, tmp_path):
+    path = tmp_path / "found.toml"
+    path.write_text(FOUND)
+    text = said("columns", path)
+    assert "slopes by 0.5°" in text
+    assert "offset 0.03 m, chipped on the left by 0.05 m" in text
+    found = json.loads(said("columns", path, "--json"))["columns"][0]["as_found"]
+    assert found["base_tilt"] == 0.5
+    assert found["drums"][0]["drum"] == 2
+    assert json.loads(said("columns", "paper-monolithic", "--json"))["columns"][0]["as_found"] is None
+
+
+def test_the_peak_velocity_is_one_number():
+    coarse = st.Motion(0.1, np.array([0.0, 1.0, -0.6, 0.3, 0.0]))
+    assert coarse.pgv == motion_summary(coarse)["pgv_m_s"]["x"]
+    # between the samples, where the acceleration passes zero: 0.05 + 1/1.6 of a step under a triangle
+    assert coarse.pgv == pytest.approx(0.05 + 0.5 * 0.1 / 1.6, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("collapsed", "sentence"),
+    [
+        ([0, 0, 1, 1], "The column collapses from 0.3 g on."),
+        (
+            [0, 1, 0, 1],
+            "first collapses at 0.2 g; from there some amplitudes collapse it, and from 0.4 g to 0.4 g all do.",
+        ),
+        ([0, 1, 0, 0], "first collapses at 0.2 g; from there to 0.4 g some amplitudes collapse it."),
+        ([0, 0, 0, 0], "No amplitude from 0.1 to 0.4 g collapses the column."),
+    ],
+)
+def test_sentences_on_collapse_do_not_contradict_themselves(capsys, collapsed, sentence):
+    column, motion = load_column("paper-monolithic"), st.harmonic(1.0, 1.0, 0.1)
+    run = st.simulate(column, motion, st.HousnerBlock()).measures.row()
+    rows = [
+        run | {"collapsed": bool(one), "outcome": "collapsed" if one else "rocked", "decided": True}
+        for one in collapsed
+    ]
+    result = CriticalAmplitude(column, motion, "housner", st.g * np.array([0.1, 0.2, 0.3, 0.4]), rows, 1.0)
+    command.describe(result, [])
+    assert sentence in capsys.readouterr().out

@@ -1,0 +1,63 @@
+"""Pictures of columns and motions whose names hold dollars and control characters are drawn, and show the name."""
+
+import dataclasses
+import warnings
+
+import pytest
+
+import stylobate as st
+from stylobate import plots
+from stylobate.analysis.critical_suite import critical_suite
+from stylobate.plots.style import plain
+
+NAMES = ["$", "$x^$", r"a\$b$\frac{1$", "a\x00b\x1bc\x7f", "line\nline", "\u202eabc", "x" * 3000, "列柱", "%s{0}"]
+COLUMN = st.Column.tapered(
+    height=5.0, bottom_width=0.96, top_width=0.66, drums=2, density=1600.0, joint=st.Joint(5e9, 2.5e9), name="column"
+)
+
+
+@pytest.fixture(scope="module")
+def response():
+    return st.simulate(COLUMN, st.harmonic(1.0, 1.0, 0.5), st.DistinctElement2D())
+
+
+@pytest.fixture(scope="module")
+def record():
+    return st.harmonic(1.0, 1.0, 0.5)
+
+
+@pytest.mark.parametrize("name", NAMES, ids=range(len(NAMES)))
+def test_every_picture_takes_every_name(name, response, record, tmp_path):
+    named = dataclasses.replace(
+        response, column=COLUMN.replace(name=name), provenance=response.provenance | {"motion": name}
+    )
+    motion = record.replace(name=name)
+    figures = {
+        "histories": plots.draw_histories(named),
+        "strip": plots.draw_filmstrip(named),
+        "joints": plots.draw_joints(named),
+        "energy": plots.draw_energy(named),
+        "motion": plots.draw_motion(motion),
+        "spectra": plots.draw_spectra(motion),
+    }
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Glyph .* missing")
+        for stem, figure in figures.items():
+            for file in plots.save(figure, tmp_path / stem):
+                assert file.stat().st_size > 1000
+
+
+def test_pictures_of_amplitudes_and_records_take_every_name(record, tmp_path):
+    stone = COLUMN.replace(name="$_{")
+    one = st.critical_amplitude(stone, record.replace(name="$^"), st.RigidBeam(), 1.0, 2.0, 1.0)
+    plots.save(plots.draw_amplitudes(one), tmp_path / "one")
+    many = critical_suite(stone, [record.replace(name="$^"), record.replace(name="b$")], st.RigidBeam(), 1.0, 2.0, 1.0)
+    plots.save(plots.draw_record_verdicts(many), tmp_path / "many")
+
+
+def test_a_name_is_shown_as_it_is(response):
+    named = dataclasses.replace(response, column=COLUMN.replace(name="5 $ of $tone"))
+    figure = plots.draw_energy(named)
+    assert figure.axes[0].get_title(loc="left").replace("\\$", "$").startswith("5 $ of $tone")
+    assert plain("a\x00$") == "a\N{REPLACEMENT CHARACTER}\\$"
+    assert plain(plain("a$b$")) == plain("a$b$")

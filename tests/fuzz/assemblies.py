@@ -1,0 +1,126 @@
+"""Assembly files: every one is an assembly that is what the file says, or is refused in one sentence."""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+import tomllib
+from pathlib import Path
+
+import numpy as np
+
+from stylobate.column.assembly import Assembly
+from stylobate.column.assembly_files import assembly_from_dict, load_structure
+from stylobate.column.column import Column
+from stylobate.errors import InputError
+from stylobate.motion import harmonic
+from stylobate.simulate import simulate_assembly
+
+from . import odd
+from .target import Fault, Target, sentence
+
+
+def file(rng: random.Random) -> str:
+    """Text of an assembly file, with odd values here and there."""
+    strange = rng.choice((0.0, 0.02, 0.1))
+
+    def value(low: float, high: float) -> str:
+        return odd.number(rng, low, high, strange)
+
+    lines = []
+    if rng.random() < 0.5:
+        lines.append("name = " + odd.some(rng, ['"portal"'], 0.5, odd.NAMES))
+    if rng.random() < 0.9:
+        lines.append(f"density = {value(1000.0, 3000.0)}")
+    for key, low, high in (("depth", 0.5, 2.0), ("gravity", 1.0, 20.0)):
+        if rng.random() < 0.1:
+            lines.append(f"{key} = {value(low, high)}")
+    if rng.random() < 0.3:
+        lines.append("ground = " + odd.some(rng, ["0.0", "0.0", "false", "-1.0"], strange, odd.NUMBERS + odd.OTHERS))
+    if rng.random() > 0.3 * strange:
+        lines += ["[joint]", f"normal_stiffness = {value(1e7, 1e12)}", f"shear_stiffness = {value(1e7, 1e12)}"]
+        lines.append(f"friction_angle = {value(5.0, 60.0)}")
+    names = []
+    for number in range(rng.randint(0 if strange else 1, 5)):
+        lines.append("[[block]]")
+        names.append(odd.some(rng, [f'"b{number}"'], strange, odd.NAMES))
+        if rng.random() < 0.8:
+            lines.append(f"name = {names[-1]}")
+        corners = polygon(rng, number, strange)
+        lines.append("vertices = [" + ", ".join(f"[{x}, {z}]" for x, z in corners) + "]")
+        if rng.random() < 0.1:
+            lines.append(f"density = {value(1000.0, 3000.0)}")
+        if rng.random() < 0.1:
+            lines.append("fixed = " + odd.some(rng, ["true", "false"], strange, odd.OTHERS))
+    if len(names) > 1 and rng.random() < 0.1:
+        lines += ["[[joint_override]]", f"between = [{', '.join(rng.sample(names, 2))}]"]
+        lines += [f"normal_stiffness = {value(1e7, 1e12)}", f"shear_stiffness = {value(1e7, 1e12)}"]
+    return "\n".join(lines) + "\n"
+
+
+def polygon(rng: random.Random, number: int, strange: float) -> list[tuple[str, str]]:
+    """Corners of a block: boxes on each other, or any polygon, now and then with an odd number."""
+    if rng.random() < 0.7:
+        half, height = rng.uniform(0.2, 1.0), rng.choice((0.5, 1.0))
+        low = height * number
+        corners = [(-half, low), (half, low), (half, low + height), (-half, low + height)]
+    else:
+        centre, size, count = (rng.uniform(-4.0, 4.0), rng.uniform(1.0, 4.0)), rng.uniform(0.1, 1.0), rng.randint(3, 9)
+        angles = sorted(rng.uniform(0.0, 2.0 * math.pi) for _ in range(count))
+        corners = [(centre[0] + size * math.cos(a), centre[1] + size * math.sin(a)) for a in angles]
+    if rng.random() < strange:
+        rng.shuffle(corners)
+    return [
+        (
+            odd.number(rng, x, x, 0.0) if rng.random() > 0.3 * strange else rng.choice(odd.NUMBERS + odd.OTHERS),
+            odd.number(rng, z, z, 0.0),
+        )
+        for x, z in corners
+    ]
+
+
+def one(rng: random.Random, folder: Path) -> str:
+    """One file."""
+    path = odd.write(rng, folder, file(rng))
+    try:
+        found = load_structure(path)
+    except InputError as error:
+        sentence(error)
+        return "refused"
+    if isinstance(found, Column):
+        return "a column"
+    is_what_the_file_says(found, tomllib.loads(path.read_text(encoding="utf-8")))
+    for block in found.blocks:
+        if not block.fixed and not (np.isfinite(block.properties).all() and min(block.properties[:2]) > 0.0):
+            raise Fault(f"mass and inertia are {block.properties} of {block!r:.1000}")
+    if assembly_from_dict(json.loads(json.dumps(found.to_dict()))) != found:
+        raise Fault("the assembly changed on its way through JSON")
+    return computed(rng, found) if rng.random() < 0.1 else "read"
+
+
+def is_what_the_file_says(assembly: Assembly, said: dict) -> None:
+    """Raise a fault where blocks have other extents or densities than the file's."""
+    wanted = [(np.min(one["vertices"], 0), np.max(one["vertices"], 0)) for one in said["block"]]
+    got = [(block.corners.min(0), block.corners.max(0)) for block in assembly.blocks]
+    if len(wanted) != len(got) or not np.allclose(np.array(wanted, float), np.array(got), rtol=1e-9, atol=1e-9):
+        raise Fault(f"the file says {wanted!r:.500}, the assembly is {got!r:.500}")
+    for one, block in zip(said["block"], assembly.blocks):
+        if not block.fixed and block.density != one.get("density", said.get("density")):
+            raise Fault(f"{block.name!r} has density {block.density}")
+
+
+def computed(rng: random.Random, assembly: Assembly) -> str:
+    """A short run ends with a result, or is refused in one sentence."""
+    motion = harmonic(rng.uniform(0.5, 4.0), rng.uniform(0.5, 8.0), 0.05)
+    try:
+        response = simulate_assembly(assembly, motion)
+    except InputError as error:
+        sentence(error)
+        return "refused to compute"
+    if not response.failed and not np.isfinite(response.x).all():
+        raise Fault("not failed, and yet somewhere not finite")
+    return "computed: failed" if response.failed else "computed"
+
+
+TARGET = Target("assemblies", 5_000, 60, one, limit=60.0)
