@@ -63,7 +63,6 @@ def with_options(command, column, tmp_path, **changes):
     [
         ({"model": "dem2"}, ["no model 'dem2'", "did you mean dem2d?", "housner"]),
         ({"model": "dem4d"}, ["no model 'dem4d'"]),
-        ({"model": None}, ["--model"]),
         ({"set": "restitutoin=0.9"}, ["'restitutoin'", "did you mean restitution?"]),
         ({"set": "restitution"}, ["'restitution'", "name=value"]),
         ({"set": "restitution=2"}, ["restitution is 2", "[0, 1]"]),
@@ -197,7 +196,6 @@ def test_critical(changes, words, refused, tmp_path):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"model": None}, ["--model is missing"]),
         ({"frequencies": None}, ["--frequencies is missing", "0.33:4:24"]),
         ({"amplitudes": "0.1:0.2:2"}, ["'0.1'", "unit"]),
         ({"amplitudes": "0.1g:0.2g"}, ["first:last:number"]),

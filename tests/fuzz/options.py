@@ -76,7 +76,7 @@ RECORD = "time_s,ax_g\n" + "".join(f"{0.02 * i:.2f},{0.3 * (-1) ** (i // 5)}\n" 
 def one(rng: random.Random, folder: Path) -> str:
     """One command line."""
     line = [word(rng, folder, part) for part in rng.choice(USUAL)]
-    for _ in range(rng.choice((0, 1, 1, 2, 3))):
+    for _ in range(rng.choice((0, 0, 1, 1, 2))):
         change: Callable[[random.Random, list[str]], None] = rng.choice(
             (_value, _value, _option, _drop, _double, _swap)
         )
