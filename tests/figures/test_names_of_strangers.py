@@ -1,9 +1,11 @@
 """Pictures of columns and motions whose names hold dollars and control characters are drawn, and show the name."""
 
 import dataclasses
+import inspect
 import warnings
 
 import pytest
+from matplotlib.figure import Figure
 
 import stylobate as st
 from stylobate import plots
@@ -61,3 +63,24 @@ def test_a_name_is_shown_as_it_is(response):
     assert figure.axes[0].get_title(loc="left").replace("\\$", "$").startswith("5 $ of $tone")
     assert plain("a\x00$") == "a\N{REPLACEMENT CHARACTER}\\$"
     assert plain(plain("a$b$")) == plain("a$b$")
+
+
+def test_pictures_are_drawn_where_they_are_asked_to(record, tmp_path):
+    page = Figure(figsize=(9.0, 6.0), layout="constrained")
+    left, right = page.subfigures(1, 2)
+    beside = left.subplots()
+    found = st.critical_amplitude(COLUMN, record, st.RigidBeam(), 1.0, 2.0, 1.0)
+    plots.draw_amplitudes(found, ax=beside, title="here")
+    assert beside.get_title(loc="left") == "here"
+    assert plots.draw_motion(record, figure=right) is right
+    assert len(right.axes) == 2
+    assert len(plots.draw_spectra(record).axes) == 2
+    for file in plots.save(page, tmp_path / "page"):
+        assert file.stat().st_size > 1000
+
+
+@pytest.mark.parametrize("name", [name for name in plots.__all__ if name.startswith("draw_")])
+def test_every_picture_takes_axes_or_a_figure(name):
+    if name in ("draw_comparison", "draw_energy", "draw_filmstrip", "draw_histories", "draw_joints"):
+        pytest.skip("pictures of responses")
+    assert {"ax", "figure"} & set(inspect.signature(getattr(plots, name)).parameters)

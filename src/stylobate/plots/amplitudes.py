@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..analysis import verdicts as v
 from ..analysis.critical import CriticalAmplitude
 from ..constants import g
-from .style import BLACK, BLUE, GREY, RED, WIDTH, styled
+from .style import BLACK, BLUE, GREY, RED, WIDTH, legend_below, panel, styled
 
 _MARKS: dict[str, dict[str, Any]] = {
     v.STANDS: {"marker": "o", "color": BLACK, "fillstyle": "none"},
@@ -21,7 +22,7 @@ _MARKS: dict[str, dict[str, Any]] = {
 
 
 @styled
-def draw_amplitudes(result: CriticalAmplitude, title: str | None = None) -> Figure:
+def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: Axes | None = None) -> Figure:
     """Peak top displacement of the runs that have one, and the verdict of every run.
 
     Parameters
@@ -29,14 +30,15 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None) -> Figu
     result : CriticalAmplitude
     title : str, optional
         Column and model by default.
+    ax : Axes, optional
+        To draw in; those of a new figure by default.
     """
     amplitudes, verdicts = result.amplitudes / g, np.array(result.verdicts)
     peaks = np.array([row["peak_top_displacement_m"] for row in result.rows]) / result.column.base_width
     finite = peaks[np.isfinite(peaks) & (verdicts != v.COLLAPSED)]
     ceiling = 1.25 * max(float(finite.max()) if finite.size else 0.0, 0.1)
     shown = np.where((verdicts == v.COLLAPSED) | ~np.isfinite(peaks), ceiling, np.minimum(peaks, ceiling))
-    figure = Figure(figsize=(WIDTH, 3.4))
-    axes = figure.subplots()
+    figure, axes = panel(ax, (WIDTH, 3.4))
     for one, mark in _MARKS.items():
         chosen = verdicts == one
         if chosen.any():
@@ -51,5 +53,5 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None) -> Figu
     axes.set_xlabel("amplitude of acceleration [g]")
     axes.set_ylabel("peak top displacement\n/ base width (collapse: at the top)")
     axes.set_title(title or f"{result.column.name}, {result.model}")
-    figure.legend(loc="outside lower center", ncols=3)
+    legend_below(axes, ax is None, ncols=3)
     return figure

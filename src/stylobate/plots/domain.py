@@ -16,7 +16,7 @@ from ..analysis import verdicts as v
 from ..analysis.domain import Domain
 from ..analysis.domain import cell_edges as edges_of
 from ..constants import g
-from .style import BLACK, BLUE, CYCLE, HALO, SAND, WIDTH, styled
+from .style import BLACK, BLUE, CYCLE, HALO, SAND, WIDTH, legend_below, panel, styled
 
 # Light where it stands, dark where it collapses: also in grey.
 FILL = {
@@ -29,7 +29,7 @@ FILL = {
 
 
 @styled
-def draw_domain(domain: Domain, title: str | None = None) -> Figure:
+def draw_domain(domain: Domain, title: str | None = None, *, ax: Axes | None = None) -> Figure:
     """Cells by verdict, the boundary of the first collapse, and the static acceleration that opens a joint.
 
     Parameters
@@ -37,21 +37,24 @@ def draw_domain(domain: Domain, title: str | None = None) -> Figure:
     domain : Domain
     title : str, optional
         Column and model by default.
+    ax : Axes, optional
+        To draw in; those of a new figure by default.
     """
-    figure = Figure(figsize=(WIDTH, 4.4))
-    axes = figure.subplots()
+    figure, axes = panel(ax, (WIDTH, 4.4))
     handles = draw_cells(axes, domain.frequencies, domain.amplitudes, domain.verdicts)
     handles += [
         draw_boundary(axes, domain, {"color": BLACK, "linestyle": "-"}, "first collapse"),
         draw_static_line(axes, domain),
     ]
     _finish(axes, domain, title or f"{domain.column.name}, {domain.model}")
-    figure.legend(handles=[h for h in handles if h is not None], loc="outside lower center", ncols=4)
+    legend_below(axes, ax is None, handles=[h for h in handles if h is not None], ncols=4)
     return figure
 
 
 @styled
-def draw_boundaries(domains: Sequence[Domain], title: str | None = None, looks: Sequence[int] | None = None) -> Figure:
+def draw_boundaries(
+    domains: Sequence[Domain], title: str | None = None, looks: Sequence[int] | None = None, *, ax: Axes | None = None
+) -> Figure:
     """Boundaries of the first collapse of several domains of one column in one picture.
 
     Parameters
@@ -60,16 +63,17 @@ def draw_boundaries(domains: Sequence[Domain], title: str | None = None, looks: 
     title : str, optional
     looks : sequence of int, optional
         Number of each domain's line and mark, so that a model looks alike in several pictures; by default in order.
+    ax : Axes, optional
+        To draw in; those of a new figure by default.
     """
-    figure = Figure(figsize=(WIDTH, 4.4))
-    axes = figure.subplots()
+    figure, axes = panel(ax, (WIDTH, 4.4))
     handles = [
         draw_boundary(axes, domain, CYCLE[i % len(CYCLE)], domain.model, marker="os^Dv"[i % 5])
         for i, domain in zip(range(len(domains)) if looks is None else looks, domains)
     ]
     handles.append(draw_static_line(axes, domains[0]))
     _finish(axes, domains[0], title or f"{domains[0].column.name}: first collapse")
-    figure.legend(handles=[h for h in handles if h is not None], loc="outside lower center", ncols=4)
+    legend_below(axes, ax is None, handles=[h for h in handles if h is not None], ncols=4)
     return figure
 
 

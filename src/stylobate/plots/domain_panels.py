@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -15,20 +15,24 @@ from ..analysis.domain import Domain, cell_edges
 from ..analysis.doubt import Doubt
 from ..constants import g
 from .domain import draw_boundary, draw_cells, draw_static_line
-from .style import BLACK, WIDTH, styled
+from .style import BLACK, WIDTH, page, styled
 
 
 @styled
-def draw_domain_panels(rows: Sequence[tuple[str, Sequence[tuple[str, Domain]]]], title: str) -> Figure:
+def draw_domain_panels(
+    rows: Sequence[tuple[str, Sequence[tuple[str, Domain]]]], title: str, *, figure: Figure | SubFigure | None = None
+) -> Figure:
     """Verdicts of every cell of several domains on one grid, with the share that collapses.
 
     Parameters
     ----------
     rows : sequence of (label of the row, panels), panels as (title, domain)
     title : str
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     columns = max(len(panels) for _, panels in rows)
-    figure = Figure(figsize=(max(0.6, columns / 4) * WIDTH, 0.75 + 1.85 * len(rows)))
+    figure = page(figure, (max(0.6, columns / 4) * WIDTH, 0.75 + 1.85 * len(rows)))
     grid = figure.subplots(len(rows), columns, sharex=True, sharey=True, squeeze=False)
     handles: dict[str, Patch | Line2D] = {}
     for line, (label, panels) in zip(grid, rows):
@@ -55,16 +59,18 @@ def draw_domain_panels(rows: Sequence[tuple[str, Sequence[tuple[str, Domain]]]],
 
 
 @styled
-def draw_doubt(doubt: Doubt, title: str) -> Figure:
+def draw_doubt(doubt: Doubt, title: str, *, figure: Figure | SubFigure | None = None) -> Figure:
     """The same domain asked three times: as it is, with half of the time step, with stones that differ by 1 %.
 
     Parameters
     ----------
     doubt : Doubt
     title : str
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     domain = doubt.steps.domain
-    figure = Figure(figsize=(WIDTH, 3.5))
+    figure = page(figure, (WIDTH, 3.5))
     grid = figure.subplots(1, 3, sharex=True, sharey=True)
     panels = (
         ("as computed\n", domain.verdicts, None),

@@ -2,28 +2,30 @@
 
 from __future__ import annotations
 
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..constants import g
 from ..motion import Motion, integrate
 from ..motion.motion import peak_velocity
-from .style import BLACK, BLUE, WIDTH, styled, zero_line
+from .style import BLACK, BLUE, WIDTH, page, styled, zero_line
 
 #: Components in words.
 NAMES = {"x": "horizontal x", "y": "horizontal y", "z": "vertical z"}
 
 
 @styled
-def draw_motion(motion: Motion, title: str | None = None) -> Figure:
+def draw_motion(motion: Motion, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
     """Acceleration and velocity of each component, with their peaks.
 
     Parameters
     ----------
     motion : Motion
     title : str, optional
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     components = motion.components
-    figure = Figure(figsize=(WIDTH, 0.8 + 1.9 * len(components)))
+    figure = page(figure, (WIDTH, 0.8 + 1.9 * len(components)))
     rows = figure.subplots(2 * len(components), 1, sharex=True, height_ratios=(1.4, 1.0) * len(components))
     for i, (axis, acceleration) in enumerate(components.items()):
         velocity = integrate(acceleration, motion.dt)

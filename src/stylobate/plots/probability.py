@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
@@ -16,7 +16,7 @@ from ..analysis import verdicts as v
 from ..analysis.domain import cell_edges
 from ..analysis.probability import CollapseProbability
 from ..constants import g
-from .style import BLACK, BLUE, HALO, RED, SAND, WIDTH, styled
+from .style import BLACK, BLUE, HALO, RED, SAND, WIDTH, page, styled
 
 #: Classes of the share that collapses: upper end, label, and a fill that darkens evenly, in grey as well.
 CLASSES = (
@@ -30,7 +30,9 @@ _UNKNOWN: dict[str, Any] = {"facecolor": "#d9d9d9", "edgecolor": "#4d4d4d", "hat
 
 
 @styled
-def draw_probability(result: CollapseProbability, title: str | None = None) -> Figure:
+def draw_probability(
+    result: CollapseProbability, title: str | None = None, *, figure: Figure | SubFigure | None = None
+) -> Figure:
     """Map of the share that collapses, the edges of the uncertain band, and one cut with its confidence intervals.
 
     Parameters
@@ -38,8 +40,10 @@ def draw_probability(result: CollapseProbability, title: str | None = None) -> F
     result : CollapseProbability
     title : str, optional
         Column and model by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
-    figure = Figure(figsize=(WIDTH, 4.7))
+    figure = page(figure, (WIDTH, 4.7))
     chart, cut = figure.subplots(1, 2, width_ratios=(1.75, 1.0), sharey=True)
     handles = [*_draw_cells(chart, result), *_draw_band(chart, result)]
     value = result.column.uplift_acceleration / g

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Polygon
 from matplotlib.ticker import MaxNLocator
 
 from ..analysis.limit import LimitResult
 from ..analysis.pushover import PushoverResult
 from ..models.rigid_block.block_stack import BlockStack
-from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, styled, zero_line
+from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, page, panel, styled, zero_line
 
 
 @styled
-def draw_pushover(stack: BlockStack, path: PushoverResult, limit: float | None = None, title: str = "") -> Figure:
+def draw_pushover(
+    stack: BlockStack,
+    path: PushoverResult,
+    limit: float | None = None,
+    title: str = "",
+    *,
+    figure: Figure | SubFigure | None = None,
+) -> Figure:
     """Load multiplier over the displacement of the top, and the column where the path ends.
 
     Parameters
@@ -25,8 +32,10 @@ def draw_pushover(stack: BlockStack, path: PushoverResult, limit: float | None =
     limit : float, optional
         Multiplier of the limit analysis [g], drawn as a line.
     title : str
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
-    figure = Figure(figsize=(WIDTH, 3.6))
+    figure = page(figure, (WIDTH, 3.6))
     curve, picture = figure.subplots(1, 2, width_ratios=(2.2, 1.0))
     zero_line(curve)
     curve.plot(path.displacement, path.multiplier, color=BLACK, label="rigid blocks")
@@ -71,10 +80,9 @@ def draw_pushover(stack: BlockStack, path: PushoverResult, limit: float | None =
 
 
 @styled
-def draw_mechanism(stack: BlockStack, found: LimitResult, title: str = "") -> Figure:
+def draw_mechanism(stack: BlockStack, found: LimitResult, title: str = "", *, ax: Axes | None = None) -> Figure:
     """The mechanism of the limit analysis, its velocities drawn as a displacement of a tenth of the height."""
-    figure = Figure(figsize=(0.6 * WIDTH, 4.4))
-    axes = figure.subplots()
+    figure, axes = panel(ax, (0.6 * WIDTH, 4.4))
     _draw_blocks(axes, stack, found.mechanism * 0.1 * stack.top[1], {item.joint for item in found.active}, linear=True)
     modes = ", ".join(dict.fromkeys(f"joint {item.joint} {item.mode}" for item in found.active[:3]))
     axes.set_title(title or f"{found.multiplier:.4g} g: {modes}{' …' if len(found.active) > 3 else ''}")

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Patch
 
 from ..analysis.critical_suite import CriticalSuite
 from ..constants import g
 from .domain import FILL, edges_of
-from .style import BLACK, BLUE, WIDTH, plain, styled
+from .style import BLACK, BLUE, WIDTH, page, plain, styled
 
 #: Longer names of records are cut.
 LONGEST = 30
 
 
 @styled
-def draw_record_verdicts(suite: CriticalSuite, title: str | None = None) -> Figure:
+def draw_record_verdicts(
+    suite: CriticalSuite, title: str | None = None, *, figure: Figure | SubFigure | None = None
+) -> Figure:
     """Share of collapse over the peak acceleration, and below it one strip of verdicts per record.
 
     Parameters
@@ -25,10 +27,12 @@ def draw_record_verdicts(suite: CriticalSuite, title: str | None = None) -> Figu
     suite : CriticalSuite
     title : str, optional
         Column and model by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     count, amplitudes = len(suite.results), suite.amplitudes / g
     column = suite.results[0].column
-    figure = Figure(figsize=(WIDTH, 2.9 + 0.24 * count))
+    figure = page(figure, (WIDTH, 2.9 + 0.24 * count))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.6, 0.4 + 0.24 * count))
     edges = edges_of(amplitudes)
     upper.stairs(suite.share_collapsed, edges, baseline=None, color=BLACK, linewidth=1.4)

@@ -9,14 +9,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, NullLocator
 
 from ..analysis.rocking_spectrum import RockingSpectrum
 from ..constants import g
 from .domain import edges_of
-from .style import BLACK, WIDTH, styled
+from .style import BLACK, WIDTH, page, styled
 
 #: Light to dark in colour and in grey, and lighter than the blocks that fell.
 SHADES = LinearSegmentedColormap.from_list("rotation", ["#fdf3c4", "#f0b75a", "#cb643c", "#963a30"])
@@ -30,7 +30,9 @@ _TICKS = (0.2, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 3.0, 5.0, 8.0, 10.0, 15.0, 20.0, 30
 
 
 @styled
-def draw_rocking_spectrum(spectrum: RockingSpectrum, title: str | None = None) -> Figure:
+def draw_rocking_spectrum(
+    spectrum: RockingSpectrum, title: str | None = None, *, figure: Figure | SubFigure | None = None
+) -> Figure:
     """Peak rotation over slenderness, on the map of p and α; beside them ω_g/p and PGA/(g tan α).
 
     Parameters
@@ -38,8 +40,10 @@ def draw_rocking_spectrum(spectrum: RockingSpectrum, title: str | None = None) -
     spectrum : RockingSpectrum
     title : str, optional
         Name of the motion by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
-    figure = Figure(figsize=(WIDTH, 5.0))
+    figure = page(figure, (WIDTH, 5.0))
     axes = figure.subplots()
     p, alpha = spectrum.frequency_parameter, spectrum.slenderness
     x, y = np.exp(edges_of(np.log(p))), edges_of(alpha)

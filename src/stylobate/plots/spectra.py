@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..constants import g
 from ..motion import Motion
 from ..motion.spectra import ResponseSpectrum, response_spectrum
 from .motion import NAMES
-from .style import CYCLE, WIDTH, styled
+from .style import CYCLE, WIDTH, page, styled
 
 
 @styled
@@ -18,6 +18,7 @@ def draw_spectra(
     title: str | None = None,
     *,
     spectra: dict[str, ResponseSpectrum] | None = None,
+    figure: Figure | SubFigure | None = None,
 ) -> Figure:
     """Pseudo-acceleration and relative displacement over period.
 
@@ -29,9 +30,11 @@ def draw_spectra(
     title : str, optional
     spectra : dict of str to ResponseSpectrum, optional
         By component; computed here by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     found = spectra or {axis: response_spectrum(motion, damping=damping, component=axis) for axis in motion.components}
-    figure = Figure(figsize=(WIDTH, 4.6))
+    figure = page(figure, (WIDTH, 4.6))
     upper, lower = figure.subplots(2, 1, sharex=True)
     for (axis, spectrum), line in zip(found.items(), CYCLE):
         upper.plot(spectrum.period, spectrum.psa / g, label=NAMES[axis], **line)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
-from typing import Any, ParamSpec
+from typing import Any, ParamSpec, cast
 
 import matplotlib
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.patheffects import AbstractPathEffect, Normal, Stroke
 from matplotlib.text import Text
 
@@ -84,7 +85,8 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
             matplotlib.rcdefaults()
             matplotlib.rcParams.update(_STYLE)
             figure = draw(*args, **kwargs)
-            _make_plain(figure)
+            ax = kwargs.get("ax")
+            _make_plain(ax if isinstance(ax, Axes) else figure)  # what else stands in the figure is not ours
             return figure
 
     return wrapped
@@ -107,6 +109,27 @@ def save(figure: Figure, stem: str | Path) -> list[Path]:
     return [png, svg]
 
 
+def page(given: Figure | SubFigure | None, size: tuple[float, float]) -> Figure:
+    """The figure, or part of one, that a picture is asked to be drawn in; a new one of that size [inch] by default."""
+    return Figure(figsize=size) if given is None else cast(Figure, given)
+
+
+def panel(given: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
+    """The axes that a picture is asked to be drawn in and their figure; those of a new figure of that size by default."""
+    if given is not None:
+        return cast(Figure, given.figure), given
+    figure = Figure(figsize=size)
+    return figure, figure.subplots()
+
+
+def legend_below(axes: Axes, own: bool, **options: Any) -> None:
+    """The legend under a picture; inside its axes where they stand in a figure that is not its own."""
+    if own:
+        cast(Figure, axes.figure).legend(loc="outside lower center", **options)
+    else:
+        axes.legend(**options | {"ncols": 1})
+
+
 def plain(text: object) -> str:
     """A text with names by other people as a picture can show it: no mathematics after a dollar, no control characters."""
     shown = "".join(one if one.isprintable() or one == "\n" else "\N{REPLACEMENT CHARACTER}" for one in str(text))
@@ -114,9 +137,9 @@ def plain(text: object) -> str:
     return shown.replace(r"\$", "$").replace("$", r"\$")
 
 
-def _make_plain(figure: Figure) -> None:
-    ticks = {text for axis in figure.findobj(Axis) for text in axis.findobj(Text)}  # formatters write mathematics
-    for text in figure.findobj(Text):
+def _make_plain(drawn: Artist) -> None:
+    ticks = {text for axis in drawn.findobj(Axis) for text in axis.findobj(Text)}  # formatters write mathematics
+    for text in drawn.findobj(Text):
         if text not in ticks and text.get_text() != plain(text.get_text()):
             text.set_text(plain(text.get_text()))
 

@@ -6,13 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..analysis import verdicts as v
 from ..analysis.suite import INTENSITIES
 from ..errors import InputError
-from .style import BLACK, BLUE, GREY, RED, WIDTH, styled
+from .style import BLACK, BLUE, GREY, RED, WIDTH, page, styled
 
 if TYPE_CHECKING:
     import pandas
@@ -34,7 +34,13 @@ _MARKS: dict[str, dict[str, Any]] = {
 
 
 @styled
-def draw_suite(table: pandas.DataFrame, against: str = "pgv_m_s", title: str | None = None) -> Figure:
+def draw_suite(
+    table: pandas.DataFrame,
+    against: str = "pgv_m_s",
+    title: str | None = None,
+    *,
+    figure: Figure | SubFigure | None = None,
+) -> Figure:
     """Peak top displacement over a measure of the records, one panel per column; the numbers are the records'.
 
     Parameters
@@ -50,11 +56,13 @@ def draw_suite(table: pandas.DataFrame, against: str = "pgv_m_s", title: str | N
     ------
     InputError
         No such measure.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     if against not in INTENSITIES or against not in table:
         raise InputError(f"there is no measure {against!r} of records; measures are {', '.join(INTENSITIES)}.")
     columns = list(dict.fromkeys(table["column"]))
-    figure = Figure(figsize=(WIDTH, 1.2 + 2.7 * len(columns)))
+    figure = page(figure, (WIDTH, 1.2 + 2.7 * len(columns)))
     panels = figure.subplots(len(columns), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     values = table[against].to_numpy(dtype=float)
     peaks = table["peak_top_over_base_width"].to_numpy(dtype=float)
