@@ -1,4 +1,4 @@
-# make install | demo | test | fuzz | check | format | bench | docs | lock | clean
+# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -14,7 +14,7 @@ ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
 .PHONY: $(STAMP)
 endif
 
-.PHONY: install demo test fuzz check format bench docs lock clean
+.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench docs lock clean
 
 install: $(STAMP)
 	@:
@@ -35,6 +35,23 @@ demo: install
 
 test: install
 	@$(BIN)/python -m pytest $(ARGS)
+
+# The tests that are marked `processor`, on every processor that this one can play; ARGS="-k housner" for some of them.
+test-cpus: install
+	@$(BIN)/python .ci/processors.py $(ARGS)
+
+# Demonstration and tests with every supported Python found here, and with the oldest requirements; ARGS="--only 3.13".
+test-pythons: install
+	@$(BIN)/python .ci/pythons.py $(ARGS)
+
+wheel: install
+	@rm -rf dist build/wheel
+	@$(BIN)/python -m pip --disable-pip-version-check -qq wheel --no-deps --no-build-isolation -w dist .
+	@ls dist/*.whl
+
+# The wheel alone, in a bare environment.
+test-wheel: wheel
+	@$(BIN)/python .ci/wheel.py
 
 # What strangers may hand in, by the thousand; ARGS="columns --seconds 60" for some of it.
 fuzz: install
@@ -71,9 +88,12 @@ lock:
 	$(LOCK) --extra test --extra dev --extra seismology --extra video \
 	    requirements/build.in pyproject.toml -o requirements/base.lock > /dev/null
 	$(LOCK) --extra docs -c requirements/base.lock pyproject.toml -o requirements/docs.lock > /dev/null
+	.venv-lock/bin/uv pip compile -q --python-version 3.11 --resolution lowest-direct --generate-hashes \
+	    --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
+	    --extra test --extra seismology --extra video requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
 	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf .venv .venv-lock .venv-pythons build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
 	find src tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

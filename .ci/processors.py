@@ -1,0 +1,62 @@
+"""The tests that are sensitive to how a machine rounds, on every machine that this processor can play.
+
+`make test-cpus`: compiled loops for the processor as it is, for any processor of its kind, without and with 512-bit
+vectors; linear algebra with two other kernels. `--without-default` leaves out what `make test` runs anyway.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+import time
+
+import llvmlite.binding as llvm
+
+#: What is set for a compiler target; an empty value sets the variable to nothing, which numba tells from not set.
+TARGETS = {
+    "generic": {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""},
+    "without AVX-512 (haswell)": {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": ""},
+    "with AVX-512 (skylake-avx512)": {"NUMBA_CPU_NAME": "skylake-avx512", "NUMBA_CPU_FEATURES": "-prefer-256-bit"},
+}
+NEEDS = {"without AVX-512 (haswell)": ("avx2", "fma"), "with AVX-512 (skylake-avx512)": ("avx512f", "avx512vl")}
+CORES = ("Nehalem", "Haswell")
+
+
+def targets(default: bool) -> dict[str, dict[str, str]]:
+    """Targets that this processor can run, and what is set for each."""
+    has = llvm.get_host_cpu_features()
+    found: dict[str, dict[str, str]] = {f"as it is ({llvm.get_host_cpu_name()})": {}} if default else {}
+    for name, settings in TARGETS.items():
+        if all(has.get(feature) for feature in NEEDS.get(name, ())):
+            found[name] = settings
+        else:
+            print(f"left out, as this processor cannot run it: {name}", flush=True)
+    if platform.machine().lower() in ("x86_64", "amd64"):
+        found |= {f"OpenBLAS as on {core}": {"OPENBLAS_CORETYPE": core} for core in CORES if core_runs(core, has)}
+    return found
+
+
+def core_runs(core: str, has: dict[str, bool]) -> bool:
+    return core != "Haswell" or bool(has.get("avx2"))
+
+
+def main(arguments: list[str]) -> int:
+    default = "--without-default" not in arguments
+    rest = [one for one in arguments if one != "--without-default"] or ["tests"]
+    failed = []
+    for name, settings in targets(default).items():
+        print(f"== {name}", flush=True)
+        begin = time.monotonic()
+        command = [sys.executable, "-m", "pytest", "-q", "-m", "processor", "-p", "no:cacheprovider", *rest]
+        code = subprocess.run(command, env=os.environ | settings, check=False).returncode
+        print(f"== {name}: {'passed' if code == 0 else 'FAILED'} in {time.monotonic() - begin:.0f} s", flush=True)
+        failed += [name] if code else []
+    if failed:
+        print(f"failed: {', '.join(failed)}", file=sys.stderr)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

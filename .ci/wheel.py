@@ -1,0 +1,74 @@
+"""The wheel alone: installed into a bare environment, imported where nothing of POSIX can be, and put to work there."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import venv
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+
+#: Modules that Windows does not have: the package may use them where they are, not need them.
+POSIX = ("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "syslog", "posix_ipc")
+
+IMPORT = f"""
+import importlib, pkgutil, sys
+for name in {POSIX}:
+    sys.modules[name] = None
+import stylobate
+from pathlib import Path
+assert "site-packages" in Path(stylobate.__file__).parts, stylobate.__file__
+failed = []
+for module in pkgutil.walk_packages(stylobate.__path__, "stylobate."):
+    if module.name.endswith("__main__"):
+        continue
+    try:
+        importlib.import_module(module.name)
+    except ImportError as error:
+        failed.append(f"{{module.name}}: {{error}}")
+for name in stylobate.__all__:
+    getattr(stylobate, name)
+assert not failed, failed
+"""
+
+
+def main() -> int:
+    (wheel,) = (ROOT / "dist").glob("*.whl")
+    with tempfile.TemporaryDirectory() as text:
+        folder = Path(text)
+        venv.create(folder / "env", with_pip=True)
+        scripts = folder / "env" / ("Scripts" if os.name == "nt" else "bin")
+        python, command = scripts / "python", scripts / "stylobate"
+        constraints = pinned(folder)
+        environment = {k: v for k, v in os.environ.items() if k not in ("PYTHONPATH", "PYTHONHOME")}
+
+        def run(*parts: str | Path) -> None:
+            subprocess.run([str(part) for part in parts], check=True, cwd=folder, env=environment,
+                           stdout=subprocess.DEVNULL)  # fmt: skip
+
+        run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, wheel)
+        run(python, "-c", IMPORT)
+        run(command, "--help")
+        run(command, "columns")
+        run(command, "motion", "--samples")
+        run(command, "run", "paper-12-drums", "--motion", "sample:el-centro-1940", "--model", "rigid-beam", "--out", "run")
+        assert any((folder / "run").iterdir())
+        shutil.rmtree(folder / "run")
+    print(f"{wheel.name} works alone")
+    return 0
+
+
+def pinned(folder: Path) -> Path:
+    """The locked versions as constraints, without digests: only what the wheel itself asks for is installed."""
+    lines = (ROOT / "requirements" / "base.lock").read_text(encoding="utf-8").splitlines()
+    path = folder / "constraints.txt"
+    path.write_text("".join(line.rstrip(" \\") + "\n" for line in lines if line[:1].isalnum()), encoding="utf-8")
+    return path
+
+
+if __name__ == "__main__":
+    sys.exit(main())
