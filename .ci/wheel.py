@@ -55,7 +55,17 @@ def main() -> int:
         run(command, "--help")
         run(command, "columns")
         run(command, "motion", "--samples")
-        run(command, "run", "paper-12-drums", "--motion", "sample:el-centro-1940", "--model", "rigid-beam", "--out", "run")
+        run(
+            command,
+            "run",
+            "paper-12-drums",
+            "--motion",
+            "sample:el-centro-1940",
+            "--model",
+            "rigid-beam",
+            "--out",
+            "run",
+        )
         assert any((folder / "run").iterdir())
         shutil.rmtree(folder / "run")
     print(f"{wheel.name} works alone")

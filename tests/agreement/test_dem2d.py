@@ -9,6 +9,8 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
+pytestmark = pytest.mark.processor
+
 MEASURES = [
     "outcome",
     "decided",

@@ -28,6 +28,8 @@ from stylobate.constants import g
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.simulate import simulate
 
+pytestmark = pytest.mark.processor
+
 
 def test_flat_block_slides_at_the_friction_coefficient():
     friction = 0.35

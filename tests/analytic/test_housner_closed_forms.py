@@ -14,6 +14,8 @@ from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion
 from stylobate.simulate import simulate, simulate_many
 
+pytestmark = pytest.mark.processor
+
 
 @pytest.mark.parametrize(
     ("kind", "size", "closed"),

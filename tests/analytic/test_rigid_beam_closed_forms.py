@@ -16,6 +16,8 @@ from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion
 from stylobate.simulate import simulate, simulate_iter
 
+pytestmark = pytest.mark.processor
+
 JOINT = Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_coefficient=0.7)
 
 
@@ -65,17 +67,17 @@ def test_laws_of_lines_in_law_and_geometric_form():
 
 
 def test_papers_matrices_of_two_equal_prisms():
-    # Baraldi et al., Eq. 2 with signs and dots put right, by hand: m = 1 kg, h = 2 m, I = 3 kg m².
-    drum = Drum(2.0, 2.0 * math.sqrt(2.0), 2.0 * math.sqrt(2.0), 1.0 / (4.0 * math.sqrt(2.0)))
-    assert drum.mass == pytest.approx(1.0)
-    inertia = (4.0 + 8.0) / 12.0
+    # Baraldi et al., Eq. 2 with signs and dots put right, by hand: m = 1 t, h = 2 m.
+    drum = Drum(2.0, 2.0 * math.sqrt(2.0), 2.0 * math.sqrt(2.0), 1e3 / (4.0 * math.sqrt(2.0)))
+    assert drum.mass == pytest.approx(1e3)
+    inertia = 1e3 * (4.0 + 8.0) / 12.0
     assert drum.inertia == pytest.approx(inertia)
     geometry, shear, turning, shear_base, turning_base = BeamMatrices(
         Column.of_drums([drum] * 2, JOINT)
     ).nodal_matrices()
     assert geometry == pytest.approx(np.array([[1.0, 2.0], [0.0, 1.0]]))
-    assert shear == pytest.approx(np.array([[1.0, 0.5], [0.5, 0.5]]))
-    assert shear_base == pytest.approx([0.5, 0.0])
+    assert shear == pytest.approx(1e3 * np.array([[1.0, 0.5], [0.5, 0.5]]))
+    assert shear_base == pytest.approx([500.0, 0.0])
     assert turning == pytest.approx(np.array([[0.0, 0.5], [-0.5, 0.5]]) * inertia)
     assert turning_base == pytest.approx([-0.5 * inertia, 0.0])
 

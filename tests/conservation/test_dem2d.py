@@ -101,9 +101,14 @@ def test_every_term_of_the_ledger_is_there():
 @pytest.mark.parametrize("column", [MONOLITH, TWELVE, FOUND], ids=["monolith", "12 drums", "found"])
 @pytest.mark.parametrize("points", [2, 5])
 def test_mirrored_input_gives_the_mirrored_motion(column, points):
-    """To rounding until the first impact, which makes rounding grow."""
+    """Until the first impact no further apart than two runs whose inputs differ by 1e-10: both differences only grow.
+
+    Sums that are mirrored round otherwise, by some 1e-15 at every step; what the motion makes of that, on this processor
+    or another, the second run measures.
+    """
     model, motion = DistinctElement2D(points=points), harmonic(1.0, 0.4 * g, 2.0)
     right, left = simulate(column, motion, model), simulate(mirrored(column), motion.scaled(-1.0), model)
+    beside = simulate(column, motion.scaled(1.0 + 1e-10), model)
     end = first_impact(right) - 2
     if points > 2 and column is TWELVE:  # the faces of twelve joints open point by point, each with small impacts
         end = min(end, int(np.searchsorted(right.time, 0.45)))
@@ -114,7 +119,9 @@ def test_mirrored_input_gives_the_mirrored_motion(column, points):
     assert right.time[end] > 0.25
     for name, sign in (("drum_x", -1.0), ("drum_z", 1.0), ("drum_rotation", -1.0), ("joint_opening", 1.0)):
         a, b = getattr(right, name)[before], getattr(left, name)[before]
-        np.testing.assert_allclose(b, sign * a, rtol=0, atol=2e-11)
+        apart = np.abs(getattr(beside, name)[before] - a).max()
+        # 1e-13: the rounding of heights of metres over the steps of a quarter of a second, which the second run shares
+        np.testing.assert_allclose(b, sign * a, rtol=0, atol=apart + 1e-13)
 
 
 @pytest.mark.parametrize("column", [MONOLITH, TWELVE], ids=["monolith", "12 drums"])

@@ -13,6 +13,8 @@ from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many
 
+pytestmark = pytest.mark.processor
+
 SOFT = Joint(normal_stiffness=1e9, shear_stiffness=5e8, friction_coefficient=0.7)
 
 

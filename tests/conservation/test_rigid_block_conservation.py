@@ -9,6 +9,8 @@ from stylobate.models.rigid_block.model import RigidBlock, stable_step
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
+pytestmark = pytest.mark.processor
+
 G = 9.81
 
 

@@ -10,6 +10,8 @@ from stylobate.models.dem2d.model import DistinctElement2D, contact_points
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
 
+pytestmark = pytest.mark.processor
+
 
 def test_net_change_of_verdicts_stays_within_its_scatter():
     """Cells near the boundary flip either way like coins: the net change stays within two standard deviations."""

@@ -10,6 +10,8 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate_many
 
+pytestmark = pytest.mark.processor
+
 FREQUENCIES = np.array([0.5, 0.66, 1.0, 1.5, 2.0])
 AMPLITUDES = np.linspace(0.10, 0.60, 16) * g
 
