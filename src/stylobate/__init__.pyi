@@ -30,6 +30,7 @@ from .models.rigid_block.model import RigidBlock as RigidBlock
 from .models.rocking.model import HousnerBlock as HousnerBlock
 from .models.shared.start import Start as Start
 from .motion import Motion as Motion
+from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic
 from .motion import pulses as pulses
 from .motion import stochastic_motion as stochastic_motion

@@ -20,6 +20,10 @@ class DamagedFileWarning(UserWarning):
     """A file that this package keeps for itself was damaged; the message says what became of it."""
 
 
+class LeftOutWarning(OutOfRangeWarning):
+    """A component of the motion is one that the model does not take; the message names both."""
+
+
 def suggest(word: str, known: Iterable[str]) -> str:
     """The clause of a message about an unknown word: ``did you mean dem2d? ``, empty where no known word is like it."""
     import difflib

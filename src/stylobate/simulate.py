@@ -74,7 +74,7 @@ def simulate(
     model.check(column, motion)
     model.check_length(column, motion, options)
     started = time.perf_counter()
-    response = model.run(column, motion, options)
+    response = model.run(column, model.taken(motion), options)
     wall = time.perf_counter() - started
     bed = response.provenance.get("followed_to_the_ground", False)
     provenance = {"column": column.to_dict(), "column_digest": column.digest}
@@ -117,7 +117,7 @@ def simulate_assembly(
         )
     options = _options(tail, output_interval, True, until_rest)
     started = time.perf_counter()
-    response = run_assembly(assembly, motion, model, options)
+    response = run_assembly(assembly, model.taken(motion), model, options)
     wall = time.perf_counter() - started
     provenance = {"assembly_digest": assembly.digest} | _provenance(model, motion, options, bed=True)
     return dataclasses.replace(response, provenance=response.provenance | provenance, wall_time=wall)
@@ -233,6 +233,7 @@ def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) ->
         "motion_digest": motion.digest,
         "motion_metadata": {str(key): str(value) for key, value in motion.metadata.items() if key != "references"},
         "motion_processing": list(motion.processing),
+        "left_out": list(model.taken(motion).metadata.get("left_out", ())),
         "tail_s": options.tail,
         "until_rest": options.until_rest,
         "output_interval_s": options.output_interval,

@@ -159,7 +159,7 @@ def test_a_suite_of_two_columns_scaled_and_turned(command, folder, tmp_path):
         "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\n"
     )
     result = command("suite", "paper-monolithic", folder / "weak.csv", folder, "--also", stone, "--model", "housner",
-                     "--azimuth", "75", "--pga", "0.25g", "--vertical", "off", "--json")  # fmt: skip
+                     "--azimuth", "75deg", "--pga", "0.25g", "--vertical", "off", "--json")  # fmt: skip
     assert [row["column"] for row in result["runs"]] == ["paper-monolithic"] * 3 + ["stone"] * 3
     assert [row["number"] for row in result["runs"]] == [1, 2, 3] * 2
     assert {round(row["pga_g"], 9) for row in result["runs"]} == {0.25}
@@ -173,10 +173,10 @@ def test_a_suite_of_two_columns_scaled_and_turned(command, folder, tmp_path):
 
 def test_records_that_cannot_be_turned_are_refused_and_the_others_used(command, refused, folder):
     (folder / "unknown.csv").write_text("time_s,ax_g\n0,0.1\n0.01,-0.2\n0.02,0.1\n")
-    result = command("suite", "paper-monolithic", folder, "--model", "housner", "--azimuth", "10", "--json")
+    result = command("suite", "paper-monolithic", folder, "--model", "housner", "--azimuth", "10deg", "--json")
     assert len(result["runs"]) == 2
     assert "one horizontal component" in result["refused"]["unknown.csv"]
-    said = refused("suite", "paper-monolithic", folder / "unknown.csv", "--model", "housner", "--azimuth", "10")
+    said = refused("suite", "paper-monolithic", folder / "unknown.csv", "--model", "housner", "--azimuth", "10deg")
     assert "no record of the suite can be used" in said
 
 
@@ -215,14 +215,14 @@ def test_a_plane_model_says_what_it_leaves_out(command, record):
     assert left == "second horizontal component (azimuth 300°, peak 0.24 g)"
     off = command(*RUN, "--motion", record, "--vertical", "off", "--json")
     assert (len(off["left_out"]), off["vertical"]) == (2, False)
-    assert off["left_out"][1] == "vertical component (peak 0.1 g)"
+    assert off["left_out"][0] == "vertical component (peak 0.1 g)"  # by wish, and then y by the model
     assert off["peak_top_displacement_m"] != both["peak_top_displacement_m"]
     assert "left out" in command(*RUN, "--motion", record)
     assert command(*RUN, "--harmonic", "1Hz,0.1g,1s", "--json")["left_out"] == []
 
 
 def test_azimuth_and_component_choose_the_direction(command, record):
-    turned = command(*RUN, "--motion", record, "--azimuth", "75", "--vertical", "off", "--json")
+    turned = command(*RUN, "--motion", record, "--azimuth", "75deg", "--vertical", "off", "--json")
     motion = along(shaking(), 75.0).without_vertical()
     expected = st.simulate(preset("paper-monolithic"), motion, st.HousnerBlock())
     assert turned["peak_top_displacement_m"] == pytest.approx(expected.peak_top_displacement, rel=1e-9)
@@ -231,6 +231,41 @@ def test_azimuth_and_component_choose_the_direction(command, record):
     second = command(*RUN, "--motion", record, "--component", "2", "--json")
     assert second["azimuth_deg"] == 300.0
     assert len(second["left_out"]) == 2
+
+
+def test_a_sine_along_y_is_named_by_a_plane_model(command):
+    alone = command(*RUN, "--harmonic", "1Hz,0.3g,4s", "--json")
+    both = command(*RUN, "--harmonic", "1Hz,0.3g,4s", "--across", "2Hz,0.15g,90deg", "--json")
+    assert both["left_out"] == ["second horizontal component (peak 0.15 g)"]
+    assert both["motion"] == "harmonic 1 Hz, 0.3 g along x, 2 Hz, 0.15 g, 90° along y"
+    assert both["outcome"] == alone["outcome"]
+    text = command(*RUN, "--harmonic", "1Hz,0.3g,4s", "--across", "2Hz,0.15g,90deg")
+    assert "left out" in text
+    assert "second horizontal component (peak 0.15 g)" in text
+
+
+def test_the_whole_of_a_harmonic_is_turned(command):
+    turned = command(*RUN, "--harmonic", "1Hz,0.4g,4s", "--azimuth", "60deg", "--json")
+    half = command(*RUN, "--harmonic", "1Hz,0.2g,4s", "--json")
+    assert turned["peak_top_displacement_m"] == pytest.approx(half["peak_top_displacement_m"], rel=1e-6)
+    assert turned["left_out"] == ["second horizontal component (azimuth 330°, peak 0.346 g)"]
+    assert turned["azimuth_deg"] == 60.0
+
+
+def test_one_record_in_several_directions(command, record, tmp_path):
+    ways = ["--motion", record, "--azimuths", "75:345:4", "--signs", "both"]
+    found = command(*RUN, *ways, "--out", tmp_path / "out", "--json")
+    assert [run["azimuth_deg"] for run in found["runs"]] == [75.0, 75.0, 165.0, 165.0, 255.0, 255.0, 345.0, 345.0]
+    assert len(list((tmp_path / "out").iterdir())) == 8
+    once = command(*RUN, "--motion", record, "--azimuth", "75deg", "--json")
+    assert found["runs"][0]["peak_top_displacement_m"] == once["peak_top_displacement_m"]
+    # reversed is turned by half a turn, but for the rounding of its samples
+    peaks = [run["peak_top_displacement_m"] for run in found["runs"]]
+    assert peaks[1] == pytest.approx(peaks[4], rel=1e-3)
+    grid = ["--from", "0.3g", "--to", "0.9g", "--step", "0.3g", "--json"]
+    critical = command("critical", *RUN[1:], *ways[:4], *grid)
+    assert len(critical["records"]) == 4
+    assert len(command("suite", "paper-monolithic", record, *RUN[2:], *ways[2:], "--json")["runs"]) == 8
 
 
 def test_conditioning_is_done_in_order_and_said(command, record, tmp_path):
@@ -289,7 +324,7 @@ def test_the_files_of_the_components_make_one_record(command, tmp_path):
     paths = [tmp_path / f"{stream}.asc" for stream in ("HNE", "HNN", "HNZ")]
     assert command("motion", *paths, "--json")["components"] == ["x", "y", "z"]
     files = [part for path in paths for part in ("--motion", path)]
-    result = command(*RUN, *files, "--azimuth", "45", "--json")
+    result = command(*RUN, *files, "--azimuth", "45deg", "--json")
     assert result["vertical"] is True
     assert result["azimuth_deg"] == 45.0
 
@@ -321,10 +356,24 @@ def test_the_files_of_the_components_make_one_record(command, tmp_path):
         ([*RUN, "--motion", "RECORD", "--condition", "highpass=80Hz"], ["low corner frequency is 80 Hz"]),
         ([*RUN, "--motion", "RECORD", "--condition", "pgv=0.3"], ["'0.3'", "0.3m/s"]),
         ([*RUN, "--motion", "RECORD", "--azimuth", "north"], ["--azimuth is 'north'"]),
-        ([*RUN, "--motion", "RECORD", "--azimuth", "900"], ["azimuth is 900"]),
+        ([*RUN, "--motion", "RECORD", "--azimuth", "900deg"], ["azimuth is 900"]),
         ([*RUN, "--motion", "RECORD", "--component", "7"], ["no component '7'"]),
         ([*RUN, "--harmonic", "1Hz,0.1g,1s", "--component", "1"], ["--component describes a record"]),
-        ([*RUN, "--harmonic", "1Hz,0.1g,1s", "--azimuth", "10"], ["one horizontal component"]),
+        (
+            [*RUN, "--motion", "RECORD", "--azimuth", "75"],
+            ["--azimuth is '75'; write it with its unit, such as 30deg."],
+        ),
+        ([*RUN, "--motion", "RECORD", "--azimuth", "1deg", "--azimuths", "0:90:2"], ["both given"]),
+        ([*RUN, "--pulse", "ricker,1Hz,1g", "--across", "1Hz,0.1g"], ["--across", "give --harmonic as well"]),
+        ([*RUN, "--harmonic", "1Hz,1g", "--across", "1Hz,0.1g,5s"], ["--across", "holds a time", "1.0Hz,0.15g,90deg"]),
+        ([*RUN, "--harmonic", "1Hz,1g,90deg"], ["--harmonic", "holds an angle"]),
+        ([*RUN, "--harmonic", "1Hz,1g", "--across", "1Hz,?g"], ["--harmonic and --across", "write ?g for both"]),
+        (
+            ["compare", *RUN[1:2], "--models", "housner", "--motion", "RECORD", "--component", "all"],
+            ["several motions"],
+        ),
+        ([*RUN, "--motion", "RECORD", "--signs", "-"], ["--signs is '-'; allowed is + or both."]),
+        ([*RUN, "--motion", "RECORD", "--vertical", "down"], ["--vertical is 'down'; allowed is on or off."]),
         ([*RUN, "--synthetic", "atlantis,6Mw,20km"], ["atlantis"]),
         ([*RUN, "--synthetic", "greece,6Mw"], ["no distance"]),
         ([*RUN, "--synthetic", "greece,6Mw,20km", "--harmonic", "1Hz,0.1g,1s"], ["both given"]),

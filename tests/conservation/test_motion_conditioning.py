@@ -194,14 +194,28 @@ def test_principal_axes_are_uncorrelated_and_the_strongest_direction_has_the_lar
     assert strongest(record).pga == pytest.approx(np.hypot(record.acceleration, record.lateral).max())
 
 
-def test_turning_needs_two_components_and_known_azimuths():
+def test_a_motion_without_azimuths_is_turned_as_a_whole_as_if_its_x_pointed_north(record):
+    bare = record.replace(metadata={"azimuths": {"x": None, "y": None}})
+    north = record.replace(metadata={"azimuths": {"x": 0.0, "y": 270.0}})
+    for azimuth in (0.0, 30.0, 90.0, -45.0):
+        out, stated = rotated(bare, azimuth), rotated(north, azimuth)
+        assert out.acceleration == pytest.approx(stated.acceleration, abs=1e-12)
+        assert out.lateral == pytest.approx(stated.lateral, abs=1e-12)
+        assert out.metadata["azimuths"]["x"] == stated.metadata["azimuths"]["x"] == azimuth % 360.0
+        assert "from x towards y (no azimuths are stated" in out.processing[-1]
+    # what shook along x shakes along the azimuth, from x towards y
+    along_x = Motion(0.1, [0.0, 2.0], [0.0, 0.0])
+    assert rotated(along_x, 30.0).components["x"][1] == pytest.approx(2.0 * math.cos(math.pi / 6.0))
+    assert rotated(along_x, 30.0).components["y"][1] == pytest.approx(2.0 * math.sin(math.pi / 6.0))
+
+
+def test_turning_needs_two_components_that_are_not_parallel():
     one = Motion(0.1, [0.0, 1.0])
-    two = Motion(0.1, [0.0, 1.0], [0.0, 1.0], metadata={"azimuths": {"x": None, "y": None}})
     parallel = Motion(0.1, [0.0, 1.0], [0.0, 1.0], metadata={"azimuths": {"x": 10.0, "y": 190.0}})
     with pytest.raises(InputError, match="one horizontal component"):
         turned(one, 10.0)
-    with pytest.raises(InputError, match="not stated in its file"):
-        rotated(two, 10.0)
+    with pytest.raises(InputError, match="one horizontal component"):
+        rotated(one, 10.0)
     with pytest.raises(InputError, match="nearly parallel"):
         rotated(parallel, 10.0)
 

@@ -15,11 +15,9 @@ from ..column.toml import Table, parse_toml, read_table
 from ..errors import InputError, check_range
 from ..models.base import Model
 from ..models.registry import make_model
+from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_acceleration, parse_frequency
 from ..reading import shown
-
-#: Largest number of values of a range.
-MAX_VALUES = 100_000
 
 
 class StudyTable(Table):
@@ -85,40 +83,6 @@ def read_study(path: str | Path) -> Study:
         )
     except InputError as error:
         raise InputError(f"{shown(path)}: {error}") from None
-
-
-def frequency_range(text: str) -> np.ndarray:
-    """Frequencies as typed, ``0.33:4:24`` (first, last, number) or ``0.5,1,2`` [Hz]."""
-
-    def parse(part: str) -> float:
-        try:
-            return float(part)
-        except ValueError:
-            return parse_frequency(part)
-
-    return _range("frequencies", text, parse, "0.33:4:24")
-
-
-def amplitude_range(text: str) -> np.ndarray:
-    """Amplitudes as typed, ``0.05g:0.6g:32`` (first, last, number) or ``0.1g,0.2g`` [m/s²]."""
-    return _range("amplitudes", text, parse_acceleration, "0.05g:0.6g:32")
-
-
-def _range(name: str, text: str, parse: Callable[[str], float], example: str) -> np.ndarray:
-    parts = text.split(":")
-    if len(parts) == 1:
-        return np.array([parse(part.strip()) for part in text.split(",")])
-    if len(parts) != 3:
-        raise InputError(f"{name} are {text!r}; write them as first:last:number, e.g. {example!r}.")
-    low, high = parse(parts[0].strip()), parse(parts[1].strip())
-    if not parts[2].strip().isdecimal():
-        raise InputError(f"{name} are {text!r}, where {parts[2]!r} is no number of values; write e.g. {example!r}.")
-    number = int(parts[2])
-    if not 1 <= number <= MAX_VALUES:
-        raise InputError(f"{name} are {text!r}, with {number} values; allowed is 1 to {MAX_VALUES}.")
-    if number > 1 and not low < high:
-        raise InputError(f"{name} are {text!r}; the first value must be below the last one, e.g. {example!r}.")
-    return np.linspace(low, high, number)
 
 
 def _values(

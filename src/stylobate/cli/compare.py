@@ -12,9 +12,11 @@ from . import options as o
 
 
 def compare(
+    context: typer.Context,
     column: o.ColumnName,
     models: Annotated[str, typer.Option("--models", metavar="A,B,C", help="Models to compare, such as housner,dem2d.")],
     harmonic: o.Harmonic = None,
+    across: o.Across = None,
     pulse: o.Pulse = None,
     synthetic: o.Synthetic = None,
     motion: o.MotionFile = None,
@@ -47,8 +49,9 @@ def compare(
     Histories and measures under one motion, or verdicts over a domain.
     """
     from ..analysis.compare import compare_domains, compare_models
-    from ..campaign.study import amplitude_range, frequency_range
     from ..column.files import load_column
+    from ..motion.orientation import keep_axes
+    from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
     from . import console
 
@@ -81,21 +84,7 @@ def compare(
         table = domains.table
         result |= {"domains": [one.summary() for one in domains.domains], "differences": table.to_dict("records")}
     else:
-        shaking = o.the_motion(
-            stone,
-            harmonic=harmonic,
-            pulse=pulse,
-            file=motion,
-            synthetic=synthetic,
-            unit=unit,
-            dt=dt,
-            component=component,
-            azimuth=azimuth,
-            condition=condition,
-            scale=scale,
-            pga=pga,
-            vertical=vertical,
-        )
+        shaking = o.the_request(context).motion(stone.frequency_parameter)
         each = [f"response-{name}.nc" for name in names]
         with (
             console.folder(out, "comparison.csv", "comparison", *each) as folder,
@@ -103,8 +92,13 @@ def compare(
         ):
             comparison = compare_models(stone, shaking, chosen, tail=after, progress=progress)
             files = [] if folder is None else _write_histories(comparison, folder)
-        table, said = comparison.table, o.input_lines(shaking)
-        result |= o.input_facts(shaking) | {"runs": [response.summary() for response in comparison.responses]}
+        runs = [
+            response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}
+            for one, response in zip(chosen, comparison.responses, strict=True)
+        ]
+        shared = keep_axes(shaking, "".join(one.axes for one in chosen))  # what some of the models take
+        table, said = comparison.table, o.input_lines(shared)
+        result |= o.input_facts(shared) | {"runs": runs}
     result["files"] = [str(file) for file in files]
     if as_json:
         console.emit(result)

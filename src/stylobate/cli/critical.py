@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.critical import CriticalAmplitude
     from ..column import Column
     from ..models.base import Model
-    from ..motion import Suite
+    from ..motion import Motion, Suite
 
 
 def critical(
+    context: typer.Context,
     column: o.ColumnName,
     start: Annotated[str, typer.Option("--from", metavar="A", help="Smallest amplitude, such as 0.05g.")],
     stop: Annotated[str, typer.Option("--to", metavar="A", help="Largest amplitude, such as 1.0g.")],
@@ -25,6 +25,9 @@ def critical(
     model: o.ModelName = "dem2d",
     harmonic: Annotated[
         str | None, typer.Option("--harmonic", metavar="F,?g,T", help="Sine from rest, such as 1.0Hz,?g,10s.")
+    ] = None,
+    across: Annotated[
+        str | None, typer.Option("--across", metavar="F,?g,PHASE", help="Sine along y, such as 1.0Hz,?g,90deg.")
     ] = None,
     pulse: Annotated[
         str | None, typer.Option("--pulse", metavar="KIND,F,?g[,T]", help="Pulse, such as ricker,1.0Hz,?g.")
@@ -35,6 +38,8 @@ def critical(
     dt: o.Step = None,
     component: o.ComponentName = None,
     azimuth: o.Azimuth = None,
+    azimuths: o.Azimuths = None,
+    signs: o.Signs = "+",
     condition: o.Condition = None,
     vertical: o.Vertical = "on",
     tail: o.Tail = "0s",
@@ -49,45 +54,29 @@ def critical(
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..column.files import load_column
-    from ..motion.specs import parse_acceleration, parse_harmonic, parse_pulse
+    from ..motion.specs import parse_acceleration
     from . import console
 
-    o.check_one_motion(harmonic, pulse, motion, unit, dt, synthetic, component)
+    asked = o.the_request(context)
     grid = [parse_acceleration(text) for text in (start, stop, step)]
     amplitude_grid(*grid)
     stone = load_column(column)
     how = o.the_model(model, settings)
     after, count = o.the_tail(tail), o.the_threads(threads)
-    if o.is_suite(motion):
-        suite = o.of_each(
-            o.the_suite(motion or [], unit, dt, component),
-            lambda one: o.plane(o.shaped(one, azimuth, condition), vertical),
-        )
+    if asked.several:
+        suite = asked.expand(stone.frequency_parameter, amplitude_open=True)
         over_suite(stone, suite, how, grid, after, count, out, as_json)
         return
-    nominal: float | None = 1.0
-    if harmonic is not None:
-        shaking, unknown = parse_harmonic(harmonic, allow_unknown=True)
-    elif pulse is not None:
-        alone, unknown = parse_pulse(pulse, allow_unknown=True)
-        length = alone.metadata["pulse_length"] + 20.0 / stone.frequency_parameter
-        shaking, unknown = parse_pulse(pulse, length, allow_unknown=True)
-    else:
-        shaking, unknown, nominal = o.the_record(motion, unit, dt, component, synthetic), True, None
-    if not unknown:
-        raise InputError(
-            f"the motion {harmonic or pulse!r} states its amplitude, which is what is looked for; write ?g for it."
-        )
-    shaking = o.plane(o.shaped(shaking, azimuth, condition), vertical)
-    if condition:
-        nominal = None  # the peak that the conditioned motion has
+    shaking = asked.motion(stone.frequency_parameter, amplitude_open=True)
+    # the amplitude of a formula is that of its sine; of a record, or once it is conditioned, the peak that it has along x
+    nominal = 1.0 if (harmonic or pulse) and not condition else None
     with console.folder(out, "critical.csv", "critical.json", "critical") as folder:
         with console.progress("amplitudes") as progress:
             ledger = console.ledger(folder)
             result = critical_amplitude(
                 stone, shaking, how, *grid, nominal=nominal, tail=after, threads=count, progress=progress, ledger=ledger
             )
-        summary, files = result.summary() | o.input_facts(shaking), []
+        summary, files = result.summary() | o.input_facts(how.taken(shaking)), []
         if folder is not None:
             files = write(result, summary, folder)
             summary["files"] = [str(file) for file in files]
@@ -95,7 +84,7 @@ def critical(
     if as_json:
         console.emit(summary)
     else:
-        describe(result, files)
+        describe(result, how.taken(shaking), files)
 
 
 def over_suite(
@@ -151,7 +140,7 @@ def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
     ]
 
 
-def describe(result: CriticalAmplitude, files: list[Path]) -> None:
+def describe(result: CriticalAmplitude, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
     from ..constants import g
     from . import console
@@ -179,7 +168,7 @@ def describe(result: CriticalAmplitude, files: list[Path]) -> None:
     facts = {
         "column": result.column.name,
         "motion": result.motion.name if result.motion.factor != 1.0 else f"{result.motion.name.split(',')[0]}, ? g",
-        **{name: text for name, text in o.input_lines(result.motion).items() if name != "motion"},
+        **{name: text for name, text in o.input_lines(taken).items() if name != "motion"},
         "model": result.model,
         "grid": f"{low:g} to {high:g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }

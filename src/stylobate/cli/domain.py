@@ -265,8 +265,9 @@ def _study(
     tail: str | None,
     settings: list[str] | None,
 ) -> Study:
-    from ..campaign.study import Study, amplitude_range, frequency_range, is_study, read_study
+    from ..campaign.study import Study, is_study, read_study
     from ..column.files import load_column
+    from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
 
     given = {

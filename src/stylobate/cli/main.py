@@ -10,7 +10,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..errors import DamagedFileWarning, InputError, OutOfRangeWarning, StylobateError
+from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeWarning, StylobateError
 from ..version import __version__
 from . import (
     animate,
@@ -91,6 +91,7 @@ def call(arguments: Sequence[str]) -> int:
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", OutOfRangeWarning)
         warnings.simplefilter("always", DamagedFileWarning)
+        warnings.simplefilter("ignore", LeftOutWarning)  # commands say it with the motion, under "left out"
         warnings.showwarning = _Warner()
         try:
             code = app(list(arguments), prog_name="stylobate", standalone_mode=False)

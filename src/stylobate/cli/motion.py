@@ -12,6 +12,7 @@ from . import options as o
 
 
 def motion(
+    context: typer.Context,
     files: Annotated[
         list[Path] | None,
         typer.Argument(metavar="FILE...", help="Record, or the files of its components; sample:NAME for a sample."),
@@ -41,7 +42,7 @@ def motion(
     if samples:
         return _list_samples(as_json)
     o.the_threads(threads)  # reading has one thread
-    found = o.scaled(o.shaped(o.the_record(files, unit, dt, component), azimuth, condition), scale, pga)
+    found = o.the_request(context, motion=files).motion()
     summary, written = motion_summary(found), []
     with console.folder(out, "motion.json", "motion.csv", "motion", "spectra") as folder:
         if folder is not None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -11,10 +10,15 @@ import typer
 from ..errors import InputError
 
 if TYPE_CHECKING:
-    from ..column import Column
-    from ..column.assembly import Assembly
     from ..models.base import Model
-    from ..motion import Motion, Suite
+    from ..motion import Motion
+    from ..motion.request import MotionRequest
+
+#: Options that make the request for motions.
+REQUEST = (
+    *("harmonic", "across", "pulse", "synthetic", "motion", "unit", "dt", "component", "azimuth", "azimuths", "signs"),
+    *("condition", "scale", "pga", "vertical"),
+)
 
 ColumnName = Annotated[str, typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).")]
 StructureName = Annotated[
@@ -64,12 +68,21 @@ MotionFiles = Annotated[
 ]
 ComponentName = Annotated[
     str | None,
-    typer.Option("--component", metavar="C", help="The one component to use: number in the file, label or azimuth."),
+    typer.Option("--component", metavar="C", help="The one component to use: its number, label or azimuth."),
+]
+Across = Annotated[
+    str | None,
+    typer.Option("--across", metavar="F,A,PHASE", help="Sine along y beside --harmonic, such as 1.0Hz,0.15g,90deg."),
 ]
 Azimuth = Annotated[
     str | None,
-    typer.Option("--azimuth", metavar="DEGREES", help="Turn the record so that x points there, clockwise from north."),
+    typer.Option("--azimuth", metavar="ANGLE", help="Turn the whole motion, so that x points there, such as 30deg."),
 ]
+Azimuths = Annotated[
+    str | None,
+    typer.Option("--azimuths", metavar="A:A:N", help="Every motion turned to each of these, such as 0:330:12."),
+]
+Signs = Annotated[str, typer.Option("--signs", metavar="+|both", help="Every motion as it is, or reversed as well.")]
 Condition = Annotated[
     list[str] | None,
     typer.Option("--condition", metavar="STEP", help="Conditioning, in the order given, such as bandpass=0.1Hz,25Hz."),
@@ -122,147 +135,20 @@ def the_tail(text: str) -> float:
     return parse_time(text)
 
 
-def the_motion(
-    column: Column | Assembly,
-    *,
-    harmonic: str | None,
-    pulse: str | None,
-    file: Sequence[Path] | None,
-    synthetic: str | None = None,
-    unit: str | None = None,
-    dt: str | None = None,
-    component: str | None = None,
-    azimuth: str | None = None,
-    condition: list[str] | None = None,
-    scale: str | None = None,
-    pga: str | None = None,
-    vertical: str = "on",
-) -> Motion:
-    """The one motion that the options describe.
+def the_request(context: typer.Context, **changes: Any) -> MotionRequest:
+    """The request for motions that the options of a command make, checked before anything is read.
 
-    A pulse without a stated length is followed by 20/p, p the frequency parameter of the column or of the largest part
-    of an assembly: free rocking from close to overturning has come to a verdict by then.
+    Parameters
+    ----------
+    context : typer.Context
+        Of the command, with its options under the names that the request has.
+    **changes
+        Instead of what the context holds.
     """
-    from ..motion.specs import parse_harmonic, parse_pulse
+    from ..motion.request import MotionRequest
 
-    check_one_motion(harmonic, pulse, file, unit, dt, synthetic, component)
-    if harmonic is not None:
-        motion = parse_harmonic(harmonic)
-    elif pulse is not None:
-        length = parse_pulse(pulse).metadata["pulse_length"]
-        motion = parse_pulse(pulse, length + 20.0 / column.frequency_parameter)
-    else:
-        motion = the_record(file, unit, dt, component, synthetic)
-    return plane(scaled(shaped(motion, azimuth, condition), scale, pga), vertical)
-
-
-def the_record(
-    files: Sequence[Path] | None,
-    unit: str | None = None,
-    dt: str | None = None,
-    component: str | None = None,
-    synthetic: str | None = None,
-) -> Motion:
-    """The motion in the files of one record, or the simulated one."""
-    from ..motion.readers import read_motion
-    from ..motion.specs import parse_synthetic, parse_time
-
-    if synthetic is not None:
-        return parse_synthetic(synthetic)
-    paths = list(files or ())
-    folder = next((path for path in paths if path.is_dir()), None)
-    if folder is not None:
-        raise InputError(f"{folder} is a folder; give the file or the files of one record here.")
-    return read_motion(paths, unit, None if dt is None else parse_time(dt), component=component)
-
-
-def the_suite(
-    sources: Sequence[Path], unit: str | None = None, dt: str | None = None, component: str | None = None
-) -> Suite:
-    """All records of folders and files."""
-    from ..motion.readers import read_suite
-    from ..motion.specs import parse_time
-
-    files: list[Path] = []
-    for source in sources:
-        files += (
-            sorted(p for p in source.iterdir() if p.is_file() and p.name[0] != ".") if source.is_dir() else [source]
-        )
-    if not files:
-        raise InputError(f"{' and '.join(map(str, sources))} holds no file; give a folder of records, or files.")
-    return read_suite(files, unit, None if dt is None else parse_time(dt), component=component)
-
-
-def of_each(suite: Suite, change: Callable[[Motion], Motion]) -> Suite:
-    """A suite with every motion changed; one that cannot be is refused with the reason."""
-    from ..motion.readers import Suite
-
-    motions, refused = [], dict(suite.refused)
-    for motion in suite.motions:
-        try:
-            motions.append(change(motion))
-        except InputError as error:
-            refused[motion.name] = str(error)
-    if not motions:
-        raise InputError(f"no record of the suite can be used; the first reason: {next(iter(refused.values()))}")
-    return Suite(tuple(motions), refused)
-
-
-def is_suite(files: Sequence[Path] | None) -> bool:
-    """Whether ``--motion`` names a folder of records."""
-    folders = [path for path in files or () if path.is_dir()]
-    if folders and len(files or ()) > 1:
-        raise InputError(
-            f"--motion is {folders[0]}, a folder, and other paths; give one folder, or files of one record."
-        )
-    return bool(folders)
-
-
-def shaped(motion: Motion, azimuth: str | None = None, condition: list[str] | None = None) -> Motion:
-    """The motion turned and conditioned as asked, every step written into its history."""
-    if azimuth is not None:
-        from ..motion.orientation import rotated
-
-        motion = rotated(motion, number("--azimuth", azimuth))
-    if condition:
-        from ..motion.condition_specs import conditioned
-
-        for step in condition:
-            motion = conditioned(motion, step)
-    return motion
-
-
-def scaled(motion: Motion, scale: str | None = None, pga: str | None = None) -> Motion:
-    """The motion with its amplitude as asked, which its name then says."""
-    from ..motion.specs import parse_acceleration
-
-    if scale is not None and pga is not None:
-        raise InputError("--scale and --pga are both given; give one of the two.")
-    if scale is not None:
-        factor = number("--scale", scale)
-        said = (*motion.processing, f"multiplied by {factor:g}")
-        motion = motion.scaled(factor).replace(name=f"{motion.name} × {factor:g}", processing=said)
-    if pga is not None:
-        peak = parse_acceleration(pga)
-        before = motion
-        motion = motion.scaled_to_pga(peak)
-        times = motion.factor / before.factor if before.factor else 0.0
-        said = (*motion.processing, f"multiplied by {times:.4g}: scaled to a peak of {pga} along x")
-        motion = motion.replace(name=f"{before.name}, scaled to {pga}", processing=said)
-    if scale is not None or pga is not None:
-        from ..motion.conditioning import warn_of_scaling
-
-        warn_of_scaling(motion)
-    return motion
-
-
-def plane(motion: Motion, vertical: str = "on") -> Motion:
-    """What the plane models take: x, and the vertical if it is on; the rest is left out and written down."""
-    from ..motion.orientation import plane_input
-
-    if vertical not in ("on", "off"):
-        raise InputError(f"--vertical is {vertical!r}; allowed is on or off.")
-    return plane_input(motion, vertical=vertical == "on")
+    asked = {key: value for key, value in context.params.items() if key in REQUEST}
+    return MotionRequest.typed(**asked | changes)
 
 
 def input_facts(motion: Motion) -> dict[str, Any]:
@@ -299,23 +185,3 @@ def number(option: str, text: str) -> float:
         return float(text)
     except ValueError:
         raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.5.") from None
-
-
-def check_one_motion(
-    harmonic: str | None,
-    pulse: str | None,
-    file: Sequence[Path] | None,
-    unit: str | None = None,
-    dt: str | None = None,
-    synthetic: str | None = None,
-    component: str | None = None,
-) -> None:
-    """Exactly one motion is given, and options of records only with a record."""
-    motions = (("--harmonic", harmonic), ("--pulse", pulse), ("--synthetic", synthetic), ("--motion", file))
-    given = [one for one, value in motions if value]
-    if len(given) != 1:
-        what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
-        raise InputError(f"{what}; give one of --harmonic, --pulse, --synthetic and --motion.")
-    for option, value in (("--unit", unit), ("--dt", dt), ("--component", component)):
-        if value is not None and not file:
-            raise InputError(f"{option} describes a record, but none is given; leave it out or give --motion FILE.")

@@ -21,9 +21,11 @@ if TYPE_CHECKING:
 
 
 def run(
+    context: typer.Context,
     column: o.StructureName,
     model: o.ModelName = "dem2d",
     harmonic: o.Harmonic = None,
+    across: o.Across = None,
     pulse: o.Pulse = None,
     synthetic: o.Synthetic = None,
     motion: o.MotionFiles = None,
@@ -31,6 +33,8 @@ def run(
     dt: o.Step = None,
     component: o.ComponentName = None,
     azimuth: o.Azimuth = None,
+    azimuths: o.Azimuths = None,
+    signs: o.Signs = "+",
     condition: o.Condition = None,
     scale: o.Scale = None,
     pga: o.Pga = None,
@@ -57,45 +61,23 @@ def run(
     from . import console
 
     o.the_threads(threads)  # a single run has one thread
-    o.check_one_motion(harmonic, pulse, motion, unit, dt, synthetic, component)
+    asked = o.the_request(context)
     stone = load_structure(column)
     how = o.the_model(model, settings)
-    if o.is_suite(motion):
-        suite = o.of_each(
-            o.the_suite(motion or [], unit, dt, component),
-            lambda one: o.plane(o.scaled(o.shaped(one, azimuth, condition), scale, pga), vertical),
-        )
-        motions, refused = suite.motions, suite.refused
-    else:
-        shaking = o.the_motion(
-            stone,
-            harmonic=harmonic,
-            pulse=pulse,
-            file=motion,
-            synthetic=synthetic,
-            unit=unit,
-            dt=dt,
-            component=component,
-            azimuth=azimuth,
-            condition=condition,
-            scale=scale,
-            pga=pga,
-            vertical=vertical,
-        )
-        motions, refused = (shaking,), None
+    found = asked.expand(stone.frequency_parameter)
     interval, length = parse_time(output_interval), o.the_tail(tail)
     follow = partial(
         run_one, stone, model=how, tail=length, interval=interval, until_end=until_end, until_rest=until_rest
     )
-    if refused is None:
-        summaries = [conclude(follow, stone, motions[0], out, as_json)]
+    if asked.several:
+        following = {"tail": length, "interval": interval, "until_end": until_end, "until_rest": until_rest}
+        summaries = each_record(stone, found.motions, how, follow, out, following, as_json)
     else:
-        asked = {"tail": length, "interval": interval, "until_end": until_end, "until_rest": until_rest}
-        summaries = each_record(stone, motions, how, follow, out, asked, as_json)
+        summaries = [conclude(follow, stone, found.motions[0], how, out, as_json)]
     if as_json:
-        console.emit(summaries[0] if refused is None else {"runs": summaries, "refused": refused})
+        console.emit({"runs": summaries, "refused": found.refused} if asked.several else summaries[0])
     else:
-        console.print_refused(refused or {})
+        console.print_refused(found.refused)
 
 
 def run_one(
@@ -144,11 +126,15 @@ def each_record(
             for number, (one, place) in enumerate(zip(motions, places)):
                 summary = known.get(number)
                 if summary is None or not all(Path(file).is_file() for file in summary["files"]):
-                    summary = conclude(follow, stone, one, place, quiet)
+                    summary = conclude(follow, stone, one, model, place, quiet)
                     if book:
                         book.record(number, json.loads(console.as_json(summary)))
                 elif not quiet and place is not None:
-                    describe(load_response(place / "response.nc"), one, [Path(file) for file in summary["files"]])
+                    describe(
+                        load_response(place / "response.nc"),
+                        model.taken(one),
+                        [Path(file) for file in summary["files"]],
+                    )
                 summaries.append(summary)
         except KeyboardInterrupt:
             if book:
@@ -162,7 +148,12 @@ def each_record(
 
 
 def conclude(
-    follow: Callable[[Motion], AnyResponse], stone: Column | Assembly, motion: Motion, out: Path | None, quiet: bool
+    follow: Callable[[Motion], AnyResponse],
+    stone: Column | Assembly,
+    motion: Motion,
+    model: Model,
+    out: Path | None,
+    quiet: bool,
 ) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..column import Column
@@ -170,14 +161,14 @@ def conclude(
 
     pictures = ["histories", "filmstrip", *(["joints"] if isinstance(stone, Column) else []), "energy", "motion"]
     with console.folder(out, "response.nc", "run.json", *pictures) as folder:
-        response = follow(motion)
-        summary, files = response.summary() | o.input_facts(motion), []
+        response, taken = follow(motion), model.taken(motion)
+        summary, files = response.summary() | o.input_facts(taken), []
         if folder is not None:
-            files = [*write(response, motion, folder), folder / "run.json"]
+            files = [*write(response, taken, folder), folder / "run.json"]
             summary["files"] = [str(file) for file in files]
             console.write_json(files[-1], summary)
     if not quiet:
-        describe(response, motion, files)
+        describe(response, taken, files)
     return summary
 
 

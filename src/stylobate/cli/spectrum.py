@@ -18,11 +18,13 @@ if TYPE_CHECKING:
 
 
 def spectrum(
+    context: typer.Context,
     files: Annotated[
         list[Path] | None, typer.Argument(metavar="[MOTION]...", help="Record, or the files of its components.")
     ] = None,
     kind: Annotated[str, typer.Option("--kind", metavar="KIND", help="response or rocking.")] = "response",
     harmonic: o.Harmonic = None,
+    across: o.Across = None,
     pulse: o.Pulse = None,
     synthetic: o.Synthetic = None,
     unit: o.Unit = None,
@@ -59,7 +61,7 @@ def spectrum(
 
     Peaks of linear oscillators over their period, or of Housner's blocks over their size p and slenderness α.
     """
-    from ..motion.specs import parse_harmonic, parse_pulse
+    from ..models.rocking.model import HousnerBlock
     from . import console
 
     if kind not in ("response", "rocking"):
@@ -67,16 +69,9 @@ def spectrum(
     _only_for(kind, "response", {"--damping": damping, "--periods": periods})
     _only_for(kind, "rocking", {"--p": sizes, "--alpha": slendernesses, "--restitution": restitution, "--tail": tail})
     count = o.the_threads(threads)
-    o.check_one_motion(harmonic, pulse, files, unit, dt, synthetic, component)
-    if harmonic is not None:
-        motion = parse_harmonic(harmonic)
-    elif pulse is not None:
-        motion = parse_pulse(pulse)
-    else:
-        motion = o.the_record(files, unit, dt, component, synthetic)
-    motion = o.scaled(o.shaped(motion, azimuth, condition), scale, pga)
+    motion = o.the_request(context, motion=files, vertical=vertical if kind == "rocking" else "on").motion()
     if kind == "rocking":
-        motion = o.plane(motion, vertical)
+        motion = HousnerBlock().taken(motion)
         blocks = {
             "frequency_parameters": _values("--p", sizes, geometric=True),
             "slendernesses": _values("--alpha", slendernesses),

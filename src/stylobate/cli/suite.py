@@ -25,6 +25,7 @@ SHOWN = (
 
 
 def suite(
+    context: typer.Context,
     column: o.ColumnName,
     sources: Annotated[list[Path], typer.Argument(metavar="DIR|FILE...", help="Folders of records, or records.")],
     model: o.ModelName = "dem2d",
@@ -38,6 +39,8 @@ def suite(
     dt: o.Step = None,
     component: o.ComponentName = None,
     azimuth: o.Azimuth = None,
+    azimuths: o.Azimuths = None,
+    signs: o.Signs = "+",
     condition: o.Condition = None,
     scale: o.Scale = None,
     pga: o.Pga = None,
@@ -65,10 +68,7 @@ def suite(
     if len(set(names)) < len(names):
         raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
     how = o.the_model(model, settings)
-    records = o.of_each(
-        o.the_suite(sources, unit, dt, component),
-        lambda one: o.plane(o.scaled(o.shaped(one, azimuth, condition), scale, pga), vertical),
-    )
+    records = o.the_request(context, motion=sources, separate=True).expand()
     with console.folder(out, "suite.csv", "suite.json", "suite") as folder:
         ledger = console.ledger(folder)
         with console.progress("runs") as progress:
@@ -79,7 +79,7 @@ def suite(
         result = {
             "runs": table.astype(object).where(table.notna(), None).to_dict("records"),
             "verdicts": counts,
-            "inputs": [o.input_facts(motion) for motion in records.motions],
+            "inputs": [o.input_facts(how.taken(motion)) for motion in records.motions],
             "refused": records.refused,
             "model": how.name,
         }
@@ -101,7 +101,7 @@ def suite(
         print(f"{name} under {len(rows)} records: {', '.join(f'{n} {one}' for one, n in counts[name].items())}.")
         console.print_table(rows.filter(list(SHOWN)), digits=3)
     for motion in records.motions:
-        if left_out := o.input_facts(motion)["left_out"]:
+        if left_out := o.input_facts(how.taken(motion))["left_out"]:
             print(f"left out of {motion.name}: {'; '.join(left_out)}")
     console.print_refused(records.refused)
     if files:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import typing
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
@@ -11,8 +12,8 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..column import Column
-from ..errors import InputError, suggest
-from ..motion import Motion
+from ..errors import InputError, LeftOutWarning, suggest
+from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
 from .shared.start import Start
 
@@ -60,8 +61,9 @@ class Model:
     """Base of the models. A subclass is a frozen dataclass of parameters, checked where it is made.
 
     Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
-    ``assumptions`` and ``limits`` in sentences; ``takes_as_found`` says whether it computes columns that are not as built,
-    ``follows_to_rest`` whether it can go on until everything lies still, ``takes_start`` whether it can start from a pose.
+    ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
+    ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
+    everything lies still, ``takes_start`` whether it can start from a pose.
     """
 
     name: ClassVar[str] = ""
@@ -69,6 +71,7 @@ class Model:
     references: ClassVar[tuple[str, ...]] = ()
     assumptions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[tuple[str, ...]] = ()
+    axes: ClassVar[str] = "xz"
     takes_as_found: ClassVar[bool] = False
     follows_to_rest: ClassVar[bool] = False
     takes_start: ClassVar[bool] = False
@@ -84,6 +87,16 @@ class Model:
                     f"the component {axis} of {motion.name!r} reaches {peak:.3g} m/s²; allowed is up to "
                     f"{LARGEST_ACCELERATION:g} m/s²: check its unit and its factor."
                 )
+        for one in beyond_axes(motion, self.axes).values():
+            warnings.warn(
+                f"left out of {motion.name!r}: {one}; {self.name} takes {' and '.join(self.axes)}.",
+                LeftOutWarning,
+                stacklevel=4,
+            )
+
+    def taken(self, motion: Motion) -> Motion:
+        """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
+        return keep_axes(motion, self.axes)
 
     def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
         """Time step that a run will take, and about what a step costs on one core, both [s]; the cost of a single run."""

@@ -25,7 +25,7 @@ from .intensity import (
     significant_duration,
 )
 from .motion import MAX_SAMPLES, Motion, integrate
-from .orientation import along, plane_input, principal, rotated, strongest, turned
+from .orientation import along, beyond_axes, keep_axes, principal, rotated, strongest, turned
 from .pulse_match import PulseMatch, pulse_match
 from .pulses import (
     cosine_pulse,
@@ -37,6 +37,7 @@ from .pulses import (
     sine_pulse,
 )
 from .readers import Suite, read_motion, read_suite, sample_motion, samples
+from .request import MotionRequest
 from .specs import parse_acceleration, parse_frequency, parse_harmonic, parse_pulse, parse_synthetic, parse_time
 from .spectra import ResponseSpectrum, housner_intensity, response_spectrum, rotated_pga, rotated_spectrum
 from .synthesis import REGIONS, Region, fourier_target, stochastic_motion, with_directivity_pulse
@@ -46,6 +47,7 @@ __all__ = [
     "MAX_SAMPLES",
     "REGIONS",
     "Motion",
+    "MotionRequest",
     "PulseMatch",
     "Region",
     "ResponseSpectrum",
@@ -55,6 +57,7 @@ __all__ = [
     "bandpass",
     "baseline_piecewise",
     "baseline_polynomial",
+    "beyond_axes",
     "conditioned",
     "cosine_pulse",
     "cumulative_absolute_velocity",
@@ -67,6 +70,7 @@ __all__ = [
     "harmonic",
     "housner_intensity",
     "integrate",
+    "keep_axes",
     "mavroeidis_papageorgiou",
     "motion_summary",
     "parse_acceleration",
@@ -77,7 +81,6 @@ __all__ = [
     "parse_time",
     "peak_ground_displacement",
     "peak_ground_velocity",
-    "plane_input",
     "principal",
     "pulse_match",
     "read_motion",

@@ -12,8 +12,14 @@ from .motion import MAX_SAMPLES, Motion
 SAMPLES_PER_CYCLE = 1000
 
 
-def harmonic(frequency: float, amplitude: float, duration: float = 10.0) -> Motion:
-    """Harmonic acceleration a sin(2πft) from rest.
+def harmonic(
+    frequency: float,
+    amplitude: float,
+    duration: float = 10.0,
+    *,
+    across: tuple[float, float, float] | None = None,
+) -> Motion:
+    """Harmonic acceleration a sin(2πft) from rest, along x or along x and y.
 
     Parameters
     ----------
@@ -23,6 +29,9 @@ def harmonic(frequency: float, amplitude: float, duration: float = 10.0) -> Moti
         a [m/s²], e.g. ``0.3 * st.g``.
     duration : float
         Length [s].
+    across : (float, float, float), optional
+        Frequency f₂ [Hz], amplitude a₂ [m/s²] and phase φ [rad] of a second sine a₂ sin(2πf₂t + φ) along y. With the same
+        frequency and a phase of π/2 the ground goes round an ellipse.
 
     Returns
     -------
@@ -32,11 +41,30 @@ def harmonic(frequency: float, amplitude: float, duration: float = 10.0) -> Moti
     f = check_range("frequency", frequency, 1e-3, 1e3, unit="Hz")
     a = check_range("amplitude", amplitude, -1e4, 1e4, unit="m/s²")
     total = check_range("duration", duration, 0.0, 1e4, unit="s", open_low=True)
-    steps = max(2, round(total * f * SAMPLES_PER_CYCLE))
+    name = f"harmonic {f:g} Hz, {a / g:g} g"
+    if across is None:
+        time = _times(f, total)
+        return Motion(total / (len(time) - 1), np.sin(2.0 * np.pi * f * time), factor=a, name=name)
+    f2 = check_range("frequency across", across[0], 1e-3, 1e3, unit="Hz")
+    a2 = check_range("amplitude across", across[1], -1e4, 1e4, unit="m/s²")
+    phase = check_range("phase across", across[2], -1e3, 1e3, unit="rad")
+    time = _times(max(f, f2), total)
+    factor = a if a != 0.0 else 1.0
+    return Motion(
+        total / (len(time) - 1),
+        (a / factor) * np.sin(2.0 * np.pi * f * time),
+        (a2 / factor) * np.sin(2.0 * np.pi * f2 * time + phase),
+        factor=factor,
+        name=f"{name} along x, {f2:g} Hz, {a2 / g:g} g, {np.degrees(phase):g}° along y",
+    )
+
+
+def _times(frequency: float, duration: float) -> np.ndarray:
+    """Sample times [s] that resolve a sine of this frequency."""
+    steps = max(2, round(duration * frequency * SAMPLES_PER_CYCLE))
     if steps >= MAX_SAMPLES:
         raise InputError(
-            f"a harmonic of {f:g} Hz over {total:g} s takes {steps} samples; allowed is up to {MAX_SAMPLES}: "
+            f"a harmonic of {frequency:g} Hz over {duration:g} s takes {steps} samples; allowed is up to {MAX_SAMPLES}: "
             "give a shorter duration."
         )
-    time = np.linspace(0.0, total, steps + 1)
-    return Motion(total / steps, np.sin(2.0 * np.pi * f * time), factor=a, name=f"harmonic {f:g} Hz, {a / g:g} g")
+    return np.linspace(0.0, duration, steps + 1)

@@ -26,10 +26,12 @@ class Motion:
     ----------
     dt : float
         Step [s].
-    acceleration : array
+    ax : array
         Horizontal acceleration along x, the plane of the plane models, before ``factor`` [m/s²], shape (steps,).
-    lateral, vertical : array, optional
+    ay, az : array, optional
         Second horizontal (y) and vertical (z, upward positive) acceleration before ``factor`` [m/s²], shape (steps,).
+    acceleration, lateral, vertical : array, optional
+        Other names of ``ax``, ``ay`` and ``az``.
     factor : float
         Multiplies every component; scaled motions share their samples, so that a domain of ten thousand
         amplitudes keeps one array. The attributes ``acceleration``, ``lateral`` and ``vertical`` include it.
@@ -57,10 +59,13 @@ class Motion:
     def __init__(
         self,
         dt: float,
-        acceleration: np.ndarray,
+        ax: np.ndarray | None = None,
+        ay: np.ndarray | None = None,
+        az: np.ndarray | None = None,
+        *,
+        acceleration: np.ndarray | None = None,
         lateral: np.ndarray | None = None,
         vertical: np.ndarray | None = None,
-        *,
         factor: float = 1.0,
         name: str = "motion",
         metadata: Mapping | None = None,
@@ -75,11 +80,14 @@ class Motion:
         put("metadata", MappingProxyType(dict(metadata or {})))
         put("processing", tuple(processing))
         length = None
-        for label, key, value in (
-            ("x", "samples", acceleration),
-            ("y", "y_samples", lateral),
-            ("z", "z_samples", vertical),
+        for label, key, first, second in (
+            ("x", "samples", ax, acceleration),
+            ("y", "y_samples", ay, lateral),
+            ("z", "z_samples", az, vertical),
         ):
+            if first is not None and second is not None:
+                raise InputError(f"component {label} of {name!r} is given under both of its names; give it once.")
+            value = second if first is None else first
             if value is None:
                 if key == "samples":
                     raise InputError(f"motion {self.name!r} has no horizontal component; give one.")
@@ -145,18 +153,19 @@ class Motion:
     # -- changed copies ------------------------------------------------------------------------------------------
 
     def replace(self, **changes) -> Motion:
-        """A copy with some constructor arguments changed (``acceleration`` … without the factor)."""
+        """A copy with some constructor arguments changed (``ax`` … without the factor)."""
         fields: dict = {
-            "acceleration": self.samples,
-            "lateral": self.y_samples,
-            "vertical": self.z_samples,
+            "dt": self.dt,
+            "ax": self.samples,
+            "ay": self.y_samples,
+            "az": self.z_samples,
             "factor": self.factor,
             "name": self.name,
             "metadata": self.metadata,
             "processing": self.processing,
         }
-        fields |= changes
-        return Motion(fields.pop("dt", self.dt), fields.pop("acceleration"), **fields)
+        other = {"acceleration": "ax", "lateral": "ay", "vertical": "az"}
+        return Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
 
     def scaled(self, factor: float) -> Motion:
         """A copy with every component multiplied by ``factor``, which its name says; the samples are shared."""
@@ -164,10 +173,23 @@ class Motion:
         return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}")
 
     def scaled_to_pga(self, pga: float) -> Motion:
-        """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike."""
+        """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike.
+
+        With two horizontal components the peak is still that along x: what shakes along y keeps its ratio to it. For the
+        largest peak of all directions, turn the motion there first (``stylobate.motion.strongest``).
+
+        Raises
+        ------
+        InputError
+            The motion has (next to) nothing along x.
+        """
         value = check_range("pga", pga, 0.0, 1e4, unit="m/s²")
-        if self.pga == 0.0:
-            raise InputError(f"motion {self.name!r} is zero along x and cannot be scaled to a peak.")
+        across = 0.0 if self.lateral is None else float(np.abs(self.lateral).max())
+        if self.pga <= 1e-9 * across:
+            raise InputError(
+                f"motion {self.name!r} is zero along x and cannot be scaled to a peak there; turn it, or multiply it by a "
+                "factor."
+            )
         return self.scaled(value / self.pga).replace(name=f"{self.name}, scaled to {value / g:g} g")
 
     def without_vertical(self) -> Motion:

@@ -1,7 +1,7 @@
 """Turning the two horizontal components: to an azimuth, to the strongest direction, to the principal axes.
 
 Azimuths count clockwise from north; x, y and the upward z are right-handed after turning: y points 90° to the left
-of x.
+of x. To turn x clockwise is to turn the motion from x towards y.
 """
 
 from __future__ import annotations
@@ -16,31 +16,38 @@ from ..errors import InputError, check_range
 from .integration import square_integral
 from .motion import Motion
 
+#: The axes besides x, in words.
+OTHER_AXES = {"y": "second horizontal component", "z": "vertical component"}
+
 
 def rotated(motion: Motion, azimuth: float) -> Motion:
     """Turn the horizontal components so that x points to ``azimuth`` and y to 90° less.
 
+    A motion that states no azimuths counts as having x at 0° and y at −90°: it is turned as a whole by the angle ``azimuth``
+    from x towards y.
+
     Parameters
     ----------
     motion : Motion
-        With two horizontal components of known azimuths that are not parallel.
+        With two horizontal components whose azimuths are not parallel.
     azimuth : float
         Clockwise from north [degrees].
 
     Raises
     ------
     InputError
-        One horizontal component, or azimuths that the file did not state: turn those with :func:`turned`.
+        One horizontal component, or two that are nearly parallel.
     """
-    wanted = check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees") % 360.0
+    wanted = check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees")
     x, y = _samples(motion)
     known = _azimuths(motion)
     if known is None:
-        raise InputError(
-            f"the azimuths of {motion.name!r} are not stated in its file, so it cannot be turned to {wanted:g}°; "
-            "turn it "
-            "by an angle from its first component with stylobate.motion.turned."
-        )
+        # As if x pointed north: turning the axes clockwise turns the motion from x towards y.
+        theta = math.radians(wanted)
+        c, s = math.cos(theta), math.sin(theta)
+        text = f"turned as a whole by {wanted:g}° from x towards y (no azimuths are stated: counted from its own x)"
+        return _with(motion, c * x - s * y, s * x + c * y, (wanted, wanted - 90.0), text)
+    wanted %= 360.0
     a, b = (math.radians(one) for one in known)
     determinant = math.sin(a - b)
     if abs(determinant) < 0.1:
@@ -96,35 +103,38 @@ def along(motion: Motion, azimuth: float) -> Motion:
     )
 
 
-def plane_input(motion: Motion, *, vertical: bool = True) -> Motion:
-    """What a plane model takes: x and, if wished, the vertical; what is left out is said.
+def beyond_axes(motion: Motion, axes: str) -> dict[str, str]:
+    """The components along other axes than those of ``axes`` and x, by axis, each in words with its peak."""
+    azimuths = motion.metadata.get("azimuths") or {}
+    found: dict[str, str] = {}
+    for axis, word in OTHER_AXES.items():
+        values = motion.components.get(axis)
+        if values is not None and axis not in axes:
+            where = "" if azimuths.get(axis) is None else f"azimuth {azimuths[axis]:g}°, "
+            found[axis] = f"{word} ({where}peak {float(np.abs(values).max()) / g:.3g} g)"
+    return found
+
+
+def keep_axes(motion: Motion, axes: str) -> Motion:
+    """The components along some of the axes; what is left out is said.
 
     Parameters
     ----------
     motion : Motion
-    vertical : bool
-        Keep the vertical component.
+    axes : str
+        Axes that are kept, such as ``xz``; x is always kept.
 
     Returns
     -------
     Motion
         ``metadata["left_out"]`` and ``processing`` name each component that was left out, with its peak.
     """
-    azimuths = motion.metadata.get("azimuths") or {}
-    gone: dict[str, str] = {}
-    for axis, word, values, kept in (
-        ("y", "second horizontal component", motion.lateral, False),
-        ("z", "vertical component", motion.vertical, vertical),
-    ):
-        if values is None or kept:
-            continue
-        where = "" if azimuths.get(axis) is None else f"azimuth {azimuths[axis]:g}°, "
-        gone[axis] = f"{word} ({where}peak {float(np.abs(values).max()) / g:.3g} g)"
+    gone = beyond_axes(motion, axes)
     if not gone:
         return motion
     return motion.replace(
-        lateral=None,
-        vertical=motion.z_samples if vertical else None,
+        ay=None if "y" in gone else motion.y_samples,
+        az=None if "z" in gone else motion.z_samples,
         metadata={**motion.metadata, "left_out": (*motion.metadata.get("left_out", ()), *gone.values())},
         processing=(*motion.processing, *(f"left out: {one}" for one in gone.values())),
     )

@@ -58,9 +58,10 @@ _SPELLINGS = {
     "in/s/s": "in/s2",
     "ft/sec2": "ft/s2",
 }
-#: Units of time in s and of frequency in Hz.
+#: Units of time in s, of frequency in Hz and of angle in degrees.
 TIME_UNITS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "min": 60.0}
 FREQUENCY_UNITS = {"hz": 1.0, "khz": 1e3}
+ANGLE_UNITS = {"deg": 1.0, "°": 1.0, "degrees": 1.0, "rad": 180.0 / math.pi}
 #: Units of pressure in Pa.
 PRESSURE_UNITS = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9, "n/m2": 1.0, "n/mm2": 1e6, "bar": 1e5}
 
@@ -120,17 +121,27 @@ def parse_frequency(text: str) -> float:
     return _quantity(text, "frequency", "1.0Hz")
 
 
+def parse_angle(text: str) -> float:
+    """An angle such as ``30deg`` or ``0.5rad`` in degrees."""
+    return _quantity(text, "angle", "30deg")
+
+
 @overload
-def parse_harmonic(text: str) -> Motion: ...
+def parse_harmonic(text: str, across: str | None = None) -> Motion: ...
 @overload
-def parse_harmonic(text: str, *, allow_unknown: Literal[True]) -> tuple[Motion, bool]: ...
-def parse_harmonic(text: str, *, allow_unknown: bool = False) -> Motion | tuple[Motion, bool]:
+def parse_harmonic(text: str, across: str | None = None, *, allow_unknown: Literal[True]) -> tuple[Motion, bool]: ...
+def parse_harmonic(
+    text: str, across: str | None = None, *, allow_unknown: bool = False
+) -> Motion | tuple[Motion, bool]:
     """A harmonic motion as typed: ``1.0Hz,0.3g,10s`` (frequency, amplitude, length).
 
     Parameters
     ----------
     text : str
         The amplitude may be ``?g`` when it is what is looked for. Without a time the motion lasts 10 s.
+    across : str, optional
+        The sine along y, ``1.0Hz,0.15g,90deg`` (frequency, amplitude, phase; without a phase they start together). Its
+        amplitude is ``?g`` where the other one is, and then both are the same.
     allow_unknown : bool
         Accept ``?g``, and return whether it was met as well.
 
@@ -146,9 +157,25 @@ def parse_harmonic(text: str, *, allow_unknown: bool = False) -> Motion | tuple[
     """
     example = "1.0Hz,0.3g,10s"
     found = _parts(text.split(","), text, "--harmonic", example)
+    _only(found, ("frequency", "acceleration", "time"), text, "--harmonic", example)
     amplitude = _amplitude(found, text, "--harmonic", example, allow_unknown)
-    motion = harmonic(found["frequency"], amplitude, found.get("time", 10.0))
-    return (motion, math.isnan(found["acceleration"])) if allow_unknown else motion
+    unknown = math.isnan(found["acceleration"])
+    other = None if across is None else _across(across, unknown, allow_unknown)
+    motion = harmonic(found["frequency"], amplitude, found.get("time", 10.0), across=other)
+    return (motion, unknown) if allow_unknown else motion
+
+
+def _across(text: str, unknown: bool, allow_unknown: bool) -> tuple[float, float, float]:
+    example = "1.0Hz,0.15g,90deg"
+    found = _parts(text.split(","), text, "--across", example)
+    _only(found, ("frequency", "acceleration", "angle"), text, "--across", example)
+    if allow_unknown and unknown != math.isnan(found["acceleration"]):
+        raise InputError(
+            "--harmonic and --across: the amplitude of one is stated and that of the other looked for; write ?g for both, "
+            "which are then the same."
+        )
+    amplitude = _amplitude(found, text, "--across", example, allow_unknown)
+    return found["frequency"], amplitude, math.radians(found.get("angle", 0.0))
 
 
 @overload
@@ -189,6 +216,7 @@ def parse_pulse(
             f"kind of pulse is {kind.strip()!r}; {suggest(key, PULSES)}allowed is {', '.join(PULSES)}: {example!r}."
         )
     found = _parts(parts, text, "--pulse", example)
+    _only(found, ("frequency", "acceleration", "time"), text, "--pulse", example)
     amplitude = _amplitude(found, text, "--pulse", example, allow_unknown)
     length = found.get("time")
     if length is None and default_length is not None:
@@ -239,6 +267,13 @@ def _parts(parts: list[str], text: str, option: str, example: str) -> dict[str, 
     return found
 
 
+def _only(found: dict[str, float], kinds: tuple[str, ...], text: str, option: str, example: str) -> None:
+    for kind in found:
+        if kind not in kinds:
+            word = "an" if kind[0] in "aeiou" else "a"
+            raise InputError(f"{option} {text!r} holds {word} {kind}, which it has none of; write it as {example!r}.")
+
+
 def _amplitude(found: dict[str, float], text: str, option: str, example: str, allow_unknown: bool) -> float:
     value = found["acceleration"]
     if not math.isnan(value):
@@ -265,7 +300,7 @@ def _measure(text: str, where: str, example: str) -> tuple[str, float]:
         as_meant = f"with one, such as {number}{sample.group(2)}" if sample is not None else f"as {example!r}"
         raise InputError(f"{where}: {text.strip()!r} has no unit; write it {as_meant}.")
     name = unit.lower()
-    for kind, units in (("frequency", FREQUENCY_UNITS), ("time", TIME_UNITS)):
+    for kind, units in (("frequency", FREQUENCY_UNITS), ("time", TIME_UNITS), ("angle", ANGLE_UNITS)):
         if name in units and number != "?":
             return kind, _number(number, where) * units[name]
     try:

@@ -70,7 +70,7 @@ class DistinctElement3D(SteppedDrums):
         "Drums do not crack, chip or wear.",
         "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
     )
-    takes_lateral: ClassVar[bool] = True
+    axes: ClassVar[str] = "xyz"
     takes_start: ClassVar[bool] = True
 
     law: str = "rim"

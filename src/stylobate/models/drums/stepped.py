@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
-from typing import Any, ClassVar
+from typing import Any
 
 from ...column import Column
-from ...errors import InputError, OutOfRangeWarning, check_range
+from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Histories, Measures, Response
 from ..base import Case, Model, RunOptions
@@ -35,7 +34,6 @@ class SteppedDrums(Model):
     """
 
     #: Whether the second horizontal component of a motion is taken.
-    takes_lateral: ClassVar[bool] = False
 
     step_factor: float = 0.4
     time_step: float | None = None
@@ -89,17 +87,11 @@ class SteppedDrums(Model):
     # -- shared --------------------------------------------------------------------------------------------------
 
     def check(self, column: Column, motion: Motion) -> None:
-        """Refuse joints too soft, and a step that is unstable or passes over the motion; say what is left out."""
+        """Refuse joints too soft, and a step that is unstable or passes over the motion."""
         super().check(column, motion)
         check_sinking(column)
         self.step_for(column)
         check_step_resolves(self.time_step, motion)
-        if motion.lateral is not None and not self.takes_lateral:
-            warnings.warn(
-                f"the second horizontal component of {motion.name!r} is left out: {self.name} is a plane model.",
-                OutOfRangeWarning,
-                stacklevel=3,
-            )
 
     def step_for(self, column: Column) -> float:
         """Time step for a column [s].

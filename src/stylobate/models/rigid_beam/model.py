@@ -15,7 +15,7 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..rocking.block import RockingBlock
-from ..rocking.model import warn, warn_components, warn_sliding
+from ..rocking.model import warn, warn_of_free_flight, warn_sliding
 from ..shared.lanes import MOST_SAMPLES, run_alike
 from .equations import BeamMatrices
 
@@ -306,7 +306,7 @@ class RigidBeam(Model):
                 f"the joints of {column.name!r} open only at {opening:.3g} rad, more than a tenth of the critical angle: "
                 "the beam is for stiff joints; raise normal_stiffness."
             )
-        warn_components(column, motion, self.name)
+        warn_of_free_flight(column, motion)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories."""

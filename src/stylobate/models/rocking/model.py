@@ -118,7 +118,7 @@ class HousnerBlock(Model):
                 f"Housner's restitution of this stocky block is {column.restitution:.2f}, below zero: "
                 "0 is used, and the block stops at its first impact."
             )
-        warn_components(column, motion, self.name)
+        warn_of_free_flight(column, motion)
 
     def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
         """Longest step of the adaptive solver, which is the dearer one, and its cost [s]."""
@@ -175,10 +175,8 @@ def warn_sliding(column: Column, alpha: float, name: str, remedy: str) -> None:
         )
 
 
-def warn_components(column: Column, motion: Motion, name: str) -> None:
-    """Warn of what a plane model without free flight leaves out of a motion."""
-    if motion.lateral is not None:
-        warn(f"the second horizontal component of {motion.name!r} is left out: {name} is a plane model.")
+def warn_of_free_flight(column: Column, motion: Motion) -> None:
+    """Warn of a motion under which the column would leave the ground."""
     vertical = motion.vertical
     if vertical is not None and float(vertical.min()) <= -column.gravity:
         warn(

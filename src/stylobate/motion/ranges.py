@@ -1,0 +1,59 @@
+"""What a person types for several values of a quantity: ``0.33:4:24`` (first, last, number) or ``0.1g,0.2g``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from ..errors import InputError
+from .specs import parse_acceleration, parse_angle, parse_frequency
+
+#: Largest number of values of a range.
+MAX_VALUES = 100_000
+
+
+def frequency_range(text: str) -> np.ndarray:
+    """Frequencies as typed, ``0.33:4:24`` (first, last, number) or ``0.5,1,2`` [Hz]."""
+
+    def parse(part: str) -> float:
+        try:
+            return float(part)
+        except ValueError:
+            return parse_frequency(part)
+
+    return _values("frequencies", text, parse, "0.33:4:24")
+
+
+def amplitude_range(text: str) -> np.ndarray:
+    """Amplitudes as typed, ``0.05g:0.6g:32`` (first, last, number) or ``0.1g,0.2g`` [m/s²]."""
+    return _values("amplitudes", text, parse_acceleration, "0.05g:0.6g:32")
+
+
+def azimuth_range(text: str) -> np.ndarray:
+    """Azimuths as typed, ``0:330:12`` (first, last, number) or ``0,30deg,60deg`` [degrees]."""
+
+    def parse(part: str) -> float:
+        try:
+            return float(part)
+        except ValueError:
+            return parse_angle(part)
+
+    return _values("azimuths", text, parse, "0:330:12")
+
+
+def _values(name: str, text: str, parse: Callable[[str], float], example: str) -> np.ndarray:
+    parts = text.split(":")
+    if len(parts) == 1:
+        return np.array([parse(part.strip()) for part in text.split(",")])
+    if len(parts) != 3:
+        raise InputError(f"{name} are {text!r}; write them as first:last:number, e.g. {example!r}.")
+    low, high = parse(parts[0].strip()), parse(parts[1].strip())
+    if not parts[2].strip().isdecimal():
+        raise InputError(f"{name} are {text!r}, where {parts[2]!r} is no number of values; write e.g. {example!r}.")
+    number = int(parts[2])
+    if not 1 <= number <= MAX_VALUES:
+        raise InputError(f"{name} are {text!r}, with {number} values; allowed is 1 to {MAX_VALUES}.")
+    if number > 1 and not low < high:
+        raise InputError(f"{name} are {text!r}; the first value must be below the last one, e.g. {example!r}.")
+    return np.linspace(low, high, number)

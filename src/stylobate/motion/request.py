@@ -1,0 +1,312 @@
+"""The request for motions as one value: from what, in which directions, at which size. It expands into motions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..constants import g
+from ..errors import InputError, check_range
+from .condition_specs import conditioned
+from .conditioning import warn_of_scaling
+from .motion import Motion
+from .orientation import keep_axes, rotated, turned
+from .ranges import azimuth_range
+from .readers import Suite, read_motion, read_suite
+from .specs import parse_acceleration, parse_angle, parse_harmonic, parse_pulse, parse_synthetic, parse_time
+
+#: What may be asked for of the horizontal components of a record besides one of them by name.
+COMPONENTS = ("all", "strongest")
+
+#: Time that follows a pulse whose length is left open, times p of the column [-]: free rocking from close to overturning
+#: has come to a verdict by then.
+FREE_ROCKING = 20.0
+
+
+@dataclass(frozen=True)
+class MotionRequest:
+    """What to shake with: asked for once, the same for the command line, study files and pages.
+
+    Exactly one of ``harmonic``, ``pulse``, ``synthetic`` and ``files`` is given. The steps are taken in the order of the
+    parameters below.
+
+    Parameters
+    ----------
+    harmonic, across : str, optional
+        As typed: ``1.0Hz,0.3g,10s``, and a second sine along y, ``1.0Hz,0.15g,90deg``.
+    pulse, synthetic : str, optional
+        As typed: ``ricker,1.0Hz,0.3g``; ``greece,6.5Mw,20km,seed=3``.
+    files : tuple of path
+        The files of the components of one record, or one folder of records.
+    separate : bool
+        Each of the files is a record of its own, or a folder of them.
+    unit : str, optional
+        Of files that state none.
+    dt : float, optional
+        Step of files without times [s].
+    component : str, optional
+        ``all`` horizontal components of a record, one after the other as x; the ``strongest``; or one alone, by its number,
+        label or azimuth. As recorded by default.
+    azimuths : tuple of float
+        To each of which the whole motion is turned (:func:`stylobate.motion.rotated`) [degrees]; as it is by default.
+    signs : str
+        ``+``, or ``both``: reversed as well, which is turned by 180°; the vertical component stays upward.
+    condition : tuple of str
+        Steps of conditioning as typed: ``bandpass=0.1Hz,25Hz``.
+    scale : float, optional
+        Multiplies every component [-].
+    pga : float, optional
+        The peak along x that every component is scaled for [m/s²].
+    vertical : bool
+        The vertical component acts.
+
+    Raises
+    ------
+    InputError
+        No motion or several are asked for, or options of a record without one.
+    """
+
+    harmonic: str | None = None
+    across: str | None = None
+    pulse: str | None = None
+    synthetic: str | None = None
+    files: tuple[str | Path, ...] = ()
+    separate: bool = False
+    unit: str | None = None
+    dt: float | None = None
+    component: str | None = None
+    azimuths: tuple[float, ...] = ()
+    signs: str = "+"
+    condition: tuple[str, ...] = ()
+    scale: float | None = None
+    pga: float | None = None
+    vertical: bool = True
+
+    def __post_init__(self) -> None:
+        sources = {"--harmonic": self.harmonic, "--pulse": self.pulse, "--synthetic": self.synthetic}
+        given = [one for one, value in (sources | {"--motion": self.files or None}).items() if value is not None]
+        if len(given) != 1:
+            what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
+            raise InputError(f"{what}; give one of --harmonic, --pulse, --synthetic and --motion.")
+        for option, value in (("--unit", self.unit), ("--dt", self.dt), ("--component", self.component)):
+            if value is not None and not self.files:
+                raise InputError(f"{option} describes a record, but none is given; leave it out or give --motion FILE.")
+        if self.across is not None and self.harmonic is None:
+            raise InputError("--across is the sine along y beside that along x; give --harmonic as well.")
+        if self.signs not in ("+", "both"):
+            raise InputError(f"--signs is {self.signs!r}; allowed is + or both.")
+        if self.scale is not None and self.pga is not None:
+            raise InputError("--scale and --pga are both given; give one of the two.")
+        for one in self.azimuths:
+            check_range("azimuth", one, -360.0, 360.0, unit="degrees")
+
+    @classmethod
+    def typed(
+        cls,
+        *,
+        motion: Sequence[str | Path] | None = None,
+        separate: bool = False,
+        azimuth: str | None = None,
+        azimuths: str | None = None,
+        condition: Sequence[str] | None = None,
+        dt: str | None = None,
+        scale: str | None = None,
+        pga: str | None = None,
+        vertical: str = "on",
+        **texts: str | None,
+    ) -> MotionRequest:
+        """The request in the words that a person types: quantities with their units.
+
+        Parameters
+        ----------
+        motion : sequence of path, optional
+            ``files``.
+        separate : bool
+        azimuth, azimuths : str, optional
+            ``30deg``; ``0:330:12``.
+        condition : sequence of str, optional
+        dt, scale, pga : str, optional
+            ``0.01s``, ``1.5``, ``0.4g``.
+        vertical : str
+            ``on`` or ``off``.
+        **texts : str
+            Any of the other parameters of :class:`MotionRequest`.
+        """
+        if azimuth is not None and azimuths is not None:
+            raise InputError("--azimuth and --azimuths are both given; give one of the two.")
+        if vertical not in ("on", "off"):
+            raise InputError(f"--vertical is {vertical!r}; allowed is on or off.")
+        turns = () if azimuths is None else tuple(azimuth_range(azimuths).tolist())
+        return cls(
+            files=tuple(motion or ()),
+            separate=separate,
+            dt=None if dt is None else parse_time(dt),
+            azimuths=turns if azimuth is None else (_angle("--azimuth", azimuth),),
+            condition=tuple(condition or ()),
+            scale=None if scale is None else _number("--scale", scale),
+            pga=None if pga is None else parse_acceleration(pga),
+            vertical=vertical == "on",
+            **{key: value for key, value in texts.items() if value is not None},
+        )
+
+    @property
+    def several(self) -> bool:
+        """Whether it may expand into several motions: a folder, files that are records, several directions or signs."""
+        folders = [path for path in self.files if Path(path).is_dir()]
+        if folders and len(self.files) > 1 and not self.separate:
+            raise InputError(
+                f"--motion is {folders[0]}, a folder, and other paths; give one folder, or files of one record."
+            )
+        many = self.separate or bool(folders)
+        return many or self.component == "all" or len(self.azimuths) > 1 or self.signs == "both"
+
+    def motion(self, frequency_parameter: float | None = None, *, amplitude_open: bool = False) -> Motion:
+        """The one motion that is asked for.
+
+        Parameters
+        ----------
+        frequency_parameter : float, optional
+            p of the column that is shaken [rad/s]: a pulse whose length is left open is followed by 20/p.
+        amplitude_open : bool
+            The amplitude is what is looked for: ``?g`` in a harmonic or a pulse, which then has 1 m/s².
+
+        Raises
+        ------
+        InputError
+            Several motions are asked for, or the motion cannot be made.
+        """
+        folder = next((path for path in self.files if Path(path).is_dir()), None)
+        if folder is not None and not self.separate:
+            raise InputError(f"{folder} is a folder; give the file or the files of one record here.")
+        if self.several:
+            raise InputError("several motions are asked for; one motion, one direction and one sign can be given here.")
+        (found,) = self._variants(self._source(frequency_parameter, amplitude_open))
+        return found
+
+    def expand(self, frequency_parameter: float | None = None, *, amplitude_open: bool = False) -> Suite:
+        """All motions that are asked for, and what could not be used, with the reason; see :meth:`motion`.
+
+        Raises
+        ------
+        InputError
+            Not one of them can be used.
+        """
+        if not self.several:
+            return Suite((self.motion(frequency_parameter, amplitude_open=amplitude_open),), {})
+        if self.separate or any(Path(path).is_dir() for path in self.files):
+            picked = None if self.component in COMPONENTS else self.component
+            suite = read_suite(self._listed(), self.unit, self.dt, component=picked)
+        else:
+            suite = Suite((self._source(frequency_parameter, amplitude_open),), {})
+        motions, refused = [], dict(suite.refused)
+        for motion in suite.motions:
+            try:
+                motions += self._variants(motion)
+            except InputError as error:
+                refused[motion.name] = str(error)
+        if not motions:
+            raise InputError(f"no record of the suite can be used; the first reason: {next(iter(refused.values()))}")
+        return Suite(tuple(motions), refused)
+
+    def _listed(self) -> list[Path]:
+        found: list[Path] = []
+        for one in map(Path, self.files):
+            found += sorted(p for p in one.iterdir() if p.is_file() and p.name[0] != ".") if one.is_dir() else [one]
+        if not found:
+            raise InputError(f"{' and '.join(map(str, self.files))} holds no file; give a folder of records, or files.")
+        return found
+
+    def _source(self, frequency_parameter: float | None, amplitude_open: bool) -> Motion:
+        """The motion as it is recorded or computed."""
+        if self.files:
+            picked = None if self.component in COMPONENTS else self.component
+            return read_motion(self.files, self.unit, self.dt, component=picked)
+        if self.synthetic is not None:
+            return parse_synthetic(self.synthetic)
+        if self.harmonic is not None:
+            motion, unknown = parse_harmonic(self.harmonic, self.across, allow_unknown=True)
+        else:
+            motion, unknown = parse_pulse(str(self.pulse), allow_unknown=True)
+            if frequency_parameter is not None:
+                length = motion.metadata["pulse_length"] + FREE_ROCKING / frequency_parameter
+                motion, unknown = parse_pulse(str(self.pulse), length, allow_unknown=True)
+        if unknown and not amplitude_open:
+            option, text = ("--harmonic", self.harmonic) if self.harmonic is not None else ("--pulse", self.pulse)
+            raise InputError(f"{option} {text!r} leaves the amplitude open; state it here, such as 0.3g.")
+        if amplitude_open and not unknown:
+            raise InputError(
+                f"the motion {self.harmonic or self.pulse!r} states its amplitude, which is what is looked for; write ?g "
+                "for it."
+            )
+        return motion
+
+    def _variants(self, motion: Motion) -> list[Motion]:
+        """The motion in every direction and with every sign asked for, conditioned and scaled."""
+        found = []
+        for first in _as_x(motion, self.component):
+            for azimuth in self.azimuths or (None,):
+                one = first if azimuth is None else self._turned(first, azimuth)
+                if len(self.azimuths) > 1:
+                    one = one.replace(name=f"{one.name}, {azimuth:g}°")
+                found += [self._sized(one), self._sized(_reversed(one))] if self.signs == "both" else [self._sized(one)]
+        return found
+
+    def _turned(self, motion: Motion, azimuth: float) -> Motion:
+        if motion.y_samples is None and not self.files:  # a computed motion along x has nothing along y
+            motion = motion.replace(ay=np.zeros(motion.steps))
+        return rotated(motion, azimuth)
+
+    def _sized(self, motion: Motion) -> Motion:
+        for step in self.condition:
+            motion = conditioned(motion, step)
+        if self.scale is not None:
+            said = (*motion.processing, f"multiplied by {self.scale:g}")
+            motion = motion.scaled(self.scale).replace(processing=said)
+        if self.pga is not None:
+            before, motion = motion, motion.scaled_to_pga(self.pga)
+            times = motion.factor / before.factor if before.factor else 0.0
+            text = f"multiplied by {times:.4g}: scaled to a peak of {self.pga / g:g} g along x"
+            motion = motion.replace(processing=(*motion.processing, text))
+        if self.scale is not None or self.pga is not None:
+            warn_of_scaling(motion)
+        return motion if self.vertical else keep_axes(motion, "xy")
+
+
+def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:
+    """The motion with the horizontal components as x that are asked for; the other one then is y."""
+    if component not in COMPONENTS or motion.lateral is None:
+        yield motion
+        return
+    second = turned(motion, 90.0)
+    if component == "all":
+        yield motion.replace(name=f"{motion.name}, first component")
+        yield second.replace(name=f"{motion.name}, second component")
+    else:
+        yield motion if motion.pga >= second.pga else second
+
+
+def _reversed(motion: Motion) -> Motion:
+    y = motion.y_samples
+    return motion.replace(
+        ax=-motion.samples,
+        ay=None if y is None else -y,
+        name=f"{motion.name}, reversed",
+        processing=(*motion.processing, "horizontal components reversed"),
+    )
+
+
+def _number(option: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.5.") from None
+
+
+def _angle(option: str, text: str) -> float:
+    try:
+        return parse_angle(text)
+    except InputError:
+        raise InputError(f"{option} is {text!r}; write it with its unit, such as 30deg.") from None

@@ -1,0 +1,183 @@
+"""The request for motions: one value that expands into what is shaken with, and what a model takes of it."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.errors import LeftOutWarning
+from stylobate.motion import keep_axes
+from stylobate.motion.specs import parse_angle
+
+WAVE = np.sin(np.linspace(0.0, 12.0, 201))
+
+
+@pytest.fixture
+def record(tmp_path):
+    path = tmp_path / "two.csv"
+    rows = (f"{0.01 * i},{a},{2.0 * a},{0.5 * a}" for i, a in enumerate(WAVE))
+    path.write_text("\n".join(["time_s,ax_m_s2,ay_m_s2,az_m_s2", *rows]) + "\n")
+    return path
+
+
+# -- harmonic motions along x and y, and the names of the components -----------------------------------------------------
+
+
+def test_a_harmonic_across():
+    motion = st.harmonic(1.0, 3.0, 2.0, across=(1.0, 1.5, math.pi / 2))
+    t = motion.time
+    assert motion.acceleration == pytest.approx(3.0 * np.sin(2 * np.pi * t))
+    assert motion.lateral == pytest.approx(1.5 * np.cos(2 * np.pi * t))
+    assert motion.pga == pytest.approx(3.0)
+    finer = st.harmonic(1.0, 3.0, 2.0, across=(4.0, 1.5, 0.0))
+    assert finer.steps == 8001  # the faster of the two sines is resolved
+    assert finer.lateral == pytest.approx(1.5 * np.sin(8 * np.pi * finer.time))
+    only_y = st.harmonic(1.0, 0.0, 2.0, across=(1.0, 1.5, 0.0))
+    assert not only_y.acceleration.any()
+    assert only_y.lateral == pytest.approx(1.5 * np.sin(2 * np.pi * t))
+
+
+def test_a_harmonic_along_x_has_the_samples_it_had():
+    motion = st.harmonic(0.7, 2.0, 3.0)
+    time = np.linspace(0.0, 3.0, 2101)
+    assert np.array_equal(motion.samples, np.sin(2.0 * np.pi * 0.7 * time))
+    assert (motion.factor, motion.dt, motion.lateral) == (2.0, 3.0 / 2100, None)
+
+
+def test_components_have_two_names_each():
+    a, b, c = WAVE, 2.0 * WAVE, 3.0 * WAVE
+    motion = st.Motion(0.01, a, b, c)
+    assert st.Motion(0.01, ax=a, ay=b, az=c).digest == motion.digest
+    assert st.Motion(0.01, acceleration=a, lateral=b, vertical=c).digest == motion.digest
+    assert motion.replace(lateral=None).components.keys() == motion.replace(ay=None).components.keys() == {"x", "z"}
+    with pytest.raises(st.InputError, match="given under both of its names"):
+        st.Motion(0.01, a, acceleration=a)
+    with pytest.raises(st.InputError, match="no horizontal component"):
+        st.Motion(0.01, az=c)
+
+
+def test_a_motion_with_nothing_along_x_is_not_scaled_to_a_peak_there():
+    turned = st.MotionRequest(harmonic="1Hz,0.3g,2s", azimuths=(90.0,)).motion()
+    assert np.abs(turned.lateral).max() == pytest.approx(0.3 * st.g)
+    with pytest.raises(st.InputError, match="zero along x"):
+        turned.scaled_to_pga(1.0)
+
+
+def test_scaling_to_a_peak_along_x_keeps_the_ratio_of_the_components():
+    motion = st.Motion(0.01, WAVE, 2.0 * WAVE).scaled_to_pga(3.0)
+    assert motion.pga == pytest.approx(3.0)
+    assert np.abs(motion.lateral).max() == pytest.approx(6.0)
+
+
+# -- the request ---------------------------------------------------------------------------------------------------------
+
+
+def test_a_request_is_a_value():
+    one = st.MotionRequest.typed(harmonic="1Hz,0.3g,10s", azimuth="30deg", pga="0.4g")
+    other = st.MotionRequest(harmonic="1Hz,0.3g,10s", azimuths=(30.0,), pga=0.4 * st.g)
+    assert one == other
+    assert hash(one) == hash(other)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        one.pga = 1.0
+    assert one.motion().digest == other.motion().digest
+
+
+def test_the_whole_motion_is_turned():
+    motion = st.MotionRequest(harmonic="1Hz,0.3g,2s", azimuths=(30.0,)).motion()
+    straight = st.harmonic(1.0, 0.3 * st.g, 2.0)
+    assert motion.acceleration == pytest.approx(math.cos(math.pi / 6) * straight.acceleration)
+    assert motion.lateral == pytest.approx(math.sin(math.pi / 6) * straight.acceleration)
+
+
+def test_every_record_in_every_direction_with_both_signs(record):
+    asked = st.MotionRequest(files=(record.parent,), azimuths=(0.0, 90.0, 180.0), signs="both")
+    assert asked.several
+    found = asked.expand()
+    assert [one.name for one in found.motions] == [
+        f"two.csv, {angle}°{sign}" for angle in (0, 90, 180) for sign in ("", ", reversed")
+    ]
+    first, reversed_, turned, *_ = found.motions
+    assert reversed_.acceleration == pytest.approx(-first.acceleration)
+    assert reversed_.lateral == pytest.approx(-first.lateral)
+    assert reversed_.vertical == pytest.approx(first.vertical)  # turned by half a turn: the vertical stays upward
+    assert turned.acceleration == pytest.approx(-first.lateral, abs=1e-12)
+    assert turned.lateral == pytest.approx(first.acceleration, abs=1e-12)
+    assert [one.metadata["azimuths"]["x"] for one in found.motions] == [0.0, 0.0, 90.0, 90.0, 180.0, 180.0]
+    assert not st.MotionRequest(files=(record,)).several
+    with pytest.raises(st.InputError, match="several motions are asked for"):
+        st.MotionRequest(files=(record,), signs="both").motion()
+
+
+def test_all_components_and_the_strongest(record):
+    first, second = st.MotionRequest(files=(record,), component="all").expand().motions
+    assert (first.pga, second.pga) == pytest.approx((np.abs(WAVE).max(), 2.0 * np.abs(WAVE).max()), rel=1e-6)
+    assert second.lateral == pytest.approx(-first.acceleration, abs=1e-12)  # right-handed
+    strongest = st.MotionRequest(files=(record,), component="strongest").motion()
+    assert strongest.acceleration == pytest.approx(second.acceleration)
+    alone = st.MotionRequest(files=(record,), component="2").motion()
+    assert alone.lateral is None
+    assert alone.acceleration == pytest.approx(second.acceleration, abs=1e-12)
+
+
+def test_what_cannot_be_used_is_named_with_its_reason(record):
+    (record.parent / "alone.csv").write_text("time_s,ax_g\n0,0.1\n0.01,-0.2\n0.02,0.1\n")
+    found = st.MotionRequest(files=(record.parent,), azimuths=(10.0,)).expand()
+    assert [one.name for one in found.motions] == ["two.csv"]
+    assert "one horizontal component" in found.refused["alone.csv"]
+
+
+def test_an_open_amplitude():
+    asked = st.MotionRequest(harmonic="1Hz,?g,2s", across="1Hz,?g,90deg")
+    motion = asked.motion(amplitude_open=True)
+    assert (motion.pga, np.abs(motion.lateral).max()) == pytest.approx((1.0, 1.0))
+    with pytest.raises(st.InputError, match="leaves the amplitude open"):
+        asked.motion()
+    with pytest.raises(st.InputError, match="write \\?g"):
+        st.MotionRequest(pulse="ricker,1Hz,1g").motion(amplitude_open=True)
+    with pytest.raises(st.InputError, match="write \\?g for both"):
+        st.MotionRequest(harmonic="1Hz,?g,2s", across="1Hz,1g,90deg").motion(amplitude_open=True)
+
+
+def test_a_pulse_of_open_length_leaves_time_to_rock():
+    asked = st.MotionRequest(pulse="sine,2Hz,0.3g")
+    assert asked.motion(2.0).duration == pytest.approx(0.5 + 20.0 / 2.0)
+    assert st.MotionRequest(pulse="sine,2Hz,0.3g,4s").motion(2.0).duration == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize(("text", "value"), [("30deg", 30.0), ("-45 °", -45.0), ("1rad", 180.0 / math.pi)])
+def test_angles_as_typed(text, value):
+    assert parse_angle(text) == pytest.approx(value, rel=1e-15)
+
+
+# -- what a model takes --------------------------------------------------------------------------------------------------
+
+
+def test_what_a_plane_model_leaves_out_is_said_in_the_result():
+    motion = st.Motion(0.01, 0.1 * WAVE, 2.0 * WAVE, 0.1 * WAVE, name="three")
+    column, model = st.preset("paper-monolithic"), st.HousnerBlock()
+    with pytest.warns(
+        LeftOutWarning, match="left out of 'three': second horizontal component .* housner takes x and z"
+    ):
+        response = st.simulate(column, motion, model)
+    assert response.provenance["left_out"] == ["second horizontal component (peak 0.204 g)"]
+    assert response.provenance["motion_digest"] == motion.digest  # of what was asked for
+    plane = st.simulate(column, keep_axes(motion, "xz"), model)
+    assert np.array_equal(plane.top_displacement, response.top_displacement)
+
+
+def test_every_model_declares_its_axes():
+    from stylobate.models.registry import MODELS, model_class
+
+    for name in MODELS:
+        assert model_class(name).axes in ("xz", "xyz")
+
+
+def test_a_model_in_space_is_given_every_component():
+    class Spatial(st.HousnerBlock):
+        axes = "xyz"
+
+    motion = st.Motion(0.01, WAVE, WAVE, WAVE)
+    assert Spatial().taken(motion) is motion
+    assert st.HousnerBlock().taken(motion).components.keys() == {"x", "z"}
