@@ -33,8 +33,6 @@ class SteppedDrums(Model):
         α: force −α m v on every drum, v relative to the base [1/s].
     """
 
-    #: Whether the second horizontal component of a motion is taken.
-
     step_factor: float = 0.4
     time_step: float | None = None
     stiffness_damping: float = 0.0
