@@ -96,7 +96,7 @@ def test_every_record_in_every_direction_with_both_signs(record):
     assert asked.several
     found = asked.expand()
     assert [one.name for one in found.motions] == [
-        f"two.csv, {angle}°{sign}" for angle in (0, 90, 180) for sign in ("", ", reversed")
+        f"two.csv at {angle}°{sign}" for angle in (0, 90, 180) for sign in ("", " reversed")
     ]
     first, reversed_, turned, *_ = found.motions
     assert reversed_.acceleration == pytest.approx(-first.acceleration)

@@ -250,7 +250,7 @@ class MotionRequest:
             for azimuth in self.azimuths or (None,):
                 one = first if azimuth is None else self._turned(first, azimuth)
                 if len(self.azimuths) > 1:
-                    one = one.replace(name=f"{one.name}, {azimuth:g}°")
+                    one = one.replace(name=f"{one.name} at {azimuth:g}°")
                 found += [self._sized(one), self._sized(_reversed(one))] if self.signs == "both" else [self._sized(one)]
         return found
 
@@ -282,8 +282,8 @@ def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:
         return
     second = turned(motion, 90.0)
     if component == "all":
-        yield motion.replace(name=f"{motion.name}, first component")
-        yield second.replace(name=f"{motion.name}, second component")
+        yield motion.replace(name=f"{motion.name} first component")
+        yield second.replace(name=f"{motion.name} second component")
     else:
         yield motion if motion.pga >= second.pga else second
 
@@ -293,7 +293,7 @@ def _reversed(motion: Motion) -> Motion:
     return motion.replace(
         ax=-motion.samples,
         ay=None if y is None else -y,
-        name=f"{motion.name}, reversed",
+        name=f"{motion.name} reversed",
         processing=(*motion.processing, "horizontal components reversed"),
     )
 
