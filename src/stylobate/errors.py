@@ -1,7 +1,11 @@
 """What can go wrong, as types: bad input, a failure of ours, a model beyond its declared limits."""
 
 import math
+import re
 from collections.abc import Iterable
+
+#: A word that no message repeats in full.
+_ENDLESS = re.compile(r"\S{400,}")
 
 
 class StylobateError(Exception):
@@ -10,6 +14,9 @@ class StylobateError(Exception):
 
 class InputError(StylobateError, ValueError):
     """Input that cannot be used. The message holds the value, the allowed range and the remedy."""
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(_ENDLESS.sub(lambda word: f"{word[0][:100]}…", message))
 
 
 class OutOfRangeWarning(UserWarning):

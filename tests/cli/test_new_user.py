@@ -1,6 +1,9 @@
 """What a new user stumbled over: answers in the units that were typed, defaults, and sentences that do not contradict."""
 
 import json
+import os
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -132,3 +135,17 @@ def test_sentences_on_collapse_do_not_contradict_themselves(capsys, collapsed, s
     result = CriticalAmplitude(column, motion, "housner", st.g * np.array([0.1, 0.2, 0.3, 0.4]), rows, 1.0)
     command.describe(result, [])
     assert sentence in capsys.readouterr().out
+
+
+def test_folders_and_records_whose_names_are_no_text(tmp_path):
+    record = os.fsencode(tmp_path) + b"/r\xffcord$.csv"
+    with open(record, "w") as file:
+        file.write("time_s,ax_g\n" + "".join(f"{0.02 * i:.2f},{0.3 * (-1) ** (i // 5)}\n" for i in range(20)))
+    command = [sys.executable, "-m", "stylobate.cli.main", "run", "paper-monolithic", "--model", "housner"]
+    command += ["--motion", os.fsdecode(record), "--out", os.fsdecode(os.fsencode(tmp_path) + b"/o\xe4t")]
+    people = subprocess.run(command, capture_output=True)
+    assert people.returncode == 0, people.stderr
+    assert rb"o\udce4t" in people.stdout
+    script = subprocess.run([*command, "--json"], capture_output=True)
+    assert script.returncode == 0, script.stderr
+    assert all(os.path.isfile(file) for file in json.loads(script.stdout)["files"])

@@ -122,6 +122,6 @@ def _within(limit: float):
 def sentence(error: BaseException) -> str:
     """The message of a refusal, which must be one clear sentence."""
     text = str(error)
-    if "\n" in text or not text.endswith((".", "?")) or len(text) > 1500:
+    if "\n" in text or not text.endswith((".", "?")) or len(text) > 2500:
         raise Fault(f"not one sentence: {text[:2000]!r}") from error
     return text

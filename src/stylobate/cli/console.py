@@ -31,7 +31,9 @@ def say(sentence: str, facts: Mapping[str, str], files: list[Path] | None = None
 
 def as_json(value: Any, indent: int | None = None) -> str:
     """JSON with null where a number is not finite: NaN is no JSON."""
-    return json.dumps(_finite(value), ensure_ascii=False, allow_nan=False, indent=indent, default=str)
+    text = json.dumps(_finite(value), ensure_ascii=False, allow_nan=False, indent=indent, default=str)
+    # what a file name holds that is no UTF-8 becomes an escape of JSON, which gives back the name
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def write_json(path: Path, value: Any) -> Path:

@@ -95,7 +95,7 @@ class DistinctElement2D(SteppedDrums):
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
-        return 0.5 * self.points * super().cost(drums)
+        return (1.0 if self.damped else 0.5) * self.points * super().cost(drums)
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 

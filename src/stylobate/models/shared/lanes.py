@@ -48,7 +48,7 @@ class LaneBlock(Protocol):
 MOST_SAMPLES = 4
 
 #: Longest call of a compiled loop [s], by the estimate: Ctrl-C and a batch that is closed have to wait for its end.
-LONGEST_CALL = 0.1
+LONGEST_CALL = 0.05
 
 
 def longest_piece(cost: float, chunk: int) -> int:
