@@ -88,3 +88,24 @@ def rolling(column: Column, tilt: float, precession: float, spin: float, duratio
 
     first = [tilt, 0.0, 0.0, -precession * math.sin(tilt), 0.0, spin]
     return solve_ivp(rates, (0.0, duration), first, method="DOP853", rtol=1e-11, atol=1e-13, dense_output=True)
+
+
+def block_of(column: Column, duration: float = 1.0, **options):
+    """A block with the column at rest in every lane, for tests that set or read states themselves."""
+    block = DistinctElement3D(**options).make_block(column.n, RunOptions(until_end=True))
+    for lane in range(block.lanes):
+        block.load(lane, Case(column, Motion(duration, np.zeros(2))))
+    return block
+
+
+def put_axes(block, drum: int, lane: int, matrix: np.ndarray) -> None:
+    """Set the axes of a drum (0 is the base) to the columns of a matrix."""
+    for a, axis in enumerate("ijk"):
+        for c, name in enumerate("xyz"):
+            block.drum[axis + name][drum, lane] = matrix[c, a]
+
+
+def put(block, drum: int, lane: int, names: str, vector) -> None:
+    """Set a vector of a drum, e.g. ``put(block, 1, 0, "vx vy vz", (1.0, 0.0, 0.0))``."""
+    for name, value in zip(names.split(), vector, strict=True):
+        block.drum[name][drum, lane] = value

@@ -22,7 +22,7 @@ from ..jit import law
 TINY = 1e-18
 
 #: Centres of faces that are closer than this lie on one another [m].
-CENTRED = 1e-12
+CENTRED = 1e-9
 
 
 @law
@@ -66,7 +66,8 @@ def angle_to(c, s):
 @law
 def overlap(ru, rl, s):
     """Arcs of the overlap of two discs: (psi, cos, sin) of the upper and of the lower one, area, length of the rim."""
-    near = 2.0 * max(s, CENTRED)
+    s = max(s, CENTRED)
+    near = 2.0 * s
     psi_u, cos_u, sin_u = angle_of((rl - s + ru) * (rl + s - ru) / (near * ru))
     psi_l, cos_l, sin_l = angle_of((ru - rl + s) * (ru + rl - s) / (near * rl))
     area = ru * ru * (psi_u - cos_u * sin_u) + rl * rl * (psi_l - cos_l * sin_l)

@@ -10,7 +10,7 @@ from .look import close_chunk, joint_state
 from .move import ledger, move
 from .pose import cross, faces, in_body, in_space, lean
 from .records import block_types
-from .rim import angle_to, overlap, press, press_askew
+from .rim import CENTRED, angle_to, overlap, press, press_askew
 
 #: The models read these here.
 __all__ = [
@@ -65,7 +65,7 @@ def forces(drum, joint, lane):
             apart_ = math.sqrt(along * along + across * across)
             side = -1.0 if across < 0.0 else 1.0
             each = 1.0 / max(apart_, NOTHING)
-            near = apart_ < 1e-12
+            near = apart_ < CENTRED
             cos_g = 1.0 if near else along * each
             sin_g = 0.0 if near else side * across * each
             ru, rl = u.rb[l], v.rt[l]
