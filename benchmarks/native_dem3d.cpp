@@ -99,6 +99,27 @@ inline Pressed press(V d, V g, V gamma, V cg, V sg, Angle psi) {
     return {length, n, smaller(larger(c, -n), n), smaller(larger(s, -n), n)};
 }
 
+struct Shares { V force, moment; };
+inline V beyond(V x, V y) {
+    const V both = x + y;
+    return root(larger(both + 0.57 * x * y / larger(both, all(NOTHING)), all(1.0)));
+}
+inline Shares toward(V x, V y, V one, V two, V a, V b, V excess) {
+    const V u = x * one * one, v = y * two * two, square = (u + v) * (u + v);
+    const V p = a * (square + 0.57 * v * v), q = b * (square + 0.57 * u * u);
+    const V mean = larger(p * x + q * y, all(NOTHING)), more = excess * (x + y);
+    const V r = mean + more * p, s = mean + more * q, each = mean / (r * s);
+    return {each * s, each * r};
+}
+inline Shares returned(V shear2, V torsion2, V force, V moment, V kf, V kt) {
+    const V each = 1.0 / larger(force * force, all(1e-12)), other = 1.0 / larger(moment * moment, all(1e-12));
+    const V x = shear2 * each, y = torsion2 * other, a = kf * each, b = kt * other, excess = beyond(x, y) - 1.0;
+    Shares w = toward(x, y, all(1.0), all(1.0), a, b, excess);
+    w = toward(x, y, w.force, w.moment, a, b, excess);
+    const V less = 1.0 / beyond(x * w.force * w.force, y * w.moment * w.moment);
+    return {w.force * less, w.moment * less};
+}
+
 void forces() {
     for (int q = 0; q < DRUMS; ++q) {
         Drum &u = drum[q + 1], &v = drum[q];
@@ -150,10 +171,9 @@ void forces() {
             V3 sq = keep * (s - dot(s, n) * n) - kf * dt * slip;
             V tw = smaller(kt / larger(e.kt[b], all(NOTHING)), all(1.0)) * old - kt * dt * spin;
             const V limit = e.mu[b] * press_ + e.co[b] * rho * closed, arm = limit * root(spread) * (2.0 / 3.0) * lane.pivot[b];
-            const V x = dot(sq, sq) / larger(limit * limit, all(NOTHING)), y = tw * tw / larger(arm * arm, all(NOTHING));
-            const V both = x + y, less = 1.0 / root(larger(both + 0.57 * x * y / larger(both, all(NOTHING)), all(1.0)));
-            sq = less * sq;
-            tw = less * tw;
+            const Shares left = returned(dot(sq, sq), tw * tw, limit, arm, kf, kt);
+            sq = left.force * sq;
+            tw = left.moment * tw;
             lane.shear[b] -= 0.5 * dt * (dot(s + sq, slip) + (old + tw) * spin);
             e.s[b] = {dot(sq, v.i[b]), dot(sq, v.j[b]), dot(sq, v.k[b])};
             e.t[b] = tw;

@@ -23,7 +23,7 @@ def pair(ratio: float) -> Column:
 def summed(ru, rl, c, n, stiffness):
     """Force on the upper drum and its moment about the middle of the face below, in the frame of that face."""
     cosine = n[2]
-    ra, s = ru * cosine, math.hypot(c[0], c[1])
+    ra = ru * cosine
     # area and rim of the overlap, from polygons of the two arcs
     ring = np.stack([np.cos(PHI), np.sin(PHI)])
     upper_in = np.hypot(*(c[:2, None] + ra * ring)) < rl

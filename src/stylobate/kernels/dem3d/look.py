@@ -87,6 +87,8 @@ def observe(drum, joint, lane, feed, watch):
             w.py[l] += m * u.vy[l]
             if standing:
                 w.turn[l] = max(w.turn[l], 1.0 - u.kz[l])
+            elif u.kz[l] < 0.0 or u.z[l] < 0.0:
+                w.follow[l] = 0  # flanks touch nothing: what lies on the ground is followed no further
         if standing:
             tx, ty = top_place(drum[drums], l)
             tx -= w.sx[l]

@@ -4,7 +4,7 @@ import math
 
 from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING, running_lanes
 from ..jit import apart, kernel, law
-from .friction import NOTHING, beyond, kept
+from .friction import NOTHING, kept, returned
 from .ground import fill_ground
 from .look import close_chunk, joint_state
 from .move import ledger, move
@@ -148,8 +148,8 @@ def forces(drum, joint, lane):
             twist = kept(kt, e.kt[l]) * old - kt * dt * spin
             limit = e.mu[l] * press_ + e.co[l] * rho * closed
             arm = math.sqrt(spread) * (2.0 / 3.0)
-            less = 1.0 / beyond(qx * qx + qy * qy + qz * qz, twist * twist, limit, limit * arm * o.pivot[l])
-            qx, qy, qz, twist = qx * less, qy * less, qz * less, twist * less
+            keep, less = returned(qx * qx + qy * qy + qz * qz, twist * twist, limit, limit * arm * o.pivot[l], kf, kt)
+            qx, qy, qz, twist = qx * keep, qy * keep, qz * keep, twist * less
             o.shear[l] -= 0.5 * dt * ((sx + qx) * ax + (sy + qy) * ay + (sz + qz) * az + (old + twist) * spin)
             e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, qx, qy, qz)
             e.t[l] = twist
@@ -160,8 +160,8 @@ def forces(drum, joint, lane):
                 drag = o.beta[l] * kf
                 gx, gy, gz = qx - drag * ax, qy - drag * ay, qz - drag * az
                 turn = twist - o.beta[l] * kt * spin
-                less = 1.0 / beyond(gx * gx + gy * gy + gz * gz, turn * turn, limit, limit * arm * o.pivot[l])
-                gx, gy, gz, turn = gx * less - qx, gy * less - qy, gz * less - qz, turn * less - twist
+                keep, less = returned(gx * gx + gy * gy + gz * gz, turn * turn, limit, limit * arm * o.pivot[l], kf, kt)
+                gx, gy, gz, turn = gx * keep - qx, gy * keep - qy, gz * keep - qz, turn * less - twist
                 ex, ey, ez = fx - ex + gx, fy - ey + gy, fz - ez + gz
                 ax, ay, az = cross(px, py, pz, gx, gy, gz)
                 ix, iy, iz = mx - ix + ax + turn * nx, my - iy + ay + turn * ny, mz - iz + az + turn * nz
