@@ -4,19 +4,26 @@ import dataclasses
 import json
 import re
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pandas
 import pytest
+import xarray
 
 import stylobate as st
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
+from stylobate.atomic import output_folder, replacing
+from stylobate.campaign.ledger import finished_runs_in
 from stylobate.cli.main import call
 from stylobate.cli.reproduce import build, describe
+from stylobate.errors import DamagedFileWarning
+from stylobate.own_files import LIST, own_files
 from stylobate.paper import cases, pieces, study
 from stylobate.paper.cases import BEAM, Grids
+from stylobate.paper.folder import check_folder, claim
 from stylobate.paper.reading import CHOICES, FAILS, HOLDS
 from stylobate.paper.statements import statements
 from stylobate.paper.study import run_study
@@ -60,7 +67,7 @@ def made(tmp_path_factory):
 def test_everything_is_written(made):
     folder, summary, _ = made
     assert {path.name for path in folder.iterdir()} == {
-        "data", "figures", "tables", "index.html", "reproduce.json", "statements.md",
+        LIST, "data", "figures", "tables", "index.html", "reproduce.json", "statements.md",
     }  # fmt: skip
     assert json.loads((folder / "reproduce.json").read_text()) == json.loads(json.dumps(summary))
     stems = {path.stem for path in (folder / "figures").iterdir()}
@@ -80,7 +87,7 @@ def test_everything_is_written(made):
     assert len(pandas.read_csv(folder / "tables" / "cases.csv")) == 2 * 2 * 4
     assert len(list((folder / "data").glob("*/domain.nc"))) == 2 * (4 + 2 + 3 + 2 + len(GRIDS.variants)) + 4
     assert len(list((folder / "data").glob("*/probability.nc"))) == 4
-    assert not list((folder / "data").glob("*/progress.sqlite*"))
+    assert not list((folder / "data").rglob("*.sqlite*"))
 
 
 def test_every_sentence_has_a_verdict(made):
@@ -147,25 +154,134 @@ def test_an_interrupt_says_what_is_kept(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(study, "histories_piece", stopped)
     assert call(["reproduce", "--quick", "--out", str(tmp_path)]) == 130
     assert "the same command goes on from there" in capsys.readouterr().err
+    assert (tmp_path / "data" / "study.json").exists()
 
 
-def test_what_a_killed_run_left_half_written_is_swept_away(tmp_path):
-    (tmp_path / "domain").mkdir()
-    for left in (tmp_path / ".study-x1y2.json", tmp_path / "domain" / ".domain-ab_3.nc"):
-        left.touch()
-    (tmp_path / "domain" / "domain.nc").touch()
-    pieces.claim(tmp_path, GRIDS)
-    assert {path.name for path in tmp_path.rglob("*")} == {"domain", "domain.nc", "study.json"}
+def claimed(folder, grids=GRIDS):
+    check_folder(folder)
+    with output_folder(folder), own_files(folder) as own:
+        claim(own, grids)
+        yield folder / "data"
 
 
-def test_pieces_of_another_version_are_computed_anew(tmp_path, monkeypatch):
-    (tmp_path / "old.nc").touch()
-    pieces.claim(tmp_path, GRIDS)
-    pieces.claim(tmp_path, GRIDS)
-    assert (tmp_path / "old.nc").exists()
-    monkeypatch.setattr(pieces, "source_digest", lambda: "another law")
-    pieces.claim(tmp_path, GRIDS)
-    assert [path.name for path in tmp_path.iterdir()] == ["study.json"]
+def snapshot(folder):
+    return {
+        path.relative_to(folder): (path.read_bytes() if path.is_file() else None, path.lstat().st_mtime_ns)
+        for path in [folder, *folder.rglob("*")]
+    }
+
+
+def test_what_a_killed_run_left_half_written_is_removed_by_the_next_and_nothing_else(tmp_path):
+    script = (
+        "import os, signal, sys\n"
+        "from stylobate.atomic import replacing\n"
+        "with replacing(sys.argv[1]) as partial:\n"
+        "    partial.write_text('half')\n"
+        "    os.kill(os.getpid(), signal.SIGKILL)\n"
+    )
+    target = tmp_path / "domain.nc"
+    assert subprocess.run([sys.executable, "-c", script, str(target)], check=False).returncode == -9
+    (left,) = tmp_path.iterdir()
+    foreign = [".domain-ab_3.nc", ".domain.1-0123abcd-0123456789ab.nc", ".env-local.sh", ".pre-commit-config.yaml"]
+    for name in foreign:
+        (tmp_path / name).write_text("mine")
+    with replacing(tmp_path / "other.nc") as partial:
+        partial.write_text("whole")
+    assert left.exists()  # of another file
+    with replacing(target) as partial:
+        partial.write_text("whole")
+    assert {path.name for path in tmp_path.iterdir()} == {*foreign, "domain.nc", "other.nc"}
+
+
+def test_pieces_of_another_version_are_computed_anew_and_what_is_not_ours_stays(tmp_path, monkeypatch):
+    folder = tmp_path / "study"
+    for data in claimed(folder):
+        with replacing(data / "old.nc") as partial:
+            partial.write_text("a piece")
+        (data / "mine.nc").write_text("not a piece")
+        (data / ".env-local.sh").write_text("not a piece")
+        with replacing(data / "edited.csv") as partial:
+            partial.write_text("a piece")
+        (data / "edited.csv").write_text("edited by a person")
+    for data in claimed(folder):
+        assert (data / "old.nc").exists()
+    monkeypatch.setattr("stylobate.paper.folder.source_digest", lambda: "another law")
+    for data in claimed(folder):
+        assert {path.name for path in data.iterdir()} == {"study.json", "mine.nc", ".env-local.sh", "edited.csv"}
+
+
+def test_a_foreign_folder_is_refused_and_nothing_in_it_is_touched(tmp_path, capsys):
+    home = tmp_path / "home"
+    (home / "data" / "repo").mkdir(parents=True)
+    for name in (".env-local.sh", ".pre-commit-config.yaml", "data/.a-b.c", "data/repo/.gitlab-ci.yml", "data/x.csv"):
+        (home / name).write_text("mine")
+    # what it was once taken for: a study of other code
+    (home / "data" / "study.json").write_text('{"grids": {}, "code": {}}')
+    (tmp_path / "link").symlink_to(home)
+    (tmp_path / "only-hidden").mkdir()
+    (tmp_path / "only-hidden" / ".a-b.c").write_text("mine")
+    before = snapshot(tmp_path)
+    for place in ("home", "link", "only-hidden", "home/data/x.csv"):
+        assert call(["reproduce", "--quick", "--out", str(tmp_path / place)]) == 2
+        assert capsys.readouterr().err.count("\n") == 1
+    assert snapshot(tmp_path) == before
+
+
+def test_a_link_in_the_folder_of_a_study_leads_nowhere(tmp_path, capsys):
+    folder, foreign = tmp_path / "study", tmp_path / "foreign"
+    for _ in claimed(folder):
+        pass
+    foreign.mkdir()
+    (foreign / "domain.nc").write_text("mine")
+    (folder / "figures").symlink_to(foreign)
+    assert call(["reproduce", "--quick", "--out", str(folder)]) == 2
+    assert "is a link to another folder" in capsys.readouterr().err
+    (folder / "data" / "domain-x").symlink_to(foreign)
+    for data in claimed_without_check(folder):
+        with pytest.raises(st.InputError, match="is a link to another folder"):
+            pieces.is_ready(data / "domain-x" / "domain.nc")
+    assert [path.name for path in foreign.iterdir()] == ["domain.nc"]
+
+
+def claimed_without_check(folder):
+    with own_files(folder) as own:
+        claim(own, GRIDS)
+        yield folder / "data"
+
+
+def test_a_damaged_piece_is_kept_aside_and_computed_anew(tmp_path):
+    for data in claimed(tmp_path / "study"):
+        with replacing(data / "cost.json") as partial:
+            partial.write_text("{}")
+        assert pieces.is_ready(data / "cost.json")
+        (data / "cost.json").write_text("")
+        with pytest.warns(DamagedFileWarning, match=r"kept as cost\.json\.damaged-1"):
+            assert not pieces.is_ready(data / "cost.json")
+
+
+def test_histories_go_on_in_the_middle(made, monkeypatch):
+    folder, _, _ = made
+    name = pieces.slug("histories", "paper-monolithic", BEAM)
+    place = folder / "data" / f"{name}.nc"
+    before = xarray.load_dataset(place, engine="h5netcdf")
+    place.unlink()
+    real, asked = pieces.simulate, []
+
+    def simulate(*args, **kwargs):
+        asked.append(args)
+        if len(asked) == 3:
+            raise KeyboardInterrupt
+        return real(*args, **kwargs)
+
+    monkeypatch.setattr(pieces, "simulate", simulate)
+    with pytest.raises(KeyboardInterrupt):
+        run_study(folder, True, 1, grids=GRIDS)
+    kept = finished_runs_in(folder / "data" / f"{name}.sqlite")
+    assert 2 <= kept <= 3  # the others of the pool may have come in
+    run_study(folder, True, 1, grids=GRIDS)
+    assert len(asked) <= 3 + 4 - kept + 1
+    xarray.testing.assert_identical(before, xarray.load_dataset(place, engine="h5netcdf"))
+    assert not list((folder / "data").rglob("*.sqlite*"))
 
 
 def test_the_table_in_markdown_says_how_it_was_made_and_what_its_verdicts_mean(made):

@@ -49,11 +49,13 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None) -
 
     from ..atomic import replacing
     from ..paper.figures import draw
+    from ..paper.folder import check_folder
     from ..paper.page import NAMES, case_rows, domain_rows, doubt_rows, write_paper_page
     from ..paper.statements import statements, statements_markdown
     from ..paper.study import run_study
     from . import console, signals
 
+    check_folder(folder)
     started = time.perf_counter()
     kept = f"interrupted; what is finished is kept in {folder}: the same command goes on from there."
     with console.folder(folder), signals.keeping(kept):

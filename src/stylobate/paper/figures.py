@@ -26,11 +26,10 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
     from . import cases as c
     from . import page
     from . import pictures as p
-    from .pieces import slug, sweep
+    from .pieces import slug
 
     place = folder / "figures"
     place.mkdir(exist_ok=True)
-    sweep(place)
 
     def keep(name: str, figure: Any, caption: str) -> Picture:
         return Picture(plots.save(figure, place / name)[0], caption)

@@ -1,15 +1,16 @@
 """Pieces of the study as files: each is computed once, and a study that was stopped goes on with the next.
 
-A piece is written whole when it is finished. Domains and populations keep their finished runs besides.
+A piece is written whole when it is finished; until then its finished runs are kept.
 """
 
 from __future__ import annotations
 
-import dataclasses
+import base64
 import json
-import shutil
 import time
-from concurrent.futures import ThreadPoolExecutor
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import closing
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,64 +22,19 @@ from ..analysis.domain import Domain, collapse_domain
 from ..analysis.probability import CollapseProbability
 from ..analysis.replicates import collapse_probability
 from ..atomic import replacing
-from ..campaign.ledger import PROGRESS_FILE, discard
-from ..campaign.runner import Progress
+from ..campaign.ledger import PROGRESS_FILE, Ledger, discard
+from ..campaign.runner import Progress, full_key
 from ..column import Column, preset
-from ..column.presets import PRESETS
 from ..constants import g
-from ..errors import InputError
-from ..kernels.jit import source_digest
 from ..models.base import Model
 from ..motion import harmonic
 from ..simulate import simulate, simulate_many
 from ..version import __version__
 from . import cases as c
+from .folder import is_ready
 
 if TYPE_CHECKING:
     import xarray
-
-
-def claim(data: Path, grids: c.Grids) -> None:
-    """Say in the folder which study it holds.
-
-    Pieces of another version of the code are of no use to this one: they are removed, and computed anew.
-
-    Raises
-    ------
-    InputError
-        The folder holds a study on other grids.
-    """
-    grid = {name: np.asarray(value).tolist() for name, value in dataclasses.asdict(grids).items()}
-    code = {
-        "version": __version__,
-        "kernels": source_digest(),
-        "models": {label: [model.name, model.parameters()] for label, model in c.MODELS.items()},
-        "variants": {name: [model.parameters(), change, time] for name, (_, model, change, time) in c.VARIANTS.items()},
-        "columns": {name: preset(name).digest for name in PRESETS},
-        "cases": [c.FREQUENCIES.tolist(), c.AMPLITUDES.tolist(), c.DURATION],
-    }
-    place = data / "study.json"
-    for one in (data, *data.iterdir()):
-        sweep(one)
-    if place.exists():
-        found = json.loads(place.read_text(encoding="utf-8"))
-        if found.get("grids") != grid:
-            raise InputError(
-                f"{data.parent} holds another study (quick or full); choose another folder, or delete it to compute "
-                "anew."
-            )
-        if found.get("code") == json.loads(json.dumps(code)):
-            return
-        shutil.rmtree(data)
-        data.mkdir()
-    with replacing(place) as partial:
-        partial.write_text(json.dumps({"grids": grid, "code": code}, indent=1, sort_keys=True), encoding="utf-8")
-
-
-def sweep(folder: Path) -> None:
-    """Remove files that a killed run left half-written; their names start with a dot."""
-    for left in folder.glob(".*-*.*"):
-        left.unlink()
 
 
 def domain_piece(
@@ -86,7 +42,7 @@ def domain_piece(
 ) -> Domain:
     """A domain; ``grid`` is (frequencies, amplitudes, duration)."""
     place = folder / "domain.nc"
-    if place.exists():
+    if is_ready(place):
         discard(folder / PROGRESS_FILE)  # left over where it was killed between the two
         return Domain.load(place)
     folder.mkdir(exist_ok=True)
@@ -102,7 +58,7 @@ def population_piece(
 ) -> CollapseProbability:  # fmt: skip
     """The same domain for slightly different columns, 1 % in geometry, friction and stiffness."""
     place = folder / "probability.nc"
-    if place.exists():
+    if is_ready(place):
         discard(folder / PROGRESS_FILE)
         return CollapseProbability.load(place)
     folder.mkdir(exist_ok=True)
@@ -121,7 +77,8 @@ def histories_piece(
     import xarray
 
     place = data / f"{slug('histories', name, label)}.nc"
-    if place.exists():
+    if is_ready(place):
+        discard(place.with_suffix(".sqlite"))
         with xarray.open_dataset(place, engine="h5netcdf") as found:
             return found.load()
     column, model = preset(name), c.MODELS[label]
@@ -133,24 +90,38 @@ def histories_piece(
     facts = {one: np.full(shape, np.nan) for one in ("collapse_time", "peak_top", "peak_base")}
     flags = np.zeros(shape, dtype=np.int8)
 
-    def run(cell: tuple[int, int]) -> None:
-        motion = harmonic(c.FREQUENCIES[cell[0]], c.AMPLITUDES[cell[1]], c.DURATION)
+    def run(number: int) -> tuple[int, dict]:
+        i, j = cells[number]
+        motion = harmonic(c.FREQUENCIES[i], c.AMPLITUDES[j], c.DURATION)
         response = simulate(column, motion, model, tail=tail, output_interval=0.02)
         h, m = response.histories, response.measures
-        for key, values in (
-            ("base", h.base_displacement),
-            ("top", h.top_displacement),
-            ("ground", h.ground_displacement),
-        ):
-            curves[key][cell] = np.interp(time, h.time, values, right=np.nan)
-        facts["collapse_time"][cell] = m.collapse_time
-        facts["peak_top"][cell] = m.peak_top_displacement
-        facts["peak_base"][cell] = np.abs(h.base_displacement).max()
-        flags[cell] = v.VERDICTS.index(v.verdict(m.row()))
+        given = {"base": h.base_displacement, "top": h.top_displacement, "ground": h.ground_displacement}
+        drawn = {key: np.interp(time, h.time, values, right=np.nan) for key, values in given.items()}
+        return number, {
+            **{key: base64.b64encode(values.astype("<f4").tobytes()).decode() for key, values in drawn.items()},
+            "collapse_time": float(m.collapse_time),
+            "peak_top": float(m.peak_top_displacement),
+            "peak_base": float(np.abs(h.base_displacement).max()),
+            "verdict": v.VERDICTS.index(v.verdict(m.row())),
+        }
 
-    run(cells[0])  # compiles what all of them share
-    with ThreadPoolExecutor(threads) as pool:
-        for done, _ in enumerate(pool.map(run, cells[1:]), 2):
+    def keep(number: int, row: dict) -> None:
+        for key, values in curves.items():
+            values[cells[number]] = np.frombuffer(base64.b64decode(row[key]), dtype="<f4")
+        for key, values in facts.items():
+            values[cells[number]] = row[key]
+        flags[cells[number]] = row["verdict"]
+
+    ledger = place.with_suffix(".sqlite")
+    what = {"histories": column.digest, "cells": [c.FREQUENCIES.tolist(), c.AMPLITUDES.tolist(), c.DURATION]}
+    with closing(Ledger(ledger, full_key(model, tail, what), len(cells))) as book:
+        known = dict(book.rows())
+        for number, row in known.items():
+            keep(number, row)
+        todo = [number for number in range(len(cells)) if number not in known]
+        for done, (number, row) in enumerate(_in_threads(run, todo, threads), len(known) + 1):
+            book.record(number, row)
+            keep(number, row)
             if progress:
                 progress(done, len(cells))
     dims = ("frequency", "amplitude")
@@ -168,13 +139,27 @@ def histories_piece(
     data_set = xarray.Dataset(variables, coordinates, attributes)
     with replacing(place) as partial:
         data_set.to_netcdf(partial, engine="h5netcdf")
+    discard(ledger)
     return data_set
+
+
+def _in_threads(run: Callable[[int], tuple[int, dict]], todo: list[int], threads: int) -> Iterator[tuple[int, dict]]:
+    """Results as they are finished; the first one alone, which compiles what all of them share."""
+    if not todo:
+        return
+    yield run(todo[0])
+    pool = ThreadPoolExecutor(threads)
+    try:
+        for one in as_completed([pool.submit(run, number) for number in todo[1:]]):
+            yield one.result()
+    finally:
+        pool.shutdown(cancel_futures=True)
 
 
 def cost_piece(data: Path) -> dict[str, float]:
     """What two seconds of a shaken column of drums cost each model in a batch on one core [s]."""
     place = data / "cost.json"
-    if not place.exists():
+    if not is_ready(place):
         shaking = [harmonic(1.5, amplitude, 2.0) for amplitude in np.linspace(0.25, 0.3, 16) * g]
         found = {label: min(_seconds(shaking, c.MODELS[label]) for _ in range(3)) for label in (c.BEAM, c.DEM)}
         with replacing(place) as partial:

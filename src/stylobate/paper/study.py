@@ -21,9 +21,11 @@ from ..column.presets import PRESETS
 from ..constants import g
 from ..models.base import Model
 from ..motion import harmonic
+from ..own_files import own_files
 from ..simulate import thread_count
 from . import cases as c
-from .pieces import claim, cost_piece, domain_piece, histories_piece, population_piece, slug
+from .folder import check_folder, claim
+from .pieces import cost_piece, domain_piece, histories_piece, population_piece, slug
 
 if TYPE_CHECKING:
     import xarray
@@ -104,14 +106,19 @@ def run_study(
     Raises
     ------
     InputError
-        The folder holds a study on other grids.
+        The folder holds a study on other grids, or anything else.
     KeyboardInterrupt
         It was stopped; what is finished is kept.
     """
     grids = c.Grids.of(quick) if grids is None else grids
+    check_folder(folder)
+    with own_files(folder) as own:
+        claim(own, grids)
+        return _pieces(folder, quick, grids, threads, report)
+
+
+def _pieces(folder: Path, quick: bool, grids: c.Grids, threads: int | None, report: Report | None) -> PaperResults:
     data = folder / "data"
-    data.mkdir(exist_ok=True)
-    claim(data, grids)
     found, count = PaperResults(grids, quick), thread_count(threads)
 
     def advance(what: str) -> Progress | None:
