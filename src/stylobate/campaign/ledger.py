@@ -107,8 +107,8 @@ class Ledger:
         """(number, row) of the finished runs, those without a valid checksum left out."""
         with closing(sqlite3.connect(self.path)) as file:  # of its own: the writer goes on meanwhile
             file.text_factory = salvage.text
-            for number, line in file.execute("SELECT number, line FROM runs ORDER BY number"):
-                if (found := salvage.read_line(line, self.campaign)) is not None and found[0] == number:
+            for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
+                if (found := salvage.read_line(line, self.campaign)) is not None:
                     yield found
 
     def record(self, number: int, row: Mapping[str, Any]) -> None:

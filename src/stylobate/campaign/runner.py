@@ -108,8 +108,9 @@ def finished_runs(
     try:
         known: set[int] = set()
         for number, row in book.rows() if book else ():
-            known.add(number)
-            yield number, row
+            if number not in known:
+                known.add(number)
+                yield number, row
         todo = _Others(cases, known)
         with closing(simulate_iter(todo, model, tail=tail, threads=threads)) as finished:
             for index, measures in finished:

@@ -61,10 +61,9 @@ def _in_table(path: Path, campaign: str) -> dict[int, str]:
     for order in ("ASC", "DESC"):
         with suppress(sqlite3.Error, OSError, UnicodeDecodeError), closing(_read_only(path)) as file:
             file.execute("PRAGMA writable_schema = ON")  # reads on where the file is shorter than it says
-            for number, line in file.execute(f"SELECT number, line FROM runs ORDER BY number {order}"):
-                whole = read_line(line, campaign)
-                if whole is not None and whole[0] == number:
-                    found[number] = line
+            for (line,) in file.execute(f"SELECT line FROM runs ORDER BY number {order}"):
+                if (whole := read_line(line, campaign)) is not None:
+                    found[whole[0]] = line
     return found
 
 

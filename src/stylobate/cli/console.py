@@ -87,8 +87,11 @@ def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None
 def ledger(folder: Path | None, part: str = "") -> Path | None:
     """Where a command, or a part of it, keeps its finished runs until it has written what it makes of them."""
     from ..campaign.ledger import PROGRESS_FILE
+    from . import signals
 
     place = Path(PROGRESS_FILE)
+    if folder is not None:
+        signals.KEPT.append(f"interrupted; what is finished is kept in {folder}: the same command goes on from there.")
     return None if folder is None else folder / (place.with_stem(f"{place.stem}-{part}") if part else place)
 
 

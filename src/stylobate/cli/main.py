@@ -54,10 +54,11 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(command)
     def wrapped(*args: Any, **kwargs: Any) -> None:
+        signals.KEPT.clear()
         try:
             command(*args, **kwargs)
         except KeyboardInterrupt as interrupt:
-            raise Interrupted(str(interrupt) or "interrupted; nothing is kept.") from None
+            raise Interrupted(str(interrupt) or signals.sentence()) from None
         except EOFError as error:  # no interrupt, which typer takes it for: nothing is asked of anybody
             raise RuntimeError(f"a file ended too soon: {error}") from error
 
@@ -112,6 +113,8 @@ def call(arguments: Sequence[str]) -> int:
         except Exception as error:
             if isinstance(error, _UsageError):
                 return _complain(_usage(error), BAD_INPUT)
+            if signals.TOLD.is_set():  # an interrupt that compiled code of others has made something else of
+                return _complain(signals.sentence(), INTERRUPTED)
             import traceback
 
             traceback.print_exc()

@@ -19,11 +19,14 @@ from contextlib import contextmanager, suppress
 #: Time that the main thread has to end by itself [s].
 PATIENCE = 0.8
 
-#: Signals that stop a command, beside the one of Ctrl-C; each where the system has it and nobody has turned it off.
-STOPPING = ("SIGTERM", "SIGHUP", "SIGBREAK")
+#: Signals that stop a command; each where the system has it and nobody has turned it off.
+STOPPING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 
-#: What is said of a command that keeps more than one ledger.
+#: Sentences about what a command keeps while it runs; the last one counts.
 KEPT: list[str] = []
+
+#: Whether this process has been told to stop: what goes wrong after that is no fault.
+TOLD = threading.Event()
 
 _said = threading.Event()
 
@@ -36,10 +39,10 @@ def listen(interrupted: int) -> None:
     interrupted : int
         Exit code after an interrupt.
     """
-    heard = {int(signal.SIGINT)} if signal.getsignal(signal.SIGINT) is signal.default_int_handler else set()
+    heard = set()
     for number in (getattr(signal, name) for name in STOPPING if hasattr(signal, name)):
-        if signal.getsignal(number) == signal.SIG_DFL:  # not below nohup, which has it ignored
-            signal.signal(number, signal.default_int_handler)
+        if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):  # not below nohup: ignored there
+            signal.signal(number, _stop)
             heard.add(int(number))
     ear, mouth = socket.socketpair()
     mouth.setblocking(False)
@@ -62,6 +65,16 @@ def said() -> None:
     _said.set()
 
 
+def sentence() -> str:
+    """What is said of an interrupt that brings no words of its own."""
+    return KEPT[-1] if KEPT else "interrupted; nothing is kept."
+
+
+def _stop(number: int, frame: object) -> None:
+    TOLD.set()
+    raise KeyboardInterrupt
+
+
 def _watch(ear: socket.socket, _: socket.socket, heard: set[int], interrupted: int) -> None:
     while heard.isdisjoint(ear.recv(64)):
         pass
@@ -71,18 +84,15 @@ def _watch(ear: socket.socket, _: socket.socket, heard: set[int], interrupted: i
 
 def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
     """End the process without its main thread; what is finished is on disk, what is half-written is removed."""
-    sentence = KEPT[-1] if KEPT else "interrupted; nothing is kept."
     ledgers, atomic = sys.modules.get("stylobate.campaign.ledger"), sys.modules.get("stylobate.atomic")
-    with suppress(Exception):
-        for book in list(ledgers.OPEN) if ledgers else ():
+    for book in list(ledgers.OPEN) if ledgers else ():
+        with suppress(Exception):
             book.flush()
-            if ledgers and not KEPT:
-                sentence = ledgers.what_is_kept(0, book.total, book.path)
     for partial in list(atomic.PARTIAL) if atomic else ():
         with suppress(OSError):
             partial.unlink(missing_ok=True)
     with suppress(Exception):
         if not _said.is_set():
             shown = "\r\x1b[2K\x1b[?25h" if sys.stderr.isatty() else ""  # the bar goes, the cursor comes back
-            os.write(2, f"{shown}stylobate: {sentence}\n".encode(errors="replace"))
+            os.write(2, f"{shown}stylobate: {sentence()}\n".encode(errors="replace"))
     leave(code)

@@ -1,0 +1,163 @@
+"""Commands that keep what is finished, killed at random times: what they go on with is what one without a kill ends with.
+
+A try kills one command once to three times, then lets it end. At most a second of finished runs may be lost at each kill,
+the tables must be those of the command that nobody killed, and other people's files in the folder as they were.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+from contextlib import closing
+from pathlib import Path
+
+from .target import Fault, Target
+
+#: The command line, and a note of each run that it has finished.
+SCRIPT = """
+import os, sys, time
+import stylobate.campaign.ledger as ledger
+notes, record = os.open(sys.argv.pop(1), os.O_WRONLY | os.O_APPEND | os.O_CREAT), ledger.Ledger.record
+def noted(self, number, row):
+    record(self, number, row)
+    os.write(notes, f"{time.time()} {number} {os.path.abspath(self.path)}\\n".encode())
+ledger.Ledger.record = noted
+import stylobate.analysis.replicates, stylobate.campaign.runner
+from stylobate.cli.main import main
+main()
+"""
+
+GRID = ["--frequencies", "0.5:2:2", "--amplitudes", "0.1g:0.5g:12", "--duration", "6s"]
+LEVELS = ["--from", "0.1g", "--to", "0.6g", "--step", "0.02g"]
+DEM = ["--model", "dem2d"]
+COMMANDS = {
+    "domain": ["domain", "paper-12-drums", *DEM, *GRID],
+    "domain, half step": ["domain", "paper-monolithic", *DEM, *GRID, "--half-step"],
+    "probability": ["domain", "paper-monolithic", *DEM, *GRID, "--replicates", "3"],
+    "critical": ["critical", "paper-12-drums", *DEM, *LEVELS, "--harmonic", "1Hz,?g,6s"],
+    "critical, records": ["critical", "paper-monolithic", *DEM, *LEVELS, "--motion", "RECORDS"],
+    "suite": ["suite", "paper-12-drums", "RECORDS", "--also", "paper-monolithic", *DEM],
+    "run, records": ["run", "paper-monolithic", *DEM, "--motion", "RECORDS"],
+    "compare": ["compare", "paper-monolithic", "--models", "dem2d,rigid-block", *GRID],
+}
+
+#: Somebody else's, in the folder of the results.
+FOREIGN = (".env-local.sh", ".domain-ab_3.nc", ".pre-commit-config.yaml", "notes.txt", "progress.txt")
+
+#: Longest answer to a signal [s]: a second, and what a machine that does other things as well may add.
+ANSWER = 4.0
+
+_whole: dict[str, tuple[float, dict[str, str]]] = {}
+
+
+def one(rng: random.Random, folder: Path) -> str:
+    """Kill one command, let it end, and compare."""
+    name = rng.choice(list(COMMANDS))
+    if name not in _whole:
+        with tempfile.TemporaryDirectory() as other:
+            started = time.monotonic()
+            end(start(name, Path(other)))
+            _whole[name] = time.monotonic() - started, tables(Path(other) / "out")
+    length, whole = _whole[name]
+    out = folder / "out"
+    out.mkdir()
+    for foreign in FOREIGN:
+        (out / foreign).write_text(f"of somebody else: {foreign}")
+    signals, found = [], 0
+    for _ in range(rng.randrange(1, 4)):
+        process = start(name, folder)
+        time.sleep(rng.uniform(0.2, 1.1) * length)
+        number = rng.choice([signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+        signals.append(number.name)
+        sent, told = time.time(), time.monotonic()
+        process.send_signal(number)
+        _, said = process.communicate(timeout=60)
+        if number != signal.SIGKILL and time.monotonic() - told > ANSWER:
+            raise Fault(f"{name}: {number.name} was answered after {time.monotonic() - told:.1f} s")
+        if process.returncode not in (0, 130, -number) or "Traceback" in said:
+            raise Fault(f"{name}: {number.name} ended with {process.returncode}: {said}")
+        if process.returncode == 130 and len(said.splitlines()) != 1:
+            raise Fault(f"{name}: not one sentence: {said}")
+        found += lost(folder / "notes", sent)
+    end(start(name, folder))
+    for foreign in FOREIGN:
+        if (out / foreign).read_text() != f"of somebody else: {foreign}":
+            raise Fault(f"{name}: {foreign} is not as it was")
+    if tables(out) != whole:
+        raise Fault(f"{name}: after {signals} another table")
+    left = [
+        path.name for path in out.rglob("*") if path.name not in FOREIGN and path.suffix in (".sqlite", ".sqlite-wal")
+    ]
+    left += [path.name for path in out.rglob(".*") if path.name not in (*FOREIGN, ".stylobate-files")]
+    if left:
+        raise Fault(f"{name}: {left} were left over after {signals}")
+    return f"{len(signals)} kills"
+
+
+def start(name: str, folder: Path) -> subprocess.Popen:
+    """The command as a process; its results go to ``out``."""
+    records = folder / "records"
+    if not records.is_dir():
+        records.mkdir()
+        for k in range(4):
+            times = [0.01 * i for i in range(500)]
+            lines = [f"{t:.2f},{(2.0 + k) * math.sin(2 * math.pi * (1 + 0.3 * k) * t):.6f}" for t in times]
+            (records / f"record-{k}.csv").write_text("\n".join(["time_s,ax_m_s2", *lines, ""]))
+    arguments = [str(records) if one == "RECORDS" else one for one in COMMANDS[name]]
+    command = [sys.executable, "-c", SCRIPT, str(folder / "notes"), *arguments, "--out", str(folder / "out"), "--json"]
+    return subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=_hear_everything
+    )
+
+
+def _hear_everything() -> None:
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        signal.signal(number, signal.SIG_DFL)
+
+
+def end(process: subprocess.Popen) -> None:
+    """Wait for a command that nobody kills."""
+    _, said = process.communicate(timeout=600)
+    if process.returncode != 0:
+        raise Fault(f"ended with {process.returncode}: {said}")
+
+
+def lost(notes: Path, killed: float) -> int:
+    """Runs that were finished and are not in their ledger; those of the last second may be."""
+    finished: dict[str, dict[int, float]] = {}
+    for line in notes.read_text().splitlines() if notes.exists() else ():
+        when, number, ledger = line.split(" ", 2)
+        finished.setdefault(ledger, {})[int(number)] = float(when)
+    missing = 0
+    for ledger, runs in finished.items():
+        if not Path(ledger).exists():  # the results are written
+            continue
+        with closing(sqlite3.connect(ledger)) as file:
+            kept = {number for (number,) in file.execute("SELECT number FROM runs")}
+        gone = [killed - when for number, when in runs.items() if number not in kept]
+        if gone and max(gone) > 1.0:
+            raise Fault(f"a run that was finished {max(gone):.1f} s before the kill is lost")
+        missing += len(gone)
+    return missing
+
+
+def tables(out: Path) -> dict[str, str]:
+    """What the results say, without what the clock says."""
+    found = {str(path.relative_to(out)): path.read_text() for path in sorted(out.rglob("*.csv")) if path.is_file()}
+    for path in sorted(out.rglob("run.json")):
+        run = {key: value for key, value in json.loads(path.read_text()).items() if key not in ("wall_s", "files")}
+        found[str(path.relative_to(out))] = json.dumps(run)
+    if not found:
+        raise Fault(f"no table in {sorted(os.listdir(out))}")
+    return found
+
+
+TARGET = Target("kills", 50, 2, one, limit=600.0)
