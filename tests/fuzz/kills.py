@@ -146,6 +146,9 @@ def lost(notes: Path, killed: float) -> int:
         if gone and max(gone) > 1.0:
             raise Fault(f"a run that was finished {max(gone):.1f} s before the kill is lost")
         missing += len(gone)
+    # What is done is forgotten: the same command begins anew.
+    lines = notes.read_text().splitlines(keepends=True) if notes.exists() else []
+    notes.write_text("".join(line for line in lines if Path(line.split(" ", 2)[2].strip()).exists()))
     return missing
 
 

@@ -61,6 +61,11 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
             raise Interrupted(str(interrupt) or signals.sentence()) from None
         except EOFError as error:  # no interrupt, which typer takes it for: nothing is asked of anybody
             raise RuntimeError(f"a file ended too soon: {error}") from error
+        except Exception as error:
+            ours = isinstance(error, StylobateError) and not isinstance(error, InputError)
+            if signals.TOLD.is_set() and not ours:  # compiled code of others makes something else of an interrupt
+                raise Interrupted(signals.sentence()) from None
+            raise
 
     return wrapped
 
@@ -113,8 +118,6 @@ def call(arguments: Sequence[str]) -> int:
         except Exception as error:
             if isinstance(error, _UsageError):
                 return _complain(_usage(error), BAD_INPUT)
-            if signals.TOLD.is_set():  # an interrupt that compiled code of others has made something else of
-                return _complain(signals.sentence(), INTERRUPTED)
             import traceback
 
             traceback.print_exc()

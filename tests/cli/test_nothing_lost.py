@@ -1,0 +1,215 @@
+"""Commands that are stopped keep what is finished, and no command writes over what is not its own."""
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+from stylobate.models.rocking.model import HousnerBlock
+
+from stylobate.cli import signals
+from stylobate.cli.main import call
+from stylobate.own_files import LIST
+
+HOUSNER = ["--model", "housner"]
+COLUMN = """name = "my"
+section = "rectangular"
+
+[[drum]]
+height = 5.0
+bottom_width = 0.9
+top_width = 0.9
+density = 2000.0
+depth = 1.0
+
+[joint]
+normal_stiffness = 5e10
+shear_stiffness = 2.5e10
+friction_coefficient = 0.7
+"""
+
+
+@pytest.fixture
+def records(tmp_path):
+    folder = tmp_path / "records"
+    folder.mkdir()
+    for k in range(3):
+        lines = [f"{0.01 * i:.2f},{(2 + 2 * k) * math.sin(0.06 * i):.6f}" for i in range(200)]
+        (folder / f"record-{k}.csv").write_text("\n".join(["time_s,ax_m_s2", *lines, ""]))
+    return folder
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    """Stops the batch after so many runs; counts those that are made."""
+    state = {"runs": 0, "stop": None}
+    real = HousnerBlock.run_many
+
+    def run_many(self, cases, options, threads):
+        for one in real(self, cases, options, 1):
+            if state["runs"] == state["stop"]:
+                raise KeyboardInterrupt
+            state["runs"] += 1
+            yield one
+
+    monkeypatch.setattr(HousnerBlock, "run_many", run_many)
+    return state
+
+
+def commands(records):
+    grid = ["--from", "0.1g", "--to", "0.5g", "--step", "0.1g"]
+    domain = ["--frequencies", "1:2:2", "--amplitudes", "0.1g:0.4g:3", "--duration", "2s"]
+    return {
+        "critical": (["critical", "paper-monolithic", *HOUSNER, *grid, "--harmonic", "1Hz,?g,2s"], 5),
+        "records": (["critical", "paper-monolithic", *HOUSNER, *grid, "--motion", str(records)], 15),
+        "suite": (["suite", "paper-monolithic", str(records), *HOUSNER], 3),
+        "domain": (["domain", "paper-monolithic", *HOUSNER, *domain], 6),
+    }
+
+
+@pytest.mark.parametrize("name", ["critical", "records", "suite", "domain"])
+def test_what_is_finished_is_kept_and_the_same_command_goes_on(name, records, counted, tmp_path, capsys):
+    command, runs = commands(records)[name]
+    whole, out = tmp_path / "whole", tmp_path / "out"
+    assert call([*command, "--out", str(whole)]) == 0
+    assert counted["runs"] == runs
+    capsys.readouterr()
+    counted.update(runs=0, stop=2)
+    assert call([*command, "--out", str(out)]) == 130
+    assert f"interrupted; 2 of {runs} runs are kept in {out}" in capsys.readouterr().err
+    counted.update(runs=0, stop=None)
+    assert call([*command, "--out", str(out)]) == 0
+    assert counted["runs"] == runs - 2
+    for path in whole.glob("*.csv"):
+        assert (out / path.name).read_bytes() == path.read_bytes()
+    assert not list(out.glob("progress*"))
+    counted.update(runs=0, stop=2)
+    assert call(command) == 130
+    assert f"interrupted after 2 of {runs} runs; nothing is kept: with --out DIR" in capsys.readouterr().err
+
+
+def test_a_folder_of_records_goes_on_with_the_next(records, tmp_path, capsys, monkeypatch):
+    out, made = tmp_path / "out", []
+    real = HousnerBlock.run
+
+    def run(self, column, motion, options):
+        if len(made) == 2:
+            raise KeyboardInterrupt
+        made.append(motion.name)
+        return real(self, column, motion, options)
+
+    monkeypatch.setattr(HousnerBlock, "run", run)
+    monkeypatch.setattr("stylobate.cli.run.write", lambda response, _, folder: [response.save(folder / "response.nc")])
+    command = ["run", "paper-monolithic", *HOUSNER, "--motion", str(records), "--out", str(out)]
+    assert call(command) == 130
+    assert f"interrupted; 2 of 3 runs are kept in {out}" in capsys.readouterr().err
+    made[:] = []
+    assert call(command) == 0
+    assert len(made) == 1
+    assert capsys.readouterr().out.count("record-") >= 3
+    assert {path.name for path in out.glob("[!.]*")} == {f"record-{k}.csv" for k in range(3)}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
+def test_a_signal_ends_even_what_does_not_listen_within_a_second(name):
+    script = (
+        "import time\n"
+        "from stylobate.cli import signals\n"
+        "signals.listen(130)\n"
+        "said = False\n"
+        "while True:\n"
+        "    try:\n"
+        "        if not said:\n"
+        "            print('ready', flush=True)\n"
+        "            said = True\n"
+        "        time.sleep(100)\n"
+        "    except KeyboardInterrupt:\n"
+        "        pass\n"
+    )
+    process = subprocess.Popen(
+        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        preexec_fn=lambda: [signal.signal(one, signal.SIG_DFL) for one in (signal.SIGINT, signal.SIGHUP)],
+    )  # fmt: skip
+    assert process.stdout.readline() == "ready\n"
+    started = time.monotonic()
+    process.send_signal(getattr(signal, name))
+    _, said = process.communicate(timeout=60)
+    assert process.returncode == 130
+    assert said == "stylobate: interrupted; nothing is kept.\n"
+    assert signals.PATIENCE < 1.0
+    assert time.monotonic() - started < 10.0  # a second, where nothing else is running
+
+
+@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
+def test_what_is_ignored_stays_ignored():
+    script = (
+        "import signal\nfrom stylobate.cli import signals\nsignals.listen(130)\n"
+        "print(signal.getsignal(signal.SIGHUP) == signal.SIG_IGN)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True,
+        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN),
+    )  # fmt: skip
+    assert done.stdout == "True\n"
+
+
+def test_columns_do_not_rewrite_the_file_they_read(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "my.toml").write_text(COLUMN)
+    assert call(["columns", "my.toml", "--out", "."]) == 2
+    assert "my.toml is there already and was not written by stylobate" in capsys.readouterr().err
+    assert (tmp_path / "my.toml").read_text() == COLUMN
+    assert [path.name for path in tmp_path.iterdir()] == ["my.toml"]
+    assert call(["columns", "my.toml", "my.toml", "--out", "new"]) == 2
+    assert "give each a name of its own" in capsys.readouterr().err
+
+
+def test_no_command_writes_over_what_is_not_its_own(records, tmp_path, capsys):
+    harmonic = ["--harmonic", "1Hz,0.3g,1s"]
+    grid = ["--from", "0.1g", "--to", "0.2g", "--step", "0.1g"]
+    cells = ["--frequencies", "1:2:2", "--amplitudes", "0.1g:0.4g:2", "--duration", "1s"]
+    response = tmp_path / "made"
+    assert call(["run", "paper-monolithic", *HOUSNER, *harmonic, "--out", str(response)]) == 0
+    attempts = {
+        "response.nc": ["run", "paper-monolithic", *HOUSNER, *harmonic],
+        "energy.svg": ["run", "paper-monolithic", *HOUSNER, *harmonic],
+        "critical.csv": ["critical", "paper-monolithic", *HOUSNER, *grid, "--harmonic", "1Hz,?g,1s"],
+        "runs.csv": ["critical", "paper-monolithic", *HOUSNER, *grid, "--motion", str(records)],
+        "domain.nc": ["domain", "paper-monolithic", *HOUSNER, *cells],
+        "probability.csv": ["domain", "paper-monolithic", *HOUSNER, *cells, "--replicates", "2"],
+        "pushover.csv": ["pushover", "paper-monolithic"],
+        "limit.json": ["limit", "paper-monolithic"],
+        "comparison.csv": ["compare", "paper-monolithic", "--models", "housner,dem2d", *harmonic],
+        "domain-housner.nc": ["compare", "paper-monolithic", "--models", "housner,dem2d", *cells],
+        "suite.json": ["suite", "paper-monolithic", str(records), *HOUSNER],
+        "motion.csv": ["motion", str(records / "record-0.csv")],
+        "spectrum.csv": ["spectrum", str(records / "record-0.csv")],
+        "response.gif": ["animate", str(response)],
+        "citation.bib": ["cite"],
+        "paper-12-drums.toml": ["columns"],
+    }
+    capsys.readouterr()
+    for name, command in attempts.items():
+        out = tmp_path / f"out-{name}"
+        out.mkdir()
+        (out / name).write_text("mine")
+        assert call([*command, "--out", str(out)]) == 2, name
+        assert f"{name} is there already and was not written by stylobate" in capsys.readouterr().err
+        assert [(path.name, path.read_text()) for path in out.iterdir()] == [(name, "mine")]
+
+
+def test_what_a_command_wrote_it_may_write_again_until_somebody_changes_it(tmp_path, capsys):
+    command = ["limit", "paper-monolithic", "--out", str(tmp_path)]
+    assert call(command) == call(command) == 0
+    listed = [line.split("  ")[1] for line in (tmp_path / LIST).read_text().splitlines() if line]
+    assert set(listed) == {"limit.json", "limit.png", "limit.svg"}
+    with (tmp_path / "limit.json").open("a") as file:
+        file.write("a note of mine\n")
+    capsys.readouterr()
+    assert call(command) == 2
+    assert "was changed after stylobate wrote it" in capsys.readouterr().err
+    assert (tmp_path / "limit.json").read_text().endswith("a note of mine\n")
