@@ -8,10 +8,10 @@ import sys
 import time
 
 import pytest
-from stylobate.models.rocking.model import HousnerBlock
 
 from stylobate.cli import signals
 from stylobate.cli.main import call
+from stylobate.models.rocking.model import HousnerBlock
 from stylobate.own_files import LIST
 
 HOUSNER = ["--model", "housner"]
