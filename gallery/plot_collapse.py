@@ -19,7 +19,7 @@ response = st.simulate(column, motion, st.DistinctElement2D(), until_rest=True)
 # %%
 # The mechanism in words, and the energy that the ledger misses, of all that the fall released.
 
-print(response.provenance["mechanism"]["sentence"])
+print(response.mechanism.describe())
 missed = response.provenance["imbalance_of_released_energy"]
 print(f"energy not accounted for: {100 * missed:.2f} % of the released")
 

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     from .column.assembly import Assembly
     from .models.shared.start import Start
-    from .response.assembly_response import AssemblyResponse
 
 
 def simulate(
@@ -76,9 +75,8 @@ def simulate(
     started = time.perf_counter()
     response = model.run(column, model.taken(motion), options)
     wall = time.perf_counter() - started
-    bed = response.provenance.get("followed_to_the_ground", False)
     provenance = {"column": column.to_dict(), "column_digest": column.digest}
-    provenance |= _provenance(model, motion, options, bed)
+    provenance |= _provenance(model, motion, options, response.followed)
     return response.with_provenance(provenance, wall)
 
 
@@ -90,7 +88,7 @@ def simulate_assembly(
     tail: float = 0.0,
     output_interval: float = 0.01,
     until_rest: bool = False,
-) -> AssemblyResponse:
+) -> Response:
     """Shake any set of blocks once and record what happens.
 
     Parameters
@@ -120,7 +118,7 @@ def simulate_assembly(
     response = run_assembly(assembly, model.taken(motion), model, options)
     wall = time.perf_counter() - started
     provenance = {"assembly_digest": assembly.digest} | _provenance(model, motion, options, bed=True)
-    return dataclasses.replace(response, provenance=response.provenance | provenance, wall_time=wall)
+    return response.with_provenance(provenance, wall)
 
 
 def simulate_iter(

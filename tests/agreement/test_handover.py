@@ -154,4 +154,4 @@ def test_a_column_on_a_narrow_step_falls_past_its_edge():
     assert response.collapsed
     heights = column.centroid_heights + response.drum_z[-1]
     assert heights.min() < -0.2  # below the top of the step
-    assert response.provenance["mechanism"]["at_rest"]
+    assert response.mechanism.at_rest

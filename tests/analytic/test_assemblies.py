@@ -203,10 +203,10 @@ def test_semicircular_arch_at_the_edge_of_milankovitch_s_thickness(share, stands
 def test_a_whole_collapse_keeps_its_energy_and_comes_to_rest(name, frequency, amplitude):
     column = preset(name)
     response = simulate(column, harmonic(frequency, amplitude * g, 6.0), DistinctElement2D(), until_rest=True)
-    found = response.provenance["mechanism"]
+    found = response.mechanism
     assert response.collapsed
-    assert found["at_rest"]
-    assert found["fallen"]
+    assert found.at_rest
+    assert found.fallen
     assert response.provenance["imbalance_of_released_energy"] < 0.01
     # a dashpot and a slip can only take energy
     for term in ("friction", "viscous"):
@@ -216,10 +216,10 @@ def test_a_whole_collapse_keeps_its_energy_and_comes_to_rest(name, frequency, am
 
 def test_standing_after_a_collapse_that_never_was():
     response = simulate(preset("paper-12-drums"), harmonic(1.0, 0.2 * g, 2.0), DistinctElement2D(), until_rest=True)
-    found = response.provenance["mechanism"]
-    assert not found["fallen"]
-    assert found["standing"] == tuple(range(1, 13))
-    assert found["sentence"].startswith("All 12 drums stand")
+    found = response.mechanism
+    assert not found.fallen
+    assert found.standing == tuple(range(1, 13))
+    assert found.describe().startswith("All 12 drums stand")
 
 
 @pytest.mark.parametrize(

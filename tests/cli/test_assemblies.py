@@ -8,7 +8,7 @@ import pytest
 import stylobate as st
 from stylobate.cli.main import call
 from stylobate.column.assembly import read_assembly
-from stylobate.response import AssemblyResponse
+from stylobate.response import Response
 
 PORTAL = """\
 name = "portal"
@@ -39,7 +39,7 @@ KEYS = {
     "outcome", "collapsed", "decided", "collapse_time_s", "fallen", "at_rest", "in_equilibrium_as_drawn",
     "peak_displacement_m", "residual_displacement_m", "peak_rotation_rad", "peak_joint_opening_m",
     "residual_joint_slip_m", "energy_imbalance", "time_step_s", "steps", "wall_s", "model", "version", "motion",
-    "vertical", "left_out", "processing", "azimuth_deg",
+    "vertical", "left_out", "processing", "azimuth_deg", "factor",
 }  # fmt: skip
 RIGHT = "[[0.9, 0.0], [1.5, 0.0], [1.5, 3.0], [0.9, 3.0]]"
 
@@ -117,7 +117,7 @@ def test_run_writes_its_files(fallen):
     assert written["outcome"] == "collapsed"
     assert written["fallen"]
     assert 0.0 < written["collapse_time_s"] < 10.0
-    response = AssemblyResponse.load(fallen / "response.nc")
+    response = Response.load(fallen / "response.nc")
     assert response.summary().items() <= written.items()
     assert np.diff(response.time)[0] == pytest.approx(0.05, rel=0.25)  # whole chunks of steps
 

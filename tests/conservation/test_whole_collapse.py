@@ -12,7 +12,7 @@ from stylobate.models.assembly.run import follow
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
-from stylobate.response.assembly_response import AssemblyResponse
+from stylobate.response.assembly_measures import response_of_blocks
 from stylobate.simulate import simulate_assembly
 
 
@@ -42,9 +42,10 @@ CASES = {
 
 def contacts(engine):
     """Depth [m], width [m] and stiffness [N/m³ · m] of every overlap, and the force with which its bed presses [N]."""
-    response = AssemblyResponse(
-        engine.assembly, np.zeros(1), *(engine.body[name][None] for name in ("x", "z", "th")), {}, np.zeros(1),
-        np.zeros(1), True, False, 0.0, 1.0, 1, {}
+    x, z, rotation = (engine.body[name][None] for name in ("x", "z", "th"))
+    response = response_of_blocks(
+        engine.assembly, np.zeros(1), x, z, rotation, {}, np.zeros(1), np.zeros(1), at_rest=True, failed=False,
+        in_equilibrium=True, energy_imbalance=0.0, time_step=1.0, steps=1, model="dem2d", provenance={},
     )  # fmt: skip
     n, found = len(engine.body), {}
     outlines = [np.ascontiguousarray(response.outline(0, i).T) for i in range(n)]

@@ -39,7 +39,7 @@ def rocking(name="paper-12-drums", collapse=False, size=0.05):
         "friction": 0.9e4 * time,
         "kinetic": 999.0 * time,
     }
-    histories = Histories(
+    histories = Histories.of_drums(
         time, x, z, np.repeat(angle[:, None], column.n, 1), opening, 0.01 * opening, 0.01 * np.sin(time), top,
         0.3 * st.g * np.sin(2 * np.pi * time), zero, energy,
     )  # fmt: skip

@@ -228,12 +228,12 @@ def test_rocking_spectrum(run):
 def test_collapse(run):
     # The ledger of a fall closes within 1 % of the released energy; drums stand or have fallen; all lies still.
     response = run("collapse")["response"]
-    mechanism = response.provenance["mechanism"]
+    mechanism = response.mechanism
     assert response.collapsed
     assert response.provenance["imbalance_of_released_energy"] < 0.01
-    assert mechanism["at_rest"]
-    assert len(mechanism["fallen"]) >= 6
-    assert run("collapse")["printed"].startswith(mechanism["sentence"])
+    assert mechanism.at_rest
+    assert len(mechanism.fallen) >= 6
+    assert run("collapse")["printed"].startswith(mechanism.describe())
 
 
 def test_portal(run):

@@ -34,7 +34,7 @@ def test_until_rest_is_done_or_refused(name):
             st.simulate(column, PUSHED_OVER, model, until_rest=True)
         return
     response = st.simulate(column, PUSHED_OVER, model, until_rest=True)
-    assert response.provenance["mechanism"]["at_rest"]
+    assert response.mechanism.at_rest
     assert response.histories.time[-1] > PUSHED_OVER.duration
 
 

@@ -61,7 +61,7 @@ def _citation(result: Path | None, model: str | None, everything: bool) -> Citat
     from ..bibliography import bibliography, cite, cite_run
 
     if result is not None:
-        from ..response.store import read_provenance
+        from ..store import read_provenance
 
         return cite_run(read_provenance(result))
     if model is not None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from ..outcome import Outcome
 from . import options as o
 
 if TYPE_CHECKING:
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from ..column.assembly import Assembly
     from ..models.base import Model
     from ..motion import Motion
-    from ..response import AnyResponse, AssemblyResponse, Response
+    from ..response import Response
 
 
 def run(
@@ -88,7 +89,7 @@ def run_one(
     interval: float,
     until_end: bool,
     until_rest: bool,
-) -> AnyResponse:
+) -> Response:
     """One run; that of an assembly always goes on to its end."""
     from ..column import Column
     from ..simulate import simulate, simulate_assembly
@@ -103,7 +104,7 @@ def each_record(
     stone: Column | Assembly,
     motions: Sequence[Motion],
     model: Model,
-    follow: Callable[[Motion], AnyResponse],
+    follow: Callable[[Motion], Response],
     out: Path | None,
     asked: dict[str, Any],
     quiet: bool,
@@ -148,7 +149,7 @@ def each_record(
 
 
 def conclude(
-    follow: Callable[[Motion], AnyResponse],
+    follow: Callable[[Motion], Response],
     stone: Column | Assembly,
     motion: Motion,
     model: Model,
@@ -179,14 +180,13 @@ def safe_name(name: str, taken: Sequence[Path | None]) -> str:
     return next(one for one in (plain, *(f"{plain}-{i}" for i in range(2, len(used) + 3))) if one not in used)
 
 
-def write(response: AnyResponse, motion: Motion, folder: Path) -> list[Path]:
+def write(response: Response, motion: Motion, folder: Path) -> list[Path]:
     """Histories and figures of one run."""
     from .. import plots
-    from ..response import Response
 
     files = [response.save(folder / "response.nc")]
     pictures = {"histories": plots.draw_histories(response), "filmstrip": plots.draw_filmstrip(response)}
-    if isinstance(response, Response):
+    if response.histories.top is not None:
         pictures["joints"] = plots.draw_joints(response)
     pictures |= {"energy": plots.draw_energy(response), "motion": plots.draw_motion(motion)}
     for name, figure in pictures.items():
@@ -194,12 +194,11 @@ def write(response: AnyResponse, motion: Motion, folder: Path) -> list[Path]:
     return files
 
 
-def describe(response: AnyResponse, motion: Motion, files: list[Path]) -> None:
+def describe(response: Response, motion: Motion, files: list[Path]) -> None:
     """Print the verdict for people."""
-    from ..response import AssemblyResponse
     from . import console
 
-    found = assembly_facts(response) if isinstance(response, AssemblyResponse) else column_facts(response)
+    found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
     sentence, what, facts = found
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
@@ -210,47 +209,44 @@ def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str
     from . import console
 
     m, column = response.measures, response.column
-    sentence = m.outcome.sentence
-    if m.reason:
-        sentence += f" Reason: {m.reason}."
-    if not m.decided:
-        sentence += " The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
     drums = f"{column.n} {'drum' if column.n == 1 else 'drums'}"
     facts = {"collapse": f"certain at {m.collapse_time:.2f} s"} if m.collapsed else {}
     peak, until = m.peak_top_displacement, ", until then" if m.collapsed else ""
+    whose = ", of the debris" if m.collapsed else ""
     facts |= {
         "peak top displacement" + until: f"{console.length(peak)} ({peak / column.base_width:.2f} base widths)",
-        "residual top displacement": console.length(m.residual_top_displacement),
+        "residual top displacement" + whose: console.length(m.residual_top_displacement),
         "peak rotation" + until: f"{m.peak_rotation:.4f} rad",
         "peak joint opening" + until: console.length(m.peak_joint_opening),
-        "residual joint slip": console.length(m.residual_joint_slip),
+        "residual joint slip" + whose: console.length(m.residual_joint_slip),
         "energy imbalance": f"{m.energy_imbalance:.1e} of the input work",
     }
-    return sentence, {"column": f"{column.name}, {drums}, {column.height:g} m high"}, facts
+    return response.sentence, {"column": f"{column.name}, {drums}, {column.height:g} m high"}, facts
 
 
-def assembly_facts(response: AssemblyResponse) -> tuple[str, dict[str, str], dict[str, str]]:
+def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:
     """Verdict on an assembly, what it is, and its measures."""
     from . import console
 
-    assembly, found = response.assembly, response.summary()
+    assembly, m, blocks = response.assembly, response.measures, response.measures.blocks
+    assert blocks is not None
     sentence = response.describe()
     if response.at_rest:
         sentence += " Everything lies still."
-    elif not response.failed:
+    elif response.outcome is not Outcome.FAILED:
         change = "" if response.decided else " and the verdict may change"
         waited = response.provenance.get("until_rest", False)
         remedy = "damp it with --set mass_damping=0.5" if waited else "go on with --until-rest"
         sentence += f" Not everything lies still{change}; {remedy}."
     fixed = sum(block.fixed for block in assembly.blocks)
     supports = f", {fixed} of them fixed" if fixed else ""
-    until = ", until the collapse" if response.collapsed else ""
+    until, whose = (", until the collapse", ", of the debris") if response.collapsed else ("", "")
     facts = {
-        "peak displacement" + until: console.length(found["peak_displacement_m"]),
-        "residual displacement": console.length(found["residual_displacement_m"]),
-        "peak rotation" + until: f"{found['peak_rotation_rad']:.4f} rad",
-        "peak joint opening" + until: console.length(found["peak_joint_opening_m"]),
-        "residual joint slip": console.length(found["residual_joint_slip_m"]),
+        "peak displacement" + until: console.length(blocks.peak_displacement),
+        "residual displacement" + whose: console.length(blocks.residual_displacement),
+        "peak rotation" + until: f"{m.peak_rotation:.4f} rad",
+        "peak joint opening" + until: console.length(m.peak_joint_opening),
+        "residual joint slip" + whose: console.length(m.residual_joint_slip),
         "energy imbalance": f"{response.energy_imbalance:.1e} of the largest of input work, released and elastic energy",
     }
     joints = f"{len(assembly.joints)} {'joint' if len(assembly.joints) == 1 else 'joints'}"

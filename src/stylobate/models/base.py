@@ -167,6 +167,15 @@ def _long(seconds: float) -> str:
     return f"{seconds / 60.0:.0f} minutes"
 
 
+def ground_histories(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Acceleration and displacement of the base along x, y and z, from rest [m/s²], [m], shape (T, 3)."""
+    found = np.zeros((2, len(time), 3))
+    for axis, values in enumerate((motion.acceleration, motion.lateral, motion.vertical)):
+        if values is not None:
+            found[:, :, axis] = ground_history(Motion(motion.dt, values), time)
+    return found[0], found[1]
+
+
 def ground_history(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Acceleration and displacement of the base along x at given times, from rest [m/s²], [m], shape of ``time``.
 

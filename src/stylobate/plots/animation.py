@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from ..atomic import replacing
 from ..errors import InputError, check_range
-from ..response import AnyResponse
+from ..response import Response
 from .scene import Scene, draw_bodies, scale_bar, scene_of
 from .style import BLACK, GREY, RED, plain, styled
 
@@ -110,12 +110,12 @@ def _words(scene: Scene, index: int) -> str:
     return plain(f"{scene.name}: {scene.time[index]:.2f} s")
 
 
-def write_gif(response: AnyResponse, path: str | Path, *, frames_per_second: float = 20.0, speed: float = 1.0) -> Path:
+def write_gif(response: Response, path: str | Path, *, frames_per_second: float = 20.0, speed: float = 1.0) -> Path:
     """Write a film as GIF.
 
     Parameters
     ----------
-    response : Response or AssemblyResponse
+    response : Response
     path : str or Path
     frames_per_second : float
         [1/s]
@@ -137,7 +137,7 @@ def write_gif(response: AnyResponse, path: str | Path, *, frames_per_second: flo
     return target
 
 
-def write_mp4(response: AnyResponse, path: str | Path, *, frames_per_second: float = 25.0, speed: float = 1.0) -> Path:
+def write_mp4(response: Response, path: str | Path, *, frames_per_second: float = 25.0, speed: float = 1.0) -> Path:
     """Write a film as MP4; needs the extra ``video``. Parameters as for :func:`write_gif`.
 
     Raises

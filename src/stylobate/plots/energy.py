@@ -5,18 +5,18 @@ from __future__ import annotations
 import numpy as np
 from matplotlib.figure import Figure
 
-from ..response import ENERGY_TERMS, AnyResponse, AssemblyResponse
+from ..response import ENERGY_TERMS, Response
 from .scene import describe
 from .style import CYCLE, GREY, WIDTH, styled, zero_line
 
 
 @styled
-def draw_energy(response: AnyResponse, title: str | None = None) -> Figure:
+def draw_energy(response: Response, title: str | None = None) -> Figure:
     """Input work, where it is and where it went, and below what the ledger cannot account for.
 
     Parameters
     ----------
-    response : Response or AssemblyResponse
+    response : Response
     title : str, optional
     """
     time, energy = response.time, response.energy
@@ -35,7 +35,7 @@ def draw_energy(response: AnyResponse, title: str | None = None) -> Figure:
     upper.set_title(title or describe(response))
     zero_line(lower)
     word, largest = "input", float(np.nanmax(np.abs(energy["input"])))
-    if isinstance(response, AssemblyResponse):  # it may fall of itself
+    if response.followed:  # what falls releases more than what shook it put in
         released = float(np.nanmax(-energy["gravitational"]))
         word, largest = ("released", released) if released > largest else (word, largest)
     lower.plot(time, response.imbalance / (largest or 1.0), color=GREY)

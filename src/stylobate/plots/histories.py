@@ -10,8 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..constants import g
-from ..response import AnyResponse, AssemblyResponse, Response
-from .scene import ASIDE, describe, scene_of
+from ..response import Response
+from ..response.instants import ASIDE, size_of
+from .scene import describe
 from .style import BLACK, CYCLE, GREY, RED, WIDTH, styled, zero_line
 
 #: Blocks of an assembly that are drawn by name.
@@ -19,16 +20,16 @@ NAMED = 5
 
 
 @styled
-def draw_histories(response: AnyResponse, title: str | None = None) -> Figure:
+def draw_histories(response: Response, title: str | None = None) -> Figure:
     """Displacements over the acceleration of the ground: horizontal of a column's base and top, or of an assembly's blocks.
 
     Parameters
     ----------
-    response : Response or AssemblyResponse
+    response : Response
     title : str, optional
         Column or assembly, motion and outcome by default.
     """
-    if isinstance(response, AssemblyResponse):
+    if response.histories.top is None:
         return _draw_blocks(response, title)
     h = response.histories
     figure = Figure(figsize=(WIDTH, 3.6))
@@ -46,16 +47,16 @@ def draw_histories(response: AnyResponse, title: str | None = None) -> Figure:
     return figure
 
 
-def _draw_blocks(response: AssemblyResponse, title: str | None) -> Figure:
+def _draw_blocks(response: Response, title: str | None) -> Figure:
     """Horizontal and vertical displacement of every block; those that move most by name, all others in grey."""
-    bodies = response.assembly.bodies
-    moving = [i for i, block in enumerate(bodies) if not block.fixed]
+    names = response.bodies.names
+    moving = [i for i, fixed in enumerate(response.bodies.fixed) if not fixed]
     farthest = np.nan_to_num(response.displacement).max(axis=0)
     named = sorted(moving, key=lambda i: -farthest[i])[:NAMED]
     figure = Figure(figsize=(WIDTH, 5.4))
     panels = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 2.4, 1.0))
     unit, factor = ("m", 1.0) if farthest.max() >= 0.1 else ("mm", 1000.0)
-    gone = response.displacement > ASIDE * scene_of(response).size
+    gone = response.displacement > ASIDE * size_of(response)
     for axes, places, word in zip(panels, (response.x, response.z), ("horizontal", "vertical")):
         values = np.where(gone, np.nan, factor * (places - places[0]))
         zero_line(axes)
@@ -63,13 +64,13 @@ def _draw_blocks(response: AssemblyResponse, title: str | None) -> Figure:
             if i not in named:
                 axes.plot(response.time, values[:, i], color="#c8c8c8", linewidth=0.6)
         for i, line in zip(named, CYCLE):
-            axes.plot(response.time, values[:, i], label=bodies[i].name, **line)
+            axes.plot(response.time, values[:, i], label=names[i], **line)
         axes.set_ylabel(f"{word}\ndisplacement [{unit}]")
     others = len(moving) - len(named)
     handles, labels = panels[0].get_legend_handles_labels()
     panels[0].legend(handles, labels, loc="best", ncols=min(3, len(labels)))
     if response.collapsed:
-        first = min(response.fell_at.values())
+        first = response.collapse_time
         for axes in panels[:2]:
             axes.axvline(first, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
     said = f"; in grey the other {others} blocks" if others > 0 else ""
@@ -101,7 +102,7 @@ def draw_comparison(responses: Sequence[Response], title: str | None = None) -> 
     return figure
 
 
-def _draw_ground(axes: Axes, response: AnyResponse) -> None:
+def _draw_ground(axes: Axes, response: Response) -> None:
     zero_line(axes)
     axes.plot(response.time, response.ground_acceleration / g, color=GREY, linewidth=0.8)
     axes.set_ylabel("ground\n[g]")

@@ -23,7 +23,7 @@ def draw_joints(response: Response, title: str | None = None) -> Figure:
     response : Response
     title : str, optional
     """
-    h, n = response.histories, response.column.n
+    h, n = response.histories, response.opening.shape[1]
     opening = np.nan_to_num(np.abs(h.joint_opening))
     time = response.measures.collapse_time
     if not math.isnan(time):  # a fallen column's gaps would hide all others

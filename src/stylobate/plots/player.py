@@ -10,19 +10,20 @@ from pathlib import Path
 import numpy as np
 
 from ..atomic import replacing
-from ..response import AnyResponse
+from ..response import Response
 from .animation import SHAPE, frame_indices
 from .scene import scale_bar, scene_of
 
+#: Corners of the polygons that stand for circles.
+AROUND = 24
 
-def write_player(
-    response: AnyResponse, path: str | Path, *, frames_per_second: float = 30.0, speed: float = 1.0
-) -> Path:
+
+def write_player(response: Response, path: str | Path, *, frames_per_second: float = 30.0, speed: float = 1.0) -> Path:
     """Write the page.
 
     Parameters
     ----------
-    response : Response or AssemblyResponse
+    response : Response
     path : str or Path
     frames_per_second : float
         Frames that the page shows in a second [1/s].
@@ -32,12 +33,13 @@ def write_player(
     scene = scene_of(response)
     indices = np.unique(frame_indices(scene.time, frames_per_second, speed))
     view = scene.view(indices, SHAPE)
-    poses = scene.moves[indices] + np.concatenate((scene.start, np.zeros((len(scene.start), 1))), axis=1)
+    shown = list(scene.shown)
+    poses = np.concatenate((response.body_position, response.body_orientation), axis=2)[indices][:, shown]
     data = {
         "time": scene.time[indices].round(4).tolist(),
-        "shapes": [shape.round(5).tolist() for shape in scene.shapes],
+        "shapes": [response.bodies.shapes[i].mesh(AROUND).vertices.round(5).tolist() for i in shown],
         "fixed": scene.fixed,
-        "poses": np.nan_to_num(poses, nan=1e6).round(4).tolist(),
+        "poses": np.nan_to_num(poses, nan=1e6).round(5).tolist(),
         "view": [round(float(end), 4) for end in view],
         "bar": scale_bar(view[1] - view[0]),
         "level": scene.level,

@@ -1,25 +1,31 @@
-"""What happened: responses, their measures, energy and files."""
+"""What happened: bodies in space, joints, energy, verdict, measures and files of one run."""
 
 from pathlib import Path
 
-from .assembly_response import AssemblyResponse
-from .measures import Measures
-from .response import ENERGY_TERMS, Histories, Response
+from .collapse import Collapse, Touch
+from .histories import ENERGY_TERMS, Histories
+from .measures import BlockMeasures, Measures, SpaceMeasures
+from .response import Response
 
-AnyResponse = Response | AssemblyResponse
+__all__ = [
+    "ENERGY_TERMS",
+    "BlockMeasures",
+    "Collapse",
+    "Histories",
+    "Measures",
+    "Response",
+    "SpaceMeasures",
+    "Touch",
+    "load_response",
+]
 
-__all__ = ["ENERGY_TERMS", "AnyResponse", "AssemblyResponse", "Histories", "Measures", "Response", "load_response"]
 
-
-def load_response(path: str | Path) -> AnyResponse:
-    """Read a response of either kind.
+def load_response(path: str | Path) -> Response:
+    """Read the response of a column or an assembly.
 
     Raises
     ------
     InputError
-        There is no such file, or it is not a response.
+        There is no such file, it is damaged, or it is not a response.
     """
-    from . import assembly_store, netcdf, store
-
-    kind = netcdf.read(path, store.FORMAT, assembly_store.FORMAT).attrs["format"]
-    return store.load(path) if kind == store.FORMAT else assembly_store.load(path)
+    return Response.load(path)

@@ -2,16 +2,103 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
 import numpy as np
 
-from ..column.assembly import Assembly, Block, FaceJoint
+from ..column.assembly import Assembly, Block, FaceJoint, separation
 from ..outcome import Outcome, classify
+from .collapse import FELL, Collapse, Touch
+from .histories import Histories
+from .measures import BlockMeasures, Measures
+from .response import Response
 
 #: A block has fallen when its centroid is lower than at the start by this share of the smaller side of its box …
 DROP = 0.5
 
 #: … or when it has turned by more than this [rad].
 TURNED = 0.25 * np.pi
+
+#: Bodies can have touched since the last recorded state if their boxes are this close, as a share of the smallest body.
+NEAR = 0.5
+
+
+def response_of_blocks(
+    assembly: Assembly,
+    time: np.ndarray,
+    x: np.ndarray,
+    z: np.ndarray,
+    rotation: np.ndarray,
+    energy: dict[str, np.ndarray],
+    ground_acceleration: np.ndarray,
+    ground_displacement: np.ndarray,
+    *,
+    at_rest: bool,
+    failed: bool,
+    in_equilibrium: bool | None,
+    energy_imbalance: float,
+    time_step: float,
+    steps: int,
+    model: str,
+    provenance: dict[str, Any],
+    touched: Touch | None = None,
+) -> Response:
+    """Response of an assembly from the recorded poses of its bodies.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    time : array
+        [s], shape (T,)
+    x, z, rotation : array
+        Poses of ``assembly.bodies`` [m], [rad], shape (T, N).
+    energy : dict of str to array
+        Ledger [J], each term of shape (T,).
+    ground_acceleration, ground_displacement : array
+        [m/s²], [m], shape (T,) or (T, 3)
+    at_rest, failed : bool
+        Whether everything lies still at the end; whether the computation could not go on, or its energy is out of balance.
+    in_equilibrium : bool, optional
+        As drawn.
+    energy_imbalance : float
+        What the ledger misses, relative to the largest of input work, released potential energy and energy at rest [-].
+    time_step, steps : float, int
+    model : str
+    provenance : dict
+    touched : Touch, optional
+    """
+    opening, slip = joint_histories(assembly, x, z, rotation)
+    moved = np.hypot(x - x[0], z - z[0])
+    since = fallen_since(assembly, z, rotation)
+    fell_at = tuple((assembly.bodies[i].name, float(time[k])) for i, k in since.items())
+    collapsed = bool(fell_at) and not failed
+    first = min((when for _, when in fell_at), default=math.nan) if collapsed else math.nan
+    until = time <= first if collapsed else slice(None)
+    outcome = Outcome.FAILED if failed else classify_assembly(assembly, moved, opening, slip, collapsed)
+    azimuth = None
+    if collapsed:
+        lost = min(since, key=lambda i: since[i])
+        azimuth = 0.0 if x[-1, lost] >= x[0, lost] else math.pi
+    measures = Measures(
+        outcome=outcome,
+        decided=not failed and (at_rest or collapsed),
+        collapse_time=first,
+        peak_top_displacement=math.nan,
+        residual_top_displacement=math.nan,
+        peak_rotation=float(np.abs(rotation - rotation[0])[until].max()),
+        peak_joint_opening=float(opening[until].max(initial=0.0)),
+        residual_joint_slip=float(np.abs(slip[-1]).max(initial=0.0)),
+        energy_imbalance=energy_imbalance,
+        time_step=time_step,
+        steps=steps,
+        collapse=Collapse(first, None, FELL, azimuth, touched) if collapsed else None,
+        blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
+    )
+    histories = Histories.of_blocks(
+        time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy
+    )
+    return Response(assembly, histories, measures, model, provenance, followed=True)
 
 
 def joint_histories(
@@ -36,6 +123,43 @@ def fallen_since(assembly: Assembly, z: np.ndarray, rotation: np.ndarray) -> dic
     smaller = np.array([np.ptp(block.corners, axis=0).min() for block in assembly.bodies])
     down = (z < z[0] - DROP * smaller) | (np.abs(rotation - rotation[0]) > TURNED)
     return {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
+
+
+def first_touch(
+    assembly: Assembly, time: np.ndarray, x: np.ndarray, z: np.ndarray, rotation: np.ndarray, when: float
+) -> Touch:
+    """What touched first of what is not joined: the closest two bodies in the first recorded state after it.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    time : array
+        [s], shape (T,)
+    x, z, rotation : array
+        Poses of ``assembly.bodies`` [m], [rad], shape (T, N).
+    when : float
+        When a contact of bodies without a joint was first seen [s].
+    """
+    k = min(int(np.searchsorted(time, when)), len(time) - 1)
+    outlines = []
+    for i, block in enumerate(assembly.bodies):
+        c, s = math.cos(rotation[k, i]), math.sin(rotation[k, i])
+        outlines.append((block.corners - block.origin) @ np.array([[c, s], [-s, c]]) + (x[k, i], z[k, i]))
+    if not all(np.isfinite(corners).all() for corners in outlines):
+        return Touch(when)
+    low, high = (np.array([end(corners, axis=0) for corners in outlines]) for end in (np.min, np.max))
+    gap = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)  # of the boxes, one way or other
+    joined = {frozenset((joint.lower, joint.upper)) for joint in assembly.joints}
+    near = NEAR * min(block.size for block in assembly.bodies)
+    best, found = math.inf, None
+    for i, j in np.argwhere(np.triu(gap < near, 1)).tolist():
+        one, other = assembly.bodies[i], assembly.bodies[j]
+        if frozenset((i, j)) in joined or (one.fixed and other.fixed):
+            continue
+        apart = separation(outlines[i], outlines[j])
+        if apart < best:
+            best, found = apart, (one.name, other.name)
+    return Touch(when, found)
 
 
 def classify_assembly(

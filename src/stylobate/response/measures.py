@@ -6,6 +6,67 @@ import math
 from dataclasses import dataclass
 
 from ..outcome import Outcome
+from .collapse import Collapse
+
+
+@dataclass(frozen=True)
+class SpaceMeasures:
+    """What a model in space measures besides.
+
+    Parameters
+    ----------
+    peak_top_x, peak_top_y : float
+        Largest absolute displacement of the middle of the top face along x and along y, relative to the base [m].
+    peak_tilt : float
+        Largest angle between a drum's axis and the vertical [rad].
+    peak_twist : float
+        Largest absolute twist of any joint [rad].
+    residual_slip_per_joint : tuple of float
+        Length of the offset along each joint at the end [m].
+    residual_twist_per_joint : tuple of float
+        Turn about each joint's normal at the end, from x towards y [rad].
+    """
+
+    peak_top_x: float
+    peak_top_y: float
+    peak_tilt: float
+    peak_twist: float
+    residual_slip_per_joint: tuple[float, ...]
+    residual_twist_per_joint: tuple[float, ...]
+
+    def row(self) -> dict:
+        """The facts under the names that scripts rely on."""
+        return {
+            "peak_top_x_m": float(self.peak_top_x),
+            "peak_top_y_m": float(self.peak_top_y),
+            "peak_tilt_rad": float(self.peak_tilt),
+            "peak_twist_rad": float(self.peak_twist),
+            "residual_slip_per_joint_m": [float(one) for one in self.residual_slip_per_joint],
+            "residual_twist_per_joint_rad": [float(one) for one in self.residual_twist_per_joint],
+        }
+
+
+@dataclass(frozen=True)
+class BlockMeasures:
+    """What a run of an assembly comes down to besides; there is no top.
+
+    Parameters
+    ----------
+    fell_at : tuple of (str, float)
+        Blocks that have fallen, and when each of them had [s].
+    peak_displacement, residual_displacement : float
+        Largest distance of a centroid from where it was at the start, until the first block has fallen and at the end [m].
+    at_rest : bool
+        Whether everything lies still at the end.
+    in_equilibrium : bool, optional
+        Whether the assembly is in equilibrium as drawn; None if it is not known.
+    """
+
+    fell_at: tuple[tuple[str, float], ...]
+    peak_displacement: float
+    residual_displacement: float
+    at_rest: bool
+    in_equilibrium: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -20,7 +81,8 @@ class Measures:
     collapse_time : float
         Time at which the collapse became certain [s]; NaN without collapse.
     peak_top_displacement, residual_top_displacement : float
-        Of the middle of the top face, relative to the base, largest absolute value and value at the end [m].
+        Of the middle of the top face, relative to the base, largest absolute value and value at the end [m]; in space the
+        lengths in plan. NaN for an assembly. Residuals of a column that collapsed are those of the debris.
     peak_rotation : float
         Largest absolute rotation of any drum [rad].
     peak_joint_opening : float
@@ -36,6 +98,12 @@ class Measures:
         Steps taken.
     reason : str
         Mechanism of a collapse, or why a run failed; empty otherwise.
+    collapse : Collapse, optional
+        The collapse, if there was one.
+    space : SpaceMeasures, optional
+        Of a model in space.
+    blocks : BlockMeasures, optional
+        Of an assembly.
     """
 
     outcome: Outcome
@@ -50,6 +118,9 @@ class Measures:
     time_step: float
     steps: int
     reason: str = ""
+    collapse: Collapse | None = None
+    space: SpaceMeasures | None = None
+    blocks: BlockMeasures | None = None
 
     @property
     def collapsed(self) -> bool:
@@ -58,7 +129,7 @@ class Measures:
 
     def row(self) -> dict:
         """The facts under the names that scripts rely on: keys of ``stylobate run --json`` and table columns."""
-        return {
+        row = {
             "outcome": self.outcome.label,
             "collapsed": self.collapsed,
             "decided": bool(self.decided),
@@ -73,3 +144,7 @@ class Measures:
             "steps": int(self.steps),
             "reason": self.reason,
         }
+        if self.space is not None:
+            azimuth = None if self.collapse is None else self.collapse.azimuth
+            row |= self.space.row() | {"collapse_azimuth_deg": None if azimuth is None else math.degrees(azimuth)}
+        return row

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column import Column
+from .histories import Histories
 from .measures import Measures
-from .response import Histories
 
 #: A drum has fallen when its centroid is lower than at the start by this share of its height …
 DROP = 0.5

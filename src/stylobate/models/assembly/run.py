@@ -10,14 +10,15 @@ import numpy as np
 from ...column.assembly import Assembly
 from ...errors import InputError, OutOfRangeWarning
 from ...motion import Motion
-from ...response.assembly_response import AssemblyResponse
-from ..base import RunOptions, ground_history, refuse_endless, refuse_long_histories
+from ...response import Response
+from ...response.assembly_measures import first_touch, response_of_blocks
+from ..base import RunOptions, ground_histories, refuse_endless, refuse_long_histories
 from ..dem2d.model import DistinctElement2D
 from ..drums.block import LARGEST_IMBALANCE
 from .engine import LONGEST_WAIT, RESTITUTION_TO_REST, Engine, stable_step
 
 
-def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, options: RunOptions) -> AssemblyResponse:
+def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, options: RunOptions) -> Response:
     """One run of an assembly to the end of the motion and its tail, or until rest.
 
     Parameters
@@ -75,25 +76,27 @@ def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, o
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     missing = float(abs(change[-1, 0] - change[-1, 1:].sum()))
     largest = max(float(np.abs(change[:, 0]).max()), float(-change[:, 2].min()), float(start[3]), 1e-300)
-    acceleration, displacement = ground_history(motion, stack["time"])
-    return AssemblyResponse(
-        assembly=assembly,
-        time=stack["time"],
-        x=stack["x"],
-        z=stack["z"],
-        rotation=stack["rotation"],
-        energy={name: change[:, k] for k, name in enumerate(names)},
-        ground_acceleration=acceleration,
-        ground_displacement=displacement,
+    acceleration, displacement = ground_histories(motion, stack["time"])
+    step, poses = int(engine.now["touched"][0]), (stack["x"], stack["z"], stack["rotation"])
+    touched = first_touch(assembly, stack["time"], *poses, step * engine.dt) if step >= 0 else None
+    return response_of_blocks(
+        assembly,
+        stack["time"],
+        *poses,
+        {name: change[:, k] for k, name in enumerate(names)},
+        acceleration,
+        displacement,
         at_rest=still,
+        in_equilibrium=balanced,
         failed=engine.failed or missing > LARGEST_IMBALANCE * largest,
         energy_imbalance=missing / largest,
         time_step=engine.dt,
         steps=int(engine.now["step"][0]),
+        model=model.name,
+        touched=touched,
         provenance={
             "restitution": restitution,
             "joints": len(assembly.joints),
-            "in_equilibrium_as_drawn": balanced,
             "deepest_penetration_m": engine.deepest(),
         },
     )

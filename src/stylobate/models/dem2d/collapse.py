@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,8 +13,10 @@ from ...column import Column
 from ...column.as_found import drum_outline
 from ...column.assembly import of_column
 from ...motion import Motion
-from ...outcome import classify
-from ...response import Histories, Measures, Response
+from ...outcome import Outcome, classify
+from ...response import Collapse, Histories, Measures, Response
+from ...response.assembly_measures import first_touch
+from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..assembly.engine import LONGEST_WAIT, RESTITUTION_TO_REST, Engine
 from ..base import Case, RunOptions
@@ -190,28 +192,43 @@ class _ColumnRun:
         """The run as a response; what is special to it stands in its provenance."""
         found = histories(self.motion, states)
         measures = self.measures(states[-1], found)
-        watch, engine = self.block.watch[0], self.engine
-        joint = 1 + int(watch["which" if watch["parted"][0] else "about"][0]) if self.collapsed else 0
+        engine, lost = self.engine, self.block.collapse(0) if self.collapsed else None
         mechanism = find_mechanism(
             self.column,
             found,
             measures,
-            joint,
-            slid_off=self.collapsed and bool(watch["parted"][0]),
+            0 if lost is None else lost.joint or 0,
+            slid_off=lost is not None and lost.mechanism == SLID_OFF,
             at_rest=self.resting if self.options.until_rest else None,
         )
-        touched = int(engine.now["touched"][0])
         provenance = {
             "time_step_s": engine.dt,
             "residual_acceleration_at_start_m_s2": residual,
-            "followed_to_the_ground": True,
-            "mechanism": asdict(mechanism) | {"sentence": mechanism.describe()},
             "restitution": self.restitution,
             "deepest_penetration_m": engine.deepest(),
-            "first_foreign_contact_s": touched * engine.dt if touched >= 0 else None,
+            "first_foreign_contact_s": self.touched_at,
             "imbalance_of_released_energy": self.imbalance_of_released(found),
         }
-        return Response(self.column, found, measures, self.model.name, provenance)
+        return Response(self.column, found, measures, self.model.name, provenance, mechanism=mechanism, followed=True)
+
+    @property
+    def touched_at(self) -> float | None:
+        """When bodies that are no neighbours touched first [s]."""
+        step = int(self.engine.now["touched"][0])
+        return step * self.engine.dt if step >= 0 else None
+
+    def collapse(self, found: Histories) -> Collapse:
+        """The collapse, with what touched first."""
+        engine, n = self.engine, self.column.n
+        lost, when = self.block.collapse(0), self.touched_at
+        if when is None:
+            return lost
+        bodies = engine.assembly.bodies
+        poses = np.zeros((3, len(found.time), len(bodies)))
+        poses[:2] = np.array([block.origin for block in bodies]).T[:, None]
+        poses[:, :, 1 : n + 1] += (found.drum_x, found.drum_z, found.drum_rotation)
+        x, z, rotation = poses
+        return replace(lost, touched=first_touch(engine.assembly, found.time, x, z, rotation, when))
 
     def imbalance_of_released(self, found: Histories) -> float:
         """Energy that the ledger misses at the end, relative to the potential energy that the fall released [-]."""
@@ -245,4 +262,5 @@ class _ColumnRun:
             time_step=engine.dt,
             steps=int((engine.now["step"] if self.loose else self.block.feed["step"][0])[0]),
             reason=self.block.reason(0, outcome, imbalance),
+            collapse=self.collapse(found) if outcome is Outcome.COLLAPSED else None,
         )

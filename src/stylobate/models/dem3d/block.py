@@ -10,8 +10,10 @@ import numpy as np
 
 from ...motion import Motion
 from ...outcome import Outcome, classify
-from ...response import Histories, Measures
-from ..base import Case, ground_history
+from ...response import Collapse, Histories, Measures
+from ...response.collapse import OVERTURNED, SLID_OFF
+from ...response.poses import quaternions
+from ..base import Case, ground_histories
 from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_balance, whole_steps
 from .pose import placed
 from .verdict import stands_for_good
@@ -189,29 +191,41 @@ class SpaceBlock(DrumBlock):
             time_step=float(self.dt[lane]),
             steps=int(self.feed["step"][0, lane]),
             reason=self.reason(lane, outcome, imbalance),
+            collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
+        )
+
+    def collapse(self, lane: int) -> Collapse:
+        """The collapse of a lane, with its direction in plan."""
+        watch = self.watch[0]
+        parted = bool(watch["parted"][lane])
+        return Collapse(
+            time=float(watch["when"][lane] * self.dt[lane]),
+            joint=1 + int(watch["which" if parted else "about"][lane]),
+            mechanism=SLID_OFF if parted else OVERTURNED,
+            azimuth=math.atan2(watch["ey"][lane], watch["ex"][lane]),
         )
 
     def direction(self, lane: int) -> str:
         """Where a collapse goes, in words."""
-        azimuth = math.degrees(math.atan2(self.watch["ey"][0, lane], self.watch["ex"][0, lane]))
+        azimuth = math.degrees(self.collapse(lane).azimuth or 0.0)
         return f"towards azimuth {azimuth:.0f}° (from x towards y)"
 
 
 def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories from the snapshots of a run."""
     stack = {key: np.array([state[key] for state in states]) for key in states[0]}
-    energy, position, axes = stack["energy"], stack["position"], stack["axes"]
-    acceleration, displacement = ground_history(motion, stack["time"])
+    energy = stack["energy"]
+    acceleration, displacement = ground_histories(motion, stack["time"])
     terms = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
-    return Histories(
+    return Histories.in_space(
         time=stack["time"],
-        drum_x=position[..., 0] - position[0, :, 0],
-        drum_z=position[..., 2] - position[0, :, 2],
-        drum_rotation=np.arctan2(-axes[..., 0, 2], axes[..., 2, 2]),
+        position=stack["position"],
+        orientation=quaternions(stack["axes"]),
         joint_opening=stack["opening"],
-        joint_slip=stack["slip"][..., 0],
-        base_displacement=stack["base"][:, 0] - stack["base"][0, 0],
-        top_displacement=stack["top"][:, 0] - stack["top"][0, 0],
+        joint_slip=stack["slip"],
+        joint_twist=stack["twist"],
+        base_displacement=stack["base"] - stack["base"][0],
+        top_displacement=stack["top"] - stack["top"][0],
         ground_acceleration=acceleration,
         ground_displacement=displacement,
         energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(terms)},

@@ -14,8 +14,9 @@ from ...column.as_found import gravity_vector
 from ...constants import DEGREE
 from ...motion import Motion
 from ...outcome import Outcome, classify
-from ...response import Histories, Measures
-from ..base import Case, RunOptions, ground_history
+from ...response import Collapse, Histories, Measures
+from ...response.collapse import SLID_OFF, in_plane
+from ..base import Case, RunOptions, ground_histories
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..shared.soft_joints import resolving
 from .standing import lowest_barrier, stands_for_good
@@ -276,7 +277,16 @@ class DrumBlock:
             time_step=float(self.dt[lane]),
             steps=int(self.feed["step"][0, lane]),
             reason=self.reason(lane, outcome, imbalance),
+            collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
         )
+
+    def collapse(self, lane: int) -> Collapse:
+        """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""
+        watch = self.watch[0]
+        parted = bool(watch["parted"][lane])
+        joint = 1 + int(watch["which" if parted else "about"][lane])
+        time = float(watch["when"][lane] * self.dt[lane])
+        return in_plane(time, joint, float(watch["side"][lane]), slid_off=parted)
 
     def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
         """Why a run failed, or what happened in a collapse; empty for a column that stands."""
@@ -289,9 +299,8 @@ class DrumBlock:
             )
         if outcome is not Outcome.COLLAPSED:
             return ""
-        parted = bool(watch["parted"][lane])
-        # what is lost above some joint turns about the joint that is widest open, there or higher up
-        joint = 1 + int(watch["which" if parted else "about"][lane])
+        lost = self.collapse(lane)
+        joint, parted = lost.joint or 1, lost.mechanism == SLID_OFF
         drums = len(self.drum) - 1
         part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
         how = f"left the support at joint {joint}" if parted else f"overturned about joint {joint}"
@@ -299,7 +308,7 @@ class DrumBlock:
 
     def direction(self, lane: int) -> str:
         """Where a collapse goes, in words."""
-        return "to the right" if self.watch["side"][0, lane] > 0 else "to the left"
+        return f"to the {self.collapse(lane).side}"
 
 
 def ledger_balance(change: np.ndarray, largest: float, column: Column) -> tuple[float, bool]:
@@ -324,8 +333,8 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories from the snapshots of a run."""
     stack = {key: np.array([state[key] for state in states]) for key in states[0]}
     energy = stack["energy"]
-    acceleration, displacement = ground_history(motion, stack["time"])
-    return Histories(
+    acceleration, displacement = ground_histories(motion, stack["time"])
+    return Histories.of_drums(
         time=stack["time"],
         drum_x=stack["x"] - stack["x"][0],
         drum_z=stack["z"] - stack["z"][0],

@@ -13,8 +13,9 @@ from ...column import Column
 from ...kernels.rigid_beam import moment_law
 from ...motion import Motion
 from ...outcome import Outcome, classify
-from ...response import Histories, Measures
-from ..base import ground_history
+from ...response import Collapse, Histories, Measures
+from ...response.collapse import OVERTURNED, in_plane
+from ..base import ground_histories
 from ..rocking.block import MADE_ENERGY, out_of_balance, relative
 from ..shared.lanes import MOST_SAMPLES
 from .equations import BeamMatrices
@@ -116,13 +117,13 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
     if not failure and not all(map(math.isfinite, state)):
         failure = f"the state is not finite at {found['end']:.4g} s; shorten the time_step"
     failure = failure or out_of_balance(imbalance)
-    collapsed, decided, reason = False, False, failure
+    collapsed, decided, reason, joint = False, False, failure, 0
     if not failure and found["lost"]:
         collapsed, decided = True, True
         side = "right" if found["side"] > 0 else "left"
         reason = f"{passes.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
     elif not failure:
-        collapsed, decided, reason = passes.verdict(found)
+        collapsed, decided, reason, joint = passes.verdict(found)
     if collapsed and not passes.reached(found["start"] + found["given"], beam.model.initial_rotation):
         failure = reason = MADE_ENERGY
         collapsed, decided = False, False
@@ -144,7 +145,18 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
         time_step=found["step"],
         steps=found["steps"],
         reason=reason,
+        collapse=_collapse(found, time, joint) if outcome is Outcome.COLLAPSED else None,
     )
+
+
+def _collapse(found: dict, time: float, slid: int) -> Collapse:
+    """The collapse: about the joint that is lost, off the joint ``slid``, or beyond the lowest barrier, wherever that is."""
+    if found["lost"]:
+        return in_plane(time, found["lost"], found["side"])
+    if slid:
+        return in_plane(time, slid, found["slip"][slid - 1], slid_off=True)
+    towards = 0.0 if found["theta"].sum() > 0.0 else math.pi
+    return Collapse(time, None, OVERTURNED, towards)
 
 
 def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) -> Histories:
@@ -165,9 +177,9 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) ->
     x = theta @ lever.T + base
     # Seconds of small angles: the drums sink as they tilt and rise as their joints open.
     z = np.cumsum(0.5 * beam.lift(phi), axis=1) - 0.5 * theta**2 @ lever.T
-    a_g, u_g = ground_history(motion, time)
+    a_g, u_g = ground_histories(motion, time)
     names = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
-    return Histories(
+    return Histories.of_drums(
         time=time,
         drum_x=x - x[0],
         drum_z=z - z[0],

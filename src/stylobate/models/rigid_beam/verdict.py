@@ -243,14 +243,14 @@ class Passes:
         n = self.column.n
         return not self.inside(np.full(n, -rotation), np.zeros(n))
 
-    def verdict(self, found: dict) -> tuple[bool, bool, str]:
-        """Whether the column is lost when no input is left, whether that is decided, and why.
+    def verdict(self, found: dict) -> tuple[bool, bool, str, int]:
+        """Whether the column is lost when no input is left, whether that is decided, why, and the joint it slid off or 0.
 
         ``found``: theta, omega, slip, energy, unaccounted of ``measures_of``.
         """
         theta, slip = found["theta"], found["slip"]
         if not self.has_potential:
-            return False, self.stays_closed(theta, found["omega"]), ""
+            return False, self.stays_closed(theta, found["omega"]), "", 0
         reach = found["energy"] + found["unaccounted"]
         if self.model.sliding:
             left = room(self.column, slip)
@@ -261,11 +261,11 @@ class Passes:
                 joint = int(hanging[int(np.argmax(work))]) + 1
                 gone = bool(reach < work.max())
                 why = f"the centroid of {self.part(joint)} has slid beyond the edge of joint {joint}"
-                return gone, gone, why if gone else ""
+                return gone, gone, why if gone else "", joint if gone else 0
         if reach >= (self.lowest(slip) if self.model.sliding else self.lowest_unslid):
-            return False, False, ""
+            return False, False, "", 0
         lost = not self.inside(theta, slip)
-        return lost, True, "beyond the lowest barrier when the input ends" if lost else ""
+        return lost, True, "beyond the lowest barrier when the input ends" if lost else "", 0
 
     def part(self, joint: int) -> str:
         """Name of all that stands on a joint, counted from 1."""

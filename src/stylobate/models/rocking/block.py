@@ -10,6 +10,7 @@ import numpy as np
 from ...motion import Motion
 from ...outcome import classify
 from ...response import Measures
+from ...response.collapse import in_plane
 
 #: Impact velocity over p α under which the block comes to rest; it would rise to 5e-11 α.
 REST = 1.0e-5
@@ -172,6 +173,7 @@ class RockingBlock:
             time_step=step,
             steps=steps,
             reason=failure or ("overturns as one block" if collapsed else ""),
+            collapse=in_plane(collapse_time if found else end, 1, side) if collapsed else None,
         )
 
 

@@ -242,7 +242,7 @@ def _histories(block: RockingBlock, motion: Motion, times, rows, initial_rotatio
     ground = integrate(integrate(motion.acceleration, motion.dt), motion.dt)
     zero = np.zeros_like(times)
     x = np.abs(tilt)
-    return Histories(
+    return Histories.of_drums(
         time=times,
         drum_x=drum_x[:, None],
         drum_z=drum_z[:, None],

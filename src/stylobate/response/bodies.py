@@ -1,0 +1,85 @@
+"""The bodies that a column or an assembly consists of: names, shapes, and what the poses of plane models refer to."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import singledispatch
+
+import numpy as np
+
+from ..column import Column
+from ..column.as_found import drum_outline, geometry
+from ..column.assembly import FAR_AWAY, Assembly
+from ..constants import DEGREE
+from .poses import Reference
+from .shapes import CircularFrustum, Prism, RectangularFrustum, Shape
+
+
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """All bodies of a structure, in the order of the response's columns.
+
+    Parameters
+    ----------
+    names : tuple of str
+    shapes : tuple of Shape
+    fixed : tuple of bool
+        Which of them move with the ground.
+    reference : Reference
+        What the poses of plane models refer to.
+    level : float or None
+        Height of the ground at x = 0 [m]; None for no ground.
+    """
+
+    names: tuple[str, ...]
+    shapes: tuple[Shape, ...]
+    fixed: tuple[bool, ...]
+    reference: Reference
+    level: float | None = 0.0
+
+    @property
+    def shown(self) -> tuple[int, ...]:
+        """Bodies that a picture shows: all but a ground without ends."""
+        far = [
+            fixed and np.ptp(shape.outline, axis=0).max() > FAR_AWAY for shape, fixed in zip(self.shapes, self.fixed)
+        ]
+        return tuple(i for i, away in enumerate(far) if not away)
+
+
+@singledispatch
+def bodies_of(structure: object) -> Bodies:
+    """Bodies of what stood; a new kind of structure registers its own."""
+    raise TypeError(f"{type(structure).__name__} has no bodies that could be shaken.")
+
+
+@bodies_of.register
+def _(structure: Column) -> Bodies:
+    at, found = geometry(structure), structure.as_found
+    slope = found.base_tilt * DEGREE
+    shapes: list[Shape] = []
+    for i, drum in enumerate(structure.drums):
+        one, high = found.of(i + 1), drum.centroid_height
+        if one.chip_left or one.chip_right:  # the outline's axes are those of the lower face
+            c, s = math.cos(one.tilt * DEGREE), math.sin(one.tilt * DEGREE)
+            corners = drum_outline(structure, i) @ np.array([[c, -s], [s, c]])
+            shapes.append(Prism(corners, drum.mean_width if drum.circular else drum.depth))
+        elif drum.circular:
+            shapes.append(CircularFrustum(drum.bottom_width, drum.top_width, drum.height, high))
+        else:
+            sides = (drum.bottom_width, drum.depth), (drum.top_width, drum.depth)
+            shapes.append(RectangularFrustum(*sides, drum.height, high))
+    names = tuple(f"drum {i + 1}" for i in range(structure.n))
+    return Bodies(names, tuple(shapes), (False,) * structure.n, Reference(at.centroid, at.lean + at.tilt, slope))
+
+
+@bodies_of.register
+def _(structure: Assembly) -> Bodies:
+    blocks = structure.bodies
+    return Bodies(
+        tuple(block.name for block in blocks),
+        tuple(Prism(block.corners - block.origin, block.depth) for block in blocks),
+        tuple(block.fixed for block in blocks),
+        Reference(np.zeros((len(blocks), 2)), np.zeros(len(blocks))),
+        structure.ground,
+    )

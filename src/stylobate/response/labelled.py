@@ -1,0 +1,311 @@
+"""Responses as labelled data sets, and back without loss.
+
+A data set holds the histories along ``time``, ``drum`` and ``joint`` (both numbered from 1 at the base; an assembly has
+``body`` by name), and ``axis``; the energy ledger as ``energy_*``; the measures as attributes under the names of
+``stylobate run --json``; what stood, what happened and the provenance as JSON texts.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .. import store
+from ..column import Column
+from ..column.assembly import Assembly
+from ..column.assembly_files import assembly_from_dict
+from ..column.files import column_from_dict
+from ..errors import InputError, OutOfRangeWarning
+from ..outcome import Outcome
+from .assembly_measures import response_of_blocks
+from .collapse import Collapse
+from .histories import Histories
+from .measures import BlockMeasures, Measures, SpaceMeasures
+from .mechanism import Mechanism
+from .poses import PlanePoses
+from .response import Response
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Terms of the energy ledger have this before their names.
+ENERGY = "energy_"
+
+# name: unit, meaning; of columns in the plane and in space, of assemblies in the plane
+_BODY = {
+    "drum_x": ("m", "horizontal displacement of the drum's centroid relative to the base"),
+    "drum_z": ("m", "vertical displacement of the drum's centroid relative to the base"),
+    "drum_rotation": ("rad", "rotation of the drum, counter-clockwise positive"),
+    "x": ("m", "horizontal place of the body's centroid relative to the base"),
+    "z": ("m", "height of the body's centroid relative to the base"),
+    "rotation": ("rad", "rotation of the body, counter-clockwise positive"),
+    "body_position": ("m", "centroid relative to the moving base, z upward"),
+    "body_orientation": ("1", "unit quaternion from the body's axes to those of space, real part first"),
+    "tilt": ("rad", "angle between the body's axis and the vertical"),
+}
+_REST = {
+    "joint_opening": ("m", "largest gap between the faces of the joint"),
+    "joint_slip": ("m", "offset along the joint of the body above it"),
+    "joint_twist": ("rad", "turn of the body above the joint about its normal"),
+    "base_displacement": ("m", "horizontal displacement of the lowest face relative to the base"),
+    "top_displacement": ("m", "horizontal displacement of the topmost face relative to the base"),
+    "ground_acceleration": ("m s-2", "acceleration of the base"),
+    "ground_displacement": ("m", "displacement of the base"),
+    "ground_acceleration_z": ("m s-2", "vertical acceleration of the base"),
+    "ground_displacement_z": ("m", "vertical displacement of the base"),
+}
+_MEANINGS = _BODY | _REST
+
+# field of Measures: attribute in the file, the same as in tables and JSON
+_MEASURES = {
+    "decided": "decided",
+    "collapse_time": "collapse_time_s",
+    "peak_top_displacement": "peak_top_displacement_m",
+    "residual_top_displacement": "residual_top_displacement_m",
+    "peak_rotation": "peak_rotation_rad",
+    "peak_joint_opening": "peak_joint_opening_m",
+    "residual_joint_slip": "residual_joint_slip_m",
+    "energy_imbalance": "energy_imbalance",
+    "time_step": "time_step_s",
+    "steps": "steps",
+    "reason": "reason",
+}
+
+
+def to_dataset(response: Response, *, derived: bool = True) -> xarray.Dataset:
+    """A response as a labelled data set; see :meth:`Response.to_xarray`.
+
+    Parameters
+    ----------
+    response : Response
+    derived : bool
+        With what follows from the rest: position and tilt of plane models in space.
+    """
+    import xarray
+
+    h, bodies, m = response.histories, response.bodies, response.measures
+    of = "body" if m.blocks is not None else "drum"
+    variables = {name: (dims, values) for name, dims, values in _recorded(response, of)}
+    if derived and h.dims == "xz":
+        variables["body_position"] = (("time", of, "axis"), response.body_position)
+    if derived:
+        variables["tilt"] = (("time", of), response.tilt)
+    labelled: dict[str, Any] = {
+        name: (dims, values, dict(zip(("units", "long_name"), _MEANINGS[name], strict=True)))
+        for name, (dims, values) in variables.items()
+    }
+    for term, values in h.energy.items():
+        labelled[ENERGY + term] = ("time", values, {"units": "J", "long_name": f"energy ledger: {term}"})
+    facts = {
+        "collapse": None if m.collapse is None else m.collapse.to_dict(),
+        "space": None if m.space is None else dataclasses.asdict(m.space),
+        "blocks": None if m.blocks is None else dataclasses.asdict(m.blocks),
+        "mechanism": None if response.mechanism is None else dataclasses.asdict(response.mechanism),
+        "followed": response.followed,
+    }
+    kind = "column" if isinstance(response.structure, Column) else "assembly"
+    labelled[kind] = ((), store.as_json(response.structure.to_dict()))
+    labelled |= {"facts": ((), store.as_json(facts)), "provenance": ((), store.as_json(response.provenance))}
+    numbers = np.arange(1, len(bodies.names) + 1)
+    joints = np.arange(1, h.opening.shape[1] + 1)
+    said = {"column": "joint under the drum of that number", "assembly": "joint, in the assembly's order"}[kind]
+    coordinates: dict[str, Any] = {
+        "time": ("time", h.time, {"units": "s", "long_name": "time"}),
+        "joint": ("joint", joints, {"long_name": said}),
+    }
+    if of == "body":
+        coordinates["body"] = ("body", list(bodies.names), {"long_name": "name of the body"})
+    else:
+        coordinates["drum"] = ("drum", numbers, {"long_name": "drum, numbered from the bottom"})
+    if any("axis" in entry[0] for entry in labelled.values()):
+        coordinates["axis"] = ("axis", ["x", "y", "z"], {"long_name": "axis: x, y horizontal, z up"})
+    attributes: dict[str, Any] = {"model": response.model, "dims": h.dims, "wall_s": float(response.wall_time)}
+    attributes |= {"outcome": m.outcome.label}
+    for field, name in _MEASURES.items():
+        value = getattr(m, field)
+        attributes[name] = int(value) if isinstance(value, (bool, np.bool_, np.integer)) else value
+    return xarray.Dataset(labelled, coordinates, attributes)
+
+
+def load(path: str | Path) -> Response:
+    """Read a response that was saved by this version or the one before it.
+
+    Raises
+    ------
+    InputError
+        There is no such file, it is damaged, or it is not a response.
+    """
+    data = store.read(path, "response")
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", OutOfRangeWarning)  # said when the column or assembly was made
+            return _from_dataset(data)
+    except InputError as error:
+        raise InputError(f"{store.shown(path)} does not hold what can be used: {error}") from None
+    except Exception as error:
+        raise store.unreadable(path, error) from None
+
+
+def _recorded(response: Response, of: str) -> list[tuple[str, tuple[str, ...], np.ndarray]]:
+    """Name, dimensions and values of everything that a model recorded."""
+    h, poses = response.histories, response.histories.poses
+    body, joint = ("time", of), ("time", "joint")
+    found: list[tuple[str, tuple[str, ...], np.ndarray]] = []
+    along: tuple[str, ...] = ("time",)
+    if isinstance(poses, PlanePoses):
+        names = ("x", "z", "rotation") if of == "body" else ("drum_x", "drum_z", "drum_rotation")
+        found += [(name, body, values) for name, values in zip(names, (poses.x, poses.z, poses.rotation), strict=True)]
+    else:
+        along = ("time", "direction")
+        found.append(("body_position", (*body, "axis"), poses.position))
+        found.append(("body_orientation", (*body, "part"), poses.orientation))
+        found.append(("joint_twist", joint, h.twist))
+    found.append(("joint_opening", joint, h.opening))
+    found.append(("joint_slip", joint if h.dims == "xz" else (*joint, "direction"), h.joint_slip))
+    if h.base is not None and h.top is not None:
+        found += [("base_displacement", along, h.base), ("top_displacement", along, h.top)]
+    ground = ("time",) if h.dims == "xz" else ("time", "axis")
+    found += [
+        ("ground_acceleration", ground, h.ground_acceleration),
+        ("ground_displacement", ground, h.ground_displacement),
+    ]
+    if h.dims == "xz" and (h.acceleration[:, 2].any() or h.displacement[:, 2].any()):
+        found.append(("ground_acceleration_z", ("time",), h.acceleration[:, 2]))
+        found.append(("ground_displacement_z", ("time",), h.displacement[:, 2]))
+    return found
+
+
+def _from_dataset(data: xarray.Dataset) -> Response:
+    structure: Column | Assembly
+    if "column" in data:
+        structure = column_from_dict(store.from_json(data, "column"))
+    else:
+        structure = assembly_from_dict(store.from_json(data, "assembly"))
+    provenance = store.from_json(data, "provenance")
+    if "facts" not in data:
+        return _of_format_1(data, structure, provenance)
+    facts = store.from_json(data, "facts")
+    collapse, space, blocks = facts["collapse"], facts["space"], facts["blocks"]
+    if blocks is not None:
+        blocks["fell_at"] = tuple((str(name), float(time)) for name, time in blocks["fell_at"])
+    parts = {
+        "collapse": None if collapse is None else Collapse.from_dict(collapse),
+        "space": None if space is None else SpaceMeasures(**_tuples(space)),
+        "blocks": None if blocks is None else BlockMeasures(**blocks),
+    }
+    mechanism = facts["mechanism"]
+    return Response(
+        structure,
+        _histories(data, structure),
+        _measures(data.attrs, **parts),
+        str(data.attrs["model"]),
+        provenance,
+        float(data.attrs["wall_s"]),
+        None if mechanism is None else Mechanism(**_tuples(mechanism)),
+        bool(facts["followed"]),
+    )
+
+
+def _of_format_1(data: xarray.Dataset, structure: Column | Assembly, provenance: dict[str, Any]) -> Response:
+    """Files of the first format: a mechanism is in the provenance, an assembly's joints and measures are found anew."""
+    energy, wall = _energy(data), float(data.attrs["wall_s"])
+    if isinstance(structure, Assembly):
+        x, z, rotation, acceleration, displacement = (
+            data[name].to_numpy() for name in ("x", "z", "rotation", "ground_acceleration", "ground_displacement")
+        )
+        response = response_of_blocks(
+            structure, data["time"].to_numpy(), x, z, rotation, energy, acceleration, displacement,
+            at_rest=bool(data.attrs["at_rest"]),
+            failed=bool(data.attrs["failed"]),
+            in_equilibrium=provenance.get("in_equilibrium_as_drawn"),
+            energy_imbalance=float(data.attrs["energy_imbalance"]),
+            time_step=float(data.attrs["time_step_s"]),
+            steps=int(data.attrs["steps"]),
+            model=str(data.attrs["model"]),
+            provenance=provenance,
+        )  # fmt: skip
+        return dataclasses.replace(response, wall_time=wall)
+    mechanism = provenance.pop("mechanism", None)
+    if mechanism is not None:
+        mechanism = Mechanism(**_tuples({key: value for key, value in mechanism.items() if key != "sentence"}))
+    followed = bool(provenance.pop("followed_to_the_ground", False))
+    measures = _measures(data.attrs)
+    return Response(
+        structure,
+        _histories(data, structure),
+        measures,
+        str(data.attrs["model"]),
+        provenance,
+        wall,
+        mechanism,
+        followed,
+    )
+
+
+def _histories(data: xarray.Dataset, structure: Column | Assembly) -> Histories:
+    def get(name: str) -> np.ndarray:
+        return data[name].to_numpy()
+
+    steps, energy = len(data["time"]), _energy(data)
+    bodies = structure.n if isinstance(structure, Column) else len(structure.bodies)
+    joint = {"joint_opening": get("joint_opening"), "joint_slip": get("joint_slip")}
+    if "body_orientation" in data:
+        names = ("body_position", "body_orientation", "joint_twist")
+        ends = ("base_displacement", "top_displacement", "ground_acceleration", "ground_displacement")
+        position, orientation, twist = map(get, names)
+        _check(position, (steps, bodies, 3))
+        _check(orientation, (steps, bodies, 4))
+        return Histories.in_space(
+            get("time"),
+            position,
+            orientation,
+            **joint,
+            joint_twist=twist,
+            **{name: get(name) for name in ends},
+            energy=energy,
+        )
+    ground = {}
+    for name in ("ground_acceleration", "ground_displacement"):
+        ground[name] = get(name)
+        if f"{name}_z" in data:
+            ground[name] = np.stack((ground[name], np.zeros(steps), get(f"{name}_z")), axis=1)
+    if isinstance(structure, Column):
+        body = {name: get(name) for name in ("drum_x", "drum_z", "drum_rotation")}
+        ends = {name: get(name) for name in ("base_displacement", "top_displacement")}
+        found = Histories.of_drums(get("time"), **body, **joint, **ends, **ground, energy=energy)
+    else:
+        body = {name: get(name) for name in ("x", "z", "rotation")}
+        found = Histories.of_blocks(get("time"), **body, **joint, **ground, energy=energy)
+    for values in body.values():
+        _check(values, (steps, bodies))
+    return found
+
+
+def _energy(data: xarray.Dataset) -> dict[str, np.ndarray]:
+    return {
+        str(name).removeprefix(ENERGY): values.to_numpy()
+        for name, values in data.data_vars.items()
+        if str(name).startswith(ENERGY)
+    }
+
+
+def _measures(attributes: dict[str, Any], **parts: Any) -> Measures:
+    values: dict[str, Any] = {field: attributes[name] for field, name in _MEASURES.items()}
+    for field, value in values.items():
+        if isinstance(value, np.generic):
+            values[field] = value.item()
+    values["decided"] = bool(values["decided"])
+    return Measures(outcome=Outcome[attributes["outcome"].upper()], **values, **parts)
+
+
+def _check(values: np.ndarray, shape: tuple[int, ...]) -> None:
+    if values.shape != shape:
+        raise InputError(f"an array of shape {values.shape} where {shape} belongs; run again.")
+
+
+def _tuples(values: dict[str, Any]) -> dict[str, Any]:
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in values.items()}

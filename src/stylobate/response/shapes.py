@@ -1,0 +1,165 @@
+"""Shapes of bodies, in their own axes: origin at the centroid, z along the body's axis, lengths in metres."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+
+class Mesh(NamedTuple):
+    """A closed surface of flat faces: vertices [m], shape (m, 3); vertex numbers of each face, counter-clockwise outside."""
+
+    vertices: np.ndarray
+    faces: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class CircularFrustum:
+    """A round drum.
+
+    Parameters
+    ----------
+    bottom, top : float
+        Diameters of the lower and upper face [m].
+    height : float
+        [m]
+    centroid : float
+        Height of the centroid over the lower face [m].
+    """
+
+    bottom: float
+    top: float
+    height: float
+    centroid: float
+
+    @cached_property
+    def outline(self) -> np.ndarray:
+        """Corners (x, z) of what is seen along y [m], shape (4, 2)."""
+        return _trapezium(self.bottom, self.top, self.height, self.centroid)
+
+    def mesh(self, around: int = 32) -> Mesh:
+        """The surface."""
+        angle = np.arange(around) * (2.0 * np.pi / around)
+        ring = np.stack((np.cos(angle), np.sin(angle)), axis=1)
+        return _between(0.5 * self.bottom * ring, 0.5 * self.top * ring, self.height, self.centroid)
+
+
+@dataclass(frozen=True)
+class RectangularFrustum:
+    """A drum or block with two rectangular faces.
+
+    Parameters
+    ----------
+    bottom, top : (float, float)
+        Sides of the lower and upper face along x and y [m].
+    height : float
+        [m]
+    centroid : float
+        Height of the centroid over the lower face [m].
+    """
+
+    bottom: tuple[float, float]
+    top: tuple[float, float]
+    height: float
+    centroid: float
+
+    @cached_property
+    def outline(self) -> np.ndarray:
+        """Corners (x, z) of what is seen along y [m], shape (4, 2)."""
+        return _trapezium(self.bottom[0], self.top[0], self.height, self.centroid)
+
+    def mesh(self, around: int = 32) -> Mesh:
+        """The surface; it has no circles."""
+        del around
+        corners = 0.5 * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+        return _between(corners * self.bottom, corners * self.top, self.height, self.centroid)
+
+
+@dataclass(frozen=True, eq=False)
+class Prism:
+    """A convex polygon in the plane x–z, of constant thickness along y: a block of an assembly, a drum with chipped edges.
+
+    Parameters
+    ----------
+    corners : array
+        (x, z) from the body's origin, counter-clockwise with x to the right and z up [m], shape (k, 2).
+    depth : float
+        Thickness [m].
+    """
+
+    corners: np.ndarray
+    depth: float
+
+    @property
+    def outline(self) -> np.ndarray:
+        """Corners (x, z) [m], shape (k, 2)."""
+        return self.corners
+
+    def mesh(self, around: int = 32) -> Mesh:
+        """The surface; it has no circles."""
+        del around
+        n, half = len(self.corners), 0.5 * self.depth
+        x, z = self.corners.T
+        near, far = (np.stack((x, np.full(n, y), z), axis=1) for y in (-half, half))
+        sides = [(i, n + i, n + (i + 1) % n, (i + 1) % n) for i in range(n)]
+        return Mesh(np.concatenate((near, far)), (tuple(range(n)), tuple(range(2 * n - 1, n - 1, -1)), *sides))
+
+
+@dataclass(frozen=True, eq=False)
+class ConvexSolid:
+    """The convex hull of points.
+
+    Parameters
+    ----------
+    vertices : array
+        From the body's centroid [m], shape (m, 3).
+    """
+
+    vertices: np.ndarray
+
+    @cached_property
+    def outline(self) -> np.ndarray:
+        """Corners (x, z) of what is seen along y [m], shape (k, 2)."""
+        return hull(np.asarray(self.vertices)[:, [0, 2]])
+
+    def mesh(self, around: int = 32) -> Mesh:
+        """The surface, in triangles."""
+        del around
+        from scipy.spatial import ConvexHull
+
+        points = np.asarray(self.vertices, dtype=float)
+        found: Any = ConvexHull(points)
+        faces = []
+        for (a, b, c), outward in zip(found.simplices.tolist(), found.equations[:, :3], strict=True):
+            turned = float(np.cross(points[b] - points[a], points[c] - points[a]) @ outward) < 0.0
+            faces.append((a, c, b) if turned else (a, b, c))
+        return Mesh(points, tuple(faces))
+
+
+#: What every shape gives to those who draw it: ``outline``, seen along y, and ``mesh()``, its surface.
+Shape = CircularFrustum | RectangularFrustum | Prism | ConvexSolid
+
+
+def hull(points: np.ndarray) -> np.ndarray:
+    """Corners of the convex hull of points in a plane, counter-clockwise [m], shape (k, 2)."""
+    from scipy.spatial import ConvexHull
+
+    return points[ConvexHull(points).vertices]
+
+
+def _trapezium(bottom: float, top: float, height: float, centroid: float) -> np.ndarray:
+    low, high = -centroid, height - centroid
+    return np.array([[-0.5 * bottom, low], [0.5 * bottom, low], [0.5 * top, high], [-0.5 * top, high]])
+
+
+def _between(lower: np.ndarray, upper: np.ndarray, height: float, centroid: float) -> Mesh:
+    """The surface between two parallel faces with as many corners, counter-clockwise from above."""
+    n = len(lower)
+    vertices = np.concatenate(
+        (np.column_stack((lower, np.full(n, -centroid))), np.column_stack((upper, np.full(n, height - centroid))))
+    )
+    sides = [(i, (i + 1) % n, n + (i + 1) % n, n + i) for i in range(n)]
+    return Mesh(vertices, (tuple(range(n - 1, -1, -1)), tuple(range(n, 2 * n)), *sides))

@@ -1,0 +1,65 @@
+"""The JSON object of ``stylobate run``: measures under the names that scripts rely on, and joint by joint."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from .response import Response
+
+
+def summary_of(response: Response) -> dict:
+    """Plain values. What has fallen has no residuals: they are None after a collapse, and peaks end with it."""
+    run = {"wall_s": response.wall_time, "model": response.model, "version": response.provenance.get("version", "")}
+    return (_of_blocks(response) if response.measures.blocks is not None else _of_column(response)) | run
+
+
+def _of_column(response: Response) -> dict:
+    h, m = response.histories, response.measures
+    row = m.row()
+    before = h.time <= m.collapse_time if m.collapsed else np.ones(len(h.time), dtype=bool)
+    before[:1] = True
+    row["peak_opening_per_joint_m"] = _finite(np.abs(h.opening[before]).max(axis=0))
+    if m.space is None:
+        row["residual_slip_per_joint_m"] = _finite(h.slip[-1, :, 0])
+    if m.collapsed:
+        first = 1 if m.collapse is None or m.collapse.joint is None else m.collapse.joint
+        row["residual_top_displacement_m"] = row["residual_joint_slip_m"] = None
+        for name in ("residual_slip_per_joint_m", "residual_twist_per_joint_rad"):
+            if name in row:
+                row[name] = [one if i + 1 < first else None for i, one in enumerate(row[name])]
+        if m.collapse is not None:
+            row["collapse"] = m.collapse.to_dict() | {"side": m.collapse.side}
+    if response.mechanism is not None:
+        row["mechanism"] = asdict(response.mechanism) | {"sentence": response.mechanism.describe()}
+    return row
+
+
+def _of_blocks(response: Response) -> dict:
+    m, blocks = response.measures, response.measures.blocks
+    assert blocks is not None
+    gone = m.collapsed
+    return {
+        "outcome": m.outcome.label,
+        "collapsed": m.collapsed,
+        "decided": m.decided,
+        "collapse_time_s": m.collapse_time if gone else None,
+        "fallen": list(response.fallen),
+        "at_rest": blocks.at_rest,
+        "in_equilibrium_as_drawn": blocks.in_equilibrium,
+        "peak_displacement_m": blocks.peak_displacement,
+        "residual_displacement_m": None if gone else blocks.residual_displacement,
+        "peak_rotation_rad": m.peak_rotation,
+        "peak_joint_opening_m": m.peak_joint_opening,
+        "residual_joint_slip_m": None if gone else m.residual_joint_slip,
+        "energy_imbalance": m.energy_imbalance,
+        "time_step_s": m.time_step,
+        "steps": m.steps,
+    }
+
+
+def _finite(values: np.ndarray) -> list[float | None]:
+    return [float(v) if np.isfinite(v) else None for v in values]

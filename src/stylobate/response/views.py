@@ -1,0 +1,302 @@
+"""What is read off a response directly: its histories, its measures, and its bodies in space."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..outcome import Outcome
+from .collapse import Collapse
+from .histories import Histories
+from .measures import Measures
+from .mechanism import Mechanism
+from .poses import PlanePoses, SpacePoses
+
+
+class Views:
+    """Attributes that a response passes on from its parts."""
+
+    histories: Histories
+    measures: Measures
+    mechanism: Mechanism | None
+
+    @property
+    def poses(self) -> SpacePoses:
+        """Position and orientation of every body in space."""
+        raise NotImplementedError
+
+    # -- histories -----------------------------------------------------------------------------------------------
+
+    @property
+    def time(self) -> np.ndarray:
+        """Times of the recorded states [s], shape (T,)."""
+        return self.histories.time
+
+    @property
+    def drum_x(self) -> np.ndarray:
+        """Displacement of each centroid along x (in the plane: along the base) from the start [m], shape (T, n)."""
+        return self.histories.drum_x
+
+    @property
+    def drum_y(self) -> np.ndarray:
+        """Displacement of each centroid along y from the start [m], shape (T, n); zero in the plane."""
+        return self.histories.drum_y
+
+    @property
+    def drum_z(self) -> np.ndarray:
+        """Displacement of each centroid upward (in the plane: normal to the base) from the start [m], shape (T, n)."""
+        return self.histories.drum_z
+
+    @property
+    def drum_rotation(self) -> np.ndarray:
+        """Rotation of each drum, counter-clockwise positive (the top goes to −x) [rad], shape (T, n)."""
+        return self.histories.drum_rotation
+
+    @property
+    def joint_opening(self) -> np.ndarray:
+        """Largest gap between the two faces of each joint [m], shape (T, J)."""
+        return self.histories.joint_opening
+
+    @property
+    def joint_slip(self) -> np.ndarray:
+        """Offset along each joint of the body above, from the start [m], shape (T, J); in space (T, J, 2)."""
+        return self.histories.joint_slip
+
+    @property
+    def joint_twist(self) -> np.ndarray:
+        """Turn about the normal of each joint, from the start [rad], shape (T, J); zero in the plane."""
+        return self.histories.joint_twist
+
+    @property
+    def base_displacement(self) -> np.ndarray:
+        """Horizontal displacement of the middle of the lowest face [m], shape (T,); in space (T, 2)."""
+        return self.histories.base_displacement
+
+    @property
+    def top_displacement(self) -> np.ndarray:
+        """Horizontal displacement of the middle of the topmost face [m], shape (T,); in space (T, 2)."""
+        return self.histories.top_displacement
+
+    @property
+    def ground_acceleration(self) -> np.ndarray:
+        """Acceleration of the base along x [m/s²], shape (T,); in space along all axes, shape (T, 3)."""
+        return self.histories.ground_acceleration
+
+    @property
+    def ground_displacement(self) -> np.ndarray:
+        """Displacement of the base along x [m], shape (T,); in space along all axes, shape (T, 3)."""
+        return self.histories.ground_displacement
+
+    @property
+    def imbalance(self) -> np.ndarray:
+        """Input minus everything that the ledger accounts for [J], shape (T,)."""
+        return self.histories.imbalance
+
+    @property
+    def energy(self) -> dict[str, np.ndarray]:
+        """Ledger [J], each term of shape (T,); see :class:`Histories`."""
+        return self.histories.energy
+
+    # -- measures ------------------------------------------------------------------------------------------------
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the run ended."""
+        return self.measures.outcome
+
+    @property
+    def collapsed(self) -> bool:
+        """Whether it collapsed."""
+        return self.measures.collapsed
+
+    @property
+    def decided(self) -> bool:
+        """False when the run ended while the verdict could still change."""
+        return self.measures.decided
+
+    @property
+    def collapse(self) -> Collapse | None:
+        """The collapse, as far as the model tells; None without one."""
+        return self.measures.collapse
+
+    @property
+    def collapse_time(self) -> float:
+        """When the collapse became certain [s]; NaN without one."""
+        return self.measures.collapse_time
+
+    @property
+    def peak_top_displacement(self) -> float:
+        """Largest displacement of the middle of the top face, relative to the base [m]; NaN for an assembly."""
+        return self.measures.peak_top_displacement
+
+    @property
+    def residual_top_displacement(self) -> float:
+        """The same at the end [m]; of the debris after a collapse."""
+        return self.measures.residual_top_displacement
+
+    @property
+    def peak_rotation(self) -> float:
+        """Largest absolute rotation of any body [rad]."""
+        return self.measures.peak_rotation
+
+    @property
+    def peak_joint_opening(self) -> float:
+        """Largest opening of any joint [m]."""
+        return self.measures.peak_joint_opening
+
+    @property
+    def residual_joint_slip(self) -> float:
+        """Largest absolute offset along a joint at the end [m]; of the debris after a collapse."""
+        return self.measures.residual_joint_slip
+
+    @property
+    def energy_imbalance(self) -> float:
+        """Energy that the ledger cannot account for, as a share [-]."""
+        return self.measures.energy_imbalance
+
+    @property
+    def time_step(self) -> float:
+        """Step of the integration, the smallest if it varies [s]."""
+        return self.measures.time_step
+
+    @property
+    def steps(self) -> int:
+        """Steps taken."""
+        return self.measures.steps
+
+    @property
+    def reason(self) -> str:
+        """Mechanism of a collapse, or why a run failed; empty otherwise."""
+        return self.measures.reason
+
+    @property
+    def peak_top_x(self) -> float | None:
+        """Largest absolute displacement of the top along x [m]; None for plane models."""
+        return None if self.measures.space is None else self.measures.space.peak_top_x
+
+    @property
+    def peak_top_y(self) -> float | None:
+        """Largest absolute displacement of the top along y [m]; None for plane models."""
+        return None if self.measures.space is None else self.measures.space.peak_top_y
+
+    @property
+    def peak_tilt(self) -> float | None:
+        """Largest angle between a drum's axis and the vertical [rad]; None for plane models."""
+        return None if self.measures.space is None else self.measures.space.peak_tilt
+
+    @property
+    def peak_twist(self) -> float | None:
+        """Largest absolute twist of any joint [rad]; None for plane models."""
+        return None if self.measures.space is None else self.measures.space.peak_twist
+
+    @property
+    def residual_slip_per_joint(self) -> tuple[float, ...] | None:
+        """Length of the offset along each joint at the end [m]; None for plane models."""
+        return None if self.measures.space is None else self.measures.space.residual_slip_per_joint
+
+    @property
+    def residual_twist_per_joint(self) -> tuple[float, ...] | None:
+        """Turn about each joint's normal at the end [rad]; None for plane models."""
+        return None if self.measures.space is None else self.measures.space.residual_twist_per_joint
+
+    @property
+    def at_rest(self) -> bool | None:
+        """Whether everything lies still at the end; None where the run cannot tell."""
+        if self.measures.blocks is not None:
+            return self.measures.blocks.at_rest
+        return None if self.mechanism is None else self.mechanism.at_rest
+
+    @property
+    def fell_at(self) -> dict[str, float]:
+        """When each body had fallen that has at the end [s]: lower by half of its height, or turned by over 45°."""
+        if self.measures.blocks is not None:
+            return dict(self.measures.blocks.fell_at)
+        if self.mechanism is None:
+            return {}
+        return {
+            f"drum {number}": time for number, time in zip(self.mechanism.fallen, self.mechanism.fell_at, strict=True)
+        }
+
+    @property
+    def fallen(self) -> tuple[str, ...]:
+        """Bodies that have fallen; none where the run was not followed to the ground."""
+        return tuple(self.fell_at)
+
+    # -- bodies in space -----------------------------------------------------------------------------------------
+
+    @property
+    def dims(self) -> str:
+        """``xz`` for plane models, ``xyz`` in space."""
+        return self.histories.dims
+
+    @property
+    def body_position(self) -> np.ndarray:
+        """Centroid of every body relative to the moving base: x and y horizontal, z up [m], shape (T, n, 3)."""
+        return self.poses.position
+
+    @property
+    def body_orientation(self) -> np.ndarray:
+        """Unit quaternion of every body, real part first, from its axes to those of space [-], shape (T, n, 4)."""
+        return self.poses.orientation
+
+    @property
+    def body_axis(self) -> np.ndarray:
+        """Own axis of every body, upward in a column as built [-], shape (T, n, 3)."""
+        return self.poses.axis
+
+    @property
+    def tilt(self) -> np.ndarray:
+        """Angle between every body's axis and the vertical [rad], shape (T, n)."""
+        x, y, z = np.moveaxis(self.poses.axis, -1, 0)
+        return np.arctan2(np.hypot(x, y), z)
+
+    @property
+    def tilt_azimuth(self) -> np.ndarray:
+        """Direction in which every body leans, from x towards y [rad], shape (T, n); 0 for an upright one."""
+        x, y, _ = np.moveaxis(self.poses.axis, -1, 0)
+        return np.arctan2(y, x) + 0.0  # no -0.0
+
+    @property
+    def opening(self) -> np.ndarray:
+        """Largest gap between the two faces of each joint [m], shape (T, J)."""
+        return self.histories.opening
+
+    @property
+    def slip(self) -> np.ndarray:
+        """Offset along x and y of each joint, from the start [m], shape (T, J, 2)."""
+        return self.histories.slip
+
+    @property
+    def twist(self) -> np.ndarray:
+        """Turn about the normal of each joint, from the start [rad], shape (T, J)."""
+        return self.histories.twist
+
+    @property
+    def displacement(self) -> np.ndarray:
+        """Distance of every centroid from where it was at the start [m], shape (T, n)."""
+        poses = self.histories.poses
+        if isinstance(poses, PlanePoses):
+            return np.hypot(poses.x - poses.x[0], poses.z - poses.z[0])
+        return np.linalg.norm(poses.position - poses.position[0], axis=-1)
+
+    # -- blocks of a plane assembly ------------------------------------------------------------------------------
+
+    @property
+    def x(self) -> np.ndarray:
+        """Place of every centroid along x [m], shape (T, n)."""
+        return self._placed_by(0)
+
+    @property
+    def z(self) -> np.ndarray:
+        """Height of every centroid [m], shape (T, n)."""
+        return self._placed_by(2)
+
+    @property
+    def rotation(self) -> np.ndarray:
+        """Rotation of every body, counter-clockwise positive [rad], shape (T, n)."""
+        return self.histories.drum_rotation
+
+    def _placed_by(self, axis: int) -> np.ndarray:
+        poses = self.histories.poses
+        if isinstance(poses, PlanePoses) and self.measures.blocks is not None:
+            return poses.x if axis == 0 else poses.z  # as recorded, to the last bit
+        return self.poses.position[..., axis]

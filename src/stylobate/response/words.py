@@ -1,0 +1,96 @@
+"""A response in words: what happened in a sentence, and what was run in a line."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ..column import Column
+from ..outcome import Outcome
+
+if TYPE_CHECKING:
+    from .response import Response
+
+
+def title_of(response: Response) -> str:
+    """What stood, motion, model and outcome in one line."""
+    undecided = "" if response.decided else ", undecided"
+    motion = response.provenance.get("motion", "motion")
+    outcome = response.outcome.label.replace("_", " ")
+    return f"{response.structure.name}, {motion}, {response.model}: {outcome}{undecided}"
+
+
+def sentence_of(response: Response) -> str:
+    """What happened, in one to three sentences."""
+    if response.measures.blocks is not None:
+        return _of_blocks(response)
+    m = response.measures
+    if m.collapsed:
+        return _of_collapse(response)
+    words = [m.outcome.sentence]
+    if m.reason:
+        words.append(f"Reason: {m.reason}.")
+    if not m.decided and m.outcome is not Outcome.FAILED:
+        words.append(UNDECIDED)
+    return " ".join(words)
+
+
+#: Said of a run that ended too early.
+UNDECIDED = "The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
+
+
+def describe(response: Response) -> str:
+    """One paragraph: what stood, what was run, what happened, and the measures."""
+    m, structure = response.measures, response.structure
+    n = len(response.bodies.names)
+    size = f"{n} {'drum' if n == 1 else 'drums'}" if isinstance(structure, Column) else f"{n} bodies"
+    motion = response.provenance.get("motion", "a motion")
+    end = float(response.time[-1]) if len(response.time) else 0.0
+    until = " until then" if m.collapsed else ""
+    top = "" if m.blocks else f"peak top displacement{until} {length(m.peak_top_displacement)}, "
+    words = [
+        f"<Response of {structure.name} ({size}) under {motion}, {response.model}, {end:.4g} s.",
+        response.sentence,
+        f"{top[:1].upper() + top[1:]}{'p' if top else 'P'}eak rotation{until} {m.peak_rotation:.4g} rad;"
+        f" energy imbalance {m.energy_imbalance:.1e}; {len(response.time)} recorded states in {response.dims}.>",
+    ]
+    return " ".join(words)
+
+
+def length(value: float) -> str:
+    """A length for people."""
+    return f"{value:.2f} m" if not abs(value) < 1.0 else f"{1000.0 * value:.3g} mm"
+
+
+def _of_collapse(response: Response) -> str:
+    m, mechanism = response.measures, response.mechanism
+    words = [m.outcome.sentence]
+    if m.reason:
+        words.append(f"Reason: {m.reason}.")
+    if mechanism is not None:
+        words.append(f"That was certain at {m.collapse_time:.2f} s.")
+    if m.collapse is not None and m.collapse.touched is not None and m.collapse.touched.bodies is not None:
+        one, other = m.collapse.touched.bodies
+        words.append(f"First to touch were {one} and {other}, at {m.collapse.touched.time:.2f} s.")
+    if mechanism is not None:
+        words.append(mechanism.describe())
+    return " ".join(words)
+
+
+def _of_blocks(response: Response) -> str:
+    names, fixed, fell = response.bodies.names, response.bodies.fixed, response.fell_at
+    moving = [i for i, held in enumerate(fixed) if not held]
+    all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")
+    in_place = f"{all_of_them} in place"
+    if response.outcome is Outcome.FAILED:
+        return "The computation could not be completed; this is no verdict on the assembly."
+    if response.outcome is Outcome.COLLAPSED:
+        order = sorted(fell, key=lambda name: fell[name])
+        said = ", ".join(order[:6]) + (f" and {len(order) - 6} more" if len(order) > 6 else "")
+        return f"{len(order)} of {len(moving)} blocks fell, the first at {fell[order[0]]:.2f} s: {said}."
+    if response.outcome is Outcome.DISPLACED:
+        gone = response.displacement[-1]
+        far = max(moving, key=lambda i: gone[i])
+        return f"{in_place}, but shifted: {names[far]} by {1000.0 * float(gone[far]):.3g} mm, the others by less."
+    if response.outcome is Outcome.ROCKED:
+        return f"{in_place}: joints opened and closed, none is shifted."
+    return f"{in_place}: no joint opened."

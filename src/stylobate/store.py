@@ -1,0 +1,251 @@
+"""Results as netCDF files: one numbered format, a digest of every byte, written whole or not at all.
+
+A file is a netCDF 4 file that any program reads, and behind it one line of :data:`LINE` bytes that holds the SHA-256 of
+all bytes before it. The digest is checked before the netCDF library sees a byte: what is damaged is refused, and cannot
+hang or crash the process. Files of format 1 had no such line; they are opened by another process first, which is ended
+when it takes too long.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from .atomic import replacing
+from .errors import InputError
+from .reading import read_bytes, shown
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Number of the format that is written; this one and format 1 are read.
+FORMAT = 2
+
+#: Largest file that is read [bytes].
+MOST = 8_000_000_000
+
+#: Longest time that a file without a digest may take to be opened, and a second more for so many bytes [s], [bytes].
+PATIENCE, PACE = 30.0, 10_000_000
+
+_NAME = "stylobate result"
+_LINE = re.compile(rb"\nstylobate result (\d{4}) sha256 ([0-9a-f]{64})\n")
+
+#: Length of the last line of a file [bytes].
+LINE = len(f"\n{_NAME} {FORMAT:04d} sha256 {'0' * 64}\n")
+
+# What files of format 1 called themselves, and what a file that says nothing holds by the names of its attributes.
+_FORMER = {"stylobate response 1": "response", "stylobate assembly response 1": "response"}
+_UNNAMED = {"seed": "probability", "uplift_acceleration_m_s2": "domain", "note": "study histories"}
+
+#: Opens a file, all of it, from standard input: as this package does, but where it can be stopped.
+_PROBE = """
+import io, sys
+try:
+    import resource
+    resource.setrlimit(resource.RLIMIT_AS, (16 << 30, 16 << 30))
+except (ImportError, OSError, ValueError):
+    pass
+import warnings
+warnings.simplefilter("ignore")
+import xarray
+with xarray.open_dataset(io.BytesIO(sys.stdin.buffer.read()), engine="h5netcdf", decode_times=False) as data:
+    data.load()
+"""
+
+
+def write(data: xarray.Dataset, kind: str, path: str | Path) -> Path:
+    """Write a data set, its arrays compressed; the file appears whole or not at all.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+    kind : str
+        What it is: ``response``, ``domain``, ``probability`` …; the reader asks for it.
+    path : str or Path
+
+    Raises
+    ------
+    InputError
+        The folder is missing or cannot be written to.
+    StylobateError
+        The disk is full.
+    """
+    target = Path(path)
+    with replacing(target) as partial:
+        # The library writes to memory: one that cannot finish a file on a full disk crashes when the process ends.
+        image = _image(data, {"format": f"{_NAME} {FORMAT}", "kind": kind})
+        line = f"\n{_NAME} {FORMAT:04d} sha256 {hashlib.sha256(image).hexdigest()}\n"
+        with partial.open("wb") as file:
+            file.write(image)
+            file.write(line.encode())
+            file.flush()
+            os.fsync(file.fileno())
+    return target
+
+
+def read(path: str | Path, *kinds: str) -> xarray.Dataset:
+    """Read a data set of one of these kinds; of any if none is given. Its attribute ``kind`` says which.
+
+    Raises
+    ------
+    InputError
+        There is no such file, it is none of these, is damaged, or of a format that this version does not know.
+    """
+    content = read_bytes(path, MOST)
+    name, wanted = shown(path), " or ".join(f"a {kind}" for kind in kinds)
+    data = _open(content, name)
+    kind = _kind(data.attrs, name)
+    if kind is None or (kinds and kind not in kinds):
+        holds = f"is a {kind}" if kind else f"has the format {data.attrs.get('format')!r}"
+        raise InputError(
+            f"{name} {holds}, not {wanted or 'a result'} of this package; give a file that this package wrote as such."
+        )
+    data.attrs["kind"] = kind
+    return data
+
+
+def unreadable(path: str | Path, error: Exception) -> InputError:
+    """The error for a file that was opened, but does not hold what it must."""
+    why = f"{type(error).__name__}: {error}".split("\n")[0][:200]
+    return InputError(f"{shown(path)} is damaged: {why}; take a copy of it, or run again.")
+
+
+def as_json(value: Any) -> str:
+    """Plain values as a JSON text."""
+    return json.dumps(value, default=_plain)
+
+
+def from_json(data: xarray.Dataset, name: str) -> Any:
+    """The plain values in a JSON text of a data set."""
+    return json.loads(str(data[name].item()))
+
+
+def read_provenance(path: str | Path) -> dict[str, Any]:
+    """Provenance of any result: a response of a column or an assembly, a domain, probabilities.
+
+    Raises
+    ------
+    InputError
+        There is no such file, it is damaged, or it holds no provenance.
+    """
+    data = read(path)
+    try:
+        return dict(json.loads(str(data["provenance"].item())))
+    except (KeyError, TypeError, ValueError, RecursionError) as error:
+        raise InputError(
+            f"{shown(path)} holds no provenance that can be read ({error}); give a netCDF file of this package, such as "
+            "response.nc."
+        ) from None
+
+
+def _image(data: xarray.Dataset, attributes: dict[str, Any]) -> bytes:
+    """The bytes of a netCDF file."""
+    import h5netcdf
+
+    memory = io.BytesIO()
+    with h5netcdf.File(memory, "w") as file:
+        file.dimensions = {str(name): size for name, size in data.sizes.items()}
+        for name, variable in data.variables.items():
+            values = np.asarray(variable.values)
+            if values.dtype.kind in "OU":
+                import h5py
+
+                values = values.astype(object)
+                put = file.create_variable(str(name), variable.dims, dtype=h5py.string_dtype(), data=values)
+            elif variable.ndim and values.size:
+                put = file.create_variable(
+                    str(name), variable.dims, data=values, compression="gzip", compression_opts=4, dtype=values.dtype
+                )
+            else:
+                put = file.create_variable(str(name), variable.dims, data=values, dtype=values.dtype)
+            for key, value in variable.attrs.items():
+                put.attrs[str(key)] = value
+        for key, value in (data.attrs | attributes).items():
+            file.attrs[str(key)] = value
+    return memory.getvalue()
+
+
+def _open(content: bytes, name: str) -> xarray.Dataset:
+    """The data set in the bytes of a file, after everything that can be known of them without the library."""
+    import xarray
+
+    line = _LINE.fullmatch(content[-LINE:])
+    if line is None:
+        _probe(content, name)
+    else:
+        written, digest = int(line[1]), line[2].decode()
+        content = content[:-LINE]
+        if hashlib.sha256(content).hexdigest() != digest:
+            raise InputError(
+                f"{name} is damaged: it is not what was written (its digest differs); take a copy of it, or run again."
+            )
+        if written != FORMAT:
+            raise _unknown(name, str(written))
+    try:
+        with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf", decode_times=False) as data:
+            data.load()
+    except Exception as error:  # whatever a library makes of a damaged file of format 1
+        raise unreadable(name, error) from None
+    return data
+
+
+def _probe(content: bytes, name: str) -> None:
+    """Refuse what has no digest and is no whole file of format 1."""
+    if content[:8] != b"\x89HDF\r\n\x1a\n":
+        raise InputError(f"{name} cannot be read as netCDF: it does not begin like one; give a file of this package.")
+    if f"{_NAME} {FORMAT}".encode() in content or _cut(content):
+        raise InputError(f"{name} is damaged: its end is missing; take a copy of it, or run again.")
+    patience = PATIENCE + len(content) / PACE
+    try:
+        done = subprocess.run([sys.executable, "-c", _PROBE], input=content, capture_output=True, timeout=patience)
+    except subprocess.TimeoutExpired:
+        raise InputError(
+            f"{name} is damaged: it could not be opened in {patience:.0f} s; take a copy of it, or run again."
+        ) from None
+    if done.returncode:
+        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
+        why = said[-1][:200] if said else f"the library ended with code {done.returncode}"
+        raise InputError(f"{name} cannot be read as netCDF: {why}; take a copy of it, or run again.")
+
+
+def _cut(content: bytes) -> bool:
+    """Whether an HDF5 file is shorter than it says (its superblock, versions 0 to 3)."""
+    at = {0: 40, 1: 44, 2: 28, 3: 28}.get(content[8] if len(content) > 48 else -1)
+    return at is None or int.from_bytes(content[at : at + 8], "little") > len(content)
+
+
+def _kind(attributes: dict[Any, Any], name: str) -> str | None:
+    """What a file holds; None if it is not of this package."""
+    form = str(attributes.get("format"))
+    if form in _FORMER:
+        return _FORMER[form]
+    if form.startswith(f"{_NAME} "):
+        if form != f"{_NAME} {FORMAT}":
+            raise _unknown(name, form.removeprefix(f"{_NAME} "))
+        return str(attributes.get("kind"))
+    if "format" in attributes:
+        return None
+    return next((kind for key, kind in _UNNAMED.items() if key in attributes), None)
+
+
+def _unknown(name: str, number: str) -> InputError:
+    return InputError(
+        f"{name} is of format {number}; this version of stylobate reads up to {FORMAT}: update it, or run again."
+    )
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    return str(value)
