@@ -13,6 +13,7 @@ from stylobate.simulate import simulate
 MONOLITH, TWELVE = preset("paper-monolithic"), preset("paper-12-drums")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("length", "amplitude"), [(0.55, 0.6), (0.5, 0.7), (0.8, 0.4), (0.6, 0.5), (0.3, 0.4)])
 def test_a_column_that_falls_after_its_motion_has_collapsed(length, amplitude):
     push = Motion(0.01, np.full(round(length / 0.01) + 1, amplitude * g))

@@ -29,6 +29,7 @@ def shaken(amplitude: float, vertical: bool = False) -> Motion:
     return Motion(time[1], amplitude * np.sin(2 * np.pi * time), vertical=up)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", [RigidBeam(), RigidBeam(sliding=True)])
 def test_same_bits_for_any_order_and_number_of_threads(model):
     cases = []

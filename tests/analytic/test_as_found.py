@@ -150,6 +150,7 @@ def test_distinct_elements_open_the_joint_at_its_closed_form(name, side):
 # -- standing ----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("points", [2, 5])
 @given(
     offsets=hyp.lists(hyp.floats(-0.03, 0.03), min_size=12, max_size=12),

@@ -64,6 +64,7 @@ def made(tmp_path_factory):
         yield folder, build(folder, True, 2, GRIDS), patch
 
 
+@pytest.mark.slow
 def test_everything_is_written(made):
     folder, summary, _ = made
     assert {path.name for path in folder.iterdir()} == {
