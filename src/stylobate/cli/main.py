@@ -85,6 +85,8 @@ def main() -> None:
     signals.listen(INTERRUPTED)
     code = call(sys.argv[1:])
     signals.said()
+    if signals.TOLD.is_set():
+        signals.end_now(code)  # at once: what others have under way is not waited for
     sys.exit(code)
 
 

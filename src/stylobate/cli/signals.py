@@ -86,8 +86,10 @@ def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
     """End the process without its main thread; what is finished is on disk, what is half-written is removed."""
     ledgers, atomic = sys.modules.get("stylobate.campaign.ledger"), sys.modules.get("stylobate.atomic")
     for book in list(ledgers.OPEN) if ledgers else ():
-        with suppress(Exception):
-            book.flush()
+        # With a time of its own: a disk that does not answer must not keep the process.
+        writing = threading.Thread(target=book.flush, daemon=True)
+        writing.start()
+        writing.join(PATIENCE)
     for partial in list(atomic.PARTIAL) if atomic else ():
         with suppress(OSError):
             partial.unlink(missing_ok=True)
@@ -95,4 +97,5 @@ def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
         if not _said.is_set():
             shown = "\r\x1b[2K\x1b[?25h" if sys.stderr.isatty() else ""  # the bar goes, the cursor comes back
             os.write(2, f"{shown}stylobate: {sentence()}\n".encode(errors="replace"))
+        sys.stdout.flush()
     leave(code)
