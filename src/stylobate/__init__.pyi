@@ -16,7 +16,7 @@ from .column import Joint as Joint
 from .column import preset as preset
 from .column.assembly import Assembly as Assembly
 from .column.assembly import Block as Block
-from .column.assembly import read_assembly as read_assembly
+from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
 from .column.imperfections import Imperfection as Imperfection
 from .constants import g as g

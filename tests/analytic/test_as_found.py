@@ -10,7 +10,7 @@ from hypothesis import strategies as hyp
 
 import stylobate as st
 from stylobate.column import preset
-from stylobate.column.as_found import geometry, uplift_accelerations
+from stylobate.column.found_geometry import geometry, uplift_accelerations
 
 JOINT = st.Joint(normal_stiffness=1e11, shear_stiffness=5e10, friction_angle=35.0)
 STILL = st.Motion(0.5, np.zeros(3))

@@ -9,7 +9,8 @@ from validation.statics import inclined
 from stylobate.analysis.limit import gravity_forces, limit_analysis
 from stylobate.analysis.pushover import pushover
 from stylobate.column import Column, Drum, Joint, preset
-from stylobate.column.as_found import AsFound, gravity_vector
+from stylobate.column.as_found import AsFound
+from stylobate.column.found_geometry import gravity_vector
 from stylobate.errors import InputError
 from stylobate.models.rigid_block.block_stack import BlockStack
 

@@ -7,7 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call
-from stylobate.column.assembly import read_assembly
+from stylobate.column.assembly_files import read_assembly
 from stylobate.response import Response
 
 PORTAL = """\

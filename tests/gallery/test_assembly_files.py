@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from stylobate.cli.main import call
-from stylobate.column.assembly import read_assembly
+from stylobate.column.assembly_files import read_assembly
 
 FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"
 

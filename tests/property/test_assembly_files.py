@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from stylobate.column import Joint
-from stylobate.column.assembly import Assembly, Block, read_assembly
-from stylobate.column.assembly_files import is_assembly
+from stylobate.column.assembly import Assembly, Block
+from stylobate.column.assembly_files import is_assembly, read_assembly
 from stylobate.errors import InputError
 from stylobate.motion import Motion
 

@@ -9,16 +9,15 @@ import warnings
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
-from .as_found import drum_outline, geometry
 from .column import GRAVITIES, Column
 from .drum import DENSITIES, LENGTHS
+from .found_geometry import drum_outline, geometry
 from .joint import Joint
 
 MAX_BLOCKS = 400
@@ -386,16 +385,3 @@ def _area(corners: np.ndarray) -> float:
     p = corners - corners[0]
     q = np.roll(p, -1, axis=0)
     return 0.5 * float((p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]).sum())
-
-
-def read_assembly(path: str | Path) -> Assembly:
-    """Read an assembly file (TOML).
-
-    Raises
-    ------
-    InputError
-        The file cannot be read or does not describe an assembly; the message names the block and the remedy.
-    """
-    from .assembly_files import read
-
-    return read(path)

@@ -12,9 +12,10 @@ from ..errors import InputError, OutOfRangeWarning
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
-from .files import JointTable, joint_from_dict, load_column
+from .files import joint_from_dict, load_column
 from .joint import Joint
 from .presets import PRESETS
+from .tables import JointTable
 from .toml import Table, parse_toml, read_table
 
 
@@ -68,12 +69,18 @@ def load_structure(text: str | Path) -> Column | Assembly:
     """
     name = str(text)
     if name not in PRESETS and (Path(name).exists() or name.endswith(".toml")) and is_assembly(name):
-        return read(name)
+        return read_assembly(name)
     return load_column(name)
 
 
-def read(path: str | Path) -> Assembly:
-    """See :func:`stylobate.column.assembly.read_assembly`."""
+def read_assembly(path: str | Path) -> Assembly:
+    """Read an assembly file (TOML).
+
+    Raises
+    ------
+    InputError
+        The file cannot be read or does not describe an assembly; the message names the block and the remedy.
+    """
     table = read_table(path, AssemblyTable)
     try:
         return _assembly(table, shown(Path(path).stem))

@@ -17,8 +17,9 @@ import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
-from .as_found import AS_BUILT, AsFound, check_as_found, uplift_accelerations
+from .as_found import AS_BUILT, AsFound
 from .drum import Drum, section_area, section_second_moment
+from .found_geometry import check_as_found, uplift_accelerations
 from .joint import Joint
 
 MAX_DRUMS = 200
@@ -165,9 +166,9 @@ class Column:
     @classmethod
     def from_toml(cls, path: str | Path) -> Column:
         """Read a column file (see the documentation of file formats)."""
-        from .files import read_column
+        from .tables import read_as  # pydantic is loaded where a file is read
 
-        return read_column(path)
+        return read_as(cls, path)
 
     def replace(self, **changes) -> Column:
         """A copy with some fields changed (``dataclasses.replace``)."""

@@ -3,94 +3,18 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from ..atomic import replacing
-from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, suggest
-from ..reading import shown
+from ..errors import InputError, suggest
 from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
 from .joint import Joint
 from .presets import PRESETS, preset
-from .toml import Table, checked, parse_toml
-
-
-class JointTable(Table):
-    """``[joint]``: stiffness [N/m³], one form of friction (angle in degrees), cohesion [Pa]."""
-
-    normal_stiffness: float
-    shear_stiffness: float
-    friction_angle: float | None = None
-    friction_coefficient: float | None = None
-    cohesion: float = 0.0
-
-
-class OverrideTable(Table):
-    """``[[joint_override]]``: what differs at one joint; joint 1 is the one with the base."""
-
-    index: int
-    normal_stiffness: float | None = None
-    shear_stiffness: float | None = None
-    friction_angle: float | None = None
-    friction_coefficient: float | None = None
-    cohesion: float | None = None
-
-
-class DrumTable(Table):
-    """``[[drum]]``: one drum, bottom to top; lengths in m, density in kg/m³."""
-
-    height: float
-    bottom_width: float
-    top_width: float
-    density: float | None = None
-    depth: float | None = None
-
-
-class TaperedTable(Table):
-    """``[tapered]``: equal drums between two widths; lengths in m."""
-
-    height: float
-    bottom_width: float
-    top_width: float
-    drums: int
-
-
-class FoundDrumTable(Table):
-    """``[[as_found.drum]]``: offset and chips in m, tilt in degrees, of the drum with that index (1 at the base)."""
-
-    index: int
-    offset: float = 0.0
-    tilt: float = 0.0
-    chip_left: float = 0.0
-    chip_right: float = 0.0
-
-
-class AsFoundTable(Table):
-    """``[as_found]``: slope of the base in degrees, and what is not as built at single drums."""
-
-    base_tilt: float = 0.0
-    drum: list[FoundDrumTable] | None = None
-
-
-class ColumnTable(Table):
-    """A column file."""
-
-    name: str | None = None
-    section: str = "rectangular"
-    depth: float | None = None
-    density: float | None = None
-    gravity: float = STANDARD_GRAVITY
-    tapered: TaperedTable | None = None
-    drum: list[DrumTable] | None = None
-    joint: JointTable | None = None
-    joint_override: list[OverrideTable] | None = None
-    as_found: AsFoundTable | None = None
 
 
 def load_column(text: str | Path) -> Column:
@@ -120,17 +44,7 @@ def read_column(path: str | Path) -> Column:
     InputError
         The file cannot be read or does not describe a column; the message names the file, the key and the remedy.
     """
-    data = parse_toml(path)
-    if "block" in data:
-        raise InputError(
-            f"{shown(path)} describes an assembly of blocks, which only 'stylobate run' takes (simulate_assembly in "
-            "Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
-        )
-    table = checked(data, ColumnTable, shown(path))
-    try:
-        return _column(table, default_name=shown(Path(path).stem))
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
+    return Column.from_toml(path)
 
 
 def write_column(column: Column, path: str | Path) -> Path:
@@ -163,105 +77,6 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
     as_found = AsFound(tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"])
     return Column(drums, joints, data["name"], data["gravity"], as_found)
-
-
-#: What stone and columns are like: density [kg/m³], height of a drum [m], friction angle [degrees].
-DENSITIES, TALLEST, SLIPPERIEST = (500.0, 5000.0), 30.0, 3.0
-
-
-def _doubt_units(column: Column, friction_angles: Sequence[float | None]) -> None:
-    """Say what looks like a slip of units.
-
-    Warns
-    -----
-    OutOfRangeWarning
-        Values that no stone column has.
-    """
-    doubts = [
-        f"density is {drum.density:g} kg/m³"
-        for drum in column.drums
-        if not DENSITIES[0] <= drum.density <= DENSITIES[1]
-    ]
-    doubts += [f"a drum is {drum.height:g} m high" for drum in column.drums if drum.height > TALLEST]
-    doubts += [
-        f"friction_angle is {angle:g} degrees (a coefficient is friction_coefficient)"
-        for angle in friction_angles
-        if angle is not None and angle < SLIPPERIEST
-    ]
-    doubts += [doubt for joint in dict.fromkeys(column.joints) for doubt in joint.doubts]
-    if doubts:
-        warnings.warn(f"{doubts[0]}: is the unit right?", OutOfRangeWarning, stacklevel=4)
-
-
-def _column(table: ColumnTable, default_name: str) -> Column:
-    column = _as_built(table, default_name)
-    _doubt_units(
-        column, [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
-    )
-    if table.as_found is None:
-        return column
-    some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())
-    return column.replace(as_found=AsFound(some, table.as_found.base_tilt))
-
-
-def _as_built(table: ColumnTable, default_name: str) -> Column:
-    if table.joint is None:
-        raise InputError(
-            "there is no [joint] table; add one with normal_stiffness and shear_stiffness [N/m³] "
-            "and friction_angle [degrees]."
-        )
-    if table.tapered is not None and table.drum is not None:
-        raise InputError("both [tapered] and [[drum]] are given; keep one of the two.")
-    if table.section == "circular" and table.depth is not None:
-        raise InputError(f"depth is {table.depth:g} m for a circular section; leave it out.")
-    name = default_name if table.name is None else table.name
-    joint = Joint(**table.joint.model_dump())
-    overrides: dict[int, Joint] = {}
-    for override in table.joint_override or ():
-        if override.index in overrides:
-            raise InputError(f"joint_override index {override.index} is given twice; keep one of the two.")
-        overrides[override.index] = _overridden(table.joint, override)
-    if table.tapered is not None:
-        if table.density is None:
-            raise InputError("key 'density' [kg/m³] is missing; add it above [tapered].")
-        return Column.tapered(
-            **table.tapered.model_dump(),
-            density=table.density,
-            joint=joint,
-            section=table.section,
-            depth=1.0 if table.depth is None else table.depth,
-            overrides=overrides,
-            name=name,
-            gravity=table.gravity,
-        )
-    if not table.drum:
-        raise InputError("there is neither [tapered] nor [[drum]]; add one of the two.")
-    drums = [_drum(i, one, table) for i, one in enumerate(table.drum)]
-    return Column.of_drums(drums, joint, overrides=overrides, name=name, gravity=table.gravity)
-
-
-def _drum(i: int, one: DrumTable, table: ColumnTable) -> Drum:
-    density = table.density if one.density is None else one.density
-    if density is None:
-        raise InputError(f"[[drum]] number {i + 1} has no density; add one to it, or a common one at the top [kg/m³].")
-    if table.section == "circular" and one.depth is not None:
-        raise InputError(f"[[drum]] number {i + 1} has a depth but a circular section; leave the depth out.")
-    depth = one.depth if one.depth is not None else table.depth if table.depth is not None else 1.0
-    try:
-        return Drum(one.height, one.bottom_width, one.top_width, density, table.section, depth)
-    except InputError as error:
-        raise InputError(f"[[drum]] number {i + 1}: {error}") from None
-
-
-def _overridden(common: JointTable, override: OverrideTable) -> Joint:
-    fields = common.model_dump()
-    changes = override.model_dump(exclude={"index"}, exclude_none=True)
-    if "friction_angle" in changes or "friction_coefficient" in changes:
-        fields["friction_angle"] = fields["friction_coefficient"] = None
-    try:
-        return Joint(**(fields | changes))
-    except InputError as error:
-        raise InputError(f"[[joint_override]] with index {override.index}: {error}") from None
 
 
 def joint_from_dict(fields: Mapping[str, Any]) -> Joint:

@@ -9,8 +9,8 @@ from functools import singledispatch
 import numpy as np
 
 from ..column import Column
-from ..column.as_found import drum_outline, geometry
 from ..column.assembly import FAR_AWAY, Assembly
+from ..column.found_geometry import drum_outline, geometry
 from ..constants import DEGREE
 from .poses import Reference
 from .shapes import CircularFrustum, Prism, RectangularFrustum, Shape

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.as_found import drum_outline
 from ...column.assembly import of_column
+from ...column.found_geometry import drum_outline
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures, Response

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...column import Column
-from ...column.as_found import Geometry, geometry, joint_load
+from ...column.found_geometry import Geometry, geometry, joint_load
 from ...errors import InputError
 
 #: Rounds of loads from positions and positions from loads; the elastic closures move the loads by 1e-5 of themselves.

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.as_found import gravity_vector
+from ...column.found_geometry import gravity_vector
 from ...constants import DEGREE
 from ...motion import Motion
 from ...outcome import Outcome, classify

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...column import Column
-from ...column.as_found import Geometry, geometry, gravity_vector
+from ...column.found_geometry import Geometry, geometry, gravity_vector
 from ...constants import DEGREE
 
 

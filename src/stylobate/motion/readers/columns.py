@@ -11,7 +11,8 @@ from ..motion import Motion
 from ..specs import TIME_UNITS, acceleration_unit
 from .checks import CUT, check_length, check_peak, check_same_step
 from .comments import Stated, stated
-from .record import Component, UnstatedError, oriented
+from .component import Component, UnstatedError
+from .record import oriented
 from .source import Source
 from .steps import ROUNDING_SHARE, first_bad_step, step_of
 from .tables import number_rows, read_series, read_table

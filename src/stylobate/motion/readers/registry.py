@@ -26,6 +26,7 @@ from . import (
 )
 from .checks import check_whole
 from .record import Component, assemble
+from .samples import PREFIX
 from .source import Source
 
 
@@ -124,6 +125,27 @@ def read_motion(
     metadata = defaults | facts | {"file": ", ".join(names)}
     wanted = None if component is None else str(component)
     return assemble(components, metadata, names[0], component=wanted, dt=dt)
+
+
+def sample_motion(name: str) -> Motion:
+    """A motion that comes with the package, by its name: ``el-centro-1940``.
+
+    Parameters
+    ----------
+    name : str
+        One of the names that ``stylobate motion --samples`` lists.
+
+    Returns
+    -------
+    Motion
+        As ``read_motion("sample:NAME")`` gives it.
+
+    Raises
+    ------
+    InputError
+        There is no sample of this name.
+    """
+    return read_motion(PREFIX + name)
 
 
 def _read_file(

@@ -17,8 +17,6 @@ from ...errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..motion import Motion
-
 #: What the path of a sample begins with.
 PREFIX = "sample:"
 
@@ -94,29 +92,6 @@ def sample_at(path: str | Path) -> Sample | None:
         hint = f"did you mean {PREFIX}{close[0]}? " if close else ""
         raise InputError(f"there is no sample motion {name!r}; {hint}they are {', '.join(samples())}.")
     return samples()[name]
-
-
-def sample_motion(name: str) -> Motion:
-    """A motion that comes with the package, by its name: ``el-centro-1940``.
-
-    Parameters
-    ----------
-    name : str
-        One of the names that ``stylobate motion --samples`` lists.
-
-    Returns
-    -------
-    Motion
-        As ``read_motion("sample:NAME")`` gives it.
-
-    Raises
-    ------
-    InputError
-        There is no sample of this name.
-    """
-    from .registry import read_motion
-
-    return read_motion(PREFIX + name)
 
 
 def _folder():

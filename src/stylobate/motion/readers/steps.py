@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...errors import InputError, check_range
 from ..motion import MAX_SAMPLES
-
-if TYPE_CHECKING:
-    from .record import Component
+from .component import Component
 
 #: Departure from equal steps that is rounding of the printed times, as a share of the step.
 ROUNDING_SHARE = 0.05

@@ -9,7 +9,7 @@ from pathlib import Path
 from ...errors import InputError
 from ...reading import shown
 from ..motion import Motion
-from .record import UnstatedError
+from .component import UnstatedError
 from .registry import read_motion
 
 #: Largest number of files looked into.

@@ -1,0 +1,176 @@
+"""Where the drums and contacts of a column as found are, how its weight goes down, and what opens its joints."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..constants import DEGREE
+from ..errors import InputError
+
+if TYPE_CHECKING:
+    from .column import Column
+
+#: Height of a chip as a share of its width: a spall runs steeper than 45°.
+CHIP_SLOPE = 1.5
+
+
+class Geometry(NamedTuple):
+    """A column as it stands, its joints closed; in axes along and normal to the base, from the middle of its contact.
+
+    ``foot`` [m] is where each drum's centroid projects to on its lower face, from the face's middle. ``lean`` [rad] is the
+    inclination of each joint, ``tilt`` [rad] that of a drum's axis to the normal of its lower face; ``origin`` [m] the
+    middle of the face under each drum; ``low`` and ``high`` [m] the ends of the contact along the joint, from there.
+    Shapes (n,), ``origin`` and ``centroid`` (n, 2).
+    """
+
+    foot: np.ndarray
+    tilt: np.ndarray
+    lean: np.ndarray
+    origin: np.ndarray
+    centroid: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+
+    def end(self, joint: int, side: int) -> np.ndarray:
+        """End of a contact, to the left (side < 0) or to the right [m], shape (2,)."""
+        place = self.high[joint] if side > 0 else self.low[joint]
+        return self.origin[joint] + place * np.array([math.cos(self.lean[joint]), math.sin(self.lean[joint])])
+
+
+def geometry(column: Column, offsets: np.ndarray | None = None) -> Geometry:
+    """Where a column's drums and contacts are.
+
+    Parameters
+    ----------
+    column : Column
+    offsets : array, optional
+        Of the drums along the joints under them [m], shape (n,); as found if left out.
+    """
+    n, found = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
+    offset = np.array([one.offset for one in found]) if offsets is None else offsets
+    tilt = np.array([one.tilt * DEGREE for one in found])
+    lean = np.concatenate(([0.0], np.cumsum(tilt)[:-1]))
+    centroid = np.array([drum.centroid_height for drum in column.drums])
+    foot = -centroid * np.sin(tilt)
+    low, high = np.empty(n), np.empty(n)
+    origins, centroids = np.empty((n, 2)), np.empty((n, 2))
+    origin = np.zeros(2)
+    for i, (drum, one) in enumerate(zip(column.drums, found, strict=True)):
+        b = 0.5 * drum.bottom_width
+        under = 0.5 * column.drums[i - 1].top_width if i else math.inf
+        low[i] = max(offset[i] - b + one.chip_left, -under)
+        high[i] = min(offset[i] + b - one.chip_right, under)
+        origins[i] = origin
+        middle = origin + offset[i] * np.array([math.cos(lean[i]), math.sin(lean[i])])
+        axis = lean[i] + tilt[i]
+        up = np.array([-math.sin(axis), math.cos(axis)])
+        centroids[i] = middle + centroid[i] * up
+        origin = middle + drum.height * up
+    return Geometry(foot, tilt, lean, origins, centroids, low, high)
+
+
+def gravity_vector(column: Column) -> np.ndarray:
+    """Acceleration of gravity along and normal to the base [m/s²], shape (2,)."""
+    slope = column.as_found.base_tilt * DEGREE
+    return -column.gravity * np.array([math.sin(slope), math.cos(slope)])
+
+
+class JointLoad(NamedTuple):
+    """What the weight above a joint exerts on it: compression and downhill shear [N], and where, along the joint [m]."""
+
+    normal: float
+    shear: float
+    place: float
+
+
+def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
+    """Load of a joint under the weight of what stands on it."""
+    mass = column.masses[joint:]
+    weight = float(mass.sum()) * gravity_vector(column)
+    arm = mass @ at.centroid[joint:] / mass.sum() - at.origin[joint]
+    along = np.array([math.cos(at.lean[joint]), math.sin(at.lean[joint])])
+    normal = np.array([-along[1], along[0]])
+    pressing = -float(weight @ normal)
+    if pressing <= 0.0:
+        return JointLoad(pressing, float(weight @ along), math.nan)
+    return JointLoad(pressing, float(weight @ along), float(arm @ along + (arm @ normal) * (weight @ along) / pressing))
+
+
+def uplift_accelerations(column: Column) -> np.ndarray:
+    """Static horizontal accelerations of the ground that open each joint of the rigid stack above it [m/s²].
+
+    Returns
+    -------
+    array, shape (n, 2)
+        Of the ground to the left (the part above turns about the right end of its contact), negative; and to the right.
+
+    Notes
+    -----
+    Weight and inertia force d × (g − a) = 0 about the end of the contact, with d from there to the centroid and the
+    acceleration a (cos β, −sin β) along and normal to a base of slope β.
+    """
+    at, weight, slope = geometry(column), gravity_vector(column), column.as_found.base_tilt * DEGREE
+    out = np.empty((column.n, 2))
+    for j in range(column.n):
+        mass = column.masses[j:]
+        centroid = mass @ at.centroid[j:] / mass.sum()
+        for k, side in enumerate((1, -1)):
+            d = centroid - at.end(j, side)
+            out[j, k] = (d[1] * weight[0] - d[0] * weight[1]) / (d[0] * math.sin(slope) + d[1] * math.cos(slope))
+    return out
+
+
+def check_as_found(column: Column) -> None:
+    """Refuse what cannot stand: the weight above each joint must pass through its contact, and not slide on it.
+
+    Raises
+    ------
+    InputError
+        A drum that the column does not have, faces that no longer touch, or no equilibrium; the message names the joint
+        and the missing moment or force.
+    """
+    name = repr(column.name)
+    for one in column.as_found.drums:
+        if one.drum > column.n:
+            raise InputError(f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.")
+    at = geometry(column)
+    parted = np.flatnonzero(at.high - at.low <= 0.0)
+    if parted.size:
+        raise InputError(f"joint {parted[0] + 1} of {name} has no contact left; make its offsets or chips smaller.")
+    for j in range(column.n):
+        load, law = joint_load(column, at, j), column.joints[j]
+        friction = law.tan_phi * load.normal + law.cohesion * column.joint_areas[j]
+        if load.normal <= 0.0 or abs(load.shear) > friction:
+            raise InputError(
+                f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "
+                f"{abs(load.shear) - max(friction, 0.0):.4g} N of friction are missing; "
+                "make tilts or base_tilt smaller, or the friction larger."
+            )
+        beyond = max(load.place - at.high[j], at.low[j] - load.place)
+        if beyond > 0.0:
+            raise InputError(
+                f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
+                f"the contact, {load.normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller."
+            )
+
+
+def drum_outline(column: Column, i: int) -> np.ndarray:
+    """Corners of drum i = 0 … n−1, counter-clockwise from the lower left, from its centroid [m], shape (k, 2).
+
+    The axes are along and normal to its lower face.
+    """
+    drum, one = column.drums[i], column.as_found.of(i + 1)
+    tilt = one.tilt * DEGREE
+    c, s = math.cos(tilt), math.sin(tilt)
+    half, high = 0.5 * drum.top_width, drum.height
+    top = {side: np.array([c * side * half - s * high, s * side * half + c * high]) for side in (-1, 1)}
+    corners = []
+    for side, chip in ((-1, one.chip_left), (1, one.chip_right)):
+        edge = np.array([side * 0.5 * drum.bottom_width, 0.0])
+        flank = edge + min(CHIP_SLOPE * chip / drum.height, 0.5) * (top[side] - edge)
+        face = edge - (side * chip, 0.0)
+        corners += [face] if chip == 0.0 else [flank, face] if side < 0 else [face, flank]
+    return np.array([*corners, top[1], top[-1]]) - drum.centroid_height * np.array([-s, c])

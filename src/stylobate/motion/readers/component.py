@@ -1,0 +1,50 @@
+"""One component of a record as a reader finds it, before it becomes part of a motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from ...errors import InputError
+
+
+class UnstatedError(InputError):
+    """The file leaves its unit or its step open, which the caller can state."""
+
+
+@dataclass
+class Component:
+    """One component of a record.
+
+    Parameters
+    ----------
+    values : array
+        Acceleration [m/s²], shape (steps,).
+    dt : float
+        Step [s]; NaN where ``time`` holds unequal steps, or where no step is known.
+    label : str
+        Direction as the file states it: ``90 DEG``, ``Up``, ``H1``.
+    azimuth : float, optional
+        Direction of positive acceleration, clockwise from north [degrees].
+    vertical : bool
+        Upward or downward; the sign is turned so that upward is positive.
+    time : array, optional
+        Times of irregular samples [s], shape (steps,).
+    metadata : dict
+        What this component's own header says.
+    processing : list of str
+        What the reader did to the values.
+    file : str
+        Name of the file it was read from.
+    """
+
+    values: np.ndarray
+    dt: float
+    label: str = ""
+    azimuth: float | None = None
+    vertical: bool = False
+    time: np.ndarray | None = None
+    metadata: dict = field(default_factory=dict)
+    processing: list[str] = field(default_factory=list)
+    file: str = ""
