@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .atomic import replacing
-from .errors import InputError
+from .errors import InputError, StylobateError
 from .reading import read_bytes, shown
 
 if TYPE_CHECKING:
@@ -84,11 +84,16 @@ def write(data: xarray.Dataset, kind: str, path: str | Path) -> Path:
         # The library writes to memory: one that cannot finish a file on a full disk crashes when the process ends.
         image = _image(data, {"format": f"{_NAME} {FORMAT}", "kind": kind})
         line = f"\n{_NAME} {FORMAT:04d} sha256 {hashlib.sha256(image).hexdigest()}\n"
-        with partial.open("wb") as file:
-            file.write(image)
-            file.write(line.encode())
-            file.flush()
-            os.fsync(file.fileno())
+        try:
+            with partial.open("wb") as file:
+                file.write(image)
+                file.write(line.encode())
+                file.flush()
+                os.fsync(file.fileno())
+        except OSError as error:
+            raise StylobateError(
+                f"{target} cannot be written: {error.strerror}; nothing is left of it: make room, or choose another folder."
+            ) from None
     return target
 
 

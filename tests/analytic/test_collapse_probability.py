@@ -210,7 +210,7 @@ def test_a_probability_is_read_back_from_its_file(tmp_path):
     assert (found.column, found.imperfection) == (column, size)
     assert json.dumps(found.provenance) == json.dumps(made.provenance)
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
-    with pytest.raises(st.InputError, match="holds no probability"):
+    with pytest.raises(st.InputError, match="is a domain, not a probability"):
         CollapseProbability.load(domain.save(tmp_path / "domain.nc"))
 
 
@@ -224,7 +224,7 @@ def test_a_domain_is_read_back_from_its_file(tmp_path):
     assert found.column == domain.column
     assert json.dumps(found.provenance) == json.dumps(domain.provenance)
     assert found.wall_time == domain.wall_time
-    with pytest.raises(st.InputError, match="no domain"):
+    with pytest.raises(st.InputError, match="there is no file"):
         Domain.load(tmp_path / "none.nc")
     part = dataclasses.replace(domain, rows=[None, *domain.rows[1:]])
     assert Domain.load(part.save(tmp_path / "part.nc")).verdicts[0, 0] == v.NOT_RUN

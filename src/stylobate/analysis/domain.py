@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import store
 from ..atomic import replacing
 from ..campaign.ledger import PROGRESS_FILE, discard
 from ..campaign.runner import Progress, run_campaign
@@ -32,10 +33,16 @@ MAX_CELLS = 1_000_000
 _GRIDS = {
     "collapse_time_s": ("s", "time at which the collapse became certain"),
     "peak_top_displacement_m": ("m", "largest top displacement relative to the base"),
-    "residual_top_displacement_m": ("m", "top displacement relative to the base at the end"),
+    "residual_top_displacement_m": (
+        "m",
+        "top displacement relative to the base at the end, of the debris after a collapse",
+    ),
     "peak_rotation_rad": ("rad", "largest rotation of any drum"),
     "peak_joint_opening_m": ("m", "largest opening of any joint"),
-    "residual_joint_slip_m": ("m", "largest offset of a drum along its joint at the end"),
+    "residual_joint_slip_m": (
+        "m",
+        "largest offset of a drum along its joint at the end, of the debris after a collapse",
+    ),
     "energy_imbalance": ("1", "energy that the ledger cannot account for, relative to the input work"),
 }
 
@@ -197,11 +204,10 @@ class Domain:
         target = Path(path)
         if target.suffix not in (".nc", ".csv"):
             raise InputError(f"{target} ends in {target.suffix!r}; a domain is saved as .nc (netCDF) or .csv (table).")
+        if target.suffix == ".nc":
+            return store.write(self.to_xarray(), "domain", target)
         with replacing(target) as partial:
-            if target.suffix == ".nc":
-                self.to_xarray().to_netcdf(partial, engine="h5netcdf")
-            else:
-                self.table.to_csv(partial, index=False)
+            self.table.to_csv(partial, index=False)
         return target
 
     @classmethod
@@ -213,13 +219,10 @@ class Domain:
         InputError
             The file cannot be read, or holds no domain.
         """
-        import xarray
-
         from ..column.files import column_from_dict
 
+        data = store.read(path, "domain")
         try:
-            with xarray.open_dataset(path, engine="h5netcdf") as data:
-                data.load()
             verdicts = np.array(v.VERDICTS, dtype=object)[data["verdict"].values.ravel()]
             outcomes = data["outcome"].values.ravel()
             grids = {name: data[name].values.ravel() for name in _GRIDS}
@@ -227,22 +230,20 @@ class Domain:
             provenance = json.loads(str(data["provenance"].values))
             axes = data["frequency"].values, data["amplitude"].values
             model, wall = str(data.attrs["model"]), float(data.attrs["wall_s"])
-        except (OSError, KeyError, ValueError) as error:
-            raise InputError(
-                f"{path} is no domain that can be read ({error}); give a domain.nc of this package."
-            ) from None
-        rows: list[dict | None] = [
-            None
-            if verdict == v.NOT_RUN
-            else {
-                "outcome": Outcome(int(outcome)).label,
-                "collapsed": Outcome(int(outcome)) is Outcome.COLLAPSED,
-                "decided": verdict in (v.STANDS, v.COLLAPSED),
-                **{name: _or_none(name, float(grid[i])) for name, grid in grids.items()},
-            }
-            for i, (verdict, outcome) in enumerate(zip(verdicts, outcomes))
-        ]
-        return cls(column, model, *axes, rows, wall, provenance)
+            rows: list[dict | None] = [
+                None
+                if verdict == v.NOT_RUN
+                else {
+                    "outcome": Outcome(int(outcome)).label,
+                    "collapsed": Outcome(int(outcome)) is Outcome.COLLAPSED,
+                    "decided": verdict in (v.STANDS, v.COLLAPSED),
+                    **{name: _or_none(name, float(grid[i])) for name, grid in grids.items()},
+                }
+                for i, (verdict, outcome) in enumerate(zip(verdicts, outcomes, strict=True))
+            ]
+            return cls(column, model, *axes, rows, wall, provenance)
+        except Exception as error:
+            raise store.unreadable(path, error) from None
 
 
 def collapse_domain(

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import store
 from ..atomic import replacing
 from ..column import Column
 from ..column.imperfections import Imperfection
@@ -253,11 +254,10 @@ class CollapseProbability:
         target = Path(path)
         if target.suffix not in (".nc", ".csv"):
             raise InputError(f"{target} ends in {target.suffix!r}; it is saved as .nc (netCDF) or .csv (table).")
+        if target.suffix == ".nc":
+            return store.write(self.to_xarray(), "probability", target)
         with replacing(target) as partial:
-            if target.suffix == ".nc":
-                self.to_xarray().to_netcdf(partial, engine="h5netcdf")
-            else:
-                self.table.to_csv(partial, index=False)
+            self.table.to_csv(partial, index=False)
         return target
 
     @classmethod
@@ -269,13 +269,10 @@ class CollapseProbability:
         InputError
             The file cannot be read, or holds something else.
         """
-        import xarray
-
         from ..column.files import column_from_dict
 
+        data = store.read(path, "probability")
         try:
-            with xarray.open_dataset(path, engine="h5netcdf") as data:
-                data.load()
             provenance = json.loads(str(data["provenance"].values))
             return cls(
                 column_from_dict(json.loads(str(data["column"].values))),
@@ -290,10 +287,8 @@ class CollapseProbability:
                 float(data.attrs["wall_s"]),
                 provenance,
             )
-        except (OSError, KeyError, TypeError, ValueError) as error:
-            raise InputError(
-                f"{path} holds no probability of collapse that can be read ({error}); give a probability.nc of this package."
-            ) from None
+        except Exception as error:
+            raise store.unreadable(path, error) from None
 
     @property
     def _trials(self) -> np.ndarray:

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import store
 from ..analysis import verdicts as v
 from ..analysis.domain import Domain, collapse_domain
 from ..analysis.probability import CollapseProbability
@@ -79,8 +80,7 @@ def histories_piece(
     place = data / f"{slug('histories', name, label)}.nc"
     if is_ready(place):
         discard(place.with_suffix(".sqlite"))
-        with xarray.open_dataset(place, engine="h5netcdf") as found:
-            return found.load()
+        return store.read(place, "study histories")
     column, model = preset(name), c.MODELS[label]
     end = c.DURATION + tail
     time = np.linspace(0.0, end, 1 + round(50 * end))
@@ -137,8 +137,7 @@ def histories_piece(
     note = "displacements of base and top relative to the ground, and of the ground"
     attributes = {"column": name, "model": label, "version": __version__, "note": note, "duration_s": c.DURATION}
     data_set = xarray.Dataset(variables, coordinates, attributes)
-    with replacing(place) as partial:
-        data_set.to_netcdf(partial, engine="h5netcdf")
+    store.write(data_set, "study histories", place)
     discard(ledger)
     return data_set
 

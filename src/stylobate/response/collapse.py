@@ -83,4 +83,4 @@ def in_plane(time: float, joint: int, side: float, *, slid_off: bool = False) ->
         Positive: to the right.
     slid_off : bool
     """
-    return Collapse(time, joint, SLID_OFF if slid_off else OVERTURNED, 0.0 if side > 0 else math.pi)
+    return Collapse(float(time), int(joint), SLID_OFF if slid_off else OVERTURNED, 0.0 if side > 0 else math.pi)
