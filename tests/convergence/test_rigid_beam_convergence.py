@@ -9,8 +9,8 @@ from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
 
-#: So soft and tough that the joints stay closed: linear vibration.
-JOINT = Joint(normal_stiffness=1e8, shear_stiffness=5e7)
+#: So soft that the joints stay closed, so rough that nothing slides: linear vibration.
+JOINT = Joint(normal_stiffness=1e8, shear_stiffness=5e7, friction_coefficient=1.0)
 COLUMN = Column.tapered(height=2.0, bottom_width=1.5, top_width=1.2, drums=3, density=2000.0, joint=JOINT)
 
 
