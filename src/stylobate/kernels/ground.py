@@ -1,4 +1,9 @@
-"""Ground acceleration for a block of lanes: sample arrays are shared by address, each lane has its own factor.
+"""Ground acceleration at any time: the one place where a record is sampled, for all kernels and for Python.
+
+A record is linear between its samples and zero after the last one. At the last sample itself it has two values: that
+sample just before, zero just after. ``side`` says which is meant: ``BEFORE`` for a step that ends there, ``AFTER`` for one
+that begins there, ``MEAN`` for a scheme whose step goes from half a step before to half a step after (central
+differences); the mean keeps the impulse of the record.
 
 A sample array is passed as the address of its first value, so that ten thousand runs of one record hold one array.
 Whoever passes an address keeps the array alive.
@@ -7,7 +12,13 @@ Whoever passes an address keeps the array alive.
 from numba import types
 from numba.extending import intrinsic
 
-from .jit import apart, law
+from .jit import apart, law, strict
+
+#: Which of the two values at the end of a record is meant.
+BEFORE, MEAN, AFTER = -1, 0, 1
+
+#: A position this close to the last sample is at it [samples].
+CLOSE = 1e-9
 
 
 @intrinsic
@@ -22,18 +33,30 @@ def load(typingctx, address, index):
 
 
 @law
-def sample(address, last, position):
-    """Linear between the samples 0 … ``last``, zero after the last one.
-
-    A step that ends with the motion sees the last sample, the step that starts there sees zero: both are given half
-    of it, which keeps the impulse.
-    """
+def sample(address, last, position, side=MEAN):
+    """Value at a position, in samples from the first one, of the record whose samples 0 … ``last`` start at ``address``."""
     i = min(int(position), last - 1)
     left, right = load(address, i), load(address, i + 1)
     value = left + (right - left) * (position - i)
-    if position > last - 1e-9:
-        value = 0.5 * right if position < last + 1e-9 else 0.0
+    if position > last - CLOSE:
+        if position >= last + CLOSE or side == AFTER:
+            value = 0.0
+        elif side == MEAN:
+            value = 0.5 * right
     return value
+
+
+@strict
+def sample_all(address, last, positions, side, out):
+    """Values at many positions; from Python, see ``models/shared/ground.py``."""
+    for k in range(len(positions)):
+        out[k] = sample(address, last, positions[k], side)
+
+
+@strict
+def sample_one(address, last, position, side):
+    """Value at one position; from Python, see ``models/shared/ground.py``."""
+    return sample(address, last, position, side)
 
 
 @apart
@@ -57,16 +80,14 @@ def fill_ground(out, rows, addresses, lasts, factors, starts, ratios, offset):
     offset : float
         Added to every value (1 where weights are scaled by 1 + a_v/g).
 
-    Rows that end a motion hold its last sample, rows that start where it has ended hold zero: motions end where a row does.
+    Motions end where the rows of a call do: the last row there ends a step, the first one begins one.
     """
     lanes = len(addresses)
     for r in range(rows):
+        side = BEFORE if r > 0 else AFTER
         row = out[r * lanes : (r + 1) * lanes]
         for l in range(lanes):
             value = offset
-            position = (starts[l] + r) * ratios[l]
-            if addresses[l] != 0 and position < lasts[l] + (1e-9 if r > 0 else -1e-9):
-                i = min(int(position), lasts[l] - 1)
-                left, right = load(addresses[l], i), load(addresses[l], i + 1)
-                value += factors[l] * (left + (right - left) * (position - i))
+            if addresses[l] != 0:
+                value += factors[l] * sample(addresses[l], lasts[l], (starts[l] + r) * ratios[l], side)
             row[l] = value

@@ -71,12 +71,11 @@ def bed_forces(body, corner, joint, now, pairs, link, law, memory, real, whole):
         vn = ux * nx + uz * nz
         vt = ux * nz - uz * nx
         fn = kn * area
-        # closing (vn < 0) stiffer, opening softer; and the dashpots of the joints
-        dn = max(fn * o.eta * min(max(-vn / o.calm, -1.0), 1.0) - o.beta * kn * chord * vn, -fn)
+        dn = ct.normal_dashpot(fn, o.beta * kn * chord, vn, ct.restitution_share(o.eta, o.calm, vn))
         limit = law[i, h, 2] * (fn + dn)
         old = memory[i, h, 0]
         fs = ct.shear_force(old, ks, vt * dt, limit)
-        ds = min(max(-o.beta * ks * vt, -limit - fs), limit - fs)
+        ds = ct.shear_dashpot(fs, o.beta * ks, vt, limit)
         o.shear -= 0.5 * (old + fs) * vt * dt
         o.visc -= 0.5 * ((dn + memory[i, h, 1]) * vn + (ds + memory[i, h, 2]) * vt) * dt
         memory[i, h, 0] = fs

@@ -80,42 +80,27 @@ def joint_forces(body, joint, now):
         visc = 0.0
         for p in range(points):
             share = o.sh[p]
-            if p == 0:
-                at_s, at_q, gap, ns, nq = ct.left_contact(left_s, left_q, c, s, e.wl)
-            elif p == points - 1:
-                at_s, at_q, gap, ns, nq = ct.right_contact(right_s, right_q, c, s, e.wr)
-            else:
-                at_s, at_q, gap, ns, nq = ct.inner_contact(o.xi[p], lo, hi, left_s, left_q, c, s)
+            at_s, at_q, gap, ns, nq = ct.contact_point(
+                p, points, o.xi[p], lo, hi, left_s, left_q, right_s, right_q, c, s, e.wl, e.wr
+            )
             vt, vn = ct.contact_velocity(at_s, at_q, ns, nq, ps, pq, ht, vs, vq, wu, wl)
-            ka = kn * share
-            ksa = ks * share
             old = e.fs[p]
-            fn = ct.normal_force(ka, gap)
-            cohesion = co * share if fn > 0.0 else 0.0
+            give = ct.restitution_share(o.dull, o.calm, vn)
+            fn, fs, dn, ds = ct.point_forces(
+                old, gap, vn, vt, dt, kn * share, ks * share, mu, co * share, beta, give, damped
+            )
             if damped:
-                dn = fn * o.dull * min(max(-vn / o.calm, -1.0), 1.0) - beta * ka * vn
-                dn = max(dn, -fn) if fn > 0.0 else 0.0
-                limit = mu * (fn + dn) + cohesion
-                fs = ct.shear_force(old, ksa, vt * dt, limit)
-                ds = min(max(-beta * ksa * vt, -limit - fs), limit - fs)
                 visc -= 0.5 * dt * ((dn + e.dn[p]) * vn + (ds + e.ds[p]) * vt)
                 e.dn[p] = dn
                 e.ds[p] = ds
-                fn_all = fn + dn
-                fs_all = fs + ds
-            else:
-                fs = ct.shear_force(old, ksa, vt * dt, mu * fn + cohesion)
-                fn_all = fn
-                fs_all = fs
             e.fs[p] = fs
             e.fn[p] = fn
             shear -= 0.5 * (old + fs) * vt * dt
-            fa = fn_all * ns + fs_all * nq
-            fb = fn_all * nq - fs_all * ns
+            fa, fb, about_upper, about_lower = ct.point_load(fn + dn, fs + ds, ns, nq, at_s, at_q, ps, pq, ht)
             sum_s += fa
             sum_q += fb
-            upper += (at_s - ps) * fb - (at_q - pq) * fa
-            lower += at_s * fb - (at_q + ht) * fa
+            upper += about_upper
+            lower += about_lower
         if weight < 1.0:
             sum_s *= weight
             sum_q *= weight

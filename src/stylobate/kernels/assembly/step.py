@@ -41,8 +41,9 @@ import math
 import numpy as np
 
 from ..drums import contact as ct
-from ..drums import lanes as lanes
-from ..ground import sample
+from ..drums import lanes
+from ..drums.body import damped_velocity
+from ..ground import MEAN, sample
 from ..jit import kernel, strict
 from . import narrow_phase as near
 from .bed import bed_forces, place
@@ -104,16 +105,9 @@ def move(body, now, gx, gz, gx1, gz1, dt):
         aw = u.mo * u.ii
         m = u.m
         if damped:
-            local = o.local
-            ax -= local * abs(ax) * np.sign(vx)
-            az -= local * abs(az) * np.sign(vz)
-            aw -= local * abs(aw) * np.sign(w)
-            nx = (vx * (1.0 - half) + ax * kick) / (1.0 + half)
-            nz = (vz * (1.0 - half) + az * kick) / (1.0 + half)
-            nw = (w * (1.0 - half) + aw * kick) / (1.0 + half)
-            mx = 0.5 * (vx + nx)
-            mz = 0.5 * (vz + nz)
-            mw = 0.5 * (w + nw)
+            nx, mx = damped_velocity(vx, ax, kick, half, o.local)
+            nz, mz = damped_velocity(vz, az, kick, half, o.local)
+            nw, mw = damped_velocity(w, aw, kick, half, o.local)
             o.visc += o.alpha * kick * (m * (mx * mx + mz * mz) + u.i * mw * mw)
         else:
             nx = vx + ax * kick
@@ -251,8 +245,8 @@ def advance(
     for _ in range(chunks):
         for k in range(CHUNK + 1):
             at = (o.step + k) * ratio
-            ax = factor * sample(motion[0], motion[2], at) if motion[0] != 0 else 0.0
-            az = factor * sample(motion[1], motion[2], at) if motion[1] != 0 else 0.0
+            ax = factor * sample(motion[0], motion[2], at, MEAN) if motion[0] != 0 else 0.0
+            az = factor * sample(motion[1], motion[2], at, MEAN) if motion[1] != 0 else 0.0
             ground[k, 0], ground[k, 1] = lanes.along_base(ax, az, o.bc, o.bs)
         for k in range(CHUNK):
             parts = o.finer if o.loose > 0 or o.dull > 0.0 else 1

@@ -41,7 +41,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
 
 import numpy as np
 
-from ..ground import sample
+from ..ground import MEAN, sample
 from ..jit import apart, kernel, law, strict
 from . import contact as ct
 
@@ -112,8 +112,8 @@ def fill_ground(ground, feed, watch):
             g = ground[k]
             if running:
                 place = (f.step[l] + k) * f.ratio[l]
-                ax = f.factor[l] * sample(f.x[l], f.last[l], place)
-                az = f.factor[l] * sample(f.z[l], f.last[l], place) if f.z[l] != 0 else 0.0
+                ax = f.factor[l] * sample(f.x[l], f.last[l], place, MEAN)
+                az = f.factor[l] * sample(f.z[l], f.last[l], place, MEAN) if f.z[l] != 0 else 0.0
                 g.ax[l], g.az[l] = along_base(ax, az, f.bc[l], f.bs[l])
             else:
                 g.ax[l] = 0.0

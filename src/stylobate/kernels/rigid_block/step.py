@@ -1,7 +1,7 @@
 """Rigid block dynamics over lanes: the drums of the plane distinct elements, each joint as one N–V–M interface.
 
 Drums, ground, ends and collapses are those of ``drums/lanes.py`` (see there for the records ``drum``, ``lane``, ``ground``,
-``feed`` and ``watch``), steps those of ``dem2d/step.py``; only what a joint does is different::
+``feed`` and ``watch``), their motion that of ``drums/body.py``; only what a joint does is different::
 
     joint[j]   kn km ks       k_n A [N/m], k_n J [N m], k_s A [N/m]
                co mu          cohesion × area [N], tan φ
@@ -17,9 +17,9 @@ Drums, ground, ends and collapses are those of ``drums/lanes.py`` (see there for
 
 import numpy as np
 
-from ..dem2d.step import move
 from ..drums import contact as ct
-from ..drums import lanes as lanes
+from ..drums import lanes
+from ..drums.body import kinetic_and_gravitational, move
 from ..drums.lanes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING, joint_state
 from ..jit import apart, kernel, strict
 from .interface_law import compression, compression_with_strength, shear
@@ -118,9 +118,9 @@ def forces(drum, joint, lane):
                 vs = cl * dvx + sl * dvz
                 vq = cl * dvz - sl * dvx
                 vt, vn = ct.contact_velocity(at_s, at_q, 0.0, 1.0, ps, pq, ht, vs, vq, u.w[l], v.w[l])
-                dn = max(-o.beta[l] / soft * vn, -n) if n > 0.0 else 0.0
+                dn = ct.normal_dashpot(n, o.beta[l] / soft, vn, 0.0)
                 limit = e.mu[l] * (n + dn) + (e.co[l] if n > 0.0 else 0.0)
-                ds = min(max(fs + o.beta[l] * ks * vt, -limit), limit) - fs
+                ds = ct.shear_dashpot(fs, -o.beta[l] * ks, vt, limit)  # forces on the part below, hence the sign
                 o.visc[l] += 0.5 * o.dt[l] * ((ds + e.ds[0, l]) * vt - (dn + e.dn[0, l]) * vn)
                 e.dn[0, l] = dn
                 e.ds[0, l] = ds
@@ -140,20 +140,11 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
     ``dt`` is the step of the lane (its own is 0 once it stands still), ``k`` the row of ``ground`` that holds t_n.
     """
     o = lane[0]
-    g = ground[k]
-    kinetic = 0.0
-    height = 0.0
+    kinetic, height = kinetic_and_gravitational(drum, joint, lane, ground, k, dt, l)
     elastic = 0.0
     stored = 0.0
     for j in range(drum.shape[0] - 1):
-        u = drum[j + 1]
         e = joint[j]
-        a = joint[j + 1]
-        vx = u.vx[l] + 0.5 * dt * ((e.fx[l] - a.fx[l]) * u.im[l] - g.ax[l] - o.gx[l])
-        vz = u.vz[l] + 0.5 * dt * ((e.fz[l] - a.fz[l]) * u.im[l] - g.az[l] - o.g[l])
-        w = u.w[l] + 0.5 * dt * (e.mu_[l] - a.ml[l]) * u.ii[l]
-        kinetic += 0.5 * (u.m[l] * (vx * vx + vz * vz) + u.i[l] * w * w)
-        height += u.m[l] * (o.g[l] * u.z[l] + o.gx[l] * u.x[l])
         if e.kn[l] > 0.0:
             elastic += e.el[l]
             stored += 0.5 * e.fs[l] ** 2 / e.ks[l]
