@@ -20,7 +20,7 @@ response = st.simulate(column, motion, st.DistinctElement2D(), until_rest=True)
 # The mechanism in words, and the energy that the ledger misses, of all that the fall released.
 
 print(response.mechanism.describe())
-missed = response.provenance["imbalance_of_released_energy"]
+missed = response.energy_imbalance
 print(f"energy not accounted for: {100 * missed:.2f} % of the released")
 
 # %%

@@ -105,7 +105,6 @@ def simulate_assembly(
     InputError
         The input cannot be used, or the model is for columns only.
     """
-    from .models.assembly.run import run_assembly
     from .models.dem2d.model import DistinctElement2D
 
     model = DistinctElement2D() if model is None else model
@@ -115,7 +114,7 @@ def simulate_assembly(
         )
     options = _options(tail, output_interval, True, until_rest)
     started = time.perf_counter()
-    response = run_assembly(assembly, model.taken(motion), model, options)
+    response = model.run_assembly(assembly, model.taken(motion), options)
     wall = time.perf_counter() - started
     provenance = {"assembly_digest": assembly.digest} | _provenance(model, motion, options, bed=True)
     return response.with_provenance(provenance, wall)

@@ -169,17 +169,16 @@ def test_absurd_numbers_of_steps_are_refused_with_the_estimate():
     "model", [st.DistinctElement2D(points=32), st.RigidBeam(), st.RigidBlock()], ids=lambda m: m.name
 )
 def test_compiled_calls_are_short_however_long_the_run(model):
-    from stylobate.models.drums.block import DrumBlock
     from stylobate.models.rigid_beam.lanes import BeamLanes, loop_for
     from stylobate.simulate import RunOptions
 
     stone, motion = column(60, st.Joint(1e12, 1e12)), st.harmonic(1.0, 1.0, 100.0)
     case = Case(stone, motion)
     if isinstance(model, st.RigidBeam):
-        block = BeamLanes(model, loop_for(model, case), RunOptions())
+        block = BeamLanes(model.pack, loop_for(model.pack(stone), motion), RunOptions())
         chunk = block.loop.steps
     else:
-        block = DrumBlock(model, stone.n, RunOptions())
+        block = model.make_block(stone.n, RunOptions())
         chunk = block.chunk
     calls = []
     block.load(0, case)

@@ -69,7 +69,7 @@ def test_no_jump_where_a_joint_hands_over(path):
     assembly = Assembly(blocks, SMOOTH, ground=None)
     jumps, weights = [], None
     for steps in (4_000, 8_000, 16_000):
-        engine = Engine(assembly, DistinctElement2D(), STILL, 1.0)
+        engine = Engine(assembly, DistinctElement2D().contacts, STILL, 1.0)
         assert len(engine.joint) == 1
         force = forces_along(engine, path(steps))
         weights = engine.joint["weight"][0]
@@ -85,7 +85,7 @@ def test_no_jump_on_a_slow_path_over_an_edge():
     for steps in (8_000, 16_000, 32_000):
         blocks = (box(-1.0, 0.0, -1.0, 0.0, "edge", fixed=True), box(2.0, 3.0, 2.0, 3.0, "block"))
         with pytest.warns(UserWarning, match="will fall"):
-            engine = Engine(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D(), STILL, 1.0)
+            engine = Engine(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
         turn = np.linspace(0.0, 0.5 * math.pi, steps)
         radius = 0.5 * math.sqrt(2.0)
         # round the corner (0, 0), pressed in by 0.5 mm, turning on the way
@@ -126,7 +126,8 @@ def test_the_engine_has_the_joints_of_the_lanes(column):
     motion = harmonic(1.0, 0.15 * g, 2.0)
     model = DistinctElement2D(start="settle")
     lanes = simulate(column, motion, model)
-    run = _ColumnRun(column, motion, model, RunOptions(), ())
+    options = RunOptions()
+    run = _ColumnRun(column, motion, model.followed(column, options), options, ())
     run.loose = True
     start = run.engine.body["x"].copy()
     run.advance(run.engine.chunks)
@@ -150,7 +151,8 @@ def test_a_column_on_a_narrow_step_falls_past_its_edge():
     column = Column.tapered(height=2.0, bottom_width=0.4, top_width=0.4, drums=2, density=2000.0, joint=joint)
     motion = harmonic(0.8, 0.5 * g, 2.0)
     options = RunOptions(until_rest=True, output_interval=0.02)
-    response = follow(column, motion, DistinctElement2D(mass_damping=0.1), options, steps=((0.8, 0.5),))
+    numbers = DistinctElement2D(mass_damping=0.1).followed(column, options)
+    response = follow(column, motion, numbers, options, steps=((0.8, 0.5),))
     assert response.collapsed
     heights = column.centroid_heights + response.drum_z[-1]
     assert heights.min() < -0.2  # below the top of the step

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from oracles.adaptive_beam import run_adaptive, run_as
 
 from stylobate.column import Column, Joint, preset
 from stylobate.constants import g
@@ -52,7 +53,7 @@ def test_same_bits_for_any_order_and_number_of_threads(model):
 @pytest.mark.parametrize("vertical", [False, True])
 def test_a_failed_run_leaves_nothing_behind_in_its_lane(model, vertical):
     case = Case(stack(2), shaken(0.25 * g, vertical))
-    block = BeamLanes(model, loop_for(model, case), RunOptions())
+    block = BeamLanes(model.pack, loop_for(model.pack(case.column), case.motion), RunOptions())
 
     def run(lane: int) -> Measures:
         while not block.is_over(lane):
@@ -90,7 +91,7 @@ def test_fixed_step_agrees_with_the_adaptive_one(model, vertical):
     motion = shaken(0.24 * g, vertical)
     step = 5e-4 if model.sliding else 1e-4
     fixed, adaptive = (
-        simulate(column, motion, RigidBeam(**(model.parameters() | {"solver": solver, "time_step": step})))
+        run_as(solver, column, motion, RigidBeam(**(model.parameters() | {"time_step": step})))
         for solver in ("fixed", "adaptive")
     )
     assert fixed.outcome == adaptive.outcome
@@ -111,24 +112,26 @@ def test_both_solvers_count_the_same_collapses():
         return sum(m.collapsed for _, m in simulate_iter(cases, model, threads=1))
 
     fixed = [count(), count(time_step=5e-4), count(time_step=2.5e-4)]
-    model = RigidBeam(solver="adaptive")
-    adaptive = sum(simulate(column, motion, model, output_interval=0.1).collapsed for motion in motions)
+    adaptive = sum(run_adaptive(column, motion, RigidBeam(), output_interval=0.1).collapsed for motion in motions)
     assert 0 < min(fixed) <= max(fixed) < len(motions)
     spread = max(1, max(fixed) - min(fixed))
     assert abs(adaptive - fixed[0]) <= spread
 
 
-@pytest.mark.parametrize("model", [RigidBeam(), RigidBeam(sliding=True), RigidBeam.paper(solver="adaptive")])
-def test_the_tail_changes_nothing_before_it(model):
+@pytest.mark.parametrize(
+    ("solver", "model"),
+    [("fixed", RigidBeam()), ("fixed", RigidBeam(sliding=True)), ("adaptive", RigidBeam.paper())],
+)
+def test_the_tail_changes_nothing_before_it(solver, model):
     motion = shaken(0.3 * g, vertical=True)
     cut = motion.replace(
         acceleration=motion.samples[:380], vertical=motion.z_samples[:380]
     )  # ends at 0.76 s in full swing
-    short, long = (simulate(stack(2), cut, model, tail=tail, output_interval=0.02) for tail in (0.0, 0.5))
+    short, long = (run_as(solver, stack(2), cut, model, tail=tail, output_interval=0.02) for tail in (0.0, 0.5))
     n = len(short.time) - 1
     assert np.allclose(short.time[:n], long.time[:n], rtol=1e-12, atol=0.0)
     assert np.abs(short.drum_rotation[:n]).max() > 1e-3
-    if model.solver == "fixed":
+    if solver == "fixed":
         assert np.array_equal(short.time, long.time[: n + 1])
         assert np.array_equal(short.drum_rotation, long.drum_rotation[: n + 1])
         assert np.array_equal(short.energy["kinetic"], long.energy["kinetic"][: n + 1])
@@ -144,8 +147,7 @@ def test_a_motion_counts_up_to_its_last_sample(solver):
     column = Column.tapered(height=1.0, bottom_width=3.0, top_width=3.0, drums=1, density=2000.0, joint=joint)
     push, length = 0.3 * g, 0.005
     motion = Motion(length, np.ones(2), factor=push)
-    model = RigidBeam(sliding=True, solver=solver)
-    response = simulate(column, motion, model, output_interval=length)
+    response = run_as(solver, column, motion, RigidBeam(sliding=True), output_interval=length)
     speed = (push - 0.01 * g) * length
     assert response.energy["kinetic"][-1] == pytest.approx(0.5 * column.mass * speed**2, rel=2e-3)
 

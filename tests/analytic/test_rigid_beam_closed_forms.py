@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 import pytest
+from oracles.adaptive_beam import run_as
 from scipy.integrate import quad
 from validation import overturning
 
@@ -107,8 +108,9 @@ def test_stiff_beam_of_one_drum_rocks_as_the_linearised_block(second_order):
     column, model, p, alpha = stiff_block(second_order)
     start = 0.6 * alpha
     quarter = math.acosh(1.0 / 0.4) / p
-    model = RigidBeam(moment_law="bilinear", second_order=second_order, initial_rotation=start, solver="adaptive")
-    response = simulate(column, Motion(0.01, np.zeros(1 + round(1.5 * quarter / 0.01))), model, output_interval=1e-3)
+    model = RigidBeam(moment_law="bilinear", second_order=second_order, initial_rotation=start)
+    motion = Motion(0.01, np.zeros(1 + round(1.5 * quarter / 0.01)))
+    response = run_as("adaptive", column, motion, model, output_interval=1e-3)
     rotation, time = response.drum_rotation[:, 0], response.time
     before = time < 0.98 * quarter
     exact = alpha - (alpha - start) * np.cosh(p * time)
@@ -158,8 +160,7 @@ def test_newmark_slide(solver):
     joint = Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_coefficient=friction)
     column = Column.of_drums([Drum(1.0, 3.0, 3.0, 2000.0)], joint)
     motion = Motion(length / 300, np.ones(301), factor=pulse)
-    model = RigidBeam(sliding=True, solver=solver)
-    response = simulate(column, motion, model, tail=0.55)
+    response = run_as(solver, column, motion, RigidBeam(sliding=True), tail=0.55)
     slip = 0.5 * (pulse - friction * g) * length**2 * pulse / (friction * g)
     assert response.joint_slip[-1, 0] == pytest.approx(-slip, rel=2e-3)
     assert str(response.outcome) == "displaced"

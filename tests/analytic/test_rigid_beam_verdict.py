@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from oracles.adaptive_beam import run_as
 
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.models.rigid_beam.state import packed
 from stylobate.models.rigid_beam.verdict import room
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
@@ -42,7 +42,7 @@ def test_room_on_the_contacts_of_slid_drums():
 def test_lowest_barrier_of_rigid_drums():
     # One body of weight N, half width b, centroid at H: ½ N b²/H with small rotations. Joint 4 carries one drum.
     weight, half, height = 2000.0 * g, 0.5, 0.5
-    passes = packed(RigidBeam(moment_law="bilinear", sliding=True), prism(4)).passes
+    passes = RigidBeam(moment_law="bilinear", sliding=True).pack(prism(4)).passes
     whole, top = 0.5 * 4.0 * weight * half**2 / 2.0, 0.5 * weight * half**2 / height
     assert passes.lowest(np.zeros(4)) == pytest.approx(min(whole, top), rel=1e-4)
     slip = np.array([3.0, 0.0, 0.0, 0.2])
@@ -51,15 +51,16 @@ def test_lowest_barrier_of_rigid_drums():
     assert passes.lowest(slip) == pytest.approx(near, rel=1e-4)
     assert passes.lowest(np.array([0.0, 0.0, 0.0, 0.6])) == -np.inf
     # A loose joint slides down its tilted face before the balance point: N (b μ − H μ²/2) for every part that holds it.
-    loose = packed(
-        RigidBeam(moment_law="bilinear", sliding=True),
-        prism(4, overrides={4: Joint(1e14, 5e13, friction_coefficient=0.1)}),
-    ).passes
+    loose = (
+        RigidBeam(moment_law="bilinear", sliding=True)
+        .pack(
+            prism(4, overrides={4: Joint(1e14, 5e13, friction_coefficient=0.1)}),
+        )
+        .passes
+    )
     expected = weight * min(k * (half * 0.1 - 0.5 * (0.5 * k) * 0.1**2) for k in (1.0, 2.0, 3.0, 4.0))
     assert loose.lowest(np.zeros(4)) == pytest.approx(expected, rel=1e-2)
-    alone = packed(
-        RigidBeam(moment_law="bilinear", sliding=True), prism(1, Joint(1e14, 5e13, friction_coefficient=0.1))
-    )
+    alone = RigidBeam(moment_law="bilinear", sliding=True).pack(prism(1, Joint(1e14, 5e13, friction_coefficient=0.1)))
     assert alone.passes.lowest(np.array([2.0])) == pytest.approx(whole, rel=1e-4)
 
 
@@ -70,12 +71,12 @@ def test_no_way_over_two_joints_is_lower_than_the_barrier(law, stiffness):
     column = Column.tapered(
         height=5.0, bottom_width=0.96, top_width=0.66, drums=2, density=1600.0, joint=Joint(stiffness, 0.5 * stiffness)
     )
-    passes = packed(RigidBeam(moment_law=law), column).passes
+    passes = RigidBeam(moment_law=law).pack(column).passes
     weight = passes.gravity[0]
     lowest = []
     for joint in (0, 1):
         turned = np.linspace(0.3, 1.0, 400)[:, None] * passes.angles[-1, joint]
-        gives = np.linspace(0.0, 40.0, 2001)[None, :] * passes.model.opening_rotations(column)[1 - joint]
+        gives = np.linspace(0.0, 40.0, 2001)[None, :] * passes.opening[1 - joint]
         phi = np.stack(np.broadcast_arrays(*((turned, gives) if joint == 0 else (gives, turned))), axis=-1)
         energy = moment_law.stored(phi, passes.joints[:, None, None, :], passes.bed).sum(axis=-1)
         energy -= 0.5 * np.cumsum(phi, axis=-1) ** 2 @ weight
@@ -90,15 +91,15 @@ def test_no_way_over_two_joints_is_lower_than_the_barrier(law, stiffness):
 def test_a_soft_block_let_go_beyond_its_summit_falls(second_order, solver):
     # The bed without tension gives way: its balance point lies before b/H, and from there on the block falls by itself.
     column = Column.tapered(height=5.0, bottom_width=0.96, top_width=0.66, drums=1, density=1600.0, joint=SOFT)
-    passes = packed(RigidBeam(second_order=second_order), column).passes
+    passes = RigidBeam(second_order=second_order).pack(column).passes
     summit = float(passes.angles[passes.heights[:, 0].argmax(), 0])
     assert summit < 0.98 * passes.angles[-1, 0]
     for share, falls in ((0.98, False), (1.01, True)):
-        model = RigidBeam(second_order=second_order, solver=solver, initial_rotation=share * summit)
-        found = simulate(column, ZERO, model)
+        model = RigidBeam(second_order=second_order, initial_rotation=share * summit)
+        found = run_as(solver, column, ZERO, model)
         assert (found.outcome is Outcome.COLLAPSED) == falls
         assert found.decided
-        assert (simulate(column, ZERO, model, tail=4.0).outcome is Outcome.COLLAPSED) == falls
+        assert (run_as(solver, column, ZERO, model, tail=4.0).outcome is Outcome.COLLAPSED) == falls
 
 
 def test_a_column_that_slid_on_its_base_stands():

@@ -8,7 +8,7 @@ import pytest
 from stylobate.column import Column, Joint, preset
 from stylobate.constants import g
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.models.rigid_beam.state import measures_of, packed
+from stylobate.models.rigid_beam.state import measures_of
 from stylobate.motion import Motion, harmonic
 from stylobate.outcome import Outcome
 from stylobate.simulate import simulate, simulate_many
@@ -128,7 +128,7 @@ def test_energy_that_the_steps_make_overturns_nothing():
 
 
 def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
-    beam = packed(RigidBeam(), stack(3))
+    beam = RigidBeam().pack(stack(3))
     lowest = beam.passes.lowest_unslid
     zero = ("lost", "side", "time", "top", "residual", "turn", "opening", "work", "given", "start")
     facts = dict.fromkeys(zero, 0.0) | {"end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}

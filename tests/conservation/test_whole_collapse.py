@@ -74,7 +74,7 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     overlap is a triangle, at most 2 F/(k L) deep, with L the width of that overlap.
     """
     make, motion = CASES[name]
-    engine = Engine(make(), DistinctElement2D(), motion, motion.duration, RESTITUTION_TO_REST)
+    engine = Engine(make(), DistinctElement2D().contacts, motion, motion.duration, RESTITUTION_TO_REST)
     engine.start(0.4 * stable_step(engine))
     assert engine.settle()
     _, rests = follow(engine, RunOptions(until_rest=True, output_interval=0.05))

@@ -6,7 +6,8 @@ from validation.convergence import refined_verdicts
 
 from stylobate.column import preset
 from stylobate.errors import InputError
-from stylobate.models.dem2d.model import DistinctElement2D, contact_points
+from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.drums.joints import contact_points
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
 
@@ -43,9 +44,8 @@ def test_largest_stable_step_is_sharp():
         DistinctElement2D(time_step=1.01 * stable).step_for(column)
     # the limit is taken away by hand: beyond it the same push grows without bound
     from stylobate.models.base import Case, RunOptions
-    from stylobate.models.drums.block import DrumBlock
 
-    block = DrumBlock(model, column.n, RunOptions())
+    block = model.make_block(column.n, RunOptions())
     block.load(0, Case(column, push))
     block.lane["dt"][0, 0] = block.dt[0] = 1.02 * stable
     block.drum["vx"][-1, 0] = 1e-9

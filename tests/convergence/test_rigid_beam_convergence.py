@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from oracles import adaptive_beam
 
 from stylobate.column import Column, Joint
-from stylobate.models.rigid_beam import adaptive as rigid_beam_adaptive
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.motion import Motion
 from stylobate.simulate import simulate
@@ -23,10 +23,9 @@ def test_adaptive_error_follows_its_tolerance(monkeypatch):
     still = Motion(0.32, np.zeros(2))
 
     def freed(tolerance):
-        monkeypatch.setattr(rigid_beam_adaptive, "RELATIVE_TOLERANCE", tolerance)
-        monkeypatch.setattr(rigid_beam_adaptive, "ABSOLUTE_TOLERANCE", tolerance * 1e-3)
-        model = RigidBeam(solver="adaptive", initial_rotation=1e-5)
-        return simulate(COLUMN, still, model, output_interval=0.01)
+        monkeypatch.setattr(adaptive_beam, "RELATIVE_TOLERANCE", tolerance)
+        monkeypatch.setattr(adaptive_beam, "ABSOLUTE_TOLERANCE", tolerance * 1e-3)
+        return adaptive_beam.run_adaptive(COLUMN, still, RigidBeam(initial_rotation=1e-5), output_interval=0.01)
 
     reference = freed(1e-12).top_displacement
     size = np.abs(reference).max()

@@ -230,7 +230,7 @@ def test_collapse(run):
     response = run("collapse")["response"]
     mechanism = response.mechanism
     assert response.collapsed
-    assert response.provenance["imbalance_of_released_energy"] < 0.01
+    assert response.energy_imbalance < 0.01
     assert mechanism.at_rest
     assert len(mechanism.fallen) >= 6
     assert run("collapse")["printed"].startswith(mechanism.describe())

@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from stylobate.kernels.dem2d import step as kernel
-from stylobate.models.dem2d.model import contact_points
+from stylobate.models.drums.joints import contact_points
 
 LANES = kernel.LANES
 KN, KS, MU, COHESION, DT = 3.0e10, 1.1e10, 0.6, 2.0e4, 1e-5

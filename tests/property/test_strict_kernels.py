@@ -18,7 +18,7 @@ from stylobate.kernels.drums import lanes as drum_lanes
 from stylobate.kernels.rigid_beam import step as rigid_beam
 from stylobate.kernels.rigid_block import step as rigid_block
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.models.rigid_beam.state import measures_of, packed
+from stylobate.models.rigid_beam.state import measures_of
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.outcome import Outcome
 
@@ -108,6 +108,7 @@ def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
         "work",
         "given",
         "unaccounted",
+        "released",
         "lost",
         "side",
         "time",
@@ -118,7 +119,7 @@ def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
     )
     facts = dict.fromkeys(zero, 0.0) | {"end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}
     facts |= {name: np.zeros(12) for name in ("theta", "omega", "slip")}
-    beam = packed(RigidBeam(sliding=True), column)
+    beam = RigidBeam(sliding=True).pack(column)
     assert measures_of(beam, facts).decided
     bad = np.where(np.arange(12) == 3, NAN, 0.0) if place in ("theta", "slip") else NAN
     measures = measures_of(beam, facts | {place: bad})

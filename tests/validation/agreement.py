@@ -4,6 +4,7 @@ import math
 from functools import cache
 
 import numpy as np
+from oracles.adaptive_beam import run_adaptive, run_as
 
 from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.pushover import pushover
@@ -133,10 +134,8 @@ def geometric_and_law():
         column = Column.of_drums([Drum(5.0, width, width, 1600.0)], joint)
         time = np.linspace(0.0, 2.0, 401)
         motion = Motion(time[1], np.sin(np.pi * time), factor=1.25 * g * width / 5.0)
-        models = [
-            RigidBeam(moment_law="bilinear", second_order=kind, solver="adaptive") for kind in ("geometric", "law")
-        ]
-        peaks = [simulate(column, motion, model).peak_rotation for model in models]
+        models = [RigidBeam(moment_law="bilinear", second_order=kind) for kind in ("geometric", "law")]
+        peaks = [run_adaptive(column, motion, model).peak_rotation for model in models]
         differences.append(abs(peaks[0] - peaks[1]) / peaks[0])
     assert differences[0] < 0.05
     return differences[1] / differences[0]
@@ -172,7 +171,7 @@ def fixed_and_adaptive():
     for settings in ({}, {"moment_law": "bilinear", "second_order": "law"}, {"sliding": True, "time_step": 5e-4}):
         column = soft_stack().with_joint(friction_coefficient=0.17) if "sliding" in settings else soft_stack()
         fixed, adaptive = (
-            simulate(column, shaken(0.24 * g), RigidBeam(**({"time_step": 1e-4} | settings), solver=solver))
+            run_as(solver, column, shaken(0.24 * g), RigidBeam(**({"time_step": 1e-4} | settings)))
             for solver in ("fixed", "adaptive")
         )
         found.append(fixed.peak_top_displacement / adaptive.peak_top_displacement - 1.0)

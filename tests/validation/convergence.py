@@ -12,9 +12,7 @@ from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Case as Run
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.drums.block import DrumBlock
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.models.rigid_beam.state import packed
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
@@ -142,14 +140,14 @@ def bed_column(section: str) -> Column:
 
 def bed_moment(column: Column, phi: float) -> float:
     """Moment of the elastic bed without tension [N m] (Eqs. R2 and R3)."""
-    beam, out = packed(RigidBeam(), column), np.empty(1)
+    beam, out = RigidBeam().pack(column), np.empty(1)
     moment_law.moments(np.array([phi]), 1.0, beam.joints, beam.bed, out)
     return float(out[0])
 
 
 def dem_moment(column: Column, points: int, phi: float) -> float:
     """Moment about the middle of the base of a drum turned by φ, lowered until it is pressed by its weight [N m]."""
-    block = DrumBlock(DistinctElement2D(points=points), 1, RunOptions())
+    block = DistinctElement2D(points=points).make_block(1, RunOptions())
     block.load(0, Run(column, Motion(0.1, np.zeros(2))))
     height, weight = column.centroid_height, float(column.joint_weights[0])
     drum = block.drum
@@ -181,7 +179,7 @@ def many_points_are_a_bed():
     worst = 0.0
     for section in ("rectangular", "circular"):
         column = bed_column(section)
-        opening = packed(RigidBeam(), column).opening[0]
+        opening = RigidBeam().pack(column).opening[0]
         for ratio in RATIOS:
             exact = bed_moment(column, ratio * opening)
             worst = max(worst, abs(dem_moment(column, 32, ratio * opening) / exact - 1.0))
@@ -197,7 +195,7 @@ def many_points_are_a_bed():
 )
 def stiffness_of_few_points():
     column = bed_column("rectangular")
-    phi = 0.05 * packed(RigidBeam(), column).opening[0]
+    phi = 0.05 * RigidBeam().pack(column).opening[0]
     return [dem_moment(column, points, phi) / (1e8 * column.joint_second_moments[0] * phi) for points in (2, 3)]
 
 

@@ -111,7 +111,7 @@ def elastic_bed() -> Figure:
     figure = Figure(figsize=(WIDTH, 3.4))
     axes = figure.subplots()
     column = convergence.bed_column("rectangular")
-    opening = convergence.packed(convergence.RigidBeam(), column).opening[0]
+    opening = convergence.RigidBeam().pack(column).opening[0]
     ultimate = column.joint_weights[0] * column.base_width / 2.0
     ratio = np.linspace(0.02, 8.0, 120)
     exact = [convergence.bed_moment(column, r * opening) / ultimate for r in ratio]

@@ -19,7 +19,6 @@ from ..constants import g
 from ..errors import StylobateError
 from ..models.base import Case, RunOptions
 from ..models.dem2d.model import DistinctElement2D
-from ..models.drums.block import DrumBlock
 from ..motion import Motion, harmonic
 from ..simulate import simulate, simulate_many, thread_count
 
@@ -113,7 +112,7 @@ def _kernel(model: DistinctElement2D) -> dict[str, Any]:
     with tempfile.TemporaryDirectory() as folder:
         program = native_reference("native_dem2d.cpp", folder)
         for round_ in range(ROUNDS + 1):
-            block = DrumBlock(model, column.n, RunOptions(until_end=True))
+            block = model.make_block(column.n, RunOptions(until_end=True))
             for lane in range(block.lanes):
                 block.load(lane, Case(column, motion))
             started = time.thread_time()

@@ -167,30 +167,6 @@ def _long(seconds: float) -> str:
     return f"{seconds / 60.0:.0f} minutes"
 
 
-def ground_histories(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Acceleration and displacement of the base along x, y and z, from rest [m/s²], [m], shape (T, 3)."""
-    found = np.zeros((2, len(time), 3))
-    for axis, values in enumerate((motion.acceleration, motion.lateral, motion.vertical)):
-        if values is not None:
-            found[:, :, axis] = ground_history(Motion(motion.dt, values), time)
-    return found[0], found[1]
-
-
-def ground_history(motion: Motion, time: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Acceleration and displacement of the base along x at given times, from rest [m/s²], [m], shape of ``time``.
-
-    Exact for an acceleration that is linear between samples; after the motion the base keeps its velocity.
-    """
-    a, dt = motion.acceleration, motion.dt
-    v = np.concatenate(([0.0], np.cumsum(0.5 * dt * (a[1:] + a[:-1]))))
-    u = np.concatenate(([0.0], np.cumsum(v[:-1] * dt + (2.0 * a[:-1] + a[1:]) * (dt * dt / 6.0))))
-    i = np.minimum((time / dt).astype(np.int64), len(a) - 1)
-    rest = time - i * dt
-    jerk = np.append(np.diff(a), 0.0)[i] / dt
-    start = np.where(i == len(a) - 1, np.where(rest > 1e-9 * dt, 0.0, a[-1]), a[i])
-    return start + jerk * rest, u[i] + v[i] * rest + 0.5 * start * rest**2 + jerk * rest**3 / 6.0
-
-
 #: What a value of ``--set`` must be, by pydantic's name of the mistake.
 _EXPECTED = {"bool_parsing": "true or false", "int_parsing": "a whole number", "int_from_float": "a whole number",
              "float_parsing": "a number"}  # fmt: skip

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,9 +12,13 @@ from ...column.assembly import Assembly, Block, smallest_turn
 from ...column.joint import Joint
 from ...errors import OutOfRangeWarning
 from ...motion import Motion
-from ..dem2d.model import DistinctElement2D, contact_points
 from ..drums.block import whole_steps
+from ..drums.joints import contact_points
+from ..shared.ground import along_base
 from ..shared.lanes import longest_piece
+from ..shared.settling import LOCAL_DAMPING, settled
+from ..shared.stable_step import highest_frequency
+from ..shared.stable_step import stable_step as stable
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
 CALM = 0.02
@@ -49,14 +53,29 @@ COST = 2e-7
 SKIN = 0.1
 
 
+class Contacts(NamedTuple):
+    """Numbers of the contacts of an assembly.
+
+    Parameters
+    ----------
+    points : int
+        Contact points of a joint.
+    stiffness_damping, mass_damping : float
+        [s], [1/s]
+    """
+
+    points: int
+    stiffness_damping: float
+    mass_damping: float
+
+
 class Engine:
     """An assembly in motion: the kernel's arrays, and the way into and out of them.
 
     Parameters
     ----------
     assembly : Assembly
-    model : DistinctElement2D
-        Contact points, damping and step.
+    contacts : Contacts
     motion : Motion
     duration : float
         For which the ground moves, and after [s]; the step divides it.
@@ -66,13 +85,13 @@ class Engine:
     """
 
     def __init__(
-        self, assembly: Assembly, model: DistinctElement2D, motion: Motion, duration: float, restitution: float = 1.0
+        self, assembly: Assembly, contacts: Contacts, motion: Motion, duration: float, restitution: float = 1.0
     ) -> None:
         from ...kernels.assembly import step as kernel
 
-        self.kernel, self.assembly, self.model, self.motion = kernel, assembly, model, motion
+        self.kernel, self.assembly, self.motion = kernel, assembly, motion
         bodies = assembly.bodies
-        types = kernel.types(model.points)
+        types = kernel.types(contacts.points)
         self.body = np.zeros(len(bodies), types[0])
         self.joint = np.zeros(len(assembly.joints), types[1])
         self.now = np.zeros(1, types[2])
@@ -83,14 +102,14 @@ class Engine:
         for j, (lower, upper, low_face, up_face, law) in enumerate(assembly.joints):
             self.link[lower, upper] = j
             _fill_joint(self.joint[j], bodies, self.body, lower, upper, low_face, up_face, law)
-        xi, share = contact_points("rectangular", model.points)
+        xi, share = contact_points("rectangular", contacts.points)
         now = self.now
         now["xi"], now["sh"] = xi, share
         now["bc"], now["g"], now["beta"], now["alpha"] = (
             1.0,
             assembly.gravity,
-            model.stiffness_damping,
-            model.mass_damping,
+            contacts.stiffness_damping,
+            contacts.mass_damping,
         )
         e = restitution
         now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
@@ -134,10 +153,7 @@ class Engine:
 
     def ground_acceleration(self, time: float) -> tuple[float, float]:
         """Acceleration of the base along and normal to it at a time [m/s²]."""
-        motion, now, place = self.motion, self.now[0], time / self.motion.dt
-        ax = _sample(motion.samples, place) * motion.factor
-        az = 0.0 if motion.z_samples is None else _sample(motion.z_samples, place) * motion.factor
-        return ax * now["bc"] + az * now["bs"], az * now["bc"] - ax * now["bs"]
+        return along_base(self.motion, time, float(self.now["bc"][0]), float(self.now["bs"][0]))
 
     def _push(self) -> None:
         """Velocities half a step before the start, of bodies that do not move yet, whatever accelerates them."""
@@ -163,7 +179,7 @@ class Engine:
     @property
     def cost(self) -> float:
         """About what a step costs on one core [s]."""
-        return COST * len(self.body) * self.model.points
+        return COST * len(self.body) * len(self.now["xi"][0])
 
     @property
     def time(self) -> float:
@@ -224,17 +240,13 @@ class Engine:
         """
         arrays: tuple[Any, ...] = (self.body, self.joint, self.now, self.memory)
         drawn = [array.copy() for array in arrays]
-        self.now["local"] = 0.8
+        self.now["local"] = LOCAL_DAMPING
         still = self.addresses
         self.addresses = np.zeros_like(still)
-        rests = False
-        for _ in range(SETTLE_STEPS // (100 * self.kernel.CHUNK)):
-            self.advance(100)
-            if self._farthest_from(drawn[0]) > AS_DRAWN or self.failed:
-                break
-            rests = self.residual_acceleration() < SETTLED
-            if rests:
-                break
+        rests = settled(
+            self.advance, self.residual_acceleration, SETTLED, SETTLE_STEPS // self.kernel.CHUNK,
+            lost=lambda: self._farthest_from(drawn[0]) > AS_DRAWN or self.failed,
+        )  # fmt: skip
         self.addresses = still
         self.now["local"] = 0.0
         for name in ("work", "shear", "visc", "step"):
@@ -303,8 +315,7 @@ def stable_step(engine: Engine) -> float:
                     arm = point - np.array([one["x"], one["z"]])
                     row[3 * number : 3 * number + 3] = sign * np.array([*along, arm[0] * along[1] - arm[1] * along[0]])
                 stiffness += k * (hi - lo) * share * np.outer(row, row)
-    root = np.sqrt(np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel())
-    omega = math.sqrt(max(float(np.linalg.eigvalsh(stiffness * np.outer(root, root))[-1]), 0.0))
+    omega = highest_frequency(stiffness, np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel())
     for i, block in enumerate(engine.assembly.bodies):
         b = body[i]
         if not block.fixed:
@@ -312,8 +323,7 @@ def stable_step(engine: Engine) -> float:
             side = np.roll(block.corners, -1, axis=0) - block.corners
             k = float(engine.law[:, :, 0].max()) * b["depth"] * float(np.hypot(side[:, 0], side[:, 1]).max())
             omega = max(omega, 0.4 * math.sqrt(4.0 * k * (b["im"] + b["ii"] * b["r"] ** 2 / 3.0)))
-    zeta = 0.5 * engine.model.stiffness_damping * omega
-    return 2.0 / omega * (math.sqrt(1.0 + zeta * zeta) - zeta)
+    return stable(omega, float(now["beta"]))
 
 
 def _fill_body(record: Any, block: Block, assembly: Assembly) -> np.ndarray:
@@ -376,12 +386,7 @@ def _bed_laws(assembly: Assembly) -> np.ndarray:
 
 
 def _no_column() -> tuple[np.ndarray, ...]:
-    from ...kernels.drums import lanes as lanes
+    from ...kernels.drums import lanes
 
     types = lanes.block_types(2, False)
     return tuple(np.zeros(0, types[k]) for k in (0, 1, 2, 4, 5))
-
-
-def _sample(values: np.ndarray, place: float) -> float:
-    i = min(int(place), len(values) - 2)
-    return float(values[i] + (values[i + 1] - values[i]) * (place - i)) if place <= len(values) - 1 else 0.0

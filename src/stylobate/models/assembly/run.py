@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,56 +13,73 @@ from ...errors import InputError, OutOfRangeWarning
 from ...motion import Motion
 from ...response import Response
 from ...response.assembly_measures import first_touch, response_of_blocks
-from ..base import RunOptions, ground_histories, refuse_endless, refuse_long_histories
-from ..dem2d.model import DistinctElement2D
-from ..drums.block import LARGEST_IMBALANCE
-from .engine import LONGEST_WAIT, RESTITUTION_TO_REST, Engine, stable_step
+from ..base import RunOptions, refuse_endless, refuse_long_histories
+from ..shared import ledger
+from ..shared.ground import ground_histories
+from ..shared.stable_step import chosen_step
+from .engine import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine, stable_step
 
 
-def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, options: RunOptions) -> Response:
+@dataclass(frozen=True)
+class AssemblyNumbers:
+    """What a run of an assembly is computed with.
+
+    Parameters
+    ----------
+    name : str
+        Of the model, for the response.
+    contacts : Contacts
+    step_factor, time_step : float, float or None
+        Share of the largest stable step, or the step itself [s].
+    restitution : float or None
+        Of the bed; by default 1, and 0.3 in a run until rest.
+    must_settle : bool
+        Refuse an assembly that is not in equilibrium as drawn.
+    """
+
+    name: str
+    contacts: Contacts
+    step_factor: float
+    time_step: float | None
+    restitution: float | None
+    must_settle: bool
+
+
+def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, options: RunOptions) -> Response:
     """One run of an assembly to the end of the motion and its tail, or until rest.
+
+    The contacts are closed by the weight they carry. An assembly that is not in equilibrium begins as drawn, with a
+    warning, or is refused.
 
     Parameters
     ----------
     assembly : Assembly
     motion : Motion
-    model : DistinctElement2D
-        Contact points, damping, step, restitution. The contacts are closed by the weight they carry; an assembly that
-        is not in equilibrium begins as drawn, which is said, or is refused with ``start="settle"``.
+    numbers : AssemblyNumbers
     options : RunOptions
 
     Raises
     ------
     InputError
-        The step asked for is unstable, the assembly cannot settle, or the stone is given a modulus.
+        The step asked for is unstable, or the assembly cannot settle.
 
     Warns
     -----
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    if model.block_modulus is not None:
-        raise InputError(
-            f"block_modulus is {model.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
-        )
-    restitution = model.restitution
+    restitution = numbers.restitution
     if restitution is None:
         restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
-    engine = Engine(assembly, model, motion, motion.duration + options.tail, restitution)
-    stable = stable_step(engine)
-    step = model.step_factor * stable if model.time_step is None else model.time_step
-    if step >= stable:
-        raise InputError(
-            f"time_step is {step:g} s; the largest stable step for {assembly.name!r} is {stable:.4g} s: "
-            f"give at most {0.9 * stable:.3g} s, or leave it out."
-        )
+    engine = Engine(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
+    step = chosen_step(stable_step(engine), numbers.step_factor, numbers.time_step, repr(assembly.name))
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
     step = min(step, motion.duration / engine.kernel.CHUNK)
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
     refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
     balanced = engine.settle()
-    if not balanced and model.start == "settle":
+    if not balanced and numbers.must_settle:
         raise InputError(
             f"{assembly.name!r} is not in equilibrium as drawn; support its blocks, or leave start=settle out to let "
             "it move."
@@ -72,10 +90,11 @@ def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, o
     start = engine.energies()
     states, still = follow(engine, options)
     stack = {key: np.array([state[key] for state in states]) for key in states[0]}
-    names = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
-    missing = float(abs(change[-1, 0] - change[-1, 1:].sum()))
-    largest = max(float(np.abs(change[:, 0]).max()), float(-change[:, 2].min()), float(start[3]), 1e-300)
+    imbalance = ledger.imbalance(
+        ledger.unaccounted(change[-1]), work=float(np.abs(change[:, 0]).max()), start=float(start[3]), barrier=0.0,
+        released=ledger.released(change[-1]),
+    )  # fmt: skip
     acceleration, displacement = ground_histories(motion, stack["time"])
     step, poses = int(engine.now["touched"][0]), (stack["x"], stack["z"], stack["rotation"])
     touched = first_touch(assembly, stack["time"], *poses, step * engine.dt) if step >= 0 else None
@@ -83,16 +102,16 @@ def run_assembly(assembly: Assembly, motion: Motion, model: DistinctElement2D, o
         assembly,
         stack["time"],
         *poses,
-        {name: change[:, k] for k, name in enumerate(names)},
+        {name: change[:, k] for k, name in enumerate(ledger.TERMS)},
         acceleration,
         displacement,
         at_rest=still,
         in_equilibrium=balanced,
-        failed=engine.failed or missing > LARGEST_IMBALANCE * largest,
-        energy_imbalance=missing / largest,
+        failed=engine.failed or bool(ledger.out_of_balance(imbalance)),
+        energy_imbalance=imbalance,
         time_step=engine.dt,
         steps=int(engine.now["step"][0]),
-        model=model.name,
+        model=numbers.name,
         touched=touched,
         provenance={
             "restitution": restitution,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -18,20 +18,47 @@ from ...response import Collapse, Histories, Measures, Response
 from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
-from ..assembly.engine import LONGEST_WAIT, RESTITUTION_TO_REST, Engine
+from ..assembly.engine import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine
 from ..base import Case, RunOptions
-from ..drums.block import DrumBlock, histories, ledger_balance
+from ..drums.block import DrumBlock, histories, ledger_imbalance
 from ..drums.standing import stands_for_good
-from .model import DistinctElement2D, joint_stiffnesses
+from ..shared import ledger
 
 #: The lanes go on for as long as nothing can come loose: the longest of these times [s].
 AHEAD = (0.08, 0.04, 0.02, 0.01)
 
 
+@dataclass(frozen=True, eq=False)
+class FollowedColumn:
+    """What a column that may fall is computed with.
+
+    Parameters
+    ----------
+    name : str
+        Of the model, for the response.
+    block : DrumBlock
+        Lanes for the column, that go on after a collapse.
+    contacts : Contacts
+    bed : array, shape (n, 2)
+        k_n and k_s of the faces of each drum [N/m³]: as soft as its joint.
+    step : float
+        Time step [s].
+    restitution : float or None
+        Of contacts between drums that are not joined; by default 1, and 0.3 in a run until rest.
+    """
+
+    name: str
+    block: DrumBlock
+    contacts: Contacts
+    bed: np.ndarray
+    step: float
+    restitution: float | None
+
+
 def follow(
     column: Column,
     motion: Motion,
-    model: DistinctElement2D,
+    numbers: FollowedColumn,
     options: RunOptions,
     steps: Sequence[tuple[float, float]] = (),
 ) -> Response:
@@ -44,14 +71,14 @@ def follow(
     ----------
     column : Column
     motion : Motion
-    model : DistinctElement2D
+    numbers : FollowedColumn
     options : RunOptions
         A run goes on after its collapse with ``until_end``, and after the motion until everything lies still with
         ``until_rest``.
     steps : sequence of (float, float)
         Width and height of the steps under the column, from the top down [m]; a half-plane if none.
     """
-    run = _ColumnRun(column, motion, model, options, steps)
+    run = _ColumnRun(column, motion, numbers, options, steps)
     engine = run.engine
     every = max(1, min(engine.chunks, round(options.output_interval / (engine.kernel.CHUNK * engine.dt))))
     residual = engine.residual_acceleration()
@@ -70,18 +97,19 @@ class _ColumnRun:
         self,
         column: Column,
         motion: Motion,
-        model: DistinctElement2D,
+        numbers: FollowedColumn,
         options: RunOptions,
         steps: Sequence[tuple[float, float]],
     ) -> None:
-        self.column, self.motion, self.model, self.options = column, motion, model, options
-        self.restitution = model.restitution
+        self.column, self.motion, self.name, self.options = column, motion, numbers.name, options
+        self.restitution = numbers.restitution
         if self.restitution is None:
             self.restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
-        self.block = block = DrumBlock(model, column.n, replace(options, until_end=True))
+        self.block = block = numbers.block
+        self.damped = block.joint["dn"].shape[1] > 1
         block.load(0, Case(column, motion))
         duration = motion.duration + options.tail
-        self.engine = engine = Engine(of_column(column, steps), model, motion, duration, self.restitution)
+        self.engine = engine = Engine(of_column(column, steps), numbers.contacts, motion, duration, self.restitution)
         joint, drum = engine.joint, block.drum
         # the numbers of the lanes to the last bit, not those of the drawing
         joint["ht"], joint["hb"] = drum["ht"][:-1, 0], drum["hb"][1:, 0]
@@ -96,10 +124,9 @@ class _ColumnRun:
         for i in range(column.n):
             first, count = engine.body["first"][i + 1], engine.body["count"][i + 1]
             engine.corner[first : first + count] = drum_outline(column, i)
-        # the bed is as soft as the joints: their springs have the stone in series
-        engine.law[:, 1 : column.n + 1, :2] = np.transpose(joint_stiffnesses(column, model.block_modulus))
+        engine.law[:, 1 : column.n + 1, :2] = numbers.bed
         engine.stack = (block.drum, block.joint, block.lane, block.feed, block.watch)
-        engine.start(model.step_for(column))
+        engine.start(numbers.step)
         self.loose, self.safe = False, 0
         self.take_over()
         self.start = block.start[0].copy()
@@ -110,7 +137,7 @@ class _ColumnRun:
         engine, drum, n = self.engine, self.block.drum, self.column.n + 1
         for name in ("x", "z", "th", "c", "s", "vx", "vz", "w", "m", "i", "im", "ii"):
             engine.body[name][:n] = drum[name][:, 0]
-        for name in ("kn", "ks", "co", "mu", "fs", "fn", *(("dn", "ds") if self.model.damped else ())):
+        for name in ("kn", "ks", "co", "mu", "fs", "fn", *(("dn", "ds") if self.damped else ())):
             engine.joint[name][:] = self.block.joint[name][:-1, ..., 0]
         for name in ("work", "shear", "visc"):
             engine.now[name] = self.block.lane[name][0, 0]
@@ -207,9 +234,8 @@ class _ColumnRun:
             "restitution": self.restitution,
             "deepest_penetration_m": engine.deepest(),
             "first_foreign_contact_s": self.touched_at,
-            "imbalance_of_released_energy": self.imbalance_of_released(found),
         }
-        return Response(self.column, found, measures, self.model.name, provenance, mechanism=mechanism, followed=True)
+        return Response(self.column, found, measures, self.name, provenance, mechanism=mechanism, followed=True)
 
     @property
     def touched_at(self) -> float | None:
@@ -230,19 +256,12 @@ class _ColumnRun:
         x, z, rotation = poses
         return replace(lost, touched=first_touch(engine.assembly, found.time, x, z, rotation, when))
 
-    def imbalance_of_released(self, found: Histories) -> float:
-        """Energy that the ledger misses at the end, relative to the potential energy that the fall released [-]."""
-        released = float(-found.energy["gravitational"].min())
-        return float(abs(found.imbalance[-1])) / max(released, float(self.block.watch["wmax"][0, 0]), 1e-300)
-
     def measures(self, last: dict[str, Any], found: Histories) -> Measures:
         """Measures of the run; peaks end with a collapse, as in the lanes."""
         watch, engine, column, drum = self.block.watch[0], self.engine, self.column, self.block.drum
         change = last["energy"] - self.start
-        released = float(-found.energy["gravitational"].min()) if self.collapsed else 0.0
-        largest = max(float(watch["wmax"][0]), float(self.start[3]), released)
-        imbalance, balanced = ledger_balance(change, largest, column)
-        failed = engine.failed or not balanced
+        imbalance = ledger_imbalance(change, float(watch["wmax"][0]), float(self.start[3]), column)
+        failed = engine.failed or bool(ledger.out_of_balance(imbalance))
         slip, widths = last["slip"] - self.block.slip[0], column.joint_widths
         outcome = classify(
             self.collapsed, failed, float(watch["open"][0] / widths.min()), float((np.abs(slip) / widths).max())

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -13,10 +12,18 @@ from ...column import Column
 from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Response
+from ..assembly.engine import Contacts
 from ..base import Case, RunOptions
-from ..drums.block import DrumBlock, PackedColumn, drum_fields, lane_fields
+from ..drums.block import PackedColumn, drum_fields, lane_fields
+from ..drums.joints import contact_points, joint_stiffnesses
 from ..drums.stepped import SteppedDrums
+from ..shared import stable_step as shared
+from ..shared.settling import LOCAL_DAMPING, settled
 from .found_start import found_start
+
+if TYPE_CHECKING:
+    from ...column.assembly import Assembly
+    from .collapse import FollowedColumn
 
 MAX_POINTS = 32
 
@@ -127,8 +134,40 @@ class DistinctElement2D(SteppedDrums):
         if options.until_end or options.until_rest:
             from .collapse import follow
 
-            return follow(column, motion, self, options)
+            return follow(column, motion, self.followed(column, options), options)
         return super().run(column, motion, options)
+
+    @property
+    def contacts(self) -> Contacts:
+        """Numbers of the contacts, for the engine of assemblies."""
+        return Contacts(self.points, self.stiffness_damping, self.mass_damping)
+
+    def followed(self, column: Column, options: RunOptions) -> FollowedColumn:
+        """What a column that is followed to the ground is computed with."""
+        from .collapse import FollowedColumn
+
+        block = self.make_block(column.n, replace(options, until_end=True))
+        # the bed is as soft as the joints: their springs have the stone in series
+        bed = np.transpose(joint_stiffnesses(column, self.block_modulus))
+        return FollowedColumn(self.name, block, self.contacts, bed, self.step_for(column), self.restitution)
+
+    def run_assembly(self, assembly: Assembly, motion: Motion, options: RunOptions) -> Response:
+        """One run of an assembly of blocks.
+
+        Raises
+        ------
+        InputError
+            The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
+        """
+        from ..assembly.run import AssemblyNumbers, run_assembly
+
+        if self.block_modulus is not None:
+            raise InputError(
+                f"block_modulus is {self.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
+            )
+        settle = self.start == "settle"
+        numbers = AssemblyNumbers(self.name, self.contacts, self.step_factor, self.time_step, self.restitution, settle)
+        return run_assembly(assembly, motion, numbers, options)
 
 
 @lru_cache(maxsize=4096)
@@ -153,27 +192,22 @@ def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
     if column.as_found:
         found, joint_fields["fs"] = found_start(column, kn * area / width, xi, share)
         drums |= found
-    lanes = lane_fields(column, model) | {"xi": xi, "sh": share}
+    lanes = lane_fields(column, model.stiffness_damping, model.mass_damping) | {"xi": xi, "sh": share}
     return PackedColumn((drums, joint_fields, lanes), model.step_for(column))
 
 
-#: Local damping while settling, the residual acceleration at which a column has settled [m/s²], and the most chunks.
-SETTLE_DAMPING, SETTLED, SETTLE_CHUNKS = 0.8, 1e-7, 20_000
+#: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.
+SETTLED, SETTLE_CHUNKS = 1e-7, 20_000
 
 
 @lru_cache(maxsize=256)
 def _settled(column: Column, model: DistinctElement2D) -> dict[str, dict[str, np.ndarray]]:
     """Fields of the drums and of the joints after settling under gravity with local damping."""
-    block = DrumBlock(
-        replace(model, start="static", mass_damping=max(model.mass_damping, 1e-300)), column.n, RunOptions()
-    )
+    damped = replace(model, start="static", mass_damping=max(model.mass_damping, 1e-300))
+    block = damped.make_block(column.n, RunOptions())
     block.load(0, Case(column, Motion(1e3, np.zeros(2))))
-    block.lane["local"][0, 0] = SETTLE_DAMPING
-    for _ in range(SETTLE_CHUNKS // 100):
-        block.advance(100)
-        if block.residual_acceleration(0) < SETTLED:
-            break
-    else:
+    block.lane["local"][0, 0] = LOCAL_DAMPING
+    if not settled(block.advance, lambda: block.residual_acceleration(0), SETTLED, SETTLE_CHUNKS):
         raise InputError(
             f"column {column.name!r} does not come to rest under its weight: {block.residual_acceleration(0):.2g} m/s² "
             f"remain, allowed is {SETTLED:g}; check that every drum is supported under its centroid."
@@ -184,46 +218,9 @@ def _settled(column: Column, model: DistinctElement2D) -> dict[str, dict[str, np
     }
 
 
-def joint_stiffnesses(column: Column, block_modulus: float | None) -> tuple[np.ndarray, np.ndarray]:
-    """Normal and shear stiffness per area of each joint [N/m³], with the stone in series if its modulus is given.
-
-    1/k_n′ = 1/k_n + h/2E of the drum above + h/2E of the drum below (the base is rigid); k_s keeps its ratio to k_n.
-    Eq. (D2).
-    """
-    kn = np.array([joint.normal_stiffness for joint in column.joints])
-    ks = np.array([joint.shear_stiffness for joint in column.joints])
-    if block_modulus is None:
-        return kn, ks
-    half = 0.5 * column.heights / block_modulus
-    soft = 1.0 / (1.0 / kn + half + np.concatenate(([0.0], half[:-1])))
-    return soft, ks * soft / kn
-
-
-def contact_points(section: str, points: int) -> tuple[np.ndarray, np.ndarray]:
-    """Places (−1 … 1) and shares of the area of a joint's contact points.
-
-    Gauss–Lobatto's rule for the chord of the section: weight 1 for a rectangle, √(1 − ξ²) for a circle. Its inner points
-    are the roots of the Jacobi polynomial for the weight times 1 − ξ²; the ends take what is left.
-    """
-    if points == 2:
-        return np.array([-1.0, 1.0]), np.array([0.5, 0.5])
-    from scipy.special import roots_jacobi
-
-    power, total = (1.5, math.pi / 2.0) if section == "circular" else (1.0, 2.0)
-    inner, weight = roots_jacobi(points - 2, power, power)
-    inner = 0.5 * (inner - inner[::-1])
-    weight = 0.5 * (weight + weight[::-1]) / (1.0 - inner**2)
-    end = 0.5 * (total - weight.sum())
-    return np.concatenate(([-1.0], inner, [1.0])), np.concatenate(([end], weight, [end])) / total
-
-
 @lru_cache(maxsize=4096)
 def _stable_step(column: Column, model: DistinctElement2D) -> float:
-    """Largest stable step of central differences for the closed column [s].
-
-    From the highest frequency of the contact stiffness matrix: 2/ω (√(1 + ζ²) − ζ), ζ = β ω / 2, where the dashpots act
-    with the velocity half a step back. Eq. (D3).
-    """
+    """Largest stable step of central differences for the closed column, from its contact stiffness matrix [s]."""
     n = column.n
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     xi, share = contact_points(column.section, model.points)
@@ -242,7 +239,5 @@ def _stable_step(column: Column, model: DistinctElement2D) -> float:
                 shear[3 * j - 3], shear[3 * j - 1] = -1.0, below
             area = part * column.joint_areas[j]
             stiffness += kn[j] * area * np.outer(normal, normal) + ks[j] * area * np.outer(shear, shear)
-    root = 1.0 / np.sqrt(np.stack((column.masses, column.masses, column.inertias), axis=1).ravel())
-    omega = math.sqrt(float(np.linalg.eigvalsh(stiffness * np.outer(root, root))[-1]))
-    zeta = 0.5 * model.stiffness_damping * omega
-    return 2.0 / omega * (math.sqrt(1.0 + zeta * zeta) - zeta)
+    inverse = 1.0 / np.stack((column.masses, column.masses, column.inertias), axis=1).ravel()
+    return shared.stable_step(shared.highest_frequency(stiffness, inverse), model.stiffness_damping)

@@ -13,20 +13,32 @@ from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.poses import quaternions
-from ..base import Case, ground_histories
-from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_balance, whole_steps
+from ..base import Case
+from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_steps
+from ..shared import ledger
+from ..shared.ground import ground_histories, value_at
 from .pose import placed
 from .verdict import stands_for_good
 
 
 class SpaceBlock(DrumBlock):
-    """See :class:`stylobate.models.shared.lanes.LaneBlock`; parameters as for :class:`DrumBlock`."""
+    """See :class:`stylobate.models.shared.lanes.LaneBlock`; parameters as for :class:`DrumBlock`.
+
+    Parameters
+    ----------
+    planar : bool
+        Hold the motion in the plane of x and z.
+    """
+
+    def __init__(self, *arguments: Any, planar: bool) -> None:
+        super().__init__(*arguments)
+        self.planar = planar
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
         self.cases[lane] = case
         column, motion = case
-        packed = self.model.pack(column)
+        packed = self.pack(column)
         for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
             for name, values in fields.items():
                 array[name][..., lane] = values
@@ -78,7 +90,7 @@ class SpaceBlock(DrumBlock):
                 drum[name][1:, lane] -= half * moment[:, c]
         for c, name in enumerate(("vx", "vy", "vz")):
             drum[name][1:, lane] += half * kick[:, c]
-        if self.model.planar:
+        if self.planar:
             for name in ("vy", "lx", "lz"):
                 drum[name][1:, lane] = 0.0
 
@@ -89,9 +101,8 @@ class SpaceBlock(DrumBlock):
         motion = case.motion
         place, a = time / motion.dt, np.zeros(3)
         for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):
-            if samples is not None and place <= motion.steps - 1:
-                i = min(int(place), motion.steps - 2)
-                a[c] = (samples[i] + (samples[i + 1] - samples[i]) * (place - i)) * motion.factor
+            if samples is not None:
+                a[c] = value_at(samples, place) * motion.factor
         return self.feed["r"][0, :, lane].reshape(3, 3) @ a
 
     def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -166,14 +177,14 @@ class SpaceBlock(DrumBlock):
         assert case is not None
         column, watch = case.column, self.watch[0]
         change = self.energies(lane) - self.start[lane]
-        largest = max(float(watch["wmax"][lane]), float(self.start[lane, 3]))
+        begun = float(self.start[lane, 3])
         if self.options.start is not None:  # what the pose and the velocity hold
-            largest = max(largest, float(self.start[lane, 1]), abs(float(change[1])))
-        imbalance, balanced = ledger_balance(change, largest, column)
+            begun = max(begun, float(self.start[lane, 1]), abs(float(change[1])))
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), begun, column)
         slip, _ = self.since_start(lane)
         slips = np.hypot(*slip.T)
         collapsed = watch["status"][lane] == self.kernel.COLLAPSED
-        failed = watch["status"][lane] == self.kernel.FAILED or not balanced
+        failed = watch["status"][lane] == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
         widths = column.joint_widths
         outcome = classify(collapsed, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max()))
         mechanical = float(change[1] + change[2] + change[3])
@@ -216,7 +227,6 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     stack = {key: np.array([state[key] for state in states]) for key in states[0]}
     energy = stack["energy"]
     acceleration, displacement = ground_histories(motion, stack["time"])
-    terms = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
     return Histories.in_space(
         time=stack["time"],
         position=stack["position"],
@@ -228,5 +238,5 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         top_displacement=stack["top"] - stack["top"][0],
         ground_acceleration=acceleration,
         ground_displacement=displacement,
-        energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(terms)},
+        energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(ledger.TERMS)},
     )

@@ -12,12 +12,13 @@ from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Histories
 from ..base import RunOptions
-from ..dem2d.model import joint_stiffnesses
 from ..drums.block import PackedColumn
+from ..drums.joints import joint_stiffnesses
 from ..drums.stepped import SteppedDrums
+from ..shared.stable_step import stable_step
 from .block import SpaceBlock, histories
 from .packing import drum_fields, joint_fields, lane_fields
-from .stability import highest_frequency, largest_step
+from .stability import highest_frequency
 
 #: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
 LAWS = {"rim": ("rim_forces", 1.0)}
@@ -108,7 +109,8 @@ class DistinctElement3D(SteppedDrums):
 
     def make_block(self, drums: int, options: RunOptions) -> SpaceBlock:
         """A block of lanes for columns of so many drums."""
-        return SpaceBlock(self, drums, options)
+        kernel, cost = self.kernel(), self.cost(drums)
+        return SpaceBlock(kernel, self.record_types(), self.pack, drums, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
@@ -138,4 +140,4 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
 @lru_cache(maxsize=4096)
 def _stable_step(column: Column, model: DistinctElement3D) -> float:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
-    return largest_step(highest_frequency(column, kn, ks, LAWS[model.law][1]), model.stiffness_damping)
+    return stable_step(highest_frequency(column, kn, ks, LAWS[model.law][1]), model.stiffness_damping)

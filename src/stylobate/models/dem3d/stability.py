@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 
 from ...column import Column
+from ..shared.stable_step import highest_frequency as of_springs
 
 
 def highest_frequency(column: Column, kn: np.ndarray, ks: np.ndarray, share: float) -> float:
@@ -46,12 +45,5 @@ def highest_frequency(column: Column, kn: np.ndarray, ks: np.ndarray, share: flo
     axial = np.array([drum.axial_inertia for drum in column.drums])
     highest = 0.0
     for matrix, masses in ((stiffness, np.stack((mass, mass, inertia), axis=1).ravel()), (torsion, axial)):
-        root = 1.0 / np.sqrt(masses)
-        highest = max(highest, float(np.linalg.eigvalsh(matrix * np.outer(root, root))[-1]))
-    return math.sqrt(highest)
-
-
-def largest_step(omega: float, beta: float) -> float:
-    """Largest stable step of central differences whose dashpots act with the velocity half a step back [s]. Eq. (D3)."""
-    zeta = 0.5 * beta * omega
-    return 2.0 / omega * (math.sqrt(1.0 + zeta * zeta) - zeta)
+        highest = max(highest, of_springs(matrix, 1.0 / masses))
+    return highest

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,19 +16,15 @@ from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
 from ...response.collapse import SLID_OFF, in_plane
-from ..base import Case, RunOptions, ground_histories
+from ..base import Case, RunOptions
+from ..shared import ledger
+from ..shared.ground import along_base, ground_histories
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..shared.soft_joints import resolving
 from .standing import lowest_barrier, stands_for_good
 
 #: Half width of the base, wide enough to be a half-plane [m].
 BASE_HALF_WIDTH = 1.0e4
-
-#: A run has failed when its ledger misses more than this share of the largest input work, …
-LARGEST_IMBALANCE = 0.25
-
-#: … or of this share of the energy that overturns the column, if the input work is even smaller than that.
-SMALL_ENERGY = 1.0e-3
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
@@ -81,37 +77,48 @@ def whole_steps(motion: Motion, tail: float, step: float, chunk: int) -> tuple[f
     return dt, math.ceil((motion.duration + tail) / (chunk * dt) * (1.0 - 1e-12))
 
 
-def lane_fields(column: Column, model: Any) -> dict[str, Any]:
+def lane_fields(column: Column, stiffness_damping: float, mass_damping: float) -> dict[str, Any]:
     """Fields of a lane at the start of a run."""
     sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
     down = gravity_vector(column)
     return sums | {
         "g": float(-down[1]),
         "gx": float(-down[0]),
-        "beta": model.stiffness_damping,
-        "alpha": model.mass_damping,
+        "beta": stiffness_damping,
+        "alpha": mass_damping,
     }
 
 
 class DrumBlock:
-    """See :class:`stylobate.models.lanes.LaneBlock`.
+    """See :class:`stylobate.models.shared.lanes.LaneBlock`.
 
     Parameters
     ----------
-    model : DrumModel
-        Gives the module of kernels, the record types and the packed column.
+    kernel : module
+        Of the joints' law: ``forces``, ``ledger``, ``advance``.
+    types : tuple of dtype
+        Record types of the kernel's arrays.
+    pack : callable
+        Gives the numbers of a column.
     drums : int
         Number of drums of every column in this block.
     options : RunOptions
+    cost : float
+        About what a step of a run costs [s].
     """
 
-    def __init__(self, model: Any, drums: int, options: RunOptions) -> None:
-        self.model = model
-        self.kernel = kernel = model.kernel()
-        self.options = options
+    def __init__(
+        self,
+        kernel: Any,
+        types: tuple,
+        pack: Callable[[Column], PackedColumn],
+        drums: int,
+        options: RunOptions,
+        cost: float,
+    ) -> None:
+        self.kernel, self.pack, self.options = kernel, pack, options
         self.lanes = kernel.LANES
         self.chunk = kernel.CHUNK
-        types = model.record_types()
         self.drum = aligned_zeros(drums + 1, types[0])
         self.joint = aligned_zeros(drums + 1, types[1])
         self.lane = aligned_zeros(1, types[2])
@@ -125,13 +132,13 @@ class DrumBlock:
         self.slip = np.zeros((self.lanes, drums))
         self.cases: list[Case | None] = [None] * self.lanes
         self.chunks_per_call = 1
-        self.piece = longest_piece(model.cost(drums), self.chunk)
+        self.piece = longest_piece(cost, self.chunk)
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
         self.cases[lane] = case
         column, motion = case
-        packed = self.model.pack(column)
+        packed = self.pack(column)
         for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
             for name, values in fields.items():
                 array[name][..., lane] = values
@@ -188,11 +195,8 @@ class DrumBlock:
         """Acceleration of the base along and normal to it at a time [m/s²], shape (2,)."""
         case = self.cases[lane]
         assert case is not None
-        motion, place, slope = case.motion, time / case.motion.dt, case.column.as_found.base_tilt * DEGREE
-        ax = _sample(motion.samples, place) * motion.factor
-        az = 0.0 if motion.z_samples is None else _sample(motion.z_samples, place) * motion.factor
-        c, s = math.cos(slope), math.sin(slope)
-        return np.array([ax * c + az * s, az * c - ax * s])
+        slope = case.column.as_found.base_tilt * DEGREE
+        return np.array(along_base(case.motion, time, math.cos(slope), math.sin(slope)))
 
     def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Opening of every joint, and where the drum above it is along it [m], each of shape (n,)."""
@@ -253,11 +257,10 @@ class DrumBlock:
         status = watch["status"][lane]
         now = self.energies(lane)
         change = now - self.start[lane]
-        largest = max(float(watch["wmax"][lane]), float(self.start[lane, 3]))
-        imbalance, balanced = ledger_balance(change, largest, case.column)
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), float(self.start[lane, 3]), case.column)
         slip = self.joint_state(lane)[1] - self.slip[lane, : case.column.n]
         collapsed = status == self.kernel.COLLAPSED
-        failed = status == self.kernel.FAILED or not balanced
+        failed = status == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
         widths = case.column.joint_widths
         outcome = classify(
             collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
@@ -294,9 +297,7 @@ class DrumBlock:
         if outcome is Outcome.FAILED:
             if watch["status"][lane] == self.kernel.FAILED:
                 return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
-            return (
-                f"the energy ledger is out of balance by {imbalance:.2g} of the input work; try a smaller step_factor"
-            )
+            return ledger.out_of_balance(imbalance)
         if outcome is not Outcome.COLLAPSED:
             return ""
         lost = self.collapse(lane)
@@ -311,22 +312,19 @@ class DrumBlock:
         return f"to the {self.collapse(lane).side}"
 
 
-def ledger_balance(change: np.ndarray, largest: float, column: Column) -> tuple[float, bool]:
-    """Energy that a ledger misses relative to the largest input work so far, and whether the run can be believed.
-
-    Eq. (V3) of ``docs/theory/verdicts.md``.
+def ledger_imbalance(change: np.ndarray, work: float, start: float, column: Column) -> float:
+    """Energy imbalance of a run of drums [-].
 
     Parameters
     ----------
     change : array
-        Input, kinetic, gravitational, elastic, friction, viscous: since the start [J], shape (6,).
-    largest : float
-        Largest input work so far, or the elastic energy at rest if that is larger [J].
+        The ledger, shape (6,) [J].
+    work, start : float
+        Largest input work so far, and the elastic energy at rest [J].
     column : Column
     """
-    missing = abs(float(change[0] - change[1:].sum()))
-    allowed = LARGEST_IMBALANCE * max(largest, SMALL_ENERGY * lowest_barrier(column))
-    return missing / largest, missing <= allowed
+    missing, free = ledger.unaccounted(change), ledger.released(change)
+    return ledger.imbalance(missing, work=work, start=start, barrier=lowest_barrier(column), released=free)
 
 
 def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
@@ -346,20 +344,10 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         ground_acceleration=acceleration,
         ground_displacement=displacement,
         energy={
-            "input": energy[:, 0],
-            "kinetic": energy[:, 1],
-            "gravitational": energy[:, 2] - energy[0, 2],
-            "elastic": energy[:, 3] - energy[0, 3],
-            "friction": energy[:, 4] - energy[0, 4],
-            "viscous": energy[:, 5] - energy[0, 5],
+            name: energy[:, k] - (energy[0, k] if name not in ("input", "kinetic") else 0.0)
+            for k, name in enumerate(ledger.TERMS)
         },
     )
-
-
-def _sample(values: np.ndarray, place: float) -> float:
-    """Linear between samples, zero after the last one."""
-    i = min(int(place), len(values) - 2)
-    return float(values[i] + (values[i + 1] - values[i]) * (place - i)) if place <= len(values) - 1 else 0.0
 
 
 def _peak(values: np.ndarray) -> float:

@@ -8,12 +8,13 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from ...column import Column
-from ...errors import InputError, check_range
+from ...errors import check_range
 from ...motion import Motion
 from ...response import Histories, Measures, Response
 from ..base import Case, Model, RunOptions
 from ..shared.lanes import run_alike
 from ..shared.soft_joints import check_sinking, check_step_resolves
+from ..shared.stable_step import chosen_step
 from .block import DrumBlock, PackedColumn, histories, whole_steps
 
 
@@ -72,7 +73,7 @@ class SteppedDrums(Model):
 
     def make_block(self, drums: int, options: RunOptions) -> Any:
         """A block of lanes for columns of so many drums."""
-        return DrumBlock(self, drums, options)
+        return DrumBlock(self.kernel(), self.record_types(), self.pack, drums, options, self.cost(drums))
 
     def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         """Histories from the snapshots of a run."""
@@ -99,15 +100,7 @@ class SteppedDrums(Model):
         InputError
             The step asked for is above the largest stable one.
         """
-        stable = self.stable_step(column)
-        if self.time_step is None:
-            return self.step_factor * stable
-        if self.time_step >= stable:
-            raise InputError(
-                f"time_step is {self.time_step:g} s; the largest stable step for this column is {stable:.4g} s: "
-                f"give at most {0.9 * stable:.3g} s, or leave it out."
-            )
-        return self.time_step
+        return chosen_step(self.stable_step(column), self.step_factor, self.time_step, "this column")
 
     def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
         """Time step and its cost [s]; whole chunks of steps fill the motion."""

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,13 +15,11 @@ from ...motion import Motion
 from ...response import Histories, Measures
 from ..base import Case, RunOptions
 from ..rocking.block import lightest_weight, off_the_ground
+from ..shared import ledger
 from ..shared.lanes import longest_piece
 from .equations import tridiagonal
-from .state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
+from .state import PackedBeam, given, histories_of, measures_of
 from .verdict import faces
-
-if TYPE_CHECKING:
-    from .model import RigidBeam
 
 #: Wanted time between two looks at a run [s], and calls of the kernel per run.
 LOOK = 0.01
@@ -41,22 +40,29 @@ class Loop(NamedTuple):
     damped: bool
 
 
-def loop_for(model: RigidBeam, case: Case) -> Loop:
-    """The loop that a case needs."""
-    beam = packed(model, case.column)
-    step = beam.step_for(case.motion)
+def loop_for(beam: PackedBeam, motion: Motion) -> Loop:
+    """The loop that a beam under a motion needs."""
+    step = beam.step_for(motion)
     steps = 2 ** max(0, min(round(math.log2(kernel.MOST_STEPS)), math.floor(math.log2(LOOK / step))))
-    vertical = case.motion.z_samples is not None
-    return Loop(case.column.n, steps, model.sliding, beam.bed, vertical, model.stiffness_damping > 0.0)
+    vertical = motion.z_samples is not None
+    return Loop(beam.seen.n, steps, beam.sliding, beam.bed, vertical, beam.stiffness_damping > 0.0)
 
 
 class BeamLanes:
-    """A block of lanes of rigid beams; see :class:`stylobate.models.lanes.LaneBlock`."""
+    """A block of lanes of rigid beams; see :class:`stylobate.models.shared.lanes.LaneBlock`.
+
+    Parameters
+    ----------
+    pack : callable
+        Gives the beam of a column.
+    loop : Loop
+    options : RunOptions
+    """
 
     lanes = kernel.LANES
 
-    def __init__(self, model: RigidBeam, loop: Loop, options: RunOptions) -> None:
-        self.model, self.loop, self.options = model, loop, options
+    def __init__(self, pack: Callable[[Column], PackedBeam], loop: Loop, options: RunOptions) -> None:
+        self.pack, self.loop, self.options = pack, loop, options
         self.drum = np.zeros(loop.drums + 2, kernel.DRUM)
         self.values = self.drum.view(np.float64).reshape(loop.drums + 2, -1, self.lanes)
         self.lane = np.zeros(1, kernel.LANE)
@@ -73,13 +79,12 @@ class BeamLanes:
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane that is free."""
         column, motion = case
-        beam = packed(self.model, column)
+        beam = self.pack(column)
         self.cases[lane] = (case, beam)
-        self.values[..., lane] = 0.0  # nothing of the run before: a sum that is no number stays none
+        self.values[..., lane] = 0.0  # clear all fields: a NaN of the last run would persist
         for name, values in _drum_fields(beam).items():
             self.drum[name][1:-1, lane] = values
-        model, seen = self.model, beam.seen
-        theta = -model.initial_rotation
+        seen, theta = beam.seen, -beam.initial_rotation
         for name in ("th", "ts"):
             self.drum[name][1:-1, lane] = theta
         for name in ("x", "xs"):
@@ -95,8 +100,8 @@ class BeamLanes:
         for name in kernel.LANE.names or ():
             state[name][lane] = 0.0
         state["dt"][lane], state["g"][lane] = dt, seen.gravity
-        state["rel"][lane] = 1.0 if model.rotation == "relative" else 0.0
-        state["beta"][lane] = model.stiffness_damping
+        state["rel"][lane] = 1.0 if beam.relative else 0.0
+        state["beta"][lane] = beam.stiffness_damping
         watch = self.watch[0]
         for name in kernel.WATCH.names or ():
             watch[name][lane] = 0
@@ -112,7 +117,7 @@ class BeamLanes:
         watch["stood"][lane] = theta * seen.height
         watch["gmin"][lane] = lightest_weight(motion, seen.gravity)
         self.calls = max(1, chunks // CALLS_PER_RUN)
-        self.start[lane] = self._energies(lane) if model.initial_rotation else 0.0
+        self.start[lane] = self._energies(lane) if beam.initial_rotation else 0.0
 
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by a share of a run."""
@@ -134,22 +139,25 @@ class BeamLanes:
 
     def state(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """θ, θ̇, slip, its velocity and its plastic part; each of shape (n,)."""
-        drum, loaded = self.drum[1:-1], self.cases[lane]
-        assert loaded is not None
+        drum, beam = self.drum[1:-1], self._beam(lane)
         theta, omega = drum["th"][:, lane].copy(), drum["w"][:, lane].copy()
-        if not self.model.sliding:
+        if not beam.sliding:
             zero = np.zeros_like(theta)
             return theta, omega, zero, zero, zero
-        lever = loaded[1].matrices.lever
+        lever = beam.matrices.lever
         slip = np.diff(drum["x"][:, lane] - lever @ theta, prepend=0.0)
         rate = np.diff(drum["v"][:, lane] - lever @ omega, prepend=0.0)
         return theta, omega, slip, rate, drum["pl"][:, lane].copy()
 
-    def _energies(self, lane: int) -> np.ndarray:
+    def _beam(self, lane: int) -> PackedBeam:
         loaded = self.cases[lane]
         assert loaded is not None
-        out = loaded[1].energies(*self.state(lane))
-        if self.model.rotation == "absolute":  # no potential: the work of the moments instead
+        return loaded[1]
+
+    def _energies(self, lane: int) -> np.ndarray:
+        beam = self._beam(lane)
+        out = beam.energies(*self.state(lane))
+        if not beam.relative:  # no potential: the work of the moments instead
             out[2] = self.lane["joint"][0, lane]
         return out
 
@@ -172,7 +180,7 @@ class BeamLanes:
         theta, omega, slip, _, _ = self.state(lane)
         energies = self._energies(lane)
         failed = watch["status"] == kernel.FAILED
-        ledger, largest = self._ledger(lane, energies), float(watch["wmax"])
+        row, largest = self._ledger(lane, energies), float(watch["wmax"])
         time = float(watch["when"]) * self.dt[lane]
         failure = f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else ""
         at_end = self.drum["te"][1:-1, lane]
@@ -182,30 +190,30 @@ class BeamLanes:
             {
                 "theta": theta, "omega": omega, "slip": slip,
                 "energy": float(energies.sum()), "start": float(np.sum(self.start[lane])), "work": largest,
-                "given": given(ledger, largest, after), "unaccounted": unaccounted(ledger),
+                "given": given(row, largest, after),
+                "unaccounted": ledger.unaccounted(row), "released": ledger.released(row),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
                 "time": time, "end": self.time(lane),
                 "failure": off_the_ground(loaded[0].motion, beam.seen.gravity, time) or failure,
                 "top": float(watch["top"]), "turn": float(watch["turn"]), "opening": float(watch["open"]),
-                "residual": float((theta + self.model.initial_rotation) @ beam.seen.heights + slip.sum()),
+                "residual": float((theta + beam.initial_rotation) @ beam.seen.heights + slip.sum()),
                 "step": float(self.dt[lane]), "steps": int(watch["step"]),
             },
         )  # fmt: skip
 
 
-@np.errstate(over="ignore", invalid="ignore")  # of a state that is no number the measures tell
-def run_one(model: RigidBeam, column: Column, motion: Motion, options: RunOptions) -> tuple[Histories, Measures]:
-    """One run with histories, through the loop of a batch."""
-    case = Case(column, motion)
-    block = BeamLanes(model, loop_for(model, case), options)
-    block.load(0, case)
+@np.errstate(over="ignore", invalid="ignore")  # a state that is not finite is reported by the measures
+def run_one(beam: PackedBeam, column: Column, motion: Motion, options: RunOptions) -> tuple[Histories, Measures]:
+    """One run with histories, through the loop of a batch; ``column`` as it is, ``beam`` as the model sees it."""
+    block = BeamLanes(lambda _: beam, loop_for(beam, motion), options)
+    block.load(0, Case(column, motion))
     stride = max(1, round(options.output_interval / (block.loop.steps * block.dt[0])))
     rows = [(0.0, *block.state(0)[:3:2], block.ledger(0))]
     while not block.is_over(0):
         block.advance(stride)
         rows.append((block.time(0), *block.state(0)[:3:2], block.ledger(0)))
-    time, theta, slip, ledger = (np.array(part) for part in zip(*rows, strict=True))
-    return histories_of(packed(model, column), motion, time, theta, slip, ledger), block.collect(0)
+    time, theta, slip, energy = (np.array(part) for part in zip(*rows, strict=True))
+    return histories_of(beam, motion, time, theta, slip, energy), block.collect(0)
 
 
 @lru_cache(64)
@@ -223,7 +231,7 @@ def _drum_fields(beam: PackedBeam) -> dict[str, np.ndarray]:
         "gs": weight * matrices.load, "sx": matrices.load, "ih": 1.0 / column.heights, "p": nodes,
         "di": pivot, "lo": upper,
         "im": 1.0 / column.masses, "ii": 1.0 / column.inertias, "zb": own, "zt": column.heights - own,
-        "ks": beam.shear if beam.model.sliding else np.zeros(column.n),
+        "ks": beam.shear if beam.sliding else np.zeros(column.n),
         "mu": friction * column.joint_weights, "co": cohesion * column.joint_areas,
         "n": column.joint_weights if beam.geometric else np.zeros(column.n),
         "m": column.masses, "c": beam.opening, "half": 0.5 * column.joint_widths, "fl": face, "fu": under,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from functools import lru_cache
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -18,6 +19,10 @@ from ..rocking.block import RockingBlock
 from ..rocking.model import warn, warn_of_free_flight, warn_sliding
 from ..shared.lanes import MOST_SAMPLES, run_alike
 from .equations import BeamMatrices
+
+if TYPE_CHECKING:
+    from .state import PackedBeam
+    from .verdict import Passes
 
 LAWS = ("winkler", "bilinear", "trilinear", "housner")
 
@@ -56,8 +61,6 @@ class RigidBeam(Model):
     time_step : float, optional
         [s]. By default 1.5/ω_max, ω_max of the column with all joints closed, at most 4 samples of the motion and 0.01/p;
         allowed is up to 2.6/ω_max, 4 samples and 0.02/p.
-    solver : {"fixed", "adaptive"}
-        Of single runs: the batch's Runge–Kutta method of order 4, or SciPy's adaptive one of order 8 (slow for many drums).
 
     Raises
     ------
@@ -91,7 +94,6 @@ class RigidBeam(Model):
     restitution: float | None = None
     initial_rotation: float = 0.0
     time_step: float | None = None
-    solver: str = "fixed"
 
     name: ClassVar[str] = "rigid-beam"
     title: ClassVar[str] = "rigid beam model"
@@ -123,7 +125,6 @@ class RigidBeam(Model):
             ("rotation", ("relative", "absolute")),
             ("idealisation", ("true", "prism")),
             ("critical_angle", ("stack", "drum")),
-            ("solver", ("fixed", "adaptive")),
         ):
             if getattr(self, key) not in allowed:
                 raise InputError(f"{key} is {getattr(self, key)!r}; allowed are {', '.join(allowed)}.")
@@ -230,10 +231,9 @@ class RigidBeam(Model):
             from ..rocking.single import longest_step
 
             return longest_step(self.block(seen).p, motion), 3e-4
-        step = min(self.step_for(seen, motion), motion.duration)
         from .lanes import COST
 
-        return step, 5e-4 if self.solver == "adaptive" else COST * column.n
+        return min(self.step_for(seen, motion), motion.duration), COST * column.n
 
     def highest_rate(self, column: Column) -> float:
         """Highest rate of the column with all joints closed, ω_max or faster where damped [1/s]; ``column`` idealised."""
@@ -247,9 +247,7 @@ class RigidBeam(Model):
 
     def flutters(self, column: Column) -> bool:
         """Whether the closed column has complex frequencies, as laws in the rotations of single drums can have them."""
-        from .verdict import Passes
-
-        return Passes(self, column, self.joints(column), self.bed(column), self.critical_angles(column)).flutters
+        return self._passes(column).flutters
 
     def block(self, column: Column) -> RockingBlock:
         """For ``housner``: the beam of one drum as a rocking block; rotation about the middle of its base."""
@@ -262,6 +260,18 @@ class RigidBeam(Model):
             p=math.sqrt(seen.mass * seen.gravity * arm / (inertia * alpha)),
             alpha=alpha, restitution=e, inertia=inertia, gravity=seen.gravity, half_width=arm, height=seen.height,
             centroid_height=height, linear=True, push=alpha * height / arm,
+        )  # fmt: skip
+
+    def pack(self, column: Column) -> PackedBeam:
+        """Everything about a column that the lanes need, computed once."""
+        return _packed(self, column)
+
+    def _passes(self, seen: Column) -> Passes:
+        from .verdict import Passes
+
+        return Passes(
+            seen, self.joints(seen), self.bed(seen), self.critical_angles(seen), self.opening_rotations(seen),
+            self.second_order == "geometric", self.rotation == "relative", self.sliding,
         )  # fmt: skip
 
     # -- Model -----------------------------------------------------------------------------------------------------
@@ -314,14 +324,10 @@ class RigidBeam(Model):
             from ..rocking.single import run_single
 
             histories, measures = run_single(self.block(column), motion, options, self.initial_rotation)
-        elif self.solver == "adaptive":
-            from .adaptive import run_adaptive
-
-            histories, measures = run_adaptive(self, column, motion, options)
         else:
             from .lanes import run_one
 
-            histories, measures = run_one(self, column, motion, options)
+            histories, measures = run_one(self.pack(column), column, motion, options)
         return Response(column, histories, measures, self.name, {})
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
@@ -338,4 +344,35 @@ class RigidBeam(Model):
             )
         from .lanes import BeamLanes, loop_for
 
-        return run_alike(lambda case: loop_for(self, case), lambda loop: BeamLanes(self, loop, options), cases, threads)
+        return run_alike(
+            lambda case: loop_for(self.pack(case.column), case.motion),
+            lambda loop: BeamLanes(self.pack, loop, options),
+            cases,
+            threads,
+        )
+
+
+@lru_cache(64)
+def _packed(model: RigidBeam, column: Column) -> PackedBeam:
+    from .state import PackedBeam
+
+    seen = model.idealised(column)
+    passes = model._passes(seen)
+    shear = np.array([joint.shear_stiffness for joint in seen.joints]) * seen.joint_areas
+    return PackedBeam(
+        seen=seen,
+        matrices=BeamMatrices(seen),
+        joints=passes.joints,
+        bed=passes.bed,
+        alpha=passes.alpha,
+        opening=passes.opening,
+        shear=shear,
+        passes=passes,
+        longest_step=model.longest_step(seen),
+        fixed_step=model.time_step,
+        geometric=passes.geometric,
+        relative=passes.relative,
+        sliding=passes.sliding,
+        stiffness_damping=model.stiffness_damping,
+        initial_rotation=model.initial_rotation,
+    )

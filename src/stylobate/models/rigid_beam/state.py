@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,14 +13,11 @@ from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
 from ...response.collapse import OVERTURNED, in_plane
-from ..base import ground_histories
-from ..rocking.block import MADE_ENERGY, out_of_balance, relative
+from ..shared import ledger
+from ..shared.ground import ground_histories
 from ..shared.lanes import MOST_SAMPLES
 from .equations import BeamMatrices
 from .verdict import Passes
-
-if TYPE_CHECKING:
-    from .model import RigidBeam
 
 #: Why a column that falls by itself has no verdict: the motion has no part in it.
 TOO_SOFT = "the joints are too soft to hold the column upright under its own weight; raise normal_stiffness"
@@ -30,9 +25,29 @@ TOO_SOFT = "the joints are too soft to hold the column upright under its own wei
 
 @dataclass(frozen=True, eq=False)
 class PackedBeam:
-    """Everything about a column that the rigid beam needs, computed once; see the model for the meaning of the names."""
+    """Everything about a column that the rigid beam needs, computed once.
 
-    model: RigidBeam
+    Parameters
+    ----------
+    seen : Column
+        As the model sees it.
+    matrices : BeamMatrices
+    joints : array, shape (5, n)
+    bed : tuple of float, True or None
+        The joints' law, see ``kernels/rigid_beam/moment_law.py``.
+    alpha, opening : array, shape (n,)
+        Critical angles of the law, rotations at which the joints open [rad].
+    shear : array, shape (n,)
+        k_s A [N/m].
+    passes : Passes
+    longest_step, fixed_step : float, float or None
+        Time step where the motion allows it, and the one asked for instead [s].
+    geometric, relative, sliding : bool
+        Gravity stands in the equations of motion; the law is in relative rotations; joints slip.
+    stiffness_damping, initial_rotation : float
+        [s], [rad]
+    """
+
     seen: Column
     matrices: BeamMatrices
     joints: np.ndarray
@@ -42,15 +57,16 @@ class PackedBeam:
     shear: np.ndarray
     passes: Passes
     longest_step: float
+    fixed_step: float | None
+    geometric: bool
+    relative: bool
+    sliding: bool
+    stiffness_damping: float
+    initial_rotation: float
 
     def step_for(self, motion: Motion) -> float:
         """Time step under a motion [s]."""
-        return self.model.time_step or min(self.longest_step, MOST_SAMPLES * motion.dt)
-
-    @property
-    def geometric(self) -> bool:
-        """Whether gravity stands in the equations of motion."""
-        return self.model.second_order == "geometric"
+        return self.fixed_step or min(self.longest_step, MOST_SAMPLES * motion.dt)
 
     @property
     def ultimate(self) -> np.ndarray:
@@ -70,7 +86,7 @@ class PackedBeam:
             Rotations towards +x, their velocities, slips, their velocities and plastic parts.
         """
         weight = self.seen.gravity * self.matrices.load
-        if self.model.sliding:
+        if self.sliding:
             q = np.concatenate((omega, slip_rate))
             kinetic = 0.5 * q @ self.matrices.sliding_mass @ q
         else:
@@ -89,34 +105,23 @@ class PackedBeam:
         return np.where(size > self.opening, self.seen.joint_widths * (size - np.sqrt(size * self.opening)), 0.0)
 
 
-@lru_cache(64)
-def packed(model: RigidBeam, column: Column) -> PackedBeam:
-    """The column as the model sees it."""
-    seen = model.idealised(column)
-    matrices = BeamMatrices(seen)
-    joints, bed, alpha = model.joints(seen), model.bed(seen), model.critical_angles(seen)
-    shear = np.array([joint.shear_stiffness for joint in seen.joints]) * seen.joint_areas
-    opening = model.opening_rotations(seen)
-    return PackedBeam(
-        model, seen, matrices, joints, bed, alpha, opening, shear,
-        Passes(model, seen, joints, bed, alpha), model.longest_step(seen),
-    )  # fmt: skip
-
-
 def measures_of(beam: PackedBeam, found: dict) -> Measures:
     """Measures from the facts of a run.
 
     ``found``: theta, omega, slip at the end, shape (n,); energy (mechanical, upright at rest zero), start (the same at the
-    start), work (largest of the input), given (see :func:`given`), unaccounted (by the ledger) [J]; lost (joint from 1,
-    0: none), side, time of collapse, end, failure, top, residual, turn, opening, step, steps.
+    start), work (largest of the input), given (see :func:`given`), unaccounted and released (by the ledger) [J]; lost
+    (joint from 1, 0: none), side, time of collapse, end, failure, top, residual, turn, opening, step, steps.
     """
     column, passes = beam.seen, beam.passes
     failure = found["failure"] or ("" if passes.stands else TOO_SOFT)
-    imbalance = relative(found["unaccounted"], found["work"], found["start"], passes.lowest_rigid)
+    imbalance = ledger.imbalance(
+        found["unaccounted"], work=found["work"], start=found["start"], barrier=passes.lowest_rigid,
+        released=found["released"],
+    )  # fmt: skip
     state = (*found["theta"], *found["slip"], found["energy"], imbalance)
     if not failure and not all(map(math.isfinite, state)):
         failure = f"the state is not finite at {found['end']:.4g} s; shorten the time_step"
-    failure = failure or out_of_balance(imbalance)
+    failure = failure or ledger.out_of_balance(imbalance)
     collapsed, decided, reason, joint = False, False, failure, 0
     if not failure and found["lost"]:
         collapsed, decided = True, True
@@ -124,8 +129,8 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
         reason = f"{passes.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
     elif not failure:
         collapsed, decided, reason, joint = passes.verdict(found)
-    if collapsed and not passes.reached(found["start"] + found["given"], beam.model.initial_rotation):
-        failure = reason = MADE_ENERGY
+    if collapsed and not passes.reached(found["start"] + found["given"], beam.initial_rotation):
+        failure = reason = ledger.MADE_ENERGY
         collapsed, decided = False, False
     widths = column.joint_widths
     outcome = classify(
@@ -159,7 +164,7 @@ def _collapse(found: dict, time: float, slid: int) -> Collapse:
     return Collapse(time, None, OVERTURNED, towards)
 
 
-def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) -> Histories:
+def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, energy) -> Histories:
     """Histories from the recorded states.
 
     Parameters
@@ -167,7 +172,7 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) ->
     time : array, shape (T,)
     theta, slip : array, shape (T, n)
         Rotations towards +x [rad] and slips [m].
-    ledger : array, shape (T, 6)
+    energy : array, shape (T, 6)
         Input, kinetic, gravitational, elastic, friction, viscous [J].
     """
     column = beam.seen
@@ -178,7 +183,6 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) ->
     # Seconds of small angles: the drums sink as they tilt and rise as their joints open.
     z = np.cumsum(0.5 * beam.lift(phi), axis=1) - 0.5 * theta**2 @ lever.T
     a_g, u_g = ground_histories(motion, time)
-    names = ("input", "kinetic", "gravitational", "elastic", "friction", "viscous")
     return Histories.of_drums(
         time=time,
         drum_x=x - x[0],
@@ -190,19 +194,14 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, ledger) ->
         top_displacement=base[:, -1] + (theta - theta[0]) @ column.heights,
         ground_acceleration=a_g,
         ground_displacement=u_g,
-        energy={name: ledger[:, k] for k, name in enumerate(names)},
+        energy={name: energy[:, k] for k, name in enumerate(ledger.TERMS)},
     )
 
 
-def unaccounted(ledger: np.ndarray) -> float:
-    """Energy that the ledger cannot account for [J]; ``ledger`` as in :func:`histories_of`, one row."""
-    return abs(float(ledger[0] - ledger[1:].sum()))
-
-
-def given(ledger: np.ndarray, largest: float, after: bool) -> float:
+def given(row: np.ndarray, largest: float, after: bool) -> float:
     """Most energy that a column can have had from the input when it was lost [J].
 
-    ``ledger`` as in :func:`histories_of`, one row at the end; ``largest`` input work; ``after``: it was lost after the
+    ``row``: the ledger at the end; ``largest`` input work; ``after``: it was lost after the
     motion, at whose end it stood on the near side of every barrier.
     """
-    return float(ledger[0] - ledger[4] - ledger[5]) if after else largest
+    return float(row[0] - row[4] - row[5]) if after else largest

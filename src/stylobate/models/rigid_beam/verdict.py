@@ -5,16 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...column import Column
 from ...kernels.rigid_beam import moment_law
 from .equations import BeamMatrices
-
-if TYPE_CHECKING:
-    from .model import RigidBeam
 
 #: Rotations at which the way over a joint is looked at.
 POINTS = 401
@@ -53,7 +49,6 @@ class Passes:
 
     Parameters
     ----------
-    model : RigidBeam
     column : Column
         As the model sees it.
     joints : array, shape (5, n)
@@ -61,23 +56,25 @@ class Passes:
         The law, see ``kernels/rigid_beam/moment_law.py``.
     alpha : array, shape (n,)
         Critical angles of the law [rad].
+    opening : array, shape (n,)
+        Rotation at which each joint opens [rad].
+    geometric, relative, sliding : bool
+        Gravity stands in the equations of motion; the law is in relative rotations; joints slip.
     """
 
-    model: RigidBeam
     column: Column
     joints: np.ndarray
     bed: tuple[float, ...] | bool | None
     alpha: np.ndarray
-
-    @property
-    def geometric(self) -> bool:
-        """Whether gravity stands in the equations of motion."""
-        return self.model.second_order == "geometric"
+    opening: np.ndarray
+    geometric: bool
+    relative: bool
+    sliding: bool
 
     @cached_property
     def has_potential(self) -> bool:
         """Whether the joints' moments have a potential: not in the rotations of single drums."""
-        return self.column.n == 1 or self.model.rotation == "relative"
+        return self.column.n == 1 or self.relative
 
     @cached_property
     def gravity(self) -> tuple[np.ndarray, np.ndarray]:
@@ -136,7 +133,7 @@ class Passes:
         column = self.column
         ratio = np.array([joint.tan_phi for joint in column.joints])
         ratio += np.array([joint.cohesion for joint in column.joints]) * column.joint_areas / column.joint_weights
-        if not self.model.sliding:
+        if not self.sliding:
             ratio[:] = np.inf
         ratio[0] = np.inf
         return np.minimum.accumulate(ratio[::-1])[::-1]
@@ -185,7 +182,7 @@ class Passes:
             return bool(np.all(out * phi >= 0.0))
         tilt = float(self.gravity[0] @ theta**2)
         below = np.append(0.0, theta[:-1])
-        tip = float(self.column.joint_weights @ (slip * below)) if self.model.sliding else 0.0  # weight off the middle
+        tip = float(self.column.joint_weights @ (slip * below)) if self.sliding else 0.0  # weight off the middle
         if out @ phi >= tilt + tip or tilt <= 0.0:
             return True
         if tip == 0.0:
@@ -199,11 +196,6 @@ class Passes:
         return False
 
     @cached_property
-    def opening(self) -> np.ndarray:
-        """Rotation at which each joint opens [rad], shape (n,)."""
-        return self.model.opening_rotations(self.column)
-
-    @cached_property
     def modes(self) -> tuple[np.ndarray, np.ndarray]:
         """Circular frequencies squared [1/s²], shape (n,), and shapes, in columns, of the column with all joints closed.
 
@@ -212,7 +204,7 @@ class Passes:
         """
         n = self.column.n
         difference = np.eye(n) - np.eye(n, k=-1)
-        law = difference if self.model.rotation == "relative" else np.eye(n)
+        law = difference if self.relative else np.eye(n)
         stiffness = difference.T @ (self.joints[0][:, None] * law) - np.diag(self.gravity[0])
         squares, shapes = np.linalg.eig(np.linalg.solve(BeamMatrices(self.column).mass, stiffness))
         return squares, shapes
@@ -238,7 +230,7 @@ class Passes:
 
     def reached(self, energy: float, rotation: float) -> bool:
         """Whether a column let go at a rotation, and given at most this energy, could overturn at all."""
-        if not self.has_potential or self.model.sliding or energy >= self.lowest_unslid:
+        if not self.has_potential or self.sliding or energy >= self.lowest_unslid:
             return True
         n = self.column.n
         return not self.inside(np.full(n, -rotation), np.zeros(n))
@@ -252,7 +244,7 @@ class Passes:
         if not self.has_potential:
             return False, self.stays_closed(theta, found["omega"]), "", 0
         reach = found["energy"] + found["unaccounted"]
-        if self.model.sliding:
+        if self.sliding:
             left = room(self.column, slip)
             hanging = np.flatnonzero(left <= 0.0)
             if hanging.size:
@@ -262,7 +254,7 @@ class Passes:
                 gone = bool(reach < work.max())
                 why = f"the centroid of {self.part(joint)} has slid beyond the edge of joint {joint}"
                 return gone, gone, why if gone else "", joint if gone else 0
-        if reach >= (self.lowest(slip) if self.model.sliding else self.lowest_unslid):
+        if reach >= (self.lowest(slip) if self.sliding else self.lowest_unslid):
             return False, False, "", 0
         lost = not self.inside(theta, slip)
         return lost, True, "beyond the lowest barrier when the input ends" if lost else "", 0

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -15,6 +14,8 @@ from ...errors import InputError, check_range
 from ...motion import Motion
 from ..drums.block import PackedColumn, drum_fields, lane_fields
 from ..drums.stepped import SteppedDrums
+from ..shared import stable_step as shared
+from .block_stack import BlockStack
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -133,7 +134,8 @@ def _pack(column: Column, model: RigidBlock) -> PackedColumn:
         "fs": np.zeros(n + 1),
     }
     drums = drum_fields(column, column.joint_weights / kn)
-    return PackedColumn((drums, joint_fields, lane_fields(column, model)), model.step_for(column))
+    lane = lane_fields(column, model.stiffness_damping, model.mass_damping)
+    return PackedColumn((drums, joint_fields, lane), model.step_for(column))
 
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -145,16 +147,9 @@ def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]
 
 @lru_cache(maxsize=4096)
 def stable_step(column: Column, stiffness_damping: float = 0.0) -> float:
-    """Largest stable step of central differences for the closed column [s].
-
-    2/ω (√(1 + ζ²) − ζ), ζ = β ω / 2, from the highest frequency of the column on its elastic joints.
-    """
-    from .block_stack import BlockStack
-
+    """Largest stable step of central differences for the column on its elastic joints [s]."""
     kn, km, ks = joint_stiffness(column)
     strain = BlockStack.of_column(column).compatibility()
     stiffness = strain.T @ (np.stack((kn, ks, km), axis=1).ravel()[:, None] * strain)
-    root = 1.0 / np.sqrt(np.stack((column.masses, column.masses, column.inertias), axis=1).ravel())
-    omega = math.sqrt(float(np.linalg.eigvalsh(stiffness * np.outer(root, root))[-1]))
-    zeta = 0.5 * stiffness_damping * omega
-    return 2.0 / omega * (math.sqrt(1.0 + zeta * zeta) - zeta)
+    inverse = 1.0 / np.stack((column.masses, column.masses, column.inertias), axis=1).ravel()
+    return shared.stable_step(shared.highest_frequency(stiffness, inverse), stiffness_damping)

@@ -11,17 +11,11 @@ from ...motion import Motion
 from ...outcome import classify
 from ...response import Measures
 from ...response.collapse import in_plane
+from ..shared import ledger
+from ..shared.ground import values_at
 
 #: Impact velocity over p α under which the block comes to rest; it would rise to 5e-11 α.
 REST = 1.0e-5
-
-#: A run whose energy imbalance is larger has failed.
-LARGEST_IMBALANCE = 0.25
-
-#: Why a run has failed whose column overturns without the energy for it.
-MADE_ENERGY = (
-    "the column overturns by energy that the steps have made: its input never was enough; shorten the time_step"
-)
 
 
 @dataclass(frozen=True)
@@ -145,14 +139,15 @@ class RockingBlock:
             Smallest step [s] and number of steps.
         """
         begun = float(self.potential(abs(start)))
-        imbalance = relative(unaccounted, work, begun, self.barrier)
+        free = max(0.0, begun - float(self.potential(x)))
+        imbalance = ledger.imbalance(unaccounted, work=work, start=begun, barrier=self.barrier, released=free)
         if not failure and not (math.isfinite(x) and math.isfinite(v) and math.isfinite(imbalance)):
             failure = "the state is not finite"
-        failure = failure or out_of_balance(imbalance)
+        failure = failure or ledger.out_of_balance(imbalance)
         found = collapse_time >= 0.0
         collapsed, decided = (found, found) if failure or found else self.verdict(x, v, abs(unaccounted))
         if collapsed and not failure and begun + work < self.barrier:
-            failure = MADE_ENERGY
+            failure = ledger.MADE_ENERGY
         if failure:
             collapsed, decided = False, False
         opening = float(self.opening(max(peaks)))
@@ -177,31 +172,13 @@ class RockingBlock:
         )
 
 
-def relative(unaccounted: float, work: float, start: float, barrier: float) -> float:
-    """Energy imbalance [-]: what the ledger cannot account for, over the largest of three energies.
-
-    Those are the largest input work so far, the energy at the start and the lowest barrier: a run with little input, or
-    with none, is measured by what it would take to overturn the column.
-    """
-    return abs(unaccounted) / max(work, start, barrier)
-
-
-def out_of_balance(imbalance: float) -> str:
-    """Why a run with this energy imbalance has failed; empty if it has not."""
-    if imbalance <= LARGEST_IMBALANCE:
-        return ""
-    return f"the energy ledger is out of balance by {imbalance:.2g} (allowed is {LARGEST_IMBALANCE}); shorten the time_step"
-
-
 def half_steps(samples: np.ndarray, dt: float, step: float, steps: int) -> np.ndarray:
-    """A motion at the half steps of its run, then zero, shape (2 steps + 2,): linear between samples, without its factor.
+    """A motion at the half steps of its run, then zero, shape (2 steps + 2,), without its factor.
 
     The step that ends with the motion sees its last sample; that the one which starts there sees zero is up to the kernel.
     """
-    last = len(samples) - 1
-    out = np.interp(np.arange(2 * steps + 2) * (0.5 * step / dt), np.arange(last + 1), samples)
-    out[-1] = 0.0
-    return out
+    positions = np.arange(2 * steps + 1) * (0.5 * step / dt)
+    return np.append(values_at(samples, np.minimum(positions, len(samples) - 1)), 0.0)
 
 
 def remaining_peak(motion: Motion) -> np.ndarray:

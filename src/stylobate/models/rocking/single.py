@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
-from ...motion import Motion, integrate
+from ...motion import Motion
 from ...response import Histories, Measures
 from ..base import RunOptions
+from ..shared.ground import ground_history, value_at
 from .block import REST, RockingBlock, lightest_weight, off_the_ground, remaining_peak
 
 #: Of the solver; the absolute one over the natural size of each variable: α, p α and (p α)².
@@ -24,10 +25,7 @@ SAMPLES = 33
 
 
 class Ground:
-    """Ground acceleration over g at any time: linear between the samples, zero after the last one.
-
-    ``push`` scales the horizontal one.
-    """
+    """Ground acceleration over g at any time; ``push`` scales the horizontal one."""
 
     def __init__(self, motion: Motion, gravity: float, push: float = 1.0) -> None:
         self.dt = motion.dt
@@ -36,16 +34,12 @@ class Ground:
         vertical = motion.vertical
         self.horizontal = motion.acceleration * (push / gravity)
         self.weight = np.ones(motion.steps) if vertical is None else 1.0 + vertical / gravity
-        self.a, self.g = self.horizontal.tolist(), self.weight.tolist()  # plain floats: read one by one
+        self.lift = None if vertical is None else vertical / gravity
 
     def __call__(self, t: float) -> tuple[float, float]:
         """a_g/g and 1 + a_v/g."""
-        if t > self.duration:
-            return 0.0, 1.0
-        i = min(int(t / self.dt), self.last - 1)
-        r = t / self.dt - i
-        a, g = self.a, self.g
-        return a[i] + r * (a[i + 1] - a[i]), g[i] + r * (g[i + 1] - g[i])
+        place = t / self.dt
+        return value_at(self.horizontal, place), 1.0 if self.lift is None else 1.0 + value_at(self.lift, place)
 
     def first_uplift(self, t: float, block: RockingBlock) -> tuple[float, float] | None:
         """Time at or after t at which a block at rest starts to rock, and the side (+1: towards +x); None if never."""
@@ -59,7 +53,7 @@ class Ground:
             return None
         k = int(above[0])
         high, low = float(excess[k]), 0.0
-        side = -math.copysign(1.0, self.a[i + k])
+        side = -math.copysign(1.0, self.horizontal[i + k])
         begin = max(t, (i + k - 1) * self.dt)
         end = (i + k) * self.dt
         a, g = self(begin)
@@ -239,7 +233,7 @@ def _histories(block: RockingBlock, motion: Motion, times, rows, initial_rotatio
         return x - x0, z - z0
 
     drum_x, drum_z = moved(block.centroid_height)
-    ground = integrate(integrate(motion.acceleration, motion.dt), motion.dt)
+    a_g, u_g = ground_history(motion, times)
     zero = np.zeros_like(times)
     x = np.abs(tilt)
     return Histories.of_drums(
@@ -251,8 +245,8 @@ def _histories(block: RockingBlock, motion: Motion, times, rows, initial_rotatio
         joint_slip=zero[:, None],
         base_displacement=moved(0.0)[0],
         top_displacement=moved(block.height)[0],
-        ground_acceleration=np.interp(times, motion.time, motion.acceleration, right=0.0),
-        ground_displacement=_ground_displacement(times, motion, ground),
+        ground_acceleration=a_g,
+        ground_displacement=u_g,
         energy={
             "input": block.inertia * work,
             "kinetic": block.inertia * 0.5 * v**2,
@@ -260,9 +254,3 @@ def _histories(block: RockingBlock, motion: Motion, times, rows, initial_rotatio
             "impact": block.inertia * loss,
         },
     )
-
-
-def _ground_displacement(times: np.ndarray, motion: Motion, displacement: np.ndarray) -> np.ndarray:
-    """Ground displacement by the trapezoidal rule; at constant velocity after the motion."""
-    velocity = integrate(motion.acceleration, motion.dt)[-1]
-    return np.interp(times, motion.time, displacement) + np.maximum(0.0, times - motion.duration) * velocity

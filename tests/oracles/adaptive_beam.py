@@ -1,25 +1,24 @@
-"""Rigid beam by SciPy's adaptive Runge–Kutta method of order 8, with full matrices: the reference for the fixed step."""
+"""Rigid beam by SciPy's adaptive Runge–Kutta method of order 8, with full matrices: what the fixed step is held against."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ...column import Column
-from ...kernels.rigid_beam import moment_law
-from ...kernels.rigid_beam.step import SUPPORT_MARGIN
-from ...motion import Motion
-from ...response import Histories, Measures
-from ..base import RunOptions
-from ..rocking.block import lightest_weight, off_the_ground
-from ..rocking.single import Ground
-from .state import PackedBeam, given, histories_of, measures_of, packed, unaccounted
-from .verdict import faces
-
-if TYPE_CHECKING:
-    from .model import RigidBeam
+from stylobate.column import Column
+from stylobate.kernels.rigid_beam import moment_law
+from stylobate.kernels.rigid_beam.step import SUPPORT_MARGIN
+from stylobate.models.base import RunOptions
+from stylobate.models.rigid_beam.model import RigidBeam
+from stylobate.models.rigid_beam.state import PackedBeam, given, histories_of, measures_of
+from stylobate.models.rigid_beam.verdict import faces
+from stylobate.models.rocking.block import lightest_weight, off_the_ground
+from stylobate.models.rocking.single import Ground
+from stylobate.models.shared import ledger
+from stylobate.motion import Motion
+from stylobate.response import Response
+from stylobate.simulate import simulate
 
 #: Of the solver; the absolute one in radians, and in metres for slips.
 RELATIVE_TOLERANCE = 1e-7
@@ -34,9 +33,9 @@ class BeamRates:
 
     def __init__(self, beam: PackedBeam, ground: Ground) -> None:
         self.beam, self.ground = beam, ground
-        model, column = beam.model, beam.seen
+        column = beam.seen
         self.n = n = column.n
-        self.sliding = model.sliding
+        self.sliding = beam.sliding
         self.inverse = np.linalg.inv(beam.matrices.sliding_mass if self.sliding else beam.matrices.mass)
         self.difference = np.eye(n) - np.eye(n, k=-1)
         self.below = np.eye(n, k=-1)
@@ -49,8 +48,8 @@ class BeamRates:
         self.lower, self.upper = faces(column)
         self.plastic = np.zeros(n)
         self.gravity = column.gravity
-        self.beta = model.stiffness_damping
-        self.absolute = model.rotation == "absolute"
+        self.beta = beam.stiffness_damping
+        self.absolute = not beam.relative
 
     def split(self, y: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """θ, θ̇, slips and their velocities."""
@@ -140,11 +139,20 @@ class BeamRates:
         return 0, 0
 
 
-def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunOptions) -> tuple[Histories, Measures]:
-    """One run with histories."""
+def run_as(solver: str, column: Column, motion: Motion, model: RigidBeam, **options) -> Response:
+    """One run of the model by its own fixed step ("fixed"), or by this solver ("adaptive")."""
+    if solver == "fixed":
+        return simulate(column, motion, model, **options)
+    model.check(column, motion)
+    return run_adaptive(column, motion, model, **options)
+
+
+def run_adaptive(column: Column, motion: Motion, model: RigidBeam, **chosen) -> Response:
+    """One run with histories; keywords as in ``simulate``."""
     from scipy.integrate import DOP853
 
-    beam = packed(model, column)
+    options = RunOptions(**chosen)
+    beam = model.pack(column)
     rates = BeamRates(beam, Ground(motion, column.gravity))
     n, end = column.n, motion.duration + options.tail
     y = np.zeros((4 if model.sliding else 2) * n + 3)
@@ -201,19 +209,19 @@ def run_adaptive(model: RigidBeam, column: Column, motion: Motion, options: RunO
     t = float(solver.t)
     if t > rows[-1][0] and not failure:
         rows.append(row(t, solver.y))
-    time, angles, slips, ledger = (np.array(part) for part in zip(*rows, strict=True))
+    time, angles, slips, energy = (np.array(part) for part in zip(*rows, strict=True))
     theta, slip = angles[-1], slips[-1]
     measures = measures_of(
         beam,
         facts | {
             "theta": theta, "omega": rates.split(solver.y)[1], "slip": slip,
-            "energy": float(ledger[-1, 1:4].sum() + start.sum()), "start": float(start.sum()), "work": worst,
-            "given": given(ledger[-1], worst, facts["time"] > motion.duration and inside),
-            "unaccounted": unaccounted(ledger[-1]),
+            "energy": float(energy[-1, 1:4].sum() + start.sum()), "start": float(start.sum()), "work": worst,
+            "given": given(energy[-1], worst, facts["time"] > motion.duration and inside),
+            "unaccounted": ledger.unaccounted(energy[-1]), "released": ledger.released(energy[-1]),
             "end": t, "failure": off_the_ground(motion, column.gravity, facts["time"]) or failure,
             "top": top, "turn": turn, "opening": opening,
             "residual": float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum()),
             "step": smallest, "steps": steps,
         },
     )  # fmt: skip
-    return histories_of(beam, motion, time, angles, slips, ledger), measures
+    return Response(column, histories_of(beam, motion, time, angles, slips, energy), measures, model.name, {})

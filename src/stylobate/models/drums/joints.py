@@ -1,0 +1,42 @@
+"""Joints between drums: their stiffness per area, and their contact points."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ...column import Column
+
+
+def joint_stiffnesses(column: Column, block_modulus: float | None) -> tuple[np.ndarray, np.ndarray]:
+    """Normal and shear stiffness per area of each joint [N/m³], with the stone in series if its modulus is given.
+
+    1/k_n′ = 1/k_n + h/2E of the drum above + h/2E of the drum below (the base is rigid); k_s keeps its ratio to k_n.
+    Eq. (D2).
+    """
+    kn = np.array([joint.normal_stiffness for joint in column.joints])
+    ks = np.array([joint.shear_stiffness for joint in column.joints])
+    if block_modulus is None:
+        return kn, ks
+    half = 0.5 * column.heights / block_modulus
+    soft = 1.0 / (1.0 / kn + half + np.concatenate(([0.0], half[:-1])))
+    return soft, ks * soft / kn
+
+
+def contact_points(section: str, points: int) -> tuple[np.ndarray, np.ndarray]:
+    """Places (−1 … 1) and shares of the area of a joint's contact points.
+
+    Gauss–Lobatto's rule for the chord of the section: weight 1 for a rectangle, √(1 − ξ²) for a circle. Its inner points
+    are the roots of the Jacobi polynomial for the weight times 1 − ξ²; the ends take what is left.
+    """
+    if points == 2:
+        return np.array([-1.0, 1.0]), np.array([0.5, 0.5])
+    from scipy.special import roots_jacobi
+
+    power, total = (1.5, math.pi / 2.0) if section == "circular" else (1.0, 2.0)
+    inner, weight = roots_jacobi(points - 2, power, power)
+    inner = 0.5 * (inner - inner[::-1])
+    weight = 0.5 * (weight + weight[::-1]) / (1.0 - inner**2)
+    end = 0.5 * (total - weight.sum())
+    return np.concatenate(([-1.0], inner, [1.0])), np.concatenate(([end], weight, [end])) / total

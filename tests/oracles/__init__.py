@@ -1,0 +1,1 @@
+"""Independent computations that the package's own are held against."""
