@@ -10,7 +10,7 @@ after a few impacts rocking is chaotic, and one run is one draw.
 import matplotlib.pyplot as plt
 
 import stylobate as st
-from stylobate.analysis.probability import wilson_interval
+from stylobate.analysis.verdicts import wilson_interval
 from stylobate.column.imperfections import imperfect_columns
 
 # %%

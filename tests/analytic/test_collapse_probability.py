@@ -15,10 +15,10 @@ from stylobate.analysis.probability import (
     UNKNOWN,
     UNSAFE,
     CollapseProbability,
-    wilson_interval,
 )
 from stylobate.analysis.replicates import collapse_probability
 from stylobate.analysis.step_sensitivity import compare_steps, halved_step
+from stylobate.analysis.verdicts import collapse_interval, share_collapsed, wilson_interval
 from stylobate.campaign import runner
 from stylobate.column import preset
 from stylobate.column.imperfections import Imperfection, imperfect_columns
@@ -228,3 +228,12 @@ def test_a_domain_is_read_back_from_its_file(tmp_path):
         Domain.load(tmp_path / "none.nc")
     part = dataclasses.replace(domain, rows=[None, *domain.rows[1:]])
     assert Domain.load(part.save(tmp_path / "part.nc")).verdicts[0, 0] == v.NOT_RUN
+
+
+def test_an_undecided_run_is_no_collapse_and_no_survival_in_any_share():
+    # 3 fall, 5 stand, 2 are undecided: 3 of 10; as few as Wilson's lower limit of 3, as many as his upper limit of 5.
+    assert share_collapsed(3, 5, 2) == pytest.approx(0.3)
+    assert np.isnan(share_collapsed(0, 0, 4))
+    low, high = collapse_interval(3, 5, 2, 0.9)
+    assert low == wilson_interval(3, 10, 0.9)[0]
+    assert high == wilson_interval(5, 10, 0.9)[1]

@@ -134,7 +134,7 @@ def test_every_measure_can_be_drawn_against(against):
 TABLE = table()
 
 
-def test_the_share_of_collapse_counts_only_records_with_a_verdict():
+def test_the_share_of_collapse_counts_undecided_records_as_not_collapsed():
     suite = critical_suite(VERDICTS_OF_RECORDS)
     assert suite.share_collapsed[[0, 1, 3]] == pytest.approx([0.0, 0.5, 1.0])
     assert math.isnan(suite.share_collapsed[2])

@@ -55,11 +55,11 @@ class CriticalSuite:
 
     @property
     def share_collapsed(self) -> np.ndarray:
-        """Share of the records that collapse the column, of those with a verdict; NaN where none has, shape (A,)."""
-        verdicts = np.array([one.verdicts for one in self.results])
-        collapsed, stands = (verdicts == v.COLLAPSED).sum(axis=0), (verdicts == v.STANDS).sum(axis=0)
-        decided = collapsed + stands
-        return np.where(decided > 0, collapsed / np.maximum(decided, 1), np.nan)
+        """Share of the records that collapse the column, NaN where none is decided, shape (A,).
+
+        See :func:`stylobate.analysis.verdicts.share_collapsed`.
+        """
+        return v.share_collapsed(*v.tally(np.array([one.verdicts for one in self.results]), axis=0))
 
     @property
     def table(self) -> pandas.DataFrame:

@@ -6,8 +6,7 @@ import dataclasses
 import json
 from dataclasses import dataclass
 from pathlib import Path
-from statistics import NormalDist
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -85,23 +84,16 @@ class CollapseProbability:
 
     @property
     def frequency(self) -> np.ndarray:
-        """Share of the runs that collapse, NaN where none is decided, shape (F, A). Undecided runs count as not collapsed.
-
-        Left out, they would make it too large: a collapse decides a run, standing needs time.
-        """
-        collapsed, trials = self.count(v.COLLAPSED), self._trials
-        decided = collapsed + self.count(v.STANDS) > 0
-        return np.divide(collapsed, trials, out=np.full(trials.shape, np.nan), where=decided)
+        """Share of the runs that collapse, shape (F, A): see :func:`stylobate.analysis.verdicts.share_collapsed`."""
+        return v.share_collapsed(*self._counts)
 
     @property
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper confidence limit of the probability of collapse, each of shape (F, A).
 
-        The lower one as if every undecided run had come to stand, the upper one as if it had collapsed.
+        See :func:`stylobate.analysis.verdicts.collapse_interval`.
         """
-        collapsed, undecided = self.count(v.COLLAPSED), self.count(v.UNDECIDED)
-        low, _ = wilson_interval(collapsed, self._trials, self.confidence)
-        return low, wilson_interval(collapsed + undecided, self._trials, self.confidence)[1]
+        return v.collapse_interval(*self._counts, self.confidence)
 
     @property
     def kinds(self) -> np.ndarray:
@@ -291,25 +283,9 @@ class CollapseProbability:
             raise store.unreadable(path, error) from None
 
     @property
+    def _counts(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        return self.count(v.COLLAPSED), self.count(v.STANDS), self.count(v.UNDECIDED)
+
+    @property
     def _trials(self) -> np.ndarray:
-        return self.count(v.COLLAPSED) + self.count(v.STANDS) + self.count(v.UNDECIDED)
-
-
-def wilson_interval(successes: Any, trials: Any, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
-    """Confidence limits of a probability from counts; 0 and 1 where there is no trial.
-
-    Parameters
-    ----------
-    successes, trials : array of int
-    confidence : float
-
-    References
-    ----------
-    Wilson 1927: the probabilities p with (successes/trials − p)² ≤ z² p (1 − p)/trials.
-    """
-    k, n = np.asarray(successes, dtype=float), np.asarray(trials, dtype=float)
-    z2 = NormalDist().inv_cdf(0.5 + 0.5 * confidence) ** 2
-    centre = (k + 0.5 * z2) / (n + z2)
-    half = np.sqrt(z2) / (n + z2) * np.sqrt(np.divide(k * (n - k), n, out=np.zeros_like(n), where=n > 0) + 0.25 * z2)
-    low = np.where(k == 0, 0.0, np.maximum(0.0, centre - half))
-    return low, np.where(k == n, 1.0, np.minimum(1.0, centre + half))
+        return sum(self._counts, np.zeros(1, dtype=int))

@@ -15,6 +15,7 @@ from ..errors import InputError
 from ..models.base import Case
 from ..models.rocking.model import HousnerBlock
 from ..motion import Motion, pulse_match
+from ..outcome import Outcome
 from ..simulate import simulate_iter
 
 if TYPE_CHECKING:
@@ -43,6 +44,8 @@ class RockingSpectrum:
         Its peak along x [m/s²].
     pulse_period : float
         Period of its strongest pulse [s]; NaN without one.
+    failed : array of bool, optional
+        Blocks that could not be computed, shape (P, A); none by default.
     """
 
     frequency_parameter: np.ndarray
@@ -53,6 +56,7 @@ class RockingSpectrum:
     motion: str
     pga: float
     pulse_period: float
+    failed: np.ndarray | None = None
 
     @property
     def frequency_ratio(self) -> np.ndarray:
@@ -91,6 +95,7 @@ class RockingSpectrum:
     def summary(self) -> dict:
         """The JSON object of ``stylobate spectrum --kind rocking``."""
         period = self.pulse_period
+        failed = 0 if self.failed is None else int(self.failed.sum())
         return {
             "pga_g": self.pga / g,
             "pulse_period_s": period,
@@ -102,7 +107,8 @@ class RockingSpectrum:
             "cells": int(self.collapsed.size),
             "collapsed_cells": int((self.collapsed & self.decided).sum()),
             "closed_cells": int(self.closed.sum()),
-            "undecided_cells": int((~self.decided).sum()),
+            "undecided_cells": int((~self.decided).sum()) - failed,
+            "failed_cells": failed,
         }
 
     @property
@@ -171,9 +177,10 @@ def rocking_spectrum(
     cases = [Case(rocking_block(one, angle), motion) for one in p for angle in alpha]
     peak = np.empty(len(cases))
     collapsed = np.zeros(len(cases), dtype=bool)
-    decided = np.zeros(len(cases), dtype=bool)
+    decided, failed = np.zeros(len(cases), dtype=bool), np.zeros(len(cases), dtype=bool)
     for i, measures in simulate_iter(cases, HousnerBlock(restitution=restitution), tail=tail, threads=threads):
         peak[i], collapsed[i], decided[i] = measures.peak_rotation, measures.collapsed, measures.decided
+        failed[i] = measures.outcome is Outcome.FAILED
     shape = len(p), len(alpha)
     return RockingSpectrum(
         p,
@@ -184,6 +191,7 @@ def rocking_spectrum(
         motion.name,
         motion.pga,
         pulse_match(motion).period if motion.pga > 0.0 else math.nan,
+        failed.reshape(shape),
     )
 
 

@@ -1,13 +1,20 @@
 """The verdict of a run: the one place where runs are counted as collapse, or not.
 
-A run that failed, or ended while the column was still far from rest, is no collapse and no survival: it is counted
-apart.
+One rule for every count, share, interval and table:
+
+* A run is ``failed`` if it could not be computed; ``undecided`` if it ended while the column could still change its mind;
+  else it ``collapsed`` or ``stands``. Counts name all of them; a run that failed or is undecided is no collapse.
+* Shares and probabilities are over all runs but those that failed or were not made. An undecided run counts as not
+  collapsed: left out, it would make the share too large, because a collapse decides a run at once and standing needs time.
+* In an interval the undecided are counted for both sides: as standing in the lower limit, as collapsed in the upper one.
+* Two models are compared where both have a verdict.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import groupby
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -31,6 +38,58 @@ def count(verdicts: Sequence[str] | np.ndarray) -> dict[str, int]:
     """How many runs have each verdict."""
     values = np.asarray(verdicts).ravel()
     return {one: int(np.count_nonzero(values == one)) for one in VERDICTS}
+
+
+def tally(verdicts: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """How many runs collapsed, stand and are undecided along an axis of an array of verdicts."""
+    collapsed, stands, undecided = ((verdicts == one).sum(axis=axis) for one in (COLLAPSED, STANDS, UNDECIDED))
+    return collapsed, stands, undecided
+
+
+def share_collapsed(collapsed: Any, stands: Any, undecided: Any) -> np.ndarray:
+    """Share of the runs that collapse, undecided ones counted as not collapsed; NaN where no run is decided.
+
+    Parameters
+    ----------
+    collapsed, stands, undecided : array of int
+        Numbers of runs; those that failed are in none of them.
+    """
+    fell, stood, open_ = (np.asarray(one) for one in (collapsed, stands, undecided))
+    trials = fell + stood + open_
+    return np.divide(fell, trials, out=np.full(trials.shape, np.nan), where=fell + stood > 0)
+
+
+def collapse_interval(
+    collapsed: Any, stands: Any, undecided: Any, confidence: float = 0.95
+) -> tuple[np.ndarray, np.ndarray]:
+    """Confidence limits of the probability of collapse; arguments as of :func:`share_collapsed`.
+
+    The lower one as if every undecided run had come to stand, the upper one as if it had collapsed.
+    """
+    fell, stood, open_ = (np.asarray(one) for one in (collapsed, stands, undecided))
+    trials = fell + stood + open_
+    low, _ = wilson_interval(fell, trials, confidence)
+    return low, wilson_interval(fell + open_, trials, confidence)[1]
+
+
+def wilson_interval(successes: Any, trials: Any, confidence: float = 0.95) -> tuple[np.ndarray, np.ndarray]:
+    """Confidence limits of a probability from counts; 0 and 1 where there is no trial.
+
+    Parameters
+    ----------
+    successes, trials : array of int
+    confidence : float
+
+    References
+    ----------
+    Wilson 1927: the probabilities p with (successes/trials − p)² ≤ z² p (1 − p)/trials.
+    """
+    k, n = np.asarray(successes, dtype=float), np.asarray(trials, dtype=float)
+    z2 = NormalDist().inv_cdf(0.5 + 0.5 * confidence) ** 2
+    centre = (k + 0.5 * z2) / (n + z2)
+    half = np.sqrt(z2) / (n + z2) * np.sqrt(np.divide(k * (n - k), n, out=np.zeros_like(n), where=n > 0) + 0.25 * z2)
+    low = np.where(k == 0, 0.0, np.maximum(0.0, centre - half))
+    return low, np.where(k == n, 1.0, np.minimum(1.0, centre + half))
 
 
 def first_collapse(amplitudes: np.ndarray, verdicts: Sequence[str]) -> float | None:

@@ -142,7 +142,8 @@ def rocking(
     summary, files = found.summary(), []
     said = {
         "blocks": f"{summary['cells']}: {summary['closed_cells']} stay closed, "
-        f"{summary['collapsed_cells']} overturn, {summary['undecided_cells']} end far from rest (try --tail 5s)",
+        f"{summary['collapsed_cells']} overturn, {summary['undecided_cells']} end far from rest (try --tail 5s), "
+        f"{summary['failed_cells']} could not be computed",
         "strongest pulse": f"{found.pulse_period:.3g} s",
     }
     if folder is not None:
