@@ -9,7 +9,7 @@ import numpy as np
 from ...motion import Motion
 from ...response import Histories, Measures
 from ..base import RunOptions
-from ..shared.ground import ground_history, value_at
+from ..shared.ground import ground_histories, value_at
 from .block import REST, RockingBlock, lightest_weight, off_the_ground, remaining_peak
 
 #: Of the solver; the absolute one over the natural size of each variable: α, p α and (p α)².
@@ -233,7 +233,7 @@ def _histories(block: RockingBlock, motion: Motion, times, rows, initial_rotatio
         return x - x0, z - z0
 
     drum_x, drum_z = moved(block.centroid_height)
-    a_g, u_g = ground_history(motion, times)
+    a_g, u_g = ground_histories(motion, times)
     zero = np.zeros_like(times)
     x = np.abs(tilt)
     return Histories.of_drums(
