@@ -28,7 +28,7 @@ from .models.dem3d.model import DistinctElement3D as DistinctElement3D
 from .models.rigid_beam.model import RigidBeam as RigidBeam
 from .models.rigid_block.model import RigidBlock as RigidBlock
 from .models.rocking.model import HousnerBlock as HousnerBlock
-from .models.shared.start import Start as Start
+from .models.start import Start as Start
 from .motion import Motion as Motion
 from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic

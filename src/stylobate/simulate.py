@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     import pandas
 
     from .column.assembly import Assembly
-    from .models.shared.start import Start
+    from .models.start import Start
 
 
 def simulate(

@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 from stylobate.column import Column, Drum, Joint
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.shared.start import Start
+from stylobate.models.start import Start
 from stylobate.motion import Motion
 
 

@@ -15,7 +15,7 @@ from ..column import Column
 from ..errors import InputError, LeftOutWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
-from .shared.start import Start
+from .start import Start
 
 #: Beyond it no motion is one, and numbers overflow [m/s²].
 LARGEST_ACCELERATION = 1e6

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ...column import Column
-from ..shared.start import Start
+from ..start import Start
 
 
 def placed(
