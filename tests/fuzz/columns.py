@@ -132,4 +132,4 @@ def computed(rng: random.Random, column: Column) -> str:
     return f"computed: {measures.outcome.label}"
 
 
-TARGET = Target("columns", 10_000, 150, one)
+TARGET = Target("columns", 10_000, 150, one, limit=60.0)

@@ -114,6 +114,8 @@ class RigidBeam(Model):
         "With a vertical acceleration below −1 g the column leaves the ground: the run fails, unless it had collapsed.",
         "Slip does not shorten a joint in the equations, only in the verdict.",
         "moment_law=housner is for one drum.",
+        "Joints too soft to hold the column upright under its own weight give no verdict: the run fails.",
+        "Without sliding=true it warns where the friction is below the slenderness.",
         "A drum touches its neighbours only; what comes down is not followed.",
         "Columns that are not as built are refused.",
     )
