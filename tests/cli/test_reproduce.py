@@ -325,10 +325,15 @@ def test_runs_are_counted_and_certainty_is_what_its_domains_say(made):
 def test_the_page_escapes_what_it_is_given(tmp_path):
     picture = tmp_path / "one.png"
     picture.write_bytes(b"\x89PNG")
-    rows = Rows(("a", "b"), [("1 < 2", "does not hold")], mark=1)
+    rows = Rows(("a", "b"), [("1 < 2", "does not hold"), ("K_M 5 Hz", "holds")], mark=1, looks={"does not hold": "bad"})
     page = write_page(tmp_path / "x.html", "a & b", ["<p>"], [Section("s", ["t<", Picture(picture, 'c"'), rows])])
     text = page.read_text(encoding="utf-8")
     assert "a &amp; b" in text
     assert "<p>&lt;p&gt;</p>" in text
-    assert 'alt="c&quot;"' in text
-    assert '<td class="fails" data-name="b">✗ does not hold</td>' in text
+    assert 'alt="c&#34;"' in text
+    assert '<td class="bad" data-name="b">✗ does not hold</td>' in text
+    assert (
+        '<td class="" data-name="a">K<sub>M</sub> 5\N{NO-BREAK SPACE}Hz</td><td class="fair" data-name="b">≈ holds'
+        in text
+    )
+    assert "{{" not in text

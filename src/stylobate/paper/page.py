@@ -71,6 +71,7 @@ def write_paper_page(
             for r in rows
         ],
         mark=2,
+        looks={HOLDS: "good", CHOICES: "fair", FAILS: "bad"},
     )
     models = Points(
         (

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import html
-import json
-import re
 from pathlib import Path
 
 import numpy as np
+from jinja2 import Template
 
 from ..atomic import replacing
 from ..response import Response
@@ -47,13 +45,9 @@ def write_player(response: Response, path: str | Path, *, frames_per_second: flo
         "ground": scene.ground[indices].round(5).tolist(),
         "peak": float(np.abs(scene.ground).max()),
     }
-    words = {
-        "TITLE": html.escape(f"{scene.name}, {response.provenance.get('motion', '')}"),
-        "SENTENCE": html.escape(scene.sentence),
-        "DATA": json.dumps(data),
-    }
-    page = Path(__file__).with_name("player.html").read_text(encoding="utf-8")
-    page = re.sub("|".join(words), lambda found: words[found[0]], page)
+    title = f"{scene.name}, {response.provenance.get('motion', '')}"
+    template = Template(Path(__file__).with_name("player.html").read_text(encoding="utf-8"), autoescape=True)
+    page = template.render(title=title, sentence=scene.sentence, data=data)
     target = Path(path)
     with replacing(target) as partial:
         partial.write_text(page, encoding="utf-8")
