@@ -7,7 +7,7 @@ import sqlite3
 from contextlib import suppress
 from pathlib import Path
 
-from ..errors import InputError
+from ..errors import InputError, StylobateError
 
 
 class Holding:
@@ -24,6 +24,8 @@ class Holding:
     ------
     InputError
         Another process holds it.
+    StylobateError
+        The system does not let it be held, e.g. because the disk is full.
     """
 
     def __init__(self, path: Path) -> None:
@@ -35,10 +37,13 @@ class Holding:
                 self._file.execute("BEGIN EXCLUSIVE")
             except sqlite3.Error as error:
                 self._file.close()
-                busy = "locked" in str(error)
-                why = "another process is at work on it" if busy else f"it cannot be locked ({error})"
-                remedy = "wait for its end, or choose another folder" if busy else "choose another folder"
-                raise InputError(f"{path} is not free: {why}; {remedy}.") from None
+                if "locked" not in str(error):
+                    raise StylobateError(
+                        f"the progress cannot be kept in {path} ({error}); make room there, or choose another --out."
+                    ) from None
+                raise InputError(
+                    f"{path} is not free: another process is at work on it; wait for its end, or choose another folder."
+                ) from None
             if before is not None and before == self._inode():
                 return
             self._file.close()  # removed meanwhile by the process that let go of it: a lock on nothing

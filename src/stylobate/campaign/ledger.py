@@ -295,7 +295,7 @@ def discard(path: str | Path) -> None:
         return
     try:
         holding = Holding(place)
-    except InputError:
+    except StylobateError:
         return
     try:
         connect(place)[0].close()
