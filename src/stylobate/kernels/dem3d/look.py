@@ -6,6 +6,9 @@ from ..drums.lanes import CHUNK, FAILED, FAR, LANES, RUNNING, SUPPORT_MARGIN, en
 from ..jit import kernel, law, strict
 from .pose import cross, faces, in_body, in_space, lean
 
+#: Cosine of the angle between two faces below which they count as parted [-].
+ON_EDGE = 0.1
+
 #: Sine of a tilt below which a direction of lean means nothing [-].
 UPRIGHT = 1e-3
 
@@ -113,14 +116,15 @@ def observe(drum, joint, lane, feed, watch):
             hx, hy, hz = v.x[l] + v.ht[l] * v.kx[l], v.y[l] + v.ht[l] * v.ky[l], v.z[l] + v.ht[l] * v.kz[l]
             ru, rl = u.rb[l], v.rt[l]
             gap = math.sqrt(a * a + b * b)
-            parted = gap >= ru + rl
+            nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+            # a drum that stands on its edge has left the face below as well
+            parted = (gap >= ru + rl) | (nx * v.kx[l] + ny * v.ky[l] + nz * v.kz[l] < ON_EDGE)
             # the middle of the overlap, along the line of the two centres
             middle = 0.5 * (max(-rl, gap - ru) + min(rl, gap + ru)) / max(gap, 1e-12)
             mx, my, _ = in_space(v, l, a * middle, b * middle, 0.0)
             dx, dy = gx - hx - mx, gy - hy - my
             size = max(math.sqrt(dx * dx + dy * dy), 1e-12)
             dx, dy = dx / size, dy / size
-            nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
             # ends of the upper and of the lower disc in that direction; the overlap reaches no further than either
             su = dx * nx + dy * ny
             sl = dx * v.kx[l] + dy * v.ky[l]
@@ -152,7 +156,8 @@ def observe(drum, joint, lane, feed, watch):
             tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
             gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
             lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + gyro)
-            hit = (lost | parted) & standing
+            lying = (u.kz[l] < 0.0) | (u.z[l] < 0.0)
+            hit = (lost | parted | lying) & standing
             if hit and w.when[l] < 0:
                 w.when[l] = f.step[l]
                 w.which[l] = j

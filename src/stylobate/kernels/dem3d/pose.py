@@ -4,6 +4,9 @@ import math
 
 from ..jit import law
 
+#: Middles of faces that are closer than this lie on one another [m].
+CENTRED = 1e-9
+
 
 @law
 def in_space(v, l, a, b, c):
@@ -62,3 +65,32 @@ def lean(nx, ny, nz, zx, zy, zz, ix, iy, iz):
     hz = iz if flat else hz * each
     tx, ty, tz = cross(zx, zy, zz, hx, hy, hz)
     return hx, hy, hz, tx, ty, tz, sine, cosine
+
+
+@law
+def passing(u, v, l, rx, ry, rz, cx, cy, cz):
+    """Velocity of the middle of the upper face as seen from the drum below, and the relative angular velocity."""
+    ht = v.ht[l]
+    ax, ay, az = cross(u.wx[l], u.wy[l], u.wz[l], rx, ry, rz)
+    bx, by, bz = cross(v.wx[l], v.wy[l], v.wz[l], cx + ht * v.kx[l], cy + ht * v.ky[l], cz + ht * v.kz[l])
+    return (
+        u.vx[l] + ax - v.vx[l] - bx,
+        u.vy[l] + ay - v.vy[l] - by,
+        u.vz[l] + az - v.vz[l] - bz,
+        u.wx[l] - v.wx[l],
+        u.wy[l] - v.wy[l],
+        u.wz[l] - v.wz[l],
+    )
+
+
+@law
+def middles(cx, cy, cz, hx, hy, hz, tx, ty, tz):
+    """Where the upper face's middle c lies from the lower one's: distance along the lower face, cosine and sine (≥ 0) of its
+    angle to the direction of lean h, and on which side of h it is (±1)."""
+    along = cx * hx + cy * hy + cz * hz
+    across = cx * tx + cy * ty + cz * tz
+    s = math.sqrt(along * along + across * across)
+    side = -1.0 if across < 0.0 else 1.0
+    each = 1.0 / max(s, CENTRED)
+    near = s < CENTRED
+    return s, (1.0 if near else along * each), (0.0 if near else side * across * each), side

@@ -17,12 +17,10 @@ Legend (all in one frame; origin in the middle of the lower face)::
 import math
 
 from ..jit import law
+from .pose import CENTRED
 
 #: Below this a length is no direction any more [m].
 TINY = 1e-18
-
-#: Centres of faces that are closer than this lie on one another [m].
-CENTRED = 1e-9
 
 
 @law

@@ -70,14 +70,34 @@ class SpaceBlock(DrumBlock):
         self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane] = slip.T
         self.joint["ot"][:-1, lane] = twist
         if self.options.start is not None:
-            pose = placed(column, self.options.start, self.drum, self.joint, lane)
-            for array, fields in zip((self.drum, self.joint), pose, strict=True):
+            drums, joints, force = placed(column, self.options.start, self.drum, lane)
+            for array, fields in ((self.drum, drums), (self.joint, joints)):
                 for name, values in fields.items():
                     array[name][..., lane] = values
+            self._sink(lane, force)
         self._half_a_step_back(lane)
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
         self.start[lane] = self.energies(lane)
+
+    def _sink(self, lane: int, force: float) -> None:
+        """Lower the whole column until the base carries a force [N]."""
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = 0.0
+        z = self.drum["z"][1:, lane].copy()
+
+        def carried(depth: float) -> float:
+            self.drum["z"][1:, lane] = z - depth
+            self.kernel.forces(self.drum, joint, state)
+            return float(joint["f"][0, 2, lane])
+
+        low, high = 0.0, 1e-12
+        while carried(high) < force:
+            high *= 2.0
+        while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if carried(middle) < force else (low, middle)
+        carried(high)
 
     def _half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""

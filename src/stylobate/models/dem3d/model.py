@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -21,7 +22,7 @@ from .packing import drum_fields, joint_fields, lane_fields
 from .stability import highest_frequency
 
 #: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
-LAWS = {"rim": ("rim_forces", 1.0)}
+LAWS = {"rim": ("rim_forces", 1.0), "bed": ("bed_forces", 0.0)}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,8 +31,9 @@ class DistinctElement3D(SteppedDrums):
 
     Parameters
     ----------
-    law : {"rim"}
-        Where a joint carries: ``rim`` puts its stiffness on the rim of the overlap of the two faces.
+    law : {"rim", "bed"}
+        Where a joint carries: ``rim`` puts its stiffness on the rim of the overlap of the two faces, ``bed`` spreads it over
+        the overlap (an elastic bed without tension).
     pivot_friction : float
         Share of the torsional friction that acts, from 0 (a rim pivots freely about its point of contact) to 1.
     planar : bool
@@ -91,9 +93,7 @@ class DistinctElement3D(SteppedDrums):
 
     def kernel(self) -> Any:
         """Module of kernels."""
-        from ...kernels.dem3d import rim_forces
-
-        return rim_forces
+        return importlib.import_module(f"...kernels.dem3d.{LAWS[self.law][0]}", __package__)
 
     def record_types(self) -> tuple:
         """Record types of the kernel's arrays."""

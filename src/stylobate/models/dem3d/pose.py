@@ -11,27 +11,27 @@ from ..start import Start
 
 
 def placed(
-    column: Column, start: Start, drum: np.ndarray, joint: np.ndarray, lane: int
-) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
-    """Fields of drums and joints of a column that stands tilted and turns as one rigid body.
+    column: Column, start: Start, drum: np.ndarray, lane: int
+) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray], float]:
+    """Fields of drums and joints of a column that stands tilted and turns as one rigid body, and what it rests on.
 
-    The depth and the friction of the base's contact are those that carry the rigid body rolling from there, so that
-    nothing rings at the start.
+    The friction of the base's contact, and the normal force [N] that comes back with the fields, are those that carry the
+    rigid body rolling from there: nothing rings at the start.
 
     Parameters
     ----------
     column : Column
     start : Start
-    drum, joint : array
+    drum : array
         Records of the column upright and at rest.
     lane : int
     """
     h = np.array([math.cos(start.azimuth), math.sin(start.azimuth), 0.0])
     turn = rotation(np.cross([0.0, 0.0, 1.0], h), start.tilt)
-    radius, omega = float(drum["rb"][1, lane]), np.array(start.angular_velocity)
+    omega = np.array(start.angular_velocity)
     centroids = np.stack([drum[c][1:, lane] for c in "xyz"], axis=-1)
     centroids[:, 2] += -drum["fz"][1, lane] - drum["z"][1, lane]  # the base's joint as yet open
-    rim = radius * h
+    rim = float(drum["rb"][1, lane]) * h
     arms = (centroids - rim) @ turn.T
     mass, axial = drum["m"][1:, lane], turn[:, 2]
     transverse = 1.0 / drum["ia"][1:, lane]
@@ -43,8 +43,7 @@ def placed(
     own = float(transverse.sum()) * np.eye(3) + float(difference.sum()) * np.outer(axial, axial)
     inertia = own + sum(m * (r @ r * np.eye(3) - np.outer(r, r)) for m, r in zip(mass, spread, strict=True))
     force = _rolling_force(float(mass.sum()), inertia, -whole, axial, omega, column.gravity)
-    depth = toe_depth(max(force[2], 0.0), float(joint["kn"][0, lane]), radius, start.tilt)
-    places = rim + arms - (0.0, 0.0, depth)
+    places = rim + arms
     velocities = np.cross(omega, arms)
     fields = {}
     for c, name in enumerate("xyz"):
@@ -58,7 +57,7 @@ def placed(
         fields[name][0] = drum[name][0, lane]
     shear = np.zeros((column.n + 1, 3))
     shear[0, :2] = force[:2]
-    return fields, {"s": shear}
+    return fields, {"s": shear}, max(float(force[2]), 0.0)
 
 
 def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
@@ -91,21 +90,3 @@ def _rolling_force(
     given = np.cross(arm, mass * (gravity * up - centripetal)) - np.cross(omega, inertia @ omega)
     turning = np.linalg.solve(matrix, given)
     return mass * (gravity * up - np.cross(turning, arm) - centripetal)
-
-
-def toe_depth(force: float, stiffness: float, radius: float, tilt: float) -> float:
-    """Depth of the lowest point of a rim that carries a normal force under the rim law [m], by bisection."""
-    slope, rho = radius * math.sin(tilt), 0.5 * radius * math.cos(tilt)
-
-    def carried(depth: float) -> float:
-        d = depth - slope
-        phi = math.pi if d >= slope else math.acos(max(-1.0, min(1.0, -d / slope)))
-        return stiffness * rho * radius * 2.0 * (d * phi + slope * math.sin(phi))
-
-    low, high = 0.0, 1e-12
-    while carried(high) < force:
-        high *= 2.0
-    for _ in range(200):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried(middle) < force else (low, middle)
-    return high

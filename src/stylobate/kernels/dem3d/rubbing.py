@@ -1,0 +1,92 @@
+"""From the pressure of a joint to the forces on its two drums: friction, dashpots, and the memory of both."""
+
+import math
+
+from ..jit import law
+from .friction import NOTHING, kept, returned
+from .pose import cross, in_body, in_space
+
+
+@law
+def carry(e, o, v, l, damped, pressing, spread, kf, cohesion, torsion, face, middle, velocity, spin, pressure, elastic):
+    """Adds friction to the pressure of a joint and puts the sum on the two drums.
+
+    ``pressing`` and ``spread`` are the normal force and the mean square distance of pressure from its middle; ``kf`` the
+    shear stiffness of what touches, ``cohesion`` its force; ``torsion`` holds κ and λ of K_T = κ K_s ρ² and of the limit
+    λ ρ μ N. Vectors: ``face`` from the upper centroid to the middle of its face, and that middle from the one below;
+    ``middle`` of pressure; ``velocity`` of the upper face's middle and ``spin`` as seen from the drum below; ``pressure``
+    its force and moment about the middle of the face below, ``elastic`` the same without dashpots.
+    """
+    rx, ry, rz, cx, cy, cz = face
+    px, py, pz = middle
+    vx, vy, vz = velocity
+    ox, oy, oz = spin
+    fx, fy, fz, mx, my, mz = pressure
+    ex, ey, ez, ix, iy, iz = elastic
+    dt = o.dt[l]
+    zx, zy, zz = v.kx[l], v.ky[l], v.kz[l]
+    ht = v.ht[l]
+    # the tangent plane of friction
+    nx, ny, nz = fx + NOTHING * zx, fy + NOTHING * zy, fz + NOTHING * zz
+    each = 1.0 / math.sqrt(nx * nx + ny * ny + nz * nz)
+    nx, ny, nz = nx * each, ny * each, nz * each
+    # slip and spin of the upper drum over the lower one at P
+    ax, ay, az = cross(ox, oy, oz, px - cx, py - cy, pz - cz)
+    ax, ay, az = vx + ax, vy + ay, vz + az
+    slip = ax * nx + ay * ny + az * nz
+    ax, ay, az = ax - slip * nx, ay - slip * ny, az - slip * nz
+    turning = ox * nx + oy * ny + oz * nz
+    # friction with one limit for both  # Eq. (E6)
+    kt = torsion[0] * kf * spread * o.pivot[l]
+    sx, sy, sz = in_space(v, l, e.s[0, l], e.s[1, l], e.s[2, l])
+    old = e.t[l]
+    keep = kept(kf, e.kf[l])
+    out = sx * nx + sy * ny + sz * nz
+    qx = keep * (sx - out * nx) - kf * dt * ax
+    qy = keep * (sy - out * ny) - kf * dt * ay
+    qz = keep * (sz - out * nz) - kf * dt * az
+    twist = kept(kt, e.kt[l]) * old - kt * dt * turning
+    limit = e.mu[l] * pressing + cohesion
+    arm = torsion[1] * math.sqrt(spread)
+    keep, less = returned(qx * qx + qy * qy + qz * qz, twist * twist, limit, limit * arm * o.pivot[l], kf, kt)
+    qx, qy, qz, twist = qx * keep, qy * keep, qz * keep, twist * less
+    o.shear[l] -= 0.5 * dt * ((sx + qx) * ax + (sy + qy) * ay + (sz + qz) * az + (old + twist) * turning)
+    e.s[0, l], e.s[1, l], e.s[2, l] = in_body(v, l, qx, qy, qz)
+    e.t[l] = twist
+    e.kf[l] = kf
+    e.kt[l] = kt
+    if damped:
+        # dashpots parallel to the springs; friction in sum stays within Coulomb's
+        drag = o.beta[l] * kf
+        gx, gy, gz = qx - drag * ax, qy - drag * ay, qz - drag * az
+        turn = twist - o.beta[l] * kt * turning
+        keep, less = returned(gx * gx + gy * gy + gz * gz, turn * turn, limit, limit * arm * o.pivot[l], kf, kt)
+        gx, gy, gz, turn = gx * keep - qx, gy * keep - qy, gz * keep - qz, turn * less - twist
+        ex, ey, ez = fx - ex + gx, fy - ey + gy, fz - ez + gz
+        ax, ay, az = cross(px, py, pz, gx, gy, gz)
+        ix, iy, iz = mx - ix + ax + turn * nx, my - iy + ay + turn * ny, mz - iz + az + turn * nz
+        qx, qy, qz, twist = qx + gx, qy + gy, qz + gz, twist + turn
+        ax, ay, az = cross(ox, oy, oz, cx, cy, cz)
+        o.visc[l] -= (
+            0.5
+            * dt
+            * (
+                (ex + e.d[0, l]) * (vx - ax)
+                + (ey + e.d[1, l]) * (vy - ay)
+                + (ez + e.d[2, l]) * (vz - az)
+                + (ix + e.d[3, l]) * ox
+                + (iy + e.d[4, l]) * oy
+                + (iz + e.d[5, l]) * oz
+            )
+        )
+        e.d[0, l], e.d[1, l], e.d[2, l] = ex, ey, ez
+        e.d[3, l], e.d[4, l], e.d[5, l] = ix, iy, iz
+    # all of it on the two drums
+    fx, fy, fz = fx + qx, fy + qy, fz + qz
+    ax, ay, az = cross(px, py, pz, qx, qy, qz)
+    mx, my, mz = mx + ax + twist * nx, my + ay + twist * ny, mz + az + twist * nz
+    ax, ay, az = cross(cx - rx, cy - ry, cz - rz, fx, fy, fz)
+    e.f[0, l], e.f[1, l], e.f[2, l] = fx, fy, fz
+    e.up[0, l], e.up[1, l], e.up[2, l] = mx - ax, my - ay, mz - az
+    ax, ay, az = cross(-ht * zx, -ht * zy, -ht * zz, fx, fy, fz)
+    e.lo[0, l], e.lo[1, l], e.lo[2, l] = ax - mx, ay - my, az - mz
