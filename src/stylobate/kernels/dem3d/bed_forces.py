@@ -90,7 +90,8 @@ def forces(drum, joint, lane):
             velocity, spin = (vx, vy, vz), (ox, oy, oz)
             pressing = n * (low + high)
             carry(
-                e, o, v, l, damped, pressing, spread, stiffness, cohesion, EVEN, face, middle, velocity, spin, pressure, elastic
+                e, o, v, l, damped, pressing, spread, stiffness, cohesion, EVEN,
+                face, middle, velocity, spin, pressure, elastic,
             )  # fmt: skip
 
 

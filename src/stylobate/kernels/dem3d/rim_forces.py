@@ -119,7 +119,8 @@ def forces(drum, joint, lane):
             velocity, spin = (vx, vy, vz), (ox, oy, oz)
             pressure, elastic = (fx, fy, fz, mx, my, mz), (ex, ey, ez, ix, iy, iz)
             carry(
-                e, o, v, l, damped, press_, spread, stiffness, cohesion, ON_RIM, face, middle, velocity, spin, pressure, elastic
+                e, o, v, l, damped, press_, spread, stiffness, cohesion, ON_RIM,
+                face, middle, velocity, spin, pressure, elastic,
             )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
+from ...response.measures import SpaceMeasures
 from ...response.poses import quaternions
 from ..base import Case
 from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_steps
@@ -201,7 +202,8 @@ class SpaceBlock(DrumBlock):
         if self.options.start is not None:  # what the pose and the velocity hold
             begun = max(begun, float(self.start[lane, 1]), abs(float(change[1])))
         imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), begun, column)
-        slip, _ = self.since_start(lane)
+        slip, twist = self.since_start(lane)
+        tilt = math.acos(max(-1.0, 1.0 - float(watch["turn"][lane])))
         slips = np.hypot(*slip.T)
         collapsed = watch["status"][lane] == self.kernel.COLLAPSED
         failed = watch["status"][lane] == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
@@ -215,7 +217,7 @@ class SpaceBlock(DrumBlock):
             collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
             peak_top_displacement=float(watch["top"][lane]),
             residual_top_displacement=float(np.hypot(*(self.top_place(lane) - (watch["sx"][lane], watch["sy"][lane])))),
-            peak_rotation=math.acos(max(-1.0, 1.0 - float(watch["turn"][lane]))),
+            peak_rotation=tilt,
             peak_joint_opening=float(watch["open"][lane]),
             residual_joint_slip=float(slips.max()),
             energy_imbalance=imbalance,
@@ -223,6 +225,14 @@ class SpaceBlock(DrumBlock):
             steps=int(self.feed["step"][0, lane]),
             reason=self.reason(lane, outcome, imbalance),
             collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
+            space=SpaceMeasures(
+                peak_top_x=float(watch["topx"][lane]),
+                peak_top_y=float(watch["topy"][lane]),
+                peak_tilt=tilt,
+                peak_twist=float(watch["spin"][lane]),
+                residual_slip_per_joint=tuple(float(one) for one in slips),
+                residual_twist_per_joint=tuple(float(one) for one in twist),
+            ),
         )
 
     def collapse(self, lane: int) -> Collapse:
