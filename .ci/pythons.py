@@ -61,15 +61,16 @@ def check(name: str, python: Path, smoke: bool, arguments: list[str]) -> bool:
     print(f"== {name}: {version}", flush=True)
     if name == OLDEST:  # what an old library calls and a newer one deprecates is neither's fault here
         arguments = ["-W", "ignore::DeprecationWarning", *arguments]
+    stylobate = python.with_name("stylobate")
     with tempfile.TemporaryDirectory() as folder:
         try:
             if smoke:
                 for model in ("dem2d", "rigid-block", "rigid-beam", "housner"):
                     shaken = ["--harmonic", "1.0Hz,0.25g,3s", "--model", model, "--json"]
-                    run([python, "-m", "stylobate", "run", "paper-monolithic", *shaken], stdout=subprocess.DEVNULL)
+                    run([stylobate, "run", "paper-monolithic", *shaken], stdout=subprocess.DEVNULL)
                 run([python, "-m", "pytest", "-q", "-m", "processor and not slow", "tests/analytic", *arguments])
             else:
-                run([python, "-m", "stylobate", "reproduce", "--quick", "--out", Path(folder) / "demo"])
+                run([stylobate, "reproduce", "--quick", "--out", Path(folder) / "demo"])
                 run([python, "-m", "pytest", "-q", *arguments])
         except subprocess.CalledProcessError as error:
             print(f"== {name}: FAILED: {' '.join(error.cmd)}", flush=True)
