@@ -118,9 +118,10 @@ def computed(rng: random.Random, assembly: Assembly) -> str:
     except InputError as error:
         sentence(error)
         return "refused to compute"
-    if not response.failed and not np.isfinite(response.x).all():
+    outcome = response.outcome.label
+    if outcome != "failed" and not np.isfinite(response.body_position).all():
         raise Fault("not failed, and yet somewhere not finite")
-    return "computed: failed" if response.failed else "computed"
+    return f"computed: {outcome}"
 
 
 TARGET = Target("assemblies", 5_000, 60, one, limit=60.0)
