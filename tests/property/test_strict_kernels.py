@@ -1,4 +1,4 @@
-"""Compiled functions that look at states that are no number keep seeing them, whoever has them compiled."""
+"""Compiled functions that test for non-finite states still find them when a fast caller has them compiled."""
 
 import importlib
 import math
@@ -49,7 +49,7 @@ def test_every_compiled_function_states_its_own_mode():
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
-def test_drums_that_are_nowhere_have_failed(bad):
+def test_drums_without_finite_positions_have_failed(bad):
     drum, *_, watch = (np.zeros(3, kind) for kind in distinct_element_2d.block_types(2, False))
     watch["status"] = drum_lanes.RUNNING
     for lane, name in enumerate(("x", "z", "th")):
@@ -60,7 +60,7 @@ def test_drums_that_are_nowhere_have_failed(bad):
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
-def test_bodies_that_are_nowhere_are_reported(bad):
+def test_bodies_without_finite_positions_are_reported(bad):
     body_type, _, now_type = assembly_2d.types(2)
     settle = compiled(assembly_2d.settle_lengths)
     for name in ("x", "z", "th"):
@@ -74,7 +74,7 @@ def test_bodies_that_are_nowhere_are_reported(bad):
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
-def test_beams_that_are_nowhere_have_failed(bad):
+def test_beams_without_finite_states_have_failed(bad):
     drum, lane, watch = np.zeros(4, rigid_beam.DRUM), np.zeros(1, rigid_beam.LANE), np.zeros(1, rigid_beam.WATCH)
     watch["status"], watch["end"], watch["when"] = rigid_beam.RUNNING, 9, -1
     for name in ("ih", "half", "fl", "fu", "ks"):
@@ -87,7 +87,7 @@ def test_beams_that_are_nowhere_have_failed(bad):
 
 
 @pytest.mark.parametrize("module", [distinct_element_2d, rigid_block])
-def test_ledger_of_drums_that_are_nowhere_is_no_number(module):
+def test_ledger_of_drums_without_finite_velocities_is_nan(module):
     types = module.block_types(2 if module is distinct_element_2d else False, False)
     drum, joint, lane, ground, _, _ = (np.zeros(3, kind) for kind in types)
     drum["m"] = drum["i"] = drum["im"] = drum["ii"] = 1.0
@@ -100,7 +100,7 @@ def test_ledger_of_drums_that_are_nowhere_is_no_number(module):
 
 
 @pytest.mark.parametrize("place", ["theta", "slip", "energy", "unaccounted"])
-def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
+def test_a_beam_with_a_value_that_is_not_finite_has_no_verdict(place):
     column = preset("paper-12-drums")
     zero = (
         "energy",
@@ -128,7 +128,7 @@ def test_a_beam_with_a_value_that_is_no_number_has_no_verdict(place):
 
 
 @pytest.mark.parametrize("place", ["x", "v", "unaccounted"])
-def test_a_rocking_block_with_a_value_that_is_no_number_has_no_verdict(place):
+def test_a_rocking_block_with_a_value_that_is_not_finite_has_no_verdict(place):
     block = HousnerBlock().block(preset("paper-monolithic"))
     facts = dict.fromkeys(("x", "v", "work", "start", "unaccounted"), 0.0)
     facts |= {

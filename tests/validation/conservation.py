@@ -26,7 +26,7 @@ MONOLITH, TWELVE = preset("paper-monolithic"), preset("paper-12-drums")
 #: Shares of the largest stable step.
 FACTORS = (0.4, 0.2, 0.1)
 
-LEDGER = "energy missed over the input work, 1 Hz, median of 32 amplitudes from {} g, {}: at 0.4 of the stable step"
+LEDGER = "energy imbalance, 1 Hz, median of 32 amplitudes from {} g, {}: at 0.4 of the stable step"
 QUARTERED = "fall of the missed energy as the step is quartered, {}"
 
 

@@ -43,7 +43,7 @@ _GRIDS = {
         "m",
         "largest offset of a drum along its joint at the end, of the debris after a collapse",
     ),
-    "energy_imbalance": ("1", "energy that the ledger cannot account for, relative to the input work"),
+    "energy_imbalance": ("1", "energy that the ledger cannot account for, over the energy at stake"),
 }
 
 

@@ -219,7 +219,7 @@ def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str
         "peak rotation" + until: f"{m.peak_rotation:.4f} rad",
         "peak joint opening" + until: console.length(m.peak_joint_opening),
         "residual joint slip" + whose: console.length(m.residual_joint_slip),
-        "energy imbalance": f"{m.energy_imbalance:.1e} of the input work",
+        "energy imbalance": f"{m.energy_imbalance:.1e} of the energy at stake",
     }
     return response.sentence, {"column": f"{column.name}, {drums}, {column.height:g} m high"}, facts
 
@@ -247,7 +247,7 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
         "peak rotation" + until: f"{m.peak_rotation:.4f} rad",
         "peak joint opening" + until: console.length(m.peak_joint_opening),
         "residual joint slip" + whose: console.length(m.residual_joint_slip),
-        "energy imbalance": f"{response.energy_imbalance:.1e} of the largest of input work, released and elastic energy",
+        "energy imbalance": f"{response.energy_imbalance:.1e} of the energy at stake",
     }
     joints = f"{len(assembly.joints)} {'joint' if len(assembly.joints) == 1 else 'joints'}"
     what = f"{assembly.name}, {len(assembly.blocks)} blocks{supports}, {joints}"

@@ -17,7 +17,7 @@ from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
 from .start import Start
 
-#: Beyond it no motion is one, and numbers overflow [m/s²].
+#: Larger accelerations are rejected as non-physical; numbers would overflow [m/s²].
 LARGEST_ACCELERATION = 1e6
 
 #: Longest run, by the estimate [s], and most states times bodies of its histories.

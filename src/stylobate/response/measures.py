@@ -90,8 +90,8 @@ class Measures:
     residual_joint_slip : float
         Largest absolute offset that a drum has, at the end, along its joint [m].
     energy_imbalance : float
-        Energy that the ledger cannot account for, relative to the largest input work so far, or to an energy of the column
-        itself where that is larger (see the model's page) [-].
+        Energy that the ledger cannot account for, over the largest of the input work so far, the energy at the start, the
+        lowest barrier and the potential energy that was released [-].
     time_step : float
         Step of the integration, the smallest if it varies [s].
     steps : int

@@ -33,7 +33,7 @@ Legend (positions at t_n, velocities at t_{n−1/2})::
                                 the speed ``calm`` [m/s] in proportion to it; ``dull`` is the same of the joints
                 work shear visc px pz     as in the lanes
                 deepest         largest depth of the bed seen [m];  touched  first step with a foreign contact, −1
-                step pairs failed         steps done, number of pairs, 1: a state is no number
+                step pairs failed         steps done, number of pairs, 1: a state is not finite
 """
 
 import math
@@ -185,7 +185,7 @@ def may_come_loose(body, corner, joint, now, box, order, pairs, link, real, time
 
 @strict
 def settle_lengths(body, now):
-    """Rotations get their length back; bodies whose state is no number or far away are reported."""
+    """Renormalise (cos, sin); report bodies whose state is not finite or that are far away."""
     for i in range(body.shape[0]):
         u = body[i]
         fix = 1.5 - 0.5 * (u.c * u.c + u.s * u.s)

@@ -1,4 +1,4 @@
-"""What is looked at between chunks of steps: peaks, collapses, ends of runs; axes get their length back."""
+"""What is looked at between chunks of steps: peaks, collapses, ends of runs; axes are renormalised."""
 
 import math
 
@@ -15,7 +15,7 @@ UPRIGHT = 1e-3
 
 @strict
 def check_finite(drum, watch):
-    """Lanes whose state is no number, or far away, have failed."""
+    """Lanes whose state is not finite, or that are far away, have failed."""
     w = watch[0]
     for i in range(1, drum.shape[0]):
         u = drum[i]

@@ -150,7 +150,7 @@ def turn(c, s, angle):
     """Cosine and sine after a further small rotation, to second order.
 
     The angle made good differs from ``angle`` by angle³/6 (1e-13 rad for a step of 1e-4 rad); the length, by angle⁴/8,
-    is set right whenever the lanes are looked at.
+    is renormalised whenever the lanes are looked at.
     """
     even = 1.0 - 0.5 * angle * angle
     return c * even - s * angle, s * even + c * angle

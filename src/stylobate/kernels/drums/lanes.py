@@ -57,7 +57,7 @@ RUNNING, ENDED, COLLAPSED, FAILED, FREE = range(5)
 #: unlike the base, its support can be carried back under it.
 SUPPORT_MARGIN = 9.81
 
-#: Positions beyond this are not a column any more [m].
+#: A lane whose positions are larger has failed [m].
 FAR = 1.0e6
 
 
@@ -122,7 +122,7 @@ def fill_ground(ground, feed, watch):
 
 @strict
 def check_finite(drum, watch):
-    """Lanes whose state is no number, or far away, have failed."""
+    """Lanes whose state is not finite, or that are far away, have failed."""
     w = watch[0]
     for i in range(1, drum.shape[0]):
         u = drum[i]
@@ -133,7 +133,7 @@ def check_finite(drum, watch):
 
 @apart
 def observe(drum, joint, lane, feed, watch):
-    """Look at all lanes: peaks, and certain collapses; rotations get their length back.
+    """Look at all lanes: peaks, and certain collapses; renormalise (cos, sin).
 
     A collapse is certain when, for the part of the column above a joint, its centroid lies beyond the end of the contact,
     moves outward, and the moment of its weight about that end exceeds what the strongest acceleration of the motion and

@@ -128,9 +128,9 @@ class Engine:
         self.dt = 0.0
         self.stood_at, self.stood_since = np.full((3, len(bodies)), np.inf), 0.0
         self.duration = duration
-        # below this a body falls for ever: there is no ground
+        # a body below this level has left the model: it falls without end and does not count as moving
         corners = np.concatenate([block.corners for block in bodies])
-        self.abyss = float(corners[:, 1].min()) - 2.0 * float(np.ptp(corners, axis=0).max())
+        self.lowest_level = float(corners[:, 1].min()) - 2.0 * float(np.ptp(corners, axis=0).max())
 
     def start(self, step: float) -> None:
         """Set the step and the velocities half a step before the start, of bodies that do not move yet."""
@@ -196,7 +196,7 @@ class Engine:
         b = self.body
         here = np.stack((b["x"], b["z"], b["r"] * b["th"]))
         way = np.abs(here - self.stood_at).sum(axis=0)
-        if way[~(b["z"] < self.abyss)].max(initial=0.0) > REST_WAY * float(self.now["skin"][0]) / SKIN:
+        if way[~(b["z"] < self.lowest_level)].max(initial=0.0) > REST_WAY * float(self.now["skin"][0]) / SKIN:
             self.stood_at, self.stood_since = here, self.time
         return self.time - self.stood_since > REST_TIME
 

@@ -177,14 +177,14 @@ def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
     width, area = column.joint_widths, column.joint_areas
     xi, share = contact_points(column.section, model.points)
 
-    def under_air(values: np.ndarray) -> np.ndarray:  # behind the topmost joint stands one without force
+    def with_free_top(values: np.ndarray) -> np.ndarray:  # a joint without force above the top drum
         return np.concatenate((values, [0.0]))
 
     joint_fields = {
-        "kn": under_air(kn * area / width),
-        "ks": under_air(ks * area / width),
-        "co": under_air(np.array([joint.cohesion for joint in column.joints]) * area / width),
-        "mu": under_air(np.array([joint.tan_phi for joint in column.joints])),
+        "kn": with_free_top(kn * area / width),
+        "ks": with_free_top(ks * area / width),
+        "co": with_free_top(np.array([joint.cohesion for joint in column.joints]) * area / width),
+        "mu": with_free_top(np.array([joint.tan_phi for joint in column.joints])),
         "fs": np.zeros((n + 1, model.points)),
         "over": np.zeros(n + 1),
     }

@@ -45,16 +45,16 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
 def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np.ndarray]:
     """Fields of the joints, the one with the base first; behind the topmost joint stands one without force."""
 
-    def under_air(values: Any) -> np.ndarray:
+    def with_free_top(values: Any) -> np.ndarray:
         return np.concatenate((values, [0.0]))
 
     memory = {name: np.zeros(column.n + 1) for name in ("t", "kf", "kt", "en", "ox", "oy", "ot")}
     memory |= {name: np.zeros((column.n + 1, 3)) for name in ("s", "f", "up", "lo")}
     return memory | {
-        "kn": under_air(kn),
-        "ks": under_air(ks),
-        "co": under_air([joint.cohesion for joint in column.joints]),
-        "mu": under_air([joint.tan_phi for joint in column.joints]),
+        "kn": with_free_top(kn),
+        "ks": with_free_top(ks),
+        "co": with_free_top([joint.cohesion for joint in column.joints]),
+        "mu": with_free_top([joint.tan_phi for joint in column.joints]),
     }
 
 

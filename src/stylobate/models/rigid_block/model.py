@@ -115,17 +115,19 @@ def _pack(column: Column, model: RigidBlock) -> PackedColumn:
     n, area = column.n, column.joint_areas
     kn, km, ks = joint_stiffness(column)
 
-    def under_air(values: Sequence[float] | np.ndarray) -> np.ndarray:
+    def with_free_top(values: Sequence[float] | np.ndarray) -> np.ndarray:
         return np.concatenate((values, [0.0]))
 
     strength = model.compressive_strength
-    crush = np.zeros((n + 1, 1)) if strength is None else np.repeat(under_air(1.0 / (strength * area))[:, None], 2, 1)
+    crush = (
+        np.zeros((n + 1, 1)) if strength is None else np.repeat(with_free_top(1.0 / (strength * area))[:, None], 2, 1)
+    )
     joint_fields = {
-        "kn": under_air(kn),
-        "km": under_air(km),
-        "ks": under_air(ks),
-        "co": under_air([joint.cohesion for joint in column.joints] * area),
-        "mu": under_air([joint.tan_phi for joint in column.joints]),
+        "kn": with_free_top(kn),
+        "km": with_free_top(km),
+        "ks": with_free_top(ks),
+        "co": with_free_top([joint.cohesion for joint in column.joints] * area),
+        "mu": with_free_top([joint.tan_phi for joint in column.joints]),
         "crush": crush,
         "tau": np.zeros(n + 1),
         "chi": np.ones(n + 1),
