@@ -4,7 +4,7 @@ import math
 import re
 from collections.abc import Iterable
 
-#: A word that no message repeats in full.
+#: A longer word is cut in messages.
 _ENDLESS = re.compile(r"\S{400,}")
 
 

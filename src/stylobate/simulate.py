@@ -191,13 +191,13 @@ def simulate_many(
     return pandas.DataFrame(rows)
 
 
-#: Cases that are kept while it is looked which of them stand for others.
+#: Cases that are compared at a time, to check only one of those that share column and samples.
 CHECKED_TOGETHER = 1000
 
 
 def _to_check(cases: Sequence[Case]) -> Iterator[Case]:
-    # One case for all that share column and samples, the largest factor of each sign: what holds for it holds for them.
-    # Of so many at a time, as every case may have a column of its own.
+    # Of all cases that share column and samples, check the one with the largest factor of each sign: if it passes, all do.
+    # In chunks, because every case may have its own column, and all of them would not fit into memory.
     largest: dict[tuple, Case] = {}
     for case in cases:
         motion = case.motion
@@ -219,7 +219,7 @@ def thread_count(threads: int | None) -> int:
 
 
 def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) -> dict[str, Any]:
-    # Keys of the bibliography: the model's, those of a motion that is computed, and of the bed between any two bodies.
+    # Keys of the bibliography: the model's, those of a computed motion, and that of the contact bed of followed collapses.
     references = [*model.references, *motion.metadata.get("references", ()), *(["feng2004"] if bed else [])]
     return {
         "version": __version__,

@@ -198,7 +198,7 @@ def _open(content: bytes, name: str) -> xarray.Dataset:
     try:
         with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf", decode_times=False) as data:
             data.load()
-    except Exception as error:  # whatever a library makes of a damaged file of format 1
+    except Exception as error:  # libraries raise many kinds of errors for damaged files
         raise unreadable(name, error) from None
     return data
 

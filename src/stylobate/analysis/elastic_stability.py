@@ -43,7 +43,7 @@ def check_stable(stack: BlockStack, dead: np.ndarray, strength: np.ndarray) -> N
     while not stands(high):
         high *= 2.0
         if high > STIFFEST:
-            return  # It is not the stiffness: the pushover says what it is.
+            return  # The stiffness is not the cause; the pushover reports the real one.
     low = 0.5 * high
     while high - low > PRECISION * low:
         middle = 0.5 * (low + high)
@@ -65,7 +65,7 @@ def stable(stack: BlockStack, dead: np.ndarray, strength: np.ndarray) -> bool:
     if path.settle() or float(np.abs(path.position[:, 2]).max()) > 0.5 * math.pi:
         return False
     path.residual(path.position, 0.0)
-    # In units in which forces and moments compare; that changes no sign.
+    # Scaled so that forces and moments are comparable; this changes no sign of an eigenvalue.
     unit = 1.0 / np.sqrt(np.tile([1.0, 1.0, path.height**2], stack.n))
     tangent = path.stiffness * np.outer(unit, unit)
     return bool(np.linalg.eigvalsh(0.5 * (tangent + tangent.T))[0] > 0.0)
@@ -77,6 +77,6 @@ def _stiffer(stack: BlockStack, factor: float) -> BlockStack:
         normal_stiffness=factor * stack.normal_stiffness,
         rotational_stiffness=factor * stack.rotational_stiffness,
         shear_stiffness=factor * stack.shear_stiffness,
-        # Friction is another matter: a joint that slides is no joint that is too soft.
+        # Friction is left out: a joint that slides is not one that is too soft.
         cohesion=np.full(stack.n, np.inf),
     )

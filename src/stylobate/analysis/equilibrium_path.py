@@ -51,7 +51,7 @@ class EquilibriumPath:
         self.height = float(stack.top[1])
         self.rise = 0.0
         self.kept: list[tuple] = []
-        # Rounding of a place of the size of the column leaves a force behind; asking for less is asking for luck.
+        # Rounding of positions of the size of the column causes a force of this size: a smaller tolerance cannot be met.
         rounding = 20.0 * np.finfo(float).eps * self.height * float(stack.normal_stiffness.max())
         self.tolerance = max(TOLERANCE, rounding / stack.weight)
         # Forces are compared with the weight, moments with weight × height.

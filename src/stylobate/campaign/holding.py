@@ -46,7 +46,7 @@ class Holding:
                 ) from None
             if before is not None and before == self._inode():
                 return
-            self._file.close()  # removed meanwhile by the process that let go of it: a lock on nothing
+            self._file.close()  # the other process removed it in between: this lock would be on a deleted file
 
     def release(self) -> None:
         """Let go."""

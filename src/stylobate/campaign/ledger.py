@@ -105,7 +105,7 @@ class Ledger:
 
     def rows(self) -> Iterator[tuple[int, dict]]:
         """(number, row) of the finished runs, those without a valid checksum left out."""
-        with closing(sqlite3.connect(self.path)) as file:  # of its own: the writer goes on meanwhile
+        with closing(sqlite3.connect(self.path)) as file:  # a second connection: the writer is not disturbed
             file.text_factory = salvage.text
             for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
                 if (found := salvage.read_line(line, self.campaign)) is not None:
@@ -234,7 +234,7 @@ def connect(path: Path) -> tuple[sqlite3.Connection, str]:
         if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT) & 0xFF in _SOUND_FILE:
             raise _cannot(path, str(error)) from None
         raise Damaged(str(error)) from None
-    except ValueError as error:  # what SQLite says of it is no text
+    except ValueError as error:  # SQLite returned bytes that are not text
         file.close()
         raise Damaged(str(error)) from None
     except BaseException:

@@ -56,7 +56,7 @@ def _in_bytes(data: bytes, campaign: str) -> dict[int, str]:
 
 
 def _in_table(path: Path, campaign: str) -> dict[int, str]:
-    # From both ends, as far as SQLite gets.
+    # Forwards and backwards, each until SQLite meets a damaged page.
     found: dict[int, str] = {}
     for order in ("ASC", "DESC"):
         with suppress(sqlite3.Error, OSError, UnicodeDecodeError), closing(_read_only(path)) as file:

@@ -32,7 +32,7 @@ def say(sentence: str, facts: Mapping[str, str], files: list[Path] | None = None
 def as_json(value: Any, indent: int | None = None) -> str:
     """JSON with null where a number is not finite: NaN is no JSON."""
     text = json.dumps(_finite(value), ensure_ascii=False, allow_nan=False, indent=indent, default=str)
-    # what a file name holds that is no UTF-8 becomes an escape of JSON, which gives back the name
+    # bytes of a file name that are not UTF-8 become JSON escapes, from which the name can be restored
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 

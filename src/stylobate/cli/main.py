@@ -59,7 +59,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
             command(*args, **kwargs)
         except KeyboardInterrupt as interrupt:
             raise Interrupted(str(interrupt) or signals.sentence()) from None
-        except EOFError as error:  # no interrupt, which typer takes it for: nothing is asked of anybody
+        except EOFError as error:  # typer reports it as an interrupt, which it is not: no command asks for input
             raise RuntimeError(f"a file ended too soon: {error}") from error
         except Exception as error:
             ours = isinstance(error, StylobateError) and not isinstance(error, InputError)
@@ -79,7 +79,10 @@ for _room in (
 
 def main() -> None:
     """Run the command line and end the process."""
-    for stream in (sys.stdout, sys.stderr):  # names of files need not be text, nor a terminal know every letter
+    for stream in (
+        sys.stdout,
+        sys.stderr,
+    ):  # file names need not be text; terminals may lack characters
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     signals.listen(INTERRUPTED)

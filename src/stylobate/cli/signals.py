@@ -22,7 +22,7 @@ PATIENCE = 0.8
 #: Signals that stop a command; each where the system has it and nobody has turned it off.
 STOPPING = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 
-#: Sentences about what a command keeps while it runs; the last one counts.
+#: Stack of sentences about what the running command has kept so far; the last one is printed.
 KEPT: list[str] = []
 
 #: Whether this process has been told to stop: what goes wrong after that is no fault.
@@ -86,7 +86,7 @@ def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
     """End the process without its main thread; what is finished is on disk, what is half-written is removed."""
     ledgers, atomic = sys.modules.get("stylobate.campaign.ledger"), sys.modules.get("stylobate.atomic")
     for book in list(ledgers.OPEN) if ledgers else ():
-        # With a time of its own: a disk that does not answer must not keep the process.
+        # With a time limit: a disk that does not answer must not keep the process alive.
         writing = threading.Thread(target=book.flush, daemon=True)
         writing.start()
         writing.join(PATIENCE)
@@ -95,7 +95,9 @@ def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
             partial.unlink(missing_ok=True)
     with suppress(Exception):
         if not _said.is_set():
-            shown = "\r\x1b[2K\x1b[?25h" if sys.stderr.isatty() else ""  # the bar goes, the cursor comes back
+            shown = (
+                "\r\x1b[2K\x1b[?25h" if sys.stderr.isatty() else ""
+            )  # erase the progress bar and show the cursor again
             os.write(2, f"{shown}stylobate: {sentence()}\n".encode(errors="replace"))
         sys.stdout.flush()
     leave(code)

@@ -90,5 +90,5 @@ class AsFound:
         return next((one for one in self.drums if one.drum == drum), FoundDrum(drum))
 
 
-#: Nothing but what was built.
+#: A column exactly as it was built: no offset, tilt, chip or slope.
 AS_BUILT = AsFound()

@@ -81,7 +81,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
 
 def joint_from_dict(fields: Mapping[str, Any]) -> Joint:
     """The joint whose fields these are, to the last bit."""
-    # A joint holds friction as angle and as coefficient; it was made from one, which gives back the other to the bit.
+    # A joint stores friction as angle and as coefficient. Only the form that it was made from reproduces both exactly.
     for form in ("friction_coefficient", "friction_angle"):
         joint = Joint(**{key: value for key, value in fields.items() if key != form})
         if dataclasses.asdict(joint) == dict(fields):

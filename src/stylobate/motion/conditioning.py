@@ -21,7 +21,7 @@ from .motion import MAX_SAMPLES, Motion, integrate
 #: An end with less than this share of the peak is quiet.
 QUIET_SHARE = 0.01
 
-#: A record scaled by more than this is another earthquake.
+#: Scaling a record by more than this draws a warning [-].
 LARGEST_SCALING = 10.0
 
 
@@ -235,9 +235,8 @@ def resample(motion: Motion, dt: float) -> Motion:
     ratio = Fraction(new / motion.dt).limit_denominator(1000)
     if abs(float(ratio) - new / motion.dt) > 1e-9 * float(ratio) or ratio == 0:
         raise InputError(
-            f"new step {new:g} s and old step {motion.dt:g} s are not in the ratio of small whole numbers; choose "
-            "a step "
-            f"such as {motion.dt * 2:g} or {motion.dt / 2:g} s."
+            f"new step {new:g} s and old step {motion.dt:g} s are not in the ratio of small whole numbers; choose a "
+            f"step such as {motion.dt * 2:g} or {motion.dt / 2:g} s."
         )
     p, q = ratio.numerator, ratio.denominator
     if motion.steps * q / p > MAX_SAMPLES:

@@ -14,7 +14,7 @@ from .motion import Motion, peak_velocity
 from .pulse_match import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 
-#: What a file said that belongs into a summary.
+#: Keys of the metadata that a summary repeats.
 FACTS = ("format", "stage", "unit", "station", "station_name", "network", "event", "start_time", "terms", "file")
 
 

@@ -212,7 +212,7 @@ class Motion:
 
 
 def _checked(value: np.ndarray, label: str, name: str) -> np.ndarray:
-    # Arrays of ours (read-only, in one piece) are shared between motions; anything else is copied.
+    # Read-only contiguous arrays are shared between motions; anything else is copied.
     if isinstance(value, np.ndarray) and value.dtype == np.float64 and not value.flags.writeable and value.ndim == 1:
         array = value if value.flags.c_contiguous and value.flags.owndata else value.copy()
     else:

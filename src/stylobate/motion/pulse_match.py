@@ -82,7 +82,7 @@ def pulse_match(
     best = max((match.at(kind, period) for kind in _WAVELETS for period in periods), key=lambda found: found[0])
     finer = best[2] * 2.0 ** (np.linspace(-1.0, 1.0, 17) / per_octave)
     share, height, period, time, kind = max(match.at(best[4], float(one)) for one in finer)
-    if time > motion.duration + 0.5 * padding * motion.dt:  # the transform goes round: before the beginning
+    if time > motion.duration + 0.5 * padding * motion.dt:  # periodic transform: it lies before the beginning
         time -= size * motion.dt
     return PulseMatch(period, abs(height), time, kind, share / energy)
 

@@ -44,7 +44,7 @@ def domain_piece(
     """A domain; ``grid`` is (frequencies, amplitudes, duration)."""
     place = folder / "domain.nc"
     if is_ready(place):
-        discard(folder / PROGRESS_FILE)  # left over where it was killed between the two
+        discard(folder / PROGRESS_FILE)  # left over if the process was killed after the result was written
         return Domain.load(place)
     folder.mkdir(exist_ok=True)
     found = collapse_domain(column, model, *grid, tail=tail, threads=threads, progress=progress, out=folder)

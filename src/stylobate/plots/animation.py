@@ -87,7 +87,7 @@ def _images(scene: Scene, indices: np.ndarray) -> Iterator[np.ndarray]:
     figure.set_dpi(DOTS_PER_INCH)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    figure.set_layout_engine("none")  # it stays as it is laid out
+    figure.set_layout_engine("none")  # keep the given positions in every frame
     shown, image = -1, np.empty(0)
     for index in indices:
         if index != shown:
@@ -125,7 +125,7 @@ def write_gif(response: Response, path: str | Path, *, frames_per_second: float 
     from PIL import Image
 
     scene = scene_of(response)
-    # a GIF counts in hundredths of a second, and nobody shows one of them
+    # a GIF counts in hundredths of a second; viewers slow down frames of only one
     hundredths = max(2, round(100.0 / check_rate(frames_per_second)))
     indices = frame_indices(scene.time, 100.0 / hundredths, speed)
     images: list[Any] = []
@@ -154,7 +154,7 @@ def write_mp4(response: Response, path: str | Path, *, frames_per_second: float 
     width, height = (int(side * DOTS_PER_INCH) for side in SIZE)
     target = Path(path)
     with replacing(target) as partial:
-        rate: Any = frames_per_second  # a broken number of frames per second is allowed, though declared whole
+        rate: Any = frames_per_second  # fractions are allowed, though the library declares an int
         film = imageio_ffmpeg.write_frames(str(partial), (width, height), fps=rate, macro_block_size=2)
         film.send(None)
         for image in _images(scene, indices):

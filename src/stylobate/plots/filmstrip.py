@@ -67,7 +67,7 @@ def draw_filmstrip(
     return figure
 
 
-#: What is this many times as high as wide is drawn in panels as wide as what they show; else all have one view.
+#: From this ratio of height to width on, each panel is as wide as what it shows; else all panels have the same view.
 TALL = 1.5
 
 

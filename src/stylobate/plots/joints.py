@@ -26,7 +26,7 @@ def draw_joints(response: Response, title: str | None = None) -> Figure:
     h, n = response.histories, response.opening.shape[1]
     opening = np.nan_to_num(np.abs(h.joint_opening))
     time = response.measures.collapse_time
-    if not math.isnan(time):  # a fallen column's gaps would hide all others
+    if not math.isnan(time):  # gaps of a fallen column are far larger and would flatten every other curve
         opening = np.where((h.time <= time)[:, None], opening, np.nan)
     largest = float(np.nanmax(opening)) if np.isfinite(opening).any() else 0.0
     figure = Figure(figsize=(WIDTH, 1.4 + 0.32 * max(n, 3)))

@@ -86,7 +86,7 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
             matplotlib.rcParams.update(_STYLE)
             figure = draw(*args, **kwargs)
             ax = kwargs.get("ax")
-            _make_plain(ax if isinstance(ax, Axes) else figure)  # what else stands in the figure is not ours
+            _make_plain(ax if isinstance(ax, Axes) else figure)  # leave the other axes of the figure alone
             return figure
 
     return wrapped

@@ -142,7 +142,7 @@ def load(path: str | Path) -> Response:
     data = store.read(path, "response")
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", OutOfRangeWarning)  # said when the column or assembly was made
+            warnings.simplefilter("ignore", OutOfRangeWarning)  # they were given when the column was made
             return _from_dataset(data)
     except InputError as error:
         raise InputError(f"{store.shown(path)} does not hold what can be used: {error}") from None

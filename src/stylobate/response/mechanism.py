@@ -119,7 +119,7 @@ def find_mechanism(
     h, n = histories, column.n
     down = (h.drum_z < -DROP * column.heights) | (np.abs(h.drum_rotation) > TURNED)
     fallen = np.flatnonzero(down[-1])
-    # fallen for good: the last time it was up, and the state after
+    # fallen for good: the first state after the last one in which it was up
     when = [float(h.time[int(np.flatnonzero(~down[:, i])[-1]) + 1]) for i in fallen]
     standing = [i for i in range(n) if i not in set(fallen.tolist())]
     whole = False

@@ -34,7 +34,7 @@ def sentence_of(response: Response) -> str:
     return " ".join(words)
 
 
-#: Said of a run that ended too early.
+#: Sentence for a run that ended before its verdict was certain.
 UNDECIDED = "The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
 
 

@@ -270,9 +270,8 @@ def _set_step(
     if step is None and dt is None:
         bad = first_bad_step(time)
         raise InputError(
-            f"{file}, line {first + bad + 1}: the time goes from {time[bad - 1]:g} s to {time[bad]:g} s, unlike "
-            "the other "
-            "steps; mend it, or state a step to resample to: dt=0.01 (--dt 0.01s)."
+            f"{file}, line {first + bad + 1}: the time goes from {time[bad - 1]:g} s to {time[bad]:g} s, unlike the "
+            "other steps; mend it, or state a step to resample to: dt=0.01 (--dt 0.01s)."
         )
     if step is None and (np.diff(time) <= 0.0).any():
         bad = int(np.flatnonzero(np.diff(time) <= 0.0)[0]) + 1

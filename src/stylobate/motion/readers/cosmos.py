@@ -182,8 +182,7 @@ def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: 
     if not (microvolt > 0.0 and sensitivity > 0.0):
         raise InputError(
             f"{file}, line {line + 1}: counts without the recorder's step (real 22, found {microvolt:g}) and the "
-            "sensor's "
-            f"sensitivity (real 42, found {sensitivity:g}); give a processed file of the record (V1 or V2)."
+            f"sensor's sensitivity (real 42, found {sensitivity:g}); give a processed file of the record (V1 or V2)."
         )
     size = microvolt * 1e-6 / (sensitivity * (gain if gain > 0.0 else 1.0))  # g per count
     component.metadata |= {"unit": "counts", "g_per_count": size}
@@ -191,8 +190,7 @@ def _scale(component: Component, unit: str, reals: np.ndarray, file: str, line: 
     component.values = (component.values - zero) * (size * g)
     component.processing.append(
         f"counts × {size:.6g} g, after the zero level of {zero:.6g} counts (their mean) was taken off: raw counts "
-        "have no "
-        "zero of their own"
+        "have no zero of their own"
     )
 
 

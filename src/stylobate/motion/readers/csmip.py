@@ -84,9 +84,8 @@ def _channel(lines: list[str], start: int, end: int, volume: int, file: str) -> 
     text = lines[start : start + text_lines]
     if end - start <= text_lines + integer_lines + real_lines:
         raise InputError(
-            f"{file}, line {start + 1}: the channel that begins here ends within its header, at line {end}; the "
-            "file is "
-            "cut, fetch it again."
+            f"{file}, line {start + 1}: the channel that begins here ends within its header, at line {end}; the file "
+            "is cut, fetch it again."
         )
     first = start + text_lines + integer_lines + real_lines
     label = next((found["label"] for line in text if (found := _CHANNEL.match(line))), "")

@@ -93,7 +93,7 @@ def _check_records(source: Source) -> None:
             raise InputError(
                 f"{source.name}, byte {at}: no miniSEED record begins here ({_one_line(error)}); {CUT}."
             ) from None
-        if (len(data) - at) % length == 0:  # so are mostly all of them
+        if (len(data) - at) % length == 0:  # nearly all files are a whole number of records
             return
         at += length
     if at > len(data):
@@ -115,8 +115,7 @@ def _component(trace: Any, channel: Any, file: str) -> Component:
     component.metadata = {"unit": "counts", "counts_per_m_s2": float(sensitivity.value), "dip": channel.dip}
     component.processing.append(
         f"counts / {sensitivity.value:.6g} per m/s², after the zero level of {zero:.6g} counts (their mean) was "
-        "taken off; "
-        "the response is taken as flat"
+        "taken off; the response is taken as flat"
     )
     dip = channel.dip
     component.vertical = dip is not None and abs(dip) > 45.0

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError
 
-#: A sign that follows a digit or a point directly begins a new number: Fortran fills its fields to the brim.
+#: A sign directly after a digit or a point begins a new number: Fortran fields may leave no blank between numbers.
 _GLUED = re.compile(r"(?<=[0-9.])(?=[+-])")
 _STRANGE = re.compile(r"[^0-9\s.eEdD+\-]")
 _FORTRAN = re.compile(r"\(\s*(?:\d*[pP]\s*,?\s*)?(\d*)\s*[feigFEIG](\d+)(?:\.\d+)?(?:[eE]\d+)?\s*\)")

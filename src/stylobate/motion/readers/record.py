@@ -20,7 +20,7 @@ OFFSET_SHARE = 0.1
 #: A peak beyond every recorded one [g]: the unit is wrong.
 LARGEST_PEAK = 5.0
 
-#: A peak below which nobody records on purpose [g]: the unit is wrong, or the numbers are raw counts or something else.
+#: A smaller peak is not recorded on purpose [g]: the unit is wrong, or the numbers are raw counts.
 SMALLEST_PEAK = 1e-3
 
 #: A velocity beyond every recorded one [m/s]: the unit is wrong, or the baseline has drifted away.
@@ -114,15 +114,14 @@ def assemble(
     vertical = [one for one in components if one.vertical]
     if not horizontal:
         raise InputError(
-            f"{name} holds only the vertical component {vertical[0].label!r}, and a motion needs a horizontal "
-            "one; give "
-            "the horizontal files with it, or choose it as the horizontal input with component='1' (--component 1)."
+            f"{name} holds only the vertical component {vertical[0].label!r}, and a motion needs a horizontal one; "
+            "give the horizontal files with it, or choose it as the horizontal input with component='1' "
+            "(--component 1)."
         )
     if len(horizontal) > 2 or len(vertical) > 1:
         raise InputError(
-            f"{name} holds {len(components)} components ({', '.join(one.label or '?' for one in components)}), "
-            "more than "
-            "one place's two horizontal ones and the vertical; choose one by its number with component='1' "
+            f"{name} holds {len(components)} components ({', '.join(one.label or '?' for one in components)}), more "
+            "than one place's two horizontal ones and the vertical; choose one by its number with component='1' "
             "(--component 1)."
         )
     used = horizontal + vertical
@@ -222,10 +221,9 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         mean = float(array.mean()) if array.size else 0.0
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
             warnings.warn(
-                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {abs(mean) / peak:.0%} of its peak, "
-                "as when an "
-                "instrument's offset was left in; take it off with stylobate.motion.demean (--condition demean) "
-                "unless it is meant.",
+                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {abs(mean) / peak:.0%} of its peak, as "
+                "when an instrument's offset was left in; take it off with stylobate.motion.demean (--condition "
+                "demean) unless it is meant.",
                 OutOfRangeWarning,
                 stacklevel=4,
             )

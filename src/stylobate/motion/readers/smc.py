@@ -14,7 +14,7 @@ from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
 _FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")
-#: What stands for an unknown integer.
+#: The integer that the format uses for "unknown".
 _UNKNOWN = -32768
 
 
@@ -97,8 +97,7 @@ def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.nd
     if len(lines) > start + rows + 1:
         raise InputError(
             f"{file}, line {start + rows + 1}: the header promises {stated} numbers, which end here, but more "
-            "follow; the "
-            "file is damaged, fetch it again."
+            "follow; the file is damaged, fetch it again."
         )
     beyond = read_numbers(lines[start + rows :], start + rows, file, "accelerations", width=10)
     return numbers, len(beyond)

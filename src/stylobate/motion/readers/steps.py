@@ -76,8 +76,7 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
         if dt is None and count > 100 * len(time) + 1000:
             raise InputError(
                 f"{name}: the steps of the times range from {steps.min():.4g} to {steps.max():.4g} s, which is a "
-                "gap, not film; "
-                "mend the times, or state a step to resample to: dt=0.01 (--dt 0.01s)."
+                "gap, not film; mend the times, or state a step to resample to: dt=0.01 (--dt 0.01s)."
             )
         grid = time[0] + step * np.arange(count)
         found = np.interp(grid, time, values)

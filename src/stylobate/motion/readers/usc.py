@@ -52,8 +52,7 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
     if rows not in (5, 7) or reals_at + 7 >= len(lines):
         raise InputError(
             f"{file}, line {first + 1}: expected 7 (or 5) lines of integers and 7 of reals after the text, found "
-            f"{rows} "
-            "of integers; the file is damaged or cut, fetch it again."
+            f"{rows} of integers; the file is damaged or cut, fetch it again."
         )
     # 100 integers: 16 of width 5 to a line, or 20 of width 4.
     width = 5 if rows == 7 else 4
