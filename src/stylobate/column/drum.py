@@ -108,6 +108,23 @@ class Drum:
         return self.density * total
 
     @property
+    def cross_inertia(self) -> float:
+        """Moment of inertia about the horizontal axis through the centroid, in the plane of motion [kg m²].
+
+        As :attr:`inertia`, with the second moments of the slices about the other axis.
+        """
+        if self.circular:
+            return self.inertia
+        b, t, h, zc = self.bottom_width, self.top_width, self.height, self.centroid_height
+        total = 0.0
+        for x, weight in GAUSS_POINTS:
+            z = 0.5 * h * (1.0 + x)
+            q = b + (t - b) * z / h
+            area, second = section_area(self.section, q, self.depth), section_second_moment(self.section, self.depth, q)
+            total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
+        return self.density * total
+
+    @property
     def axial_inertia(self) -> float:
         """Moment of inertia about the drum's own axis [kg m²]; exact by three Gauss points over the height."""
         b, t, h = self.bottom_width, self.top_width, self.height

@@ -5,6 +5,7 @@ import math
 from ..drums.lanes import CHUNK, FAILED, FAR, LANES, RUNNING, SUPPORT_MARGIN, end_runs
 from ..jit import kernel, law, strict
 from .pose import cross, faces, in_body, in_space, lean
+from .support import end_of_corners, end_of_discs, middle_of_corners, middle_of_discs, opening_of_corners
 
 #: Cosine of the angle between two faces below which they count as parted [-].
 ON_EDGE = 0.1
@@ -47,7 +48,10 @@ def joint_numbers(u, v, l):
     zx, zy, zz = v.kx[l], v.ky[l], v.kz[l]
     _, _, _, _, _, _, sine, _ = lean(nx, ny, nz, zx, zy, zz, v.ix[l], v.iy[l], v.iz[l])
     a, b, c = in_body(v, l, cx, cy, cz)
-    over = min(c + u.rb[l] * sine, cx * nx + cy * ny + cz * nz + v.rt[l] * sine)
+    if u.px.shape[0] > 1:
+        over = opening_of_corners(u, v, l)
+    else:
+        over = min(c + u.rb[l] * sine, cx * nx + cy * ny + cz * nz + v.rt[l] * sine)
     p, q, _ = in_body(v, l, u.ix[l], u.iy[l], u.iz[l])
     r, s, _ = in_body(v, l, u.jx[l], u.jy[l], u.jz[l])
     return max(over, 0.0), a, b, math.atan2(q - r, p + s)
@@ -112,38 +116,24 @@ def observe(drum, joint, lane, feed, watch):
             # centroid of the part above, and how far it is beyond both faces on the side to which it leans
             each = 1.0 / w.m[l]
             gx, gy, gz = w.x[l] * each, w.y[l] * each, w.z[l] * each
-            _, _, _, cx, cy, cz = faces(u, v, l)
             hx, hy, hz = v.x[l] + v.ht[l] * v.kx[l], v.y[l] + v.ht[l] * v.ky[l], v.z[l] + v.ht[l] * v.kz[l]
-            ru, rl = u.rb[l], v.rt[l]
-            gap = math.sqrt(a * a + b * b)
-            nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+            if u.px.shape[0] > 1:
+                mx, my, parted = middle_of_corners(u, v, l)
+            else:
+                mx, my, parted = middle_of_discs(u, v, l, a, b)
             # a drum that stands on its edge has left the face below as well
-            parted = (gap >= ru + rl) | (nx * v.kx[l] + ny * v.ky[l] + nz * v.kz[l] < ON_EDGE)
-            # the middle of the overlap, along the line of the two centres
-            middle = 0.5 * (max(-rl, gap - ru) + min(rl, gap + ru)) / max(gap, 1e-12)
-            mx, my, _ = in_space(v, l, a * middle, b * middle, 0.0)
+            nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+            parted |= nx * v.kx[l] + ny * v.ky[l] + nz * v.kz[l] < ON_EDGE
+            mx, my, _ = in_space(v, l, mx, my, 0.0)
             dx, dy = gx - hx - mx, gy - hy - my
             size = max(math.sqrt(dx * dx + dy * dy), 1e-12)
             dx, dy = dx / size, dy / size
-            # ends of the upper and of the lower disc in that direction; the overlap reaches no further than either
-            su = dx * nx + dy * ny
-            sl = dx * v.kx[l] + dy * v.ky[l]
-            eu = math.sqrt(max(1.0 - su * su, 0.0))
-            el = math.sqrt(max(1.0 - sl * sl, 0.0))
-            end_u = (cx + hx) * dx + (cy + hy) * dy + ru * eu
-            end_l = hx * dx + hy * dy + rl * el
-            upper = end_u < end_l
-            if upper:
-                scale = ru / max(eu, 1e-12)
-                ex, ey, ez = (
-                    cx + hx + scale * (dx - su * nx),
-                    cy + hy + scale * (dy - su * ny),
-                    cz + hz - scale * su * nz,
-                )
+            if u.px.shape[0] > 1:
+                ex, ey, ez = end_of_corners(u, v, l, dx, dy)
             else:
-                scale = rl / max(el, 1e-12)
-                ex, ey = hx + scale * (dx - sl * v.kx[l]), hy + scale * (dy - sl * v.ky[l])
-                ez = hz - scale * sl * v.kz[l]
+                ex, ey, ez = end_of_discs(u, v, l, dx, dy)
+            ex, ey, ez = ex + hx, ey + hy, ez + hz
+            ru = u.rb[l]
             out = (gx - ex) * dx + (gy - ey) * dy
             up = max(gz - ez, 0.0)
             bx, by, _ = cross(v.wx[l], v.wy[l], v.wz[l], ex - v.x[l], ey - v.y[l], ez - v.z[l])

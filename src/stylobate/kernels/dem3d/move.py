@@ -1,4 +1,4 @@
-"""Motion of round drums under the forces of their joints: kicks, and drifts that are exact for free bodies."""
+"""Motion of drums in space under the forces of their joints: kicks, and drifts that are exact for free bodies."""
 
 import math
 
@@ -18,6 +18,39 @@ def net(e, a, l, c):
 def turning_moment(e, a, l, c):
     """Component c of the moments of the joint under a drum and of the one above it."""
     return e.up[c, l] + a.lo[c, l]
+
+
+@law
+def twice_kinetic(u, l, lx, ly, lz):
+    """Twice the energy of rotation at an angular momentum [J]."""
+    li = lx * u.ix[l] + ly * u.iy[l] + lz * u.iz[l]
+    lk = lx * u.kx[l] + ly * u.ky[l] + lz * u.kz[l]
+    return u.ia[l] * (lx * lx + ly * ly + lz * lz) + u.ib[l] * li * li + u.ic[l] * lk * lk
+
+
+@law
+def omega(u, l, lx, ly, lz):
+    """Angular velocity of a body with three different moments [rad/s]."""
+    a = u.ib[l] * (lx * u.ix[l] + ly * u.iy[l] + lz * u.iz[l])
+    c = u.ic[l] * (lx * u.kx[l] + ly * u.ky[l] + lz * u.kz[l])
+    ia = u.ia[l]
+    return (
+        ia * lx + a * u.ix[l] + c * u.kx[l],
+        ia * ly + a * u.iy[l] + c * u.ky[l],
+        ia * lz + a * u.iz[l] + c * u.kz[l],
+    )
+
+
+@law
+def half_about_i(u, l, lx, ly, lz, time):
+    """Turn of a body about its axis i at the share (1/B − 1/A) L·i of its angular velocity.  # Eq. (E20)
+
+    None where B = A: the drift is then exact.
+    """
+    angle = u.ib[l] * (lx * u.ix[l] + ly * u.iy[l] + lz * u.iz[l]) * time
+    kx, ky, kz = spun(u.kx[l], u.ky[l], u.kz[l], -u.jx[l], -u.jy[l], -u.jz[l], angle)
+    u.kx[l], u.ky[l], u.kz[l] = kx, ky, kz
+    u.jx[l], u.jy[l], u.jz[l] = cross(kx, ky, kz, u.ix[l], u.iy[l], u.iz[l])
 
 
 @apart
@@ -60,8 +93,7 @@ def move(drum, joint, lane, ground, k):
                 vy, lx, lz = vy * free, lx * free, lz * free
                 px, py, pz = px + vx, py + vy, pz + vz
                 hx, hy, hz = hx + lx, hy + ly, hz + lz
-                hk = hx * u.kx[l] + hy * u.ky[l] + hz * u.kz[l]
-                twice = m * (px * px + py * py + pz * pz) + u.ia[l] * (hx * hx + hy * hy + hz * hz) + u.ic[l] * hk * hk
+                twice = m * (px * px + py * py + pz * pz) + twice_kinetic(u, l, hx, hy, hz)
                 o.visc[l] += 0.25 * o.alpha[l] * dt * twice
             else:
                 vx, vy, vz = vx + ax * dt, (vy + ay * dt) * free, vz + az * dt
@@ -75,6 +107,8 @@ def move(drum, joint, lane, ground, k):
             o.p[1, l] += m * vy
             o.p[2, l] += m * vz
             # free rotation over the step  # Eq. (E7)
+            if u.px.shape[0] > 1:
+                half_about_i(u, l, lx, ly, lz, 0.5 * dt)
             kx, ky, kz = u.kx[l], u.ky[l], u.kz[l]
             ia = u.ia[l]
             spin = u.ic[l] * (lx * kx + ly * ky + lz * kz)
@@ -85,7 +119,12 @@ def move(drum, joint, lane, ground, k):
             u.ix[l], u.iy[l], u.iz[l] = ix, iy, iz
             u.kx[l], u.ky[l], u.kz[l] = kx, ky, kz
             u.jx[l], u.jy[l], u.jz[l] = cross(kx, ky, kz, ix, iy, iz)
-            u.wx[l], u.wy[l], u.wz[l] = wx + spin * kx, wy + spin * ky, wz + spin * kz
+            if u.px.shape[0] > 1:
+                half_about_i(u, l, lx, ly, lz, 0.5 * dt)
+                wx, wy, wz = omega(u, l, lx, ly, lz)
+                u.wx[l], u.wy[l], u.wz[l] = wx, wy, wz
+            else:
+                u.wx[l], u.wy[l], u.wz[l] = wx + spin * kx, wy + spin * ky, wz + spin * kz
     # work of the body force −m a by the trapezoidal rule  # Eq. (D5)
     h = ground[k + 1]
     for l in range(LANES):
@@ -120,13 +159,12 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
         lx = (u.lx[l] + half * turning_moment(e, a, l, 0)) * free
         ly = u.ly[l] + half * turning_moment(e, a, l, 1)
         lz = (u.lz[l] + half * turning_moment(e, a, l, 2)) * free
-        lk = lx * u.kx[l] + ly * u.ky[l] + lz * u.kz[l]
-        kinetic += 0.5 * u.m[l] * (vx * vx + vy * vy + vz * vz)
-        kinetic += 0.5 * (u.ia[l] * (lx * lx + ly * ly + lz * lz) + u.ic[l] * lk * lk)
+        kinetic += 0.5 * (u.m[l] * (vx * vx + vy * vy + vz * vz) + twice_kinetic(u, l, lx, ly, lz))
         height += u.m[l] * (o.g[0, l] * u.x[l] + o.g[1, l] * u.y[l] + o.g[2, l] * u.z[l])
         elastic += e.en[l]
         if e.kf[l] > 0.0:
-            stored += 0.5 * (e.s[0, l] ** 2 + e.s[1, l] ** 2 + e.s[2, l] ** 2) / e.kf[l]
+            for c in range(e.s.shape[0]):
+                stored += 0.5 * e.s[c, l] ** 2 / e.kf[l]
         if e.kt[l] > 0.0:
             stored += 0.5 * e.t[l] ** 2 / e.kt[l]
     out[0] = o.work[l]

@@ -7,19 +7,25 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                lx ly lz       angular momentum about the centroid, in space [kg m²/s]
                wx wy wz       angular velocity that goes with it at t_n [rad/s]
                m im           mass and its inverse [kg]
-               ia ic          1/A, and 1/C − 1/A, with the transverse and the axial inertia A and C  [1/(kg m²)]
+               ia ic          1/A, and 1/C − 1/A, with the inertia A about j and C about k           [1/(kg m²)]
+               ib             1/B − 1/A, with the inertia B about i (0 for round drums)                    [1/(kg m²)]
                fx fy fz       middle of the lower face from the centroid, in the axes of the body [m]
                nx ny nz       normal of the lower face (up), in the axes of the body [-]
                ht             centroid to the middle of the upper face, along k [m]
-               rb rt          radii of the lower and the upper face [m]
+               rb rt          radii of the lower and the upper face [m]; to the farthest corner, if they have corners
+               px py pz [4]   corners of the lower face from its middle, in the axes of the body, in order round it [m]
+               tx ty          half widths of the upper face along i and j [m] (round drums: unused)
     joint[j]   kn ks co       stiffness and cohesion per area [N/m³], [N/m³], [Pa]
                mu             tan φ
-               s[3] t         shear force on the drum above in the axes of the drum below [N], torsion moment [N m]
-               kf kt          shear and torsion stiffness that s and t were stored with [N/m], [N m]
+               s[3] t         shear force on the drum above in the axes of the drum below [N], torsion moment [N m];
+                              with corners one shear force for each of them, x, y, z, and no torsion moment
+               kf kt          shear and torsion stiffness that (each) s and t were stored with [N/m], [N m]
                en             elastic energy of the normal pressure [J]
                ox oy ot       slip in the axes of the drum below [m] and twist [rad] at the start
                f[3] up[3] lo[3]  force on the drum above [N], moments on both drums about their centroids [N m]
-               d[6]           dashpots: force and moment on the drum above, about the middle of the face below (damped only)
+               d[6]           dashpots: force and moment on the drum above, about the middle of the face below (damped only);
+                              with corners the force of each of them, in the axes of the drum below
+               w[22]          with corners: what they share within one evaluation, see corner_forces.py
     lane       dt             step [s];  g[3]  gravity, as an acceleration of the base: up is positive [m/s²]
                beta alpha     stiffness- and mass-proportional damping [s], [1/s]; local: local damping [-]
                pivot          share of the torsional friction that acts [-]
@@ -48,11 +54,13 @@ import numpy as np
 from ..drums.lanes import LANES
 
 
-def block_types(damped: bool) -> tuple[np.dtype, ...]:
+def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
     """Record types (drum, joint, lane, ground, feed, watch).
 
-    Whether there are dashpots is part of the types (``d`` of more than one row): each loop is compiled for what is used.
+    Whether there are dashpots (``d`` of more than one row) and corners (``px`` of more than one) is part of the types: each
+    loop is compiled for what is used. A body with corners may have three different moments of inertia.
     """
+    dashpots = (3 * corners if corners > 1 else 6) if damped else 1
     row = (LANES,)
 
     def fields(single: str, **several: int) -> list[tuple]:
@@ -65,8 +73,25 @@ def block_types(damped: bool) -> tuple[np.dtype, ...]:
 
     axes = " ".join(f"{axis}{c}" for axis in "ijk" for c in "xyz")
     return (
-        np.dtype(fields(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic fx fy fz nx ny nz ht rb rt")),
-        np.dtype(fields("kn ks co mu t kf kt en ox oy ot", s=3, f=3, up=3, lo=3, d=6 if damped else 1)),
+        np.dtype(
+            fields(
+                f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ht rb rt tx ty",
+                px=corners,
+                py=corners,
+                pz=corners,
+            )
+        ),
+        np.dtype(
+            fields(
+                "kn ks co mu t kf kt en ox oy ot",
+                s=3 * corners,
+                f=3,
+                up=3,
+                lo=3,
+                d=dashpots,
+                w=22 if corners > 1 else 1,
+            )
+        ),
         np.dtype(fields("dt beta alpha local pivot free work shear visc", g=3, p=3)),
         np.dtype(fields("", a=3)),
         np.dtype(counts("x y z last step end") + fields("ratio factor", r=9)),

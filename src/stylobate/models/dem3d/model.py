@@ -1,4 +1,4 @@
-"""Distinct elements in space: rigid drums with round faces on soft frictional joints, stepped explicitly."""
+"""Distinct elements in space: rigid drums with round or rectangular faces on soft frictional joints, stepped explicitly."""
 
 from __future__ import annotations
 
@@ -18,22 +18,26 @@ from ..drums.joints import joint_stiffnesses
 from ..drums.stepped import SteppedDrums
 from ..shared.stable_step import stable_step
 from .block import SpaceBlock, histories
-from .packing import drum_fields, joint_fields, lane_fields
+from .packing import CORNERS, drum_fields, joint_fields, lane_fields
 from .stability import highest_frequency
 
 #: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
 LAWS = {"rim": ("rim_forces", 1.0), "bed": ("bed_forces", 0.0)}
 
+#: The same for rectangular faces, and their corners.
+CORNER_LAW = ("corner_forces", 2.0)
+
 
 @dataclass(frozen=True, kw_only=True)
 class DistinctElement3D(SteppedDrums):
-    """Rigid round drums in space: no-tension joints that carry on the rims of their overlap, Coulomb friction and torsion.
+    """Rigid drums in space: no-tension joints that carry on the rims or corners of their overlap, Coulomb friction.
 
     Parameters
     ----------
     law : {"rim", "bed"}
-        Where a joint carries: ``rim`` puts its stiffness on the rim of the overlap of the two faces, ``bed`` spreads it over
-        the overlap (an elastic bed without tension).
+        Where a joint of round faces carries: ``rim`` puts its stiffness on the rim of the overlap of the two faces, ``bed``
+        spreads it over the overlap (an elastic bed without tension). Rectangular faces carry at the four corners of their
+        overlap.
     pivot_friction : float
         Share of the torsional friction that acts, from 0 (a rim pivots freely about its point of contact) to 1.
     planar : bool
@@ -64,13 +68,16 @@ class DistinctElement3D(SteppedDrums):
     references: ClassVar[tuple[str, ...]] = ("cundall1971", "cundall1979")
     assumptions: ClassVar[tuple[str, ...]] = (
         "Drums are rigid, with their true shape; the stone's flexibility can be put into the joints (block_modulus).",
-        "Round faces carry on the rims of their overlap, without tension, with Coulomb friction in shear and torsion.",
+        "Round faces carry on the rims of their overlap, without tension, with Coulomb friction in shear and torsion; "
+        "rectangular ones at the four corners of their overlap, each with a shear force within Coulomb's cone.",
         "The base is a rigid half-space that moves with the record, in all three directions.",
     )
     limits: ClassVar[tuple[str, ...]] = (
         "What an impact loses depends on the law of contact, on friction and on damping.",
         "A drum touches its neighbours and the base only.",
         "Drums do not crack, chip or wear.",
+        "The overlap of rectangular faces turned against each other is taken too small: its corners are those of the upper "
+        "face, brought to the nearest place on the lower one.",
         "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
     )
     axes: ClassVar[str] = "xyz"
@@ -91,13 +98,18 @@ class DistinctElement3D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kernel(self) -> Any:
-        """Module of kernels."""
-        return importlib.import_module(f"...kernels.dem3d.{LAWS[self.law][0]}", __package__)
+    def kind(self, column: Column) -> tuple[int, str]:
+        """Columns of one kind can share a block of lanes: number of drums and section."""
+        return column.n, column.section
 
-    def record_types(self) -> tuple:
+    def kernel(self, section: str = "circular") -> Any:
+        """Module of kernels."""
+        name = LAWS[self.law][0] if section == "circular" else CORNER_LAW[0]
+        return importlib.import_module(f"...kernels.dem3d.{name}", __package__)
+
+    def record_types(self, section: str = "circular") -> tuple:
         """Record types of the kernel's arrays."""
-        return self.kernel().block_types(self.damped)
+        return self.kernel(section).block_types(self.damped, 1 if section == "circular" else len(CORNERS))
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it."""
@@ -107,10 +119,10 @@ class DistinctElement3D(SteppedDrums):
         """Largest stable time step of the closed column [s]."""
         return _stable_step(column, self)
 
-    def make_block(self, drums: int, options: RunOptions) -> SpaceBlock:
-        """A block of lanes for columns of so many drums."""
-        kernel, cost = self.kernel(), self.cost(drums)
-        return SpaceBlock(kernel, self.record_types(), self.pack, drums, options, cost, planar=self.planar)
+    def make_block(self, drums: int, options: RunOptions, section: str = "circular") -> SpaceBlock:
+        """A block of lanes for columns of so many drums with a section."""
+        kernel, types, cost = self.kernel(section), self.record_types(section), self.cost(drums)
+        return SpaceBlock(kernel, types, self.pack, drums, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
@@ -119,15 +131,6 @@ class DistinctElement3D(SteppedDrums):
     def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         """Histories from the snapshots of a run."""
         return histories(motion, states)
-
-    def check(self, column: Column, motion: Motion) -> None:
-        """Refuse what this model cannot compute."""
-        if column.section != "circular":
-            raise InputError(
-                f"{self.name} computes drums with circular sections, and those of {column.name!r} are {column.section}; "
-                'give section = "circular", or use dem2d.'
-            )
-        super().check(column, motion)
 
 
 @lru_cache(maxsize=4096)
@@ -140,4 +143,5 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
 @lru_cache(maxsize=4096)
 def _stable_step(column: Column, model: DistinctElement3D) -> float:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
-    return stable_step(highest_frequency(column, kn, ks, LAWS[model.law][1]), model.stiffness_damping)
+    share = (LAWS[model.law] if column.section == "circular" else CORNER_LAW)[1]
+    return stable_step(highest_frequency(column, kn, ks, share), model.stiffness_damping)

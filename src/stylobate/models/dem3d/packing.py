@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -22,23 +23,54 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     def on_base(values: Any, base: float = 0.0) -> np.ndarray:
         return np.concatenate(([base], values))
 
+    cross = np.array([drum.cross_inertia for drum in column.drums])
+    half = {
+        name: [0.5 * getattr(drum, name) for drum in column.drums] for name in ("bottom_width", "top_width", "depth")
+    }
     fields = dict.fromkeys(("x", "y", "vx", "vy", "vz", "lx", "ly", "lz", "wx", "wy", "wz"), zero)
     fields |= {axis + c: one if "ijk".index(axis) == "xyz".index(c) else zero for axis in "ijk" for c in "xyz"}
-    return fields | {
-        "z": on_base(column.centroid_heights - np.cumsum(closure)),
-        "m": on_base(column.masses),
-        "im": on_base(1.0 / column.masses),
-        "ia": on_base(1.0 / column.inertias),
-        "ic": on_base(1.0 / axial - 1.0 / column.inertias),
-        "fx": zero,
-        "fy": zero,
-        "fz": on_base(-centroid),
-        "nx": zero,
-        "ny": zero,
-        "nz": one,
-        "ht": on_base(column.heights - centroid),
-        "rb": on_base([0.5 * drum.bottom_width for drum in column.drums]),
-        "rt": on_base([0.5 * drum.top_width for drum in column.drums], BASE_RADIUS),
+    return (
+        fields
+        | {
+            "z": on_base(column.centroid_heights - np.cumsum(closure)),
+            "m": on_base(column.masses),
+            "im": on_base(1.0 / column.masses),
+            "ia": on_base(1.0 / column.inertias),
+            "ic": on_base(1.0 / axial - 1.0 / column.inertias),
+            "ib": on_base(np.where(cross == column.inertias, 0.0, 1.0 / cross - 1.0 / column.inertias)),
+            "fx": zero,
+            "fy": zero,
+            "fz": on_base(-centroid),
+            "nx": zero,
+            "ny": zero,
+            "nz": one,
+            "ht": on_base(column.heights - centroid),
+            "tx": on_base(half["top_width"], BASE_RADIUS),
+            "ty": on_base(half["depth"], BASE_RADIUS),
+        }
+        | (_round(half, on_base) if column.section == "circular" else _cornered(half, on_base))
+    )
+
+
+def _round(half: dict[str, list[float]], on_base: Callable[..., np.ndarray]) -> dict[str, np.ndarray]:
+    """Radii of the faces; the fields of corners are not used."""
+    corners = dict.fromkeys(("px", "py", "pz"), np.zeros((len(half["depth"]) + 1, 1)))
+    return corners | {"rb": on_base(half["bottom_width"]), "rt": on_base(half["top_width"], BASE_RADIUS)}
+
+
+#: Signs of the corners of a face in order round it; mirror images in the plane of x and z follow one another.
+CORNERS = np.array([(1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)])
+
+
+def _cornered(half: dict[str, list[float]], on_base: Callable[..., np.ndarray]) -> dict[str, np.ndarray]:
+    """Corners of the faces, and how far the farthest is."""
+    along, depth = on_base(half["bottom_width"]), on_base(half["depth"])
+    return {
+        "px": along[:, None] * CORNERS[:, 0],
+        "py": depth[:, None] * CORNERS[:, 1],
+        "pz": np.zeros((len(along), 4)),
+        "rb": np.hypot(along, depth),
+        "rt": np.hypot(on_base(half["top_width"], BASE_RADIUS), depth),
     }
 
 
@@ -49,7 +81,8 @@ def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np
         return np.concatenate((values, [0.0]))
 
     memory = {name: np.zeros(column.n + 1) for name in ("t", "kf", "kt", "en", "ox", "oy", "ot")}
-    memory |= {name: np.zeros((column.n + 1, 3)) for name in ("s", "f", "up", "lo")}
+    memory |= {name: np.zeros((column.n + 1, 3)) for name in ("f", "up", "lo")}
+    memory["s"] = np.zeros((column.n + 1, 3 if column.section == "circular" else 3 * len(CORNERS)))
     return memory | {
         "kn": with_free_top(kn),
         "ks": with_free_top(ks),

@@ -71,9 +71,18 @@ class SteppedDrums(Model):
         """Largest stable time step of the closed column [s]."""
         raise NotImplementedError
 
+    def kind(self, column: Column) -> tuple:
+        """Number of drums, and what else tells which columns can share a block of lanes."""
+        return (column.n,)
+
     def make_block(self, drums: int, options: RunOptions) -> Any:
         """A block of lanes for columns of so many drums."""
         return DrumBlock(self.kernel(), self.record_types(), self.pack, drums, options, self.cost(drums))
+
+    def block_for(self, kind: tuple, options: RunOptions) -> Any:
+        """A block of lanes for columns of a kind."""
+        drums, *rest = kind
+        return self.make_block(drums, options, *rest)
 
     def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         """Histories from the snapshots of a run."""
@@ -109,7 +118,7 @@ class SteppedDrums(Model):
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, through the same kernel as a batch."""
-        block = self.make_block(column.n, options)
+        block = self.block_for(self.kind(column), options)
         block.load(0, Case(column, motion))
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
@@ -124,4 +133,6 @@ class SteppedDrums(Model):
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""
-        return run_alike(lambda case: case.column.n, lambda drums: self.make_block(drums, options), cases, threads)
+        return run_alike(
+            lambda case: self.kind(case.column), lambda kind: self.block_for(kind, options), cases, threads
+        )

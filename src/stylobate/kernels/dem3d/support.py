@@ -1,0 +1,97 @@
+"""Where the part of a column above a joint is held: the ends of round faces, and corners of rectangular ones."""
+
+import math
+
+from ..jit import law
+from .corner import clamped
+from .pose import faces, in_body, in_space
+
+#: Share of a face's corners' area below which two faces have parted [-].
+PARTED = 1e-9
+
+
+@law
+def middle_of_discs(u, v, l, a, b):
+    """Middle of the overlap of two discs in the frame of the face below, and whether they have parted.
+
+    ``a``, ``b`` is where the upper disc's middle is.
+    """
+    ru, rl = u.rb[l], v.rt[l]
+    gap = math.sqrt(a * a + b * b)
+    middle = 0.5 * (max(-rl, gap - ru) + min(rl, gap + ru)) / max(gap, 1e-12)
+    return a * middle, b * middle, gap >= ru + rl
+
+
+@law
+def end_of_discs(u, v, l, dx, dy):
+    """The end of the overlap of two discs in a horizontal direction, from the middle of the face below, in space [m]."""
+    _, _, _, cx, cy, cz = faces(u, v, l)
+    ru, rl = u.rb[l], v.rt[l]
+    nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+    # ends of the upper and of the lower disc in that direction; the overlap reaches no further than either
+    su = dx * nx + dy * ny
+    sl = dx * v.kx[l] + dy * v.ky[l]
+    eu = math.sqrt(max(1.0 - su * su, 0.0))
+    el = math.sqrt(max(1.0 - sl * sl, 0.0))
+    upper = cx * dx + cy * dy + ru * eu < rl * el
+    if upper:
+        scale = ru / max(eu, 1e-12)
+        return cx + scale * (dx - su * nx), cy + scale * (dy - su * ny), cz - scale * su * nz
+    scale = rl / max(el, 1e-12)
+    return scale * (dx - sl * v.kx[l]), scale * (dy - sl * v.ky[l]), -scale * sl * v.kz[l]
+
+
+@law
+def corner_of(u, v, l, p):
+    """Corner p of the upper drum's lower face in the frame of the face below [m]."""
+    _, _, _, cx, cy, cz = faces(u, v, l)
+    px, py, pz = in_space(u, l, u.px[p, l], u.py[p, l], u.pz[p, l])
+    return in_body(v, l, cx + px, cy + py, cz + pz)
+
+
+@law
+def middle_of_corners(u, v, l):
+    """Mean of the corners of the overlap of two rectangles in the frame of the face below, and whether they have parted."""
+    tx, ty = v.tx[l], v.ty[l]
+    x = y = area = 0.0
+    last = u.px.shape[0] - 1
+    fx, fy, _ = corner_of(u, v, l, last)
+    fx, fy = clamped(fx, tx), clamped(fy, ty)
+    for p in range(last + 1):
+        gx, gy, _ = corner_of(u, v, l, p)
+        gx, gy = clamped(gx, tx), clamped(gy, ty)
+        area += 0.5 * (fx * gy - fy * gx)
+        x += gx
+        y += gy
+        fx, fy = gx, gy
+    each = 1.0 / (last + 1)
+    return x * each, y * each, area < PARTED * u.rb[l] * u.rb[l]
+
+
+@law
+def end_of_corners(u, v, l, dx, dy):
+    """The corner of the overlap of two rectangles that is farthest in a horizontal direction, as :func:`end_of_discs`."""
+    far, ex, ey, ez = -math.inf, 0.0, 0.0, 0.0
+    for p in range(u.px.shape[0]):
+        a, b, c = corner_of(u, v, l, p)
+        inside = (abs(a) < v.tx[l]) & (abs(b) < v.ty[l])
+        x, y, z = in_space(v, l, clamped(a, v.tx[l]), clamped(b, v.ty[l]), c if inside else 0.0)
+        if x * dx + y * dy > far:
+            far, ex, ey, ez = x * dx + y * dy, x, y, z
+    return ex, ey, ez
+
+
+@law
+def opening_of_corners(u, v, l):
+    """Largest gap of a corner of the overlap of two rectangles [m]."""
+    wide = 0.0
+    _, _, _, cx, cy, cz = faces(u, v, l)
+    cx, cy, cz = in_body(v, l, cx, cy, cz)
+    nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+    nx, ny, nz = in_body(v, l, nx, ny, nz)
+    for p in range(u.px.shape[0]):
+        a, b, c = corner_of(u, v, l, p)
+        inside = (abs(a) < v.tx[l]) & (abs(b) < v.ty[l])
+        x, y = clamped(a, v.tx[l]), clamped(b, v.ty[l])
+        wide = max(wide, c if inside else nx * (cx - x) + ny * (cy - y) + nz * cz)
+    return wide
