@@ -12,7 +12,7 @@ from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.dem3d.verdict import flat_barrier
-from stylobate.models.shared.start import Start
+from stylobate.models.start import Start
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate_many
 
@@ -162,7 +162,9 @@ def free(column, omega, duration, step):
     for c, name in enumerate("xyz"):
         drum["l" + name][1, 0], drum["w" + name][1, 0] = moments[c] * omega[c], omega[c]
     kinetic, axes, times = [], [block.axes(0)[0]], [0.0]
-    while not block.is_over(0):
+    while block.feed["step"][0, 0] < block.steps[0]:
+        # a body that turns over in the air has not collapsed
+        block.watch["status"][0, 0], block.lane["dt"][0, 0] = block.kernel.RUNNING, block.dt[0]
         block.advance(1)
         times.append(block.time(0))
         axes.append(block.axes(0)[0])

@@ -1,7 +1,5 @@
 """How long a run is followed: every model does what it is asked for, or refuses it."""
 
-import dataclasses
-
 import pytest
 
 import stylobate as st
@@ -10,15 +8,9 @@ from stylobate.models.registry import MODELS, make_model
 PUSHED_OVER = st.harmonic(0.5, 0.5 * st.g, 6.0)
 
 
-def monolith(section: str = "rectangular") -> st.Column:
-    """The paper's monolith; only round for dem3d."""
-    drum = st.preset("paper-monolithic").drums[0]
-    return st.preset("paper-monolithic").replace(drums=(dataclasses.replace(drum, section=section),))
-
-
 @pytest.mark.parametrize("name", MODELS)
 def test_until_end_goes_on_after_a_collapse(name):
-    column, model = monolith("circular" if name == "dem3d" else "rectangular"), make_model(name)
+    column, model = st.preset("paper-monolithic"), make_model(name)
     first, last = (st.simulate(column, PUSHED_OVER, model, until_end=on).histories for on in (False, True))
     assert last.time[-1] > first.time[-1] + 0.3
     # The column goes on falling to the side to which it fell.
