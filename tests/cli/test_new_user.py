@@ -149,3 +149,13 @@ def test_folders_and_records_whose_names_are_no_text(tmp_path):
     script = subprocess.run([*command, "--json"], capture_output=True)
     assert script.returncode == 0, script.stderr
     assert all(os.path.isfile(file) for file in json.loads(script.stdout)["files"])
+
+
+@pytest.mark.parametrize(
+    "arguments", [("columns", "x" * 5000), ("run", "x" * 300 + ".toml", "--harmonic", "1Hz,0.1g,1s")]
+)
+def test_names_that_no_disk_takes_are_bad_input(said, arguments):
+    text = said(*arguments, code=2)
+    assert text.startswith("stylobate: ")
+    assert len(text.splitlines()) == 1
+    assert len(text) < 500

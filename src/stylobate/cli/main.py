@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import io
 import sys
 import warnings
@@ -119,7 +120,9 @@ def call(arguments: Sequence[str]) -> int:
         except (KeyboardInterrupt, typer.Abort):
             code = INTERRUPTED
         except OSError as error:
-            return _complain(f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}.", FAILURE)
+            named = f": {str(error.filename)[:200]}" if error.filename else ""
+            bad_name = error.errno in (errno.ENAMETOOLONG, errno.ELOOP)  # of what was typed, wherever it is looked for
+            return _complain(f"{error.strerror or error}{named}.", BAD_INPUT if bad_name else FAILURE)
         except Exception as error:
             if isinstance(error, _UsageError):
                 return _complain(_usage(error), BAD_INPUT)
