@@ -47,10 +47,10 @@ def released(column: Column, start: Start, duration: float, every: int = 1, **op
     return np.array(times), np.array(axes)
 
 
-def wobble(tilt: float, precession: float) -> Start:
-    """A start leaning along x, with the lean turning about z at a rate [rad/s] and no spin about the own axis."""
+def wobble(tilt: float, precession: float, spin: float = 0.0) -> Start:
+    """A start leaning along x, with the lean turning about z at a rate and a spin about the own axis [rad/s]."""
     d = np.array([math.cos(tilt), 0.0, -math.sin(tilt)])
-    return Start(tilt, 0.0, tuple(-precession * math.sin(tilt) * d))
+    return Start(tilt, 0.0, tuple(-precession * math.sin(tilt) * d + spin * axis_of(tilt, 0.0)))
 
 
 def axis_of(tilt: float, azimuth: float) -> np.ndarray:

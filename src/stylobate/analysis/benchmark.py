@@ -1,7 +1,8 @@
-"""How fast the plane distinct elements are on this machine, beside the same step in native code, in one run."""
+"""How fast the distinct elements are on this machine, beside the same step in native code, in one run."""
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import platform
 import shutil
@@ -14,11 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from ..column import preset
+from ..column import Column, preset
 from ..constants import g
 from ..errors import StylobateError
 from ..models.base import Case, RunOptions
 from ..models.dem2d.model import DistinctElement2D
+from ..models.dem3d.model import DistinctElement3D
+from ..models.drums.stepped import SteppedDrums
 from ..motion import Motion, harmonic
 from ..simulate import simulate, simulate_many, thread_count
 
@@ -37,6 +40,9 @@ FLAGS = (
 
 STEPS = 16_000
 ROUNDS = 7
+
+#: Chunks of steps after which ours and the native one are compared: before rounding has grown.
+EARLY = 30
 
 
 def native_reference(source: str, folder: str | Path) -> Path | None:
@@ -79,7 +85,9 @@ def bench(
     column, model = preset("paper-12-drums"), DistinctElement2D()
     out: dict[str, Any] = {"threads": count, "cpu": cpu_name()}
     say("kernel and native reference")
-    out |= _kernel(model)
+    out |= _kernel(model, column, Motion(1.0, np.array([2.0, 2.0])), "native_dem2d.cpp", model.points)
+    say("kernel and native reference in space")
+    out |= _in_space(count, full)
     say("one run")
     shaking = harmonic(1.0, 0.3 * g, 10.0)
     simulate(column, shaking.scaled(0.0), model)
@@ -103,37 +111,67 @@ def bench(
     return out
 
 
-def _kernel(model: DistinctElement2D) -> dict[str, Any]:
-    """Nanoseconds per contact point and step, ours and native, for one full block of the paper's 12 drums."""
-    column = preset("paper-12-drums")
+def _kernel(model: SteppedDrums, column: Column, motion: Motion, source: str, points: int) -> dict[str, Any]:
+    """Nanoseconds per contact point and step, ours and native, for one full block; how far apart the two are early on."""
     dt = model.step_for(column)
-    motion = Motion(dt * STEPS, np.array([2.0, 2.0]))
-    ours, native, tops = [], [], {}
+    shaking = motion.replace(dt=dt * STEPS)
+    ours, native = [], []
+
+    def timed(chunks: int) -> tuple[float, float]:
+        block = model.make_block(column.n, RunOptions(until_end=True))
+        for lane in range(block.lanes):
+            block.load(lane, Case(column, shaking))
+        started = time.thread_time()
+        block.advance(chunks)
+        steps = chunks * block.chunk * column.n * points * block.lanes
+        return (time.thread_time() - started) / steps * 1e9, float(block.drum["x"][-1, 0])
+
+    chunk = model.kernel().CHUNK
     with tempfile.TemporaryDirectory() as folder:
-        program = native_reference("native_dem2d.cpp", folder)
-        for round_ in range(ROUNDS + 1):
-            block = model.make_block(column.n, RunOptions(until_end=True))
-            for lane in range(block.lanes):
-                block.load(lane, Case(column, motion))
-            started = time.thread_time()
-            block.advance(STEPS // block.chunk - 1)
-            seconds = time.thread_time() - started
-            contacts = (STEPS - block.chunk) * column.n * model.points * block.lanes
-            tops["ours"] = float(block.drum["x"][-1, 0])
-            if round_:  # the first round compiles
-                ours.append(seconds / contacts * 1e9)
+        program = native_reference(source, folder)
+
+        def beside(chunks: int) -> tuple[float, float]:
+            arguments = [str(program), str(chunks * chunk), repr(dt)]
+            text = subprocess.run(arguments, capture_output=True, text=True, check=True).stdout.split()
+            return float(text[0]), float(text[1])
+
+        early = timed(EARLY)[1]  # compiles as well
+        apart = None if program is None else abs(early - beside(EARLY)[1])
+        for _ in range(ROUNDS):
+            ours.append(timed(STEPS // chunk - 1)[0])
             if program is not None:
-                arguments = [str(program), str(STEPS - block.chunk), repr(float(block.dt[0]))]
-                text = subprocess.run(arguments, capture_output=True, text=True, check=True).stdout.split()
-                native.append(float(text[0]))
-                tops["native"] = float(text[1])
+                native.append(beside(STEPS // chunk - 1)[0])
     best = min(native) if native else None
     return {
         "ns_per_contact_step": min(ours),
         "native_ns_per_contact_step": best,
         "ratio_to_native": None if best is None else min(ours) / best,
-        "native_difference_m": None if best is None else abs(tops["ours"] - tops["native"]),
+        "native_difference_m": apart,
     }
+
+
+def _in_space(threads: int, full: bool) -> dict[str, Any]:
+    """The same of round drums in space, per joint and step; and what runs of 10 s cost in a batch on one core [s]."""
+    model = DistinctElement3D()
+    one, twelve = (_round(preset(name)) for name in ("paper-monolithic", "paper-12-drums"))
+    push = Motion(1.0, np.array([2.0, 2.0]), np.array([1.0, 1.0]))
+    found = _kernel(model, twelve, push, "native_dem3d.cpp", 1)
+    out = {f"space_{key.replace('contact', 'joint')}": value for key, value in found.items()}
+    unit = harmonic(1.0, 1.0, 10.0)
+    for name, column in (("monolith", one), ("12_drums", twelve)):
+        motions = [unit.scaled(a * g) for a in np.linspace(0.05, 0.3, 32 if column.n > 1 else 320)]
+        simulate_many(column, motions[:1], model, threads=1)
+        started = time.process_time()
+        simulate_many(column, motions, model, threads=1)
+        out[f"space_run_of_{name}_s"] = (time.process_time() - started) / len(motions)
+    if full:
+        cells = [harmonic(f, a * g, 10.0) for f in np.linspace(0.33, 4.0, 24) for a in np.linspace(0.05, 0.6, 32)]
+        out["space_domain_768_12_drums_s"] = _timed(lambda: simulate_many(twelve, cells, model, threads=threads))
+    return out
+
+
+def _round(column: Column) -> Column:
+    return column.replace(drums=tuple(dataclasses.replace(drum, section="circular") for drum in column.drums))
 
 
 def cpu_name() -> str:

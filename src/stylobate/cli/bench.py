@@ -27,7 +27,7 @@ def bench(
     if as_json:
         console.emit(found | {"files": [str(file) for file in files]})
     else:
-        console.say("Speed of the plane distinct elements.", {key: _text(value) for key, value in found.items()}, files)
+        console.say("Speed of the distinct elements.", {key: _text(value) for key, value in found.items()}, files)
 
 
 def _text(value: object) -> str:
