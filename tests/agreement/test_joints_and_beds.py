@@ -49,7 +49,7 @@ def test_a_worn_edge_does_not_sink_in():
     """The joint of the face hands over before the worn edge comes down on the ground."""
     push = st.harmonic(0.7, 0.4 * st.g, 3.0)
     response = simulate_assembly(Assembly((Block(WORN, 2000.0, "block"),), JOINT), push)
-    assert not response.failed
+    assert str(response.outcome) != "failed"
     assert np.abs(response.rotation).max() > math.radians(22.0)
     lowest = min(response.outline(i, 1)[:, 1].min() for i in range(len(response.time)))
     assert (
@@ -66,7 +66,7 @@ def test_a_polygon_rolls_on_its_faces(sides, degrees):
     blocks = (slope(degrees), Block(turned(polygon, degrees), 2000.0, "polygon"))
     with pytest.warns(st.OutOfRangeWarning, match="not in equilibrium"):
         response = simulate_assembly(Assembly(blocks, JOINT, ground=None), still(1.0))
-    assert not response.failed
+    assert str(response.outcome) != "failed"
     assert abs(response.rotation[-1, 1]) > 4.0 * math.pi / sides  # over two of its faces at least
     level = np.array([turned(response.outline(i, 1), -degrees) for i in range(len(response.time))])
     assert level[:, :, 1].min() > -3e-3
