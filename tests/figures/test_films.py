@@ -2,6 +2,8 @@
 
 import json
 import re
+import shutil
+import subprocess
 
 import numpy as np
 import pytest
@@ -235,3 +237,76 @@ def test_bad_input_of_the_command(fall, tmp_path, capsys, arguments, says):
 def test_a_film_that_is_too_long_is_refused(fall):
     with pytest.raises(InputError, match="allowed are 5000"):
         frame_indices(fall.time, 100.0, 1e-3)
+
+
+def test_a_window_of_time(fall, tmp_path):
+    """Histories, joints, energy, films and the page show what is asked for, and no more."""
+    window = (0.5, 1.5)
+    for draw in (plots.draw_histories, plots.draw_joints, plots.draw_energy):
+        for axes in draw(fall, window=window).axes:
+            assert axes.get_xlim() == window
+    shown = fall.time[frame_indices(fall.time, 10.0, 1.0, window)]
+    assert shown[0] == pytest.approx(0.5, abs=0.06)
+    assert shown[-1] == pytest.approx(1.5, abs=0.06)
+    page = write_player(fall, tmp_path / "fall.html", window=window).read_text()
+    times = json.loads(re.search(r"const data = (.*);\n", page)[1])["time"]
+    assert [times[0], times[-1]] == pytest.approx(window, abs=0.06)
+    with pytest.raises(InputError, match="the window from 9 to 7 s holds nothing"):
+        plots.draw_histories(fall, window=(9.0, 7.0))
+
+
+def test_a_film_says_how_far_it_is(fall, tmp_path):
+    told = []
+    write_gif(
+        fall, tmp_path / "a.gif", frames_per_second=5.0, window=(0.0, 1.0), progress=lambda *how: told.append(how)
+    )
+    assert told == [(i + 1, len(told)) for i in range(len(told))]
+    assert len(told) == 6
+
+
+def test_the_command_takes_a_window(fall, tmp_path, capsys):
+    saved = fall.save(tmp_path / "response.nc")
+    assert call(["animate", str(saved), "--format", "html", "--from", "0.5s", "--to", "1s"]) == 0
+    assert call(["animate", str(saved), "--format", "html", "--from", "2s", "--to", "1s"]) == 2
+    assert "the window from 2 to 1 s holds nothing" in capsys.readouterr().err
+
+
+def test_pictures_are_drawn_in_a_figure_that_is_given(fall):
+    from matplotlib.figure import Figure
+
+    for draw in (plots.draw_histories, plots.draw_joints, plots.draw_energy, plots.draw_filmstrip):
+        whole = Figure(figsize=(12, 5))
+        left, right = whole.subfigures(1, 2)
+        assert draw(fall, figure=left) is left
+        assert left.axes
+        assert not right.axes
+        whole.draw_without_rendering()
+
+
+def test_the_strip_of_a_fallen_column_has_a_usable_scale(fall):
+    """Debris that lies far apart takes a row of its own instead of making everything small."""
+    strip = plots.draw_filmstrip(fall)
+    strip.draw_without_rendering()
+    scales = []
+    for axes in strip.axes:
+        low, high = axes.get_xlim()
+        scales.append(axes.get_window_extent().width / strip.dpi / (high - low))
+    assert max(scales) == pytest.approx(min(scales), rel=0.1)  # one scale
+    standing = fall.column.height * min(scales)
+    assert standing > 1.2  # inch
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="needs node")
+def test_the_page_draws_the_outlines(knocked, tmp_path):
+    """The script's own way from shapes and poses to what is drawn gives the outlines of the response."""
+    page = write_player(knocked, tmp_path / "knocked.html", frames_per_second=10.0).read_text()
+    data = re.search(r"const data = .*;\n", page)[0]
+    laws = page[page.index("function placed(") : page.index("// Canvases have")]
+    last = "JSON.stringify(data.shapes.map((s, i) => outline(s.map(c => placed(c, data.poses.at(-1)[i])))))"
+    script = tmp_path / "page.js"
+    script.write_text(f"{data}{laws}console.log({last});")
+    drawn = json.loads(subprocess.run(["node", script], capture_output=True, text=True, check=True).stdout)
+    for corners, body in zip(drawn, (1, 2, 3), strict=True):
+        wanted = knocked.outline(-1, body)
+        for corner in wanted:
+            assert min(np.hypot(*(np.array(corners) - corner).T)) < 2e-3

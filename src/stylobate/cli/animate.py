@@ -20,6 +20,10 @@ def animate(
     to: Annotated[str, typer.Option("--format", metavar="gif|mp4|html", help="mp4 needs the extra 'video'.")] = "gif",
     rate: Annotated[str, typer.Option("--fps", metavar="N", help="Frames per second.")] = "20",
     speed: Annotated[str, typer.Option("--speed", metavar="X", help="1 is as it was, 0.5 half as fast.")] = "1",
+    start: Annotated[
+        str | None, typer.Option("--from", metavar="TIME", help="Where the film begins, such as 2s.")
+    ] = None,
+    stop: Annotated[str | None, typer.Option("--to", metavar="TIME", help="Where the film ends, such as 8s.")] = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
@@ -27,6 +31,7 @@ def animate(
 
     The film is written to --out, or beside the response.
     """
+    from ..motion.specs import parse_time
     from ..plots.animation import write_gif, write_mp4
     from ..plots.player import write_player
     from ..plots.scene import scene_of
@@ -39,13 +44,18 @@ def animate(
     if response.is_dir():
         response = response / "response.nc"
     loaded = load_response(response)
+    window = None
+    if start is not None or stop is not None:
+        first, last = float(loaded.time[0]), float(loaded.time[-1])
+        window = (parse_time(start) if start else first, parse_time(stop) if stop else last)
     with console.folder(out or response.parent, f"{response.stem}.{to}") as folder:
         target = (folder or response.parent) / f"{response.stem}.{to}"
         if to == "html":
-            write_player(loaded, target, frames_per_second=frames, speed=pace)
+            write_player(loaded, target, frames_per_second=frames, speed=pace, window=window)
         else:
             write = write_gif if to == "gif" else write_mp4
-            write(loaded, target, frames_per_second=frames, speed=pace)
+            with console.progress(f"{to} film") as progress:
+                write(loaded, target, frames_per_second=frames, speed=pace, window=window, progress=progress)
     duration = float(loaded.time[-1])
     if as_json:
         console.emit({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label})

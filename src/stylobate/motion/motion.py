@@ -206,6 +206,9 @@ class Motion:
                 found.update(values.tobytes())
         return found.hexdigest()
 
+    def __repr__(self) -> str:
+        return f"<Motion {self.describe()}>"
+
     def describe(self) -> str:
         """One line for people."""
         return f"{self.name}: {self.duration:g} s, dt {self.dt:g} s, PGA {self.pga / g:.3g} g"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from ..atomic import replacing
 from ..errors import InputError, check_range
 from ..response import Response
-from .scene import Scene, draw_bodies, scale_bar, scene_of
+from .scene import Scene, draw_bodies, scale_bar, scene_of, seen
 from .style import BLACK, GREY, RED, plain, styled
 
 #: Size [inch] and resolution of a frame.
@@ -25,17 +25,20 @@ SHAPE = 1.6
 MOST_FRAMES = 5000
 
 
-def frame_indices(time: np.ndarray, frames_per_second: float, speed: float) -> np.ndarray:
-    """Recorded states that a film shows, frame by frame, of those at these times [s].
+def frame_indices(
+    time: np.ndarray, frames_per_second: float, speed: float, window: tuple[float, float] | None = None
+) -> np.ndarray:
+    """Recorded states that a film shows, frame by frame, of those at these times [s], or of those in a window.
 
     Raises
     ------
     InputError
-        The film would have too many frames.
+        The film would have too many frames, or nothing is recorded in the window.
     """
     check_rate(frames_per_second)
     check_range("speed", speed, 0.0, 1000.0, open_low=True)
-    wanted = np.arange(time[0], time[-1] + 1e-9, speed / frames_per_second)
+    begin, end = (time[0], time[-1]) if window is None else seen(time, window)
+    wanted = np.arange(begin, end + 1e-9, speed / frames_per_second)
     if len(wanted) > MOST_FRAMES:
         raise InputError(
             f"the film would have {len(wanted)} frames; allowed are {MOST_FRAMES}: give fewer per second or a higher speed."
@@ -79,7 +82,9 @@ def draw_frame(scene: Scene, index: int, limits: tuple[float, float, float, floa
     return figure
 
 
-def _images(scene: Scene, indices: np.ndarray) -> Iterator[np.ndarray]:
+def _images(
+    scene: Scene, indices: np.ndarray, progress: Callable[[int, int], None] | None = None
+) -> Iterator[np.ndarray]:
     """Frames as arrays of colour, shape (height, width, 3)."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -89,11 +94,13 @@ def _images(scene: Scene, indices: np.ndarray) -> Iterator[np.ndarray]:
     canvas.draw()
     figure.set_layout_engine("none")  # keep the given positions in every frame
     shown, image = -1, np.empty(0)
-    for index in indices:
+    for done, index in enumerate(indices, 1):
         if index != shown:
             _turn_to(figure, scene, int(index))
             canvas.draw()
             image, shown = np.asarray(canvas.buffer_rgba())[..., :3].copy(), index
+        if progress:
+            progress(done, len(indices))
         yield image
 
 
@@ -110,7 +117,15 @@ def _words(scene: Scene, index: int) -> str:
     return plain(f"{scene.name}: {scene.time[index]:.2f} s")
 
 
-def write_gif(response: Response, path: str | Path, *, frames_per_second: float = 20.0, speed: float = 1.0) -> Path:
+def write_gif(
+    response: Response,
+    path: str | Path,
+    *,
+    frames_per_second: float = 20.0,
+    speed: float = 1.0,
+    window: tuple[float, float] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
     """Write a film as GIF.
 
     Parameters
@@ -121,15 +136,19 @@ def write_gif(response: Response, path: str | Path, *, frames_per_second: float 
         [1/s]
     speed : float
         1 is as it was, 0.5 half as fast.
+    window : (float, float), optional
+        Beginning and end of what the film shows [s]; all by default.
+    progress : callable, optional
+        Called with (frames drawn, all).
     """
     from PIL import Image
 
     scene = scene_of(response)
     # a GIF counts in hundredths of a second; viewers slow down frames of only one
     hundredths = max(2, round(100.0 / check_rate(frames_per_second)))
-    indices = frame_indices(scene.time, 100.0 / hundredths, speed)
+    indices = frame_indices(scene.time, 100.0 / hundredths, speed, window)
     images: list[Any] = []
-    for image in _images(scene, indices):
+    for image in _images(scene, indices, progress):
         images.append(Image.fromarray(image).quantize(64, dither=Image.Dither.NONE))
     target = Path(path)
     with replacing(target) as partial:
@@ -137,7 +156,15 @@ def write_gif(response: Response, path: str | Path, *, frames_per_second: float 
     return target
 
 
-def write_mp4(response: Response, path: str | Path, *, frames_per_second: float = 25.0, speed: float = 1.0) -> Path:
+def write_mp4(
+    response: Response,
+    path: str | Path,
+    *,
+    frames_per_second: float = 25.0,
+    speed: float = 1.0,
+    window: tuple[float, float] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Path:
     """Write a film as MP4; needs the extra ``video``. Parameters as for :func:`write_gif`.
 
     Raises
@@ -150,14 +177,14 @@ def write_mp4(response: Response, path: str | Path, *, frames_per_second: float 
     except ImportError:
         raise InputError("an MP4 film needs the extra 'video'; install stylobate[video], or write a GIF.") from None
     scene = scene_of(response)
-    indices = frame_indices(scene.time, frames_per_second, speed)
+    indices = frame_indices(scene.time, frames_per_second, speed, window)
     width, height = (int(side * DOTS_PER_INCH) for side in SIZE)
     target = Path(path)
     with replacing(target) as partial:
         rate: Any = frames_per_second  # fractions are allowed, though the library declares an int
         film = imageio_ffmpeg.write_frames(str(partial), (width, height), fps=rate, macro_block_size=2)
         film.send(None)
-        for image in _images(scene, indices):
+        for image in _images(scene, indices, progress):
             film.send(image)
         film.close()
     return target

@@ -3,24 +3,34 @@
 from __future__ import annotations
 
 import numpy as np
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..response import ENERGY_TERMS, Response
-from .scene import describe
-from .style import CYCLE, GREY, WIDTH, styled, zero_line
+from .scene import describe, seen
+from .style import CYCLE, GREY, WIDTH, page, styled, zero_line
 
 
 @styled
-def draw_energy(response: Response, title: str | None = None) -> Figure:
+def draw_energy(
+    response: Response,
+    title: str | None = None,
+    *,
+    window: tuple[float, float] | None = None,
+    figure: Figure | SubFigure | None = None,
+) -> Figure:
     """Input work, where it is and where it went, and below what the ledger cannot account for.
 
     Parameters
     ----------
     response : Response
     title : str, optional
+    window : (float, float), optional
+        Beginning and end of what is drawn [s]; all by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     time, energy = response.time, response.energy
-    figure = Figure(figsize=(WIDTH, 4.2))
+    figure = page(figure, (WIDTH, 4.2))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     zero_line(upper)
     present = [term for term in ENERGY_TERMS if term == "input" or np.any(energy.get(term, 0.0))]
@@ -41,7 +51,7 @@ def draw_energy(response: Response, title: str | None = None) -> Figure:
     lower.plot(time, response.imbalance / (largest or 1.0), color=GREY)
     lower.set_ylabel(f"imbalance\n/ {word}")
     lower.set_xlabel("time [s]")
-    lower.set_xlim(float(time[0]), float(time[-1]) or 1.0)
+    lower.set_xlim(*seen(time, window))
     of = {"input": "input work", "released": "released energy"}[word]
     lower.set_title(f"energy imbalance {response.energy_imbalance:.1e} of the {of}", loc="right", fontsize=8.0)
     figure.align_ylabels()

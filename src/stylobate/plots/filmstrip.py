@@ -7,13 +7,13 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, telling_states
 from .scene import Scene, describe, draw_bodies, scene_of
-from .style import WIDTH, styled
+from .style import WIDTH, page, styled
 
 #: Width that the words over a panel take [inch].
 WORDS = 0.66
@@ -29,7 +29,7 @@ def draw_filmstrip(
     *,
     magnification: float | None = None,
     title: str | None = None,
-    figure: Figure | None = None,
+    figure: Figure | SubFigure | None = None,
 ) -> Figure:
     """What stood at chosen instants, with the time and how far it has moved.
 
@@ -45,8 +45,8 @@ def draw_filmstrip(
     magnification : float, optional
         Factor on all displacements; by default 1, or a round number that makes small ones visible.
     title : str, optional
-    figure : Figure, optional
-        To draw on, in its own size.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     scene = scene_of(response)
     frames = telling_states(response) if instants is None else _frames_at(response.time, instants)
@@ -72,50 +72,28 @@ TALL = 1.5
 
 
 def _strip(
-    scene: Scene, outlines: list[list[np.ndarray]], frames: list[int], figure: Figure | None
+    scene: Scene, outlines: list[list[np.ndarray]], frames: list[int], figure: Figure | SubFigure | None
 ) -> tuple[Figure, list[Axes]]:
-    """Panels each as wide as what it shows, in one scale, in as many rows as make it largest."""
+    """Panels each as wide as what it shows, all in one scale, in one row if that is not much smaller than in several."""
+    del frames
     stood = np.concatenate(scene.outlines(0))
-    aside = ASIDE * scene.size
+    aside, margin = ASIDE * scene.size, 0.35 * float(np.ptp(stood[:, 0]))
     limits = float(stood[:, 0].min()) - aside, float(stood[:, 0].max()) + aside
-    margin = 0.35 * float(np.ptp(stood[:, 0]))
     spans = [_span(shape, limits, margin) for shape in outlines]
     floor = min(0.0, *(bottom for *_, bottom in spans))
-    height = max(float(stood[:, 1].max()), *(top for _, _, top, _ in spans)) - floor
-    widths = [high - low for low, high, _, _ in spans]
-
-    def rows_at(scale: float) -> list[list[int]]:
-        rows, room = [], -1.0
-        for i, width in enumerate(widths):
-            width = max(scale * width, WORDS)
-            if width > room:
-                rows.append([])
-                room = 0.96 * WIDTH
-            rows[-1].append(i)
-            room -= width
-        return rows
-
-    scale = LARGEST / (1.05 * height)
-    # One scale for all panels: as large as the page allows, with room for each panel's words.
-    while scale * height > 0.2:
-        rows = rows_at(scale)
-        wide = max(sum(max(scale * widths[i], WORDS) for i in row) for row in rows)
-        if wide <= 0.96 * WIDTH and (len(rows) == 1 or len(rows) * scale * height <= TALLEST):
-            break
-        scale *= 0.98
-    rows = rows_at(scale)
-    if figure is None:
-        figure = Figure(figsize=(WIDTH, len(rows) * (scale * 1.05 * height + 0.5) + 0.25))
-    total = max(sum(max(widths[i], WORDS / scale) for i in row) for row in rows)
+    rows, scale = _rows([high - low for low, high, _, _ in spans], [top - floor for _, _, top, _ in spans])
+    heights = [max(spans[i][2] for i in row) - floor for row in rows]
+    size = (WIDTH, 1.05 * scale * sum(heights) + 0.5 * len(rows) + 0.25)
+    figure = page(figure, size)
+    shares = [[max(spans[i][1] - spans[i][0], WORDS / scale) for i in row] for row in rows]
+    total = max(map(sum, shares))
     panels: list[Axes] = []
-    lines = figure.add_gridspec(len(rows), 1)
-    for k, row in enumerate(rows):
-        shares = [max(widths[i], WORDS / scale) for i in row]
-        blank = max(total - sum(shares), 0.0)
-        cells = lines[k].subgridspec(1, len(row) + 1, width_ratios=[*shares, max(blank, 1e-3 * total)])
-        for place, (i, share) in enumerate(zip(row, shares)):
-            low, high, _, _ = spans[i]
-            middle = 0.5 * (low + high)
+    lines = figure.add_gridspec(len(rows), 1, height_ratios=[1.05 * scale * height + 0.5 for height in heights])
+    for k, (row, height) in enumerate(zip(rows, heights)):
+        rest = max(total - sum(shares[k]), 1e-3 * total)
+        cells = lines[k].subgridspec(1, len(row) + 1, width_ratios=[*shares[k], rest])
+        for place, (i, share) in enumerate(zip(row, shares[k])):
+            middle = 0.5 * (spans[i][0] + spans[i][1])
             axes = figure.add_subplot(cells[place])
             axes.set_xlim(middle - 0.5 * share, middle + 0.5 * share)
             axes.set_ylim(floor - 0.03 * height, floor + 1.02 * height)
@@ -124,12 +102,41 @@ def _strip(
     return figure, panels
 
 
+def _rows(widths: list[float], heights: list[float]) -> tuple[list[list[int]], float]:
+    """Which panels stand in which row, and the scale of all [inch/m], from their widths and heights [m]."""
+    found: dict[int, tuple[list[list[int]], float]] = {}
+    scale = LARGEST / (1.05 * max(heights))
+    while True:
+        rows: list[list[int]] = []
+        room = -1.0
+        for i, width in enumerate(widths):
+            taken = max(scale * width, WORDS)
+            if taken > room:
+                rows.append([])
+                room = 0.96 * WIDTH
+            rows[-1].append(i)
+            room -= taken
+        wide = max(sum(max(scale * widths[i], WORDS) for i in row) for row in rows)
+        high = scale * sum(max(heights[i] for i in row) for row in rows)
+        smallest = scale * max(heights) < 0.2
+        if smallest or (wide <= 0.96 * WIDTH and (len(rows) == 1 or high <= TALLEST)):
+            found.setdefault(len(rows), (rows, scale))
+            if len(rows) == 1 or smallest:
+                break
+        scale *= 0.98
+    largest = max(scale for _, scale in found.values())
+    return found[min(count for count, (_, scale) in found.items() if scale >= NEARLY * largest)]
+
+
+#: Fewer rows are taken where the scale is at least this share of the largest.
+NEARLY = 0.7
+
 #: Height of the panels of a strip in one row [inch].
 LARGEST = 3.2
 
 
 def _grid(
-    scene: Scene, outlines: list[list[np.ndarray]], frames: list[int], figure: Figure | None
+    scene: Scene, outlines: list[list[np.ndarray]], frames: list[int], figure: Figure | SubFigure | None
 ) -> tuple[Figure, list[Axes]]:
     """Panels with the same view, in as many rows as make them largest."""
     del outlines
@@ -141,8 +148,7 @@ def _grid(
 
     across = max(range(1, n + 1), key=scale)
     down = math.ceil(n / across)
-    if figure is None:
-        figure = Figure(figsize=(WIDTH, down * (scale(across) * height + 0.45) + 0.35))
+    figure = page(figure, (WIDTH, down * (scale(across) * height + 0.45) + 0.35))
     panels = list(np.ravel(figure.subplots(down, across)))
     for axes in panels:
         axes.set_xlim(low, high)

@@ -7,20 +7,26 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..constants import g
 from ..response import Response
-from ..response.instants import ASIDE, size_of
-from .scene import describe
-from .style import BLACK, CYCLE, GREY, RED, WIDTH, styled, zero_line
+from ..response.instants import ASIDE, size_of, way_of
+from .scene import describe, seen
+from .style import BLACK, BROWN, CYCLE, GREY, RED, WIDTH, page, styled, zero_line
 
 #: Blocks of an assembly that are drawn by name.
 NAMED = 5
 
 
 @styled
-def draw_histories(response: Response, title: str | None = None) -> Figure:
+def draw_histories(
+    response: Response,
+    title: str | None = None,
+    *,
+    window: tuple[float, float] | None = None,
+    figure: Figure | SubFigure | None = None,
+) -> Figure:
     """Displacements over the acceleration of the ground: horizontal of a column's base and top, or of an assembly's blocks.
 
     Parameters
@@ -28,37 +34,52 @@ def draw_histories(response: Response, title: str | None = None) -> Figure:
     response : Response
     title : str, optional
         Column or assembly, motion and outcome by default.
+    window : (float, float), optional
+        Beginning and end of what is drawn [s]; all by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
+    begin, end = seen(response.time, window)
     if response.histories.top is None:
-        return _draw_blocks(response, title)
+        return _draw_blocks(response, title, (begin, end), figure)
     h = response.histories
-    figure = Figure(figsize=(WIDTH, 3.6))
+    figure = page(figure, (WIDTH, 3.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     zero_line(upper)
-    upper.plot(h.time, h.top_displacement, color=BLACK, linestyle=(0, (4.5, 1.6)), label="top")
-    upper.plot(h.time, h.base_displacement, color=RED, label="base")
+    for values, across, color, word, dashes in (
+        (h.top_displacement, GREY, BLACK, "top", (0, (4.5, 1.6))),
+        (h.base_displacement, BROWN, RED, "base", "-"),
+    ):
+        if values.ndim == 1:
+            upper.plot(h.time, values, color=color, linestyle=dashes, label=word)
+            continue
+        upper.plot(h.time, values[:, 1], color=across, linestyle=dashes, label=f"{word}, y")
+        upper.plot(h.time, values[:, 0], color=color, linestyle=dashes, label=f"{word}, x")
     upper.set_ylabel("displacement\nrelative to the ground [m]")
     _mark_collapse(upper, [(response, BLACK)])
-    _focus(upper, [response])
+    _focus(upper, [response], (begin, end))
     upper.legend(loc="upper left", ncols=2)
     upper.set_title(title or describe(response))
-    _draw_ground(lower, response)
+    _draw_ground(lower, response, (begin, end))
     figure.align_ylabels()
     return figure
 
 
-def _draw_blocks(response: Response, title: str | None) -> Figure:
+def _draw_blocks(
+    response: Response, title: str | None, window: tuple[float, float], figure: Figure | SubFigure | None
+) -> Figure:
     """Horizontal and vertical displacement of every block; those that move most by name, all others in grey."""
     names = response.bodies.names
     moving = [i for i, fixed in enumerate(response.bodies.fixed) if not fixed]
-    farthest = np.nan_to_num(response.displacement).max(axis=0)
+    inside = (response.time >= window[0]) & (response.time <= window[1])
+    farthest = np.nan_to_num(response.displacement[inside]).max(axis=0, initial=0.0)
     named = sorted(moving, key=lambda i: -farthest[i])[:NAMED]
-    figure = Figure(figsize=(WIDTH, 5.4))
+    figure = page(figure, (WIDTH, 5.4))
     panels = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 2.4, 1.0))
     unit, factor = ("m", 1.0) if farthest.max() >= 0.1 else ("mm", 1000.0)
     gone = response.displacement > ASIDE * size_of(response)
     for axes, places, word in zip(panels, (response.x, response.z), ("horizontal", "vertical")):
-        values = np.where(gone, np.nan, factor * (places - places[0]))
+        values = np.where(gone | ~inside[:, None], np.nan, factor * (places - places[0]))
         zero_line(axes)
         for i in moving:
             if i not in named:
@@ -69,45 +90,62 @@ def _draw_blocks(response: Response, title: str | None) -> Figure:
     others = len(moving) - len(named)
     handles, labels = panels[0].get_legend_handles_labels()
     panels[0].legend(handles, labels, loc="best", ncols=min(3, len(labels)))
-    if response.collapsed:
-        first = response.collapse_time
+    first = response.collapse_time
+    if window[0] <= first <= window[1]:
         for axes in panels[:2]:
             axes.axvline(first, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
     said = f"; in grey the other {others} blocks" if others > 0 else ""
     panels[1].set_title(f"relative to the ground{said}", loc="right", fontsize=8.0)
     panels[0].set_title(title or describe(response))
-    _draw_ground(panels[2], response)
+    _draw_ground(panels[2], response, window)
     figure.align_ylabels()
     return figure
 
 
 @styled
-def draw_comparison(responses: Sequence[Response], title: str | None = None) -> Figure:
-    """Top displacement of several models under one motion, over the acceleration of the ground."""
-    figure = Figure(figsize=(WIDTH, 3.6))
+def draw_comparison(
+    responses: Sequence[Response],
+    title: str | None = None,
+    *,
+    window: tuple[float, float] | None = None,
+    figure: Figure | SubFigure | None = None,
+) -> Figure:
+    """Top displacement of several models under one motion, over the acceleration of the ground.
+
+    Parameters
+    ----------
+    responses : sequence of Response
+    title : str, optional
+    window : (float, float), optional
+        Beginning and end of what is drawn [s]; all by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
+    """
+    begin, end = seen(max((one.time for one in responses), key=lambda time: time[-1]), window)
+    figure = page(figure, (WIDTH, 3.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     zero_line(upper)
     marks = []
     for response, line in zip(responses, CYCLE * (1 + len(responses) // len(CYCLE))):
         label = f"{response.model} ({response.outcome.label.replace('_', ' ')})"
-        upper.plot(response.histories.time, response.histories.top_displacement, label=label, **line)
+        upper.plot(response.time, way_of(response), label=label, **line)
         marks.append((response, line["color"]))
     upper.set_ylabel("top displacement\nrelative to the ground [m]")
     _mark_collapse(upper, marks)
-    _focus(upper, responses)
+    _focus(upper, responses, (begin, end))
     upper.legend(loc="upper left", ncols=2)
     upper.set_title(title or f"{responses[0].column.name}, {responses[0].provenance.get('motion', 'motion')}")
-    _draw_ground(lower, responses[0])
+    _draw_ground(lower, responses[0], (begin, end))
     figure.align_ylabels()
     return figure
 
 
-def _draw_ground(axes: Axes, response: Response) -> None:
+def _draw_ground(axes: Axes, response: Response, window: tuple[float, float]) -> None:
     zero_line(axes)
-    axes.plot(response.time, response.ground_acceleration / g, color=GREY, linewidth=0.8)
+    axes.plot(response.time, response.histories.acceleration[:, 0] / g, color=GREY, linewidth=0.8)
     axes.set_ylabel("ground\n[g]")
     axes.set_xlabel("time [s]")
-    axes.set_xlim(float(response.time[0]), float(response.time[-1]) or 1.0)
+    axes.set_xlim(*window)
 
 
 def _mark_collapse(axes: Axes, responses: Sequence[tuple[Response, str]]) -> None:
@@ -126,19 +164,21 @@ def _mark_collapse(axes: Axes, responses: Sequence[tuple[Response, str]]) -> Non
             ha="left" if early else "right",
             fontsize=8.0,
             color=color,
+            annotation_clip=True,
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.6},
         )
 
 
-def _focus(axes: Axes, responses: Sequence[Response]) -> None:
+def _focus(axes: Axes, responses: Sequence[Response], window: tuple[float, float]) -> None:
     # What falls after the collapse must not squeeze what came before it.
     low = high = 0.0
     for response in responses:
-        values = np.nan_to_num(response.histories.top_displacement)
+        inside = (response.time >= window[0]) & (response.time <= window[1])
+        values = np.nan_to_num(response.top_displacement[inside])
         if not math.isnan(response.measures.collapse_time):
             limit = 2.0 * response.column.base_width
             values = np.clip(values, -limit, limit)
-        low, high = min(low, float(values.min())), max(high, float(values.max()))
+        low, high = min(low, float(values.min(initial=0.0))), max(high, float(values.max(initial=0.0)))
     size = high - low
     if size > 0.0:
         axes.set_ylim(low - 0.15 * size, high + 0.3 * size)  # room for the legend

@@ -5,15 +5,21 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..response import Response
-from .scene import describe
-from .style import BLACK, BROWN, GREY, SAND, WIDTH, styled
+from .scene import describe, seen
+from .style import BLACK, BROWN, GREY, SAND, WIDTH, page, styled
 
 
 @styled
-def draw_joints(response: Response, title: str | None = None) -> Figure:
+def draw_joints(
+    response: Response,
+    title: str | None = None,
+    *,
+    window: tuple[float, float] | None = None,
+    figure: Figure | SubFigure | None = None,
+) -> Figure:
     """Largest opening of each joint over time, each drawn to its own peak, which stands beside it.
 
     Joints that open by less than a hundredth of the largest opening are drawn smaller.
@@ -22,14 +28,20 @@ def draw_joints(response: Response, title: str | None = None) -> Figure:
     ----------
     response : Response
     title : str, optional
+    window : (float, float), optional
+        Beginning and end of what is drawn [s]; all by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
     """
     h, n = response.histories, response.opening.shape[1]
     opening = np.nan_to_num(np.abs(h.joint_opening))
+    begin, end = seen(h.time, window)
+    opening = np.where(((h.time >= begin) & (h.time <= end))[:, None], opening, np.nan)
     time = response.measures.collapse_time
     if not math.isnan(time):  # gaps of a fallen column are far larger and would flatten every other curve
         opening = np.where((h.time <= time)[:, None], opening, np.nan)
     largest = float(np.nanmax(opening)) if np.isfinite(opening).any() else 0.0
-    figure = Figure(figsize=(WIDTH, 1.4 + 0.32 * max(n, 3)))
+    figure = page(figure, (WIDTH, 1.4 + 0.32 * max(n, 3)))
     axes = figure.subplots()
     for i in reversed(range(n)):
         peak = float(np.nanmax(opening[:, i])) if np.isfinite(opening[:, i]).any() else 0.0
@@ -46,10 +58,10 @@ def draw_joints(response: Response, title: str | None = None) -> Figure:
             va="bottom",
         )
     axes.annotate("peak", (1.01, n + 1), xycoords=("axes fraction", "data"), fontsize=8.0, va="bottom", color=GREY)
-    if not math.isnan(time):
+    if begin <= time <= end:
         axes.axvline(time, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
         axes.annotate(f"collapse {time:.2f} s  ", (time, n + 1), fontsize=8.0, va="bottom", ha="right")
-    axes.set_xlim(float(h.time[0]), float(h.time[-1]) or 1.0)
+    axes.set_xlim(*seen(h.time, window))
     axes.set_ylim(0.85, n + 1.35)
     every = 1 if n <= 30 else math.ceil(n / 25)
     axes.set_yticks(range(1, n + 1, every))

@@ -16,7 +16,14 @@ from .scene import scale_bar, scene_of
 AROUND = 24
 
 
-def write_player(response: Response, path: str | Path, *, frames_per_second: float = 30.0, speed: float = 1.0) -> Path:
+def write_player(
+    response: Response,
+    path: str | Path,
+    *,
+    frames_per_second: float = 30.0,
+    speed: float = 1.0,
+    window: tuple[float, float] | None = None,
+) -> Path:
     """Write the page.
 
     Parameters
@@ -27,9 +34,11 @@ def write_player(response: Response, path: str | Path, *, frames_per_second: flo
         Frames that the page shows in a second [1/s].
     speed : float
         At which the page shows that many: 0.5 keeps twice as many states. The viewer chooses how fast it plays.
+    window : (float, float), optional
+        Beginning and end of what the page shows [s]; all by default.
     """
     scene = scene_of(response)
-    indices = np.unique(frame_indices(scene.time, frames_per_second, speed))
+    indices = np.unique(frame_indices(scene.time, frames_per_second, speed, window))
     view = scene.view(indices, SHAPE)
     shown = list(scene.shown)
     poses = np.concatenate((response.body_position, response.body_orientation), axis=2)[indices][:, shown]

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..constants import g
+from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.words import title_of
@@ -128,6 +129,26 @@ def scene_of(response: Response) -> Scene:
 def describe(response: Response) -> str:
     """What stood, motion, model and outcome in one line."""
     return title_of(response)
+
+
+def seen(time: np.ndarray, window: tuple[float, float] | None) -> tuple[float, float]:
+    """Beginning and end of what is drawn [s]: a window, or everything that is recorded.
+
+    Raises
+    ------
+    InputError
+        The window is empty, or holds nothing that is recorded.
+    """
+    first, last = float(time[0]), float(time[-1])
+    if window is None:
+        return first, last or 1.0
+    begin, end = window
+    if not begin < end or end <= first or begin >= last:
+        raise InputError(
+            f"the window from {begin:g} to {end:g} s holds nothing; give two times between {first:g} and {last:g} s, the "
+            "earlier first."
+        )
+    return max(begin, first), min(end, last)
 
 
 def draw_bodies(axes: Axes, scene: Scene, outlines: list[np.ndarray], linewidth: float = 0.7) -> None:

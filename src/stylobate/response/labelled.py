@@ -118,7 +118,11 @@ def to_dataset(response: Response, *, derived: bool = True) -> xarray.Dataset:
         "joint": ("joint", joints, {"long_name": said}),
     }
     if of == "body":
-        coordinates["body"] = ("body", list(bodies.names), {"long_name": "name of the body"})
+        coordinates["body"] = (
+            "body",
+            [name.replace("\0", "\N{REPLACEMENT CHARACTER}") for name in bodies.names],
+            {"long_name": "name of the body"},
+        )
     else:
         coordinates["drum"] = ("drum", numbers, {"long_name": "drum, numbered from the bottom"})
     if any("axis" in entry[0] for entry in labelled.values()):
