@@ -8,8 +8,10 @@ from validation.space import round_column
 
 from stylobate.column import Column, Drum, Joint
 from stylobate.constants import g
+from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.dem3d.restitution import TRIED, restitutions
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
@@ -136,3 +138,21 @@ def test_four_times_the_size_is_the_same_motion():
     small, _ = places(MONOLITH, motion, time_step=step, stiffness_damping=2.0**-15)
     four, _ = places(large, motion.replace(dt=2.0 * motion.dt), time_step=2.0 * step, stiffness_damping=2.0**-14)
     np.testing.assert_allclose(four, 4.0 * small, rtol=0, atol=1e-9)
+
+
+def test_a_target_restitution_chooses_the_damping_and_says_its_cost():
+    """Housner's e = 0.9351 for the frustum; undamped the rim law gives back more."""
+    target = MONOLITH.restitution
+    model = DistinctElement3D(restitution=target)
+    beta = model.damping(MONOLITH)
+    assert 3e-4 < beta < 3e-3
+    found = restitutions(MONOLITH, DistinctElement3D())
+    assert found[0] == pytest.approx(0.98, abs=0.01)
+    assert np.interp(beta, TRIED, found) == pytest.approx(target, abs=1e-3)
+    response = simulate(MONOLITH, harmonic(1.0, 0.1 * g, 0.2), model)
+    assert response.provenance["stiffness_damping_s"] == beta
+    assert response.provenance["steps_over_undamped"] > 2.0
+    with pytest.raises(InputError, match=r"restitution is 0\.5; the joints of 'column' give"):
+        DistinctElement3D(restitution=0.5).damping(MONOLITH)
+    with pytest.raises(InputError, match="both given"):
+        DistinctElement3D(restitution=0.9, stiffness_damping=1e-4)

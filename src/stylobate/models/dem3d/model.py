@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import importlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
 
 from ...column import Column
 from ...errors import InputError, check_range
 from ...motion import Motion
-from ...response import Histories
+from ...response import Histories, Response
 from ..base import RunOptions
 from ..drums.block import PackedColumn
 from ..drums.joints import joint_stiffnesses
@@ -19,6 +19,7 @@ from ..drums.stepped import SteppedDrums
 from ..shared.stable_step import stable_step
 from .block import SpaceBlock, histories
 from .packing import CORNERS, drum_fields, joint_fields, lane_fields
+from .restitution import damping_for
 from .stability import highest_frequency
 
 #: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
@@ -52,6 +53,9 @@ class DistinctElement3D(SteppedDrums):
     stiffness_damping : float
         β: the depth of contact is taken as depth + β × its rate, so that no contact ever pulls; β times the stiffness in
         shear and torsion [s].
+    restitution : float, optional
+        Velocity restitution that the first impact of the column as one body shall have: chooses β, in place of
+        ``stiffness_damping``. The provenance says which β that is, and how many times as many steps it costs.
     mass_damping : float
         α: force −α m v on every drum, v relative to the base, and moment −α L [1/s].
 
@@ -87,14 +91,45 @@ class DistinctElement3D(SteppedDrums):
     pivot_friction: float = 1.0
     planar: bool = False
     block_modulus: float | None = None
+    restitution: float | None = None
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.law not in LAWS:
             raise InputError(f"law is {self.law!r}; allowed is {', '.join(LAWS)}.")
         check_range("pivot_friction", self.pivot_friction, 0.0, 1.0)
+        if self.restitution is not None:
+            check_range("restitution", self.restitution, 0.0, 1.0)
+            if self.stiffness_damping:
+                raise InputError(
+                    f"restitution = {self.restitution:g} and stiffness_damping = {self.stiffness_damping:g} are both given; "
+                    "the one chooses the other: give one of the two."
+                )
         if self.block_modulus is not None:
             check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
+
+    @property
+    def damped(self) -> bool:
+        """Whether any damping acts during the run."""
+        return super().damped or self.restitution is not None
+
+    def damping(self, column: Column) -> float:
+        """Stiffness damping β for a column [s]: as given, or as its restitution asks for."""
+        if self.restitution is None:
+            return self.stiffness_damping
+        return damping_for(column, replace(self, restitution=None), self.restitution)
+
+    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories; says what damping a restitution has led to."""
+        response = super().run(column, motion, options)
+        if self.restitution is None:
+            return response
+        undamped = replace(self, restitution=None, time_step=None).stable_step(column)
+        chosen = {
+            "stiffness_damping_s": self.damping(column),
+            "steps_over_undamped": undamped / self.stable_step(column),
+        }
+        return replace(response, provenance=response.provenance | chosen)
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
@@ -144,4 +179,4 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
 def _stable_step(column: Column, model: DistinctElement3D) -> float:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     share = (LAWS[model.law] if column.section == "circular" else CORNER_LAW)[1]
-    return stable_step(highest_frequency(column, kn, ks, share), model.stiffness_damping)
+    return stable_step(highest_frequency(column, kn, ks, share), model.damping(column))

@@ -96,7 +96,7 @@ def lane_fields(column: Column, model: Any) -> dict[str, Any]:
     sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
     return sums | {
         "g": np.array([0.0, 0.0, column.gravity]),
-        "beta": model.stiffness_damping,
+        "beta": model.damping(column),
         "alpha": model.mass_damping,
         "pivot": model.pivot_friction,
         "free": 0.0 if model.planar else 1.0,

@@ -1,0 +1,78 @@
+"""Stiffness damping that gives a wanted restitution: from free rocking of the column as one body, in its plane twin."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ...column import Column, Drum
+from ...errors import InputError
+from ...motion import Motion
+from ..base import Case, RunOptions
+from ..start import Start
+
+#: Damping that is tried, one value per lane besides none [s].
+TRIED = np.concatenate(([0.0], np.geomspace(1e-6, 3e-3, 15)))
+
+#: Released at this share of the critical angle.
+RELEASE = 0.5
+
+
+def one_body(column: Column) -> Column:
+    """The column as a single drum of its outline and mass on the joint with the base."""
+    first, last = column.drums[0], column.drums[-1]
+    drum = Drum(column.height, first.bottom_width, last.top_width, first.density, column.section, first.depth)
+    drum = dataclasses.replace(drum, density=first.density * column.mass / drum.mass)
+    return Column.of_drums([drum], column.joints[0], name=f"{column.name} as one body", gravity=column.gravity)
+
+
+@lru_cache(maxsize=256)
+def restitutions(column: Column, model: Any) -> np.ndarray:
+    """Velocity restitution of the first impact at each damping of ``TRIED``; the model has no restitution of its own."""
+    body = one_body(column)
+    twin = dataclasses.replace(model, planar=True, stiffness_damping=float(TRIED[-1]), mass_damping=0.0, time_step=None)
+    tilt = RELEASE * body.slenderness
+    block = twin.make_block(1, RunOptions(start=Start(tilt), until_end=True))
+    duration = 10.0 / body.frequency_parameter
+    for lane, beta in enumerate(TRIED):
+        block.load(lane, Case(body, Motion(duration, np.zeros(2))))
+        block.lane["beta"][0, lane] = beta
+    lean = []
+    while not block.is_over(0):
+        block.advance(1)
+        lean.append(np.arcsin(np.clip(block.drum["kx"][1, : len(TRIED)], -1.0, 1.0)))
+    other = np.array(lean)
+    found = np.empty(len(TRIED))
+    for lane in range(len(TRIED)):
+        crossed = int(np.argmax(other[:, lane] < 0.0))
+        back = other[crossed:, lane]
+        until = int(np.argmax(back > 0.0)) or len(back)
+        peak = -float(back[:until].min())
+        found[lane] = math.sqrt(_energy(peak, body.slenderness) / _energy(tilt, body.slenderness))
+    return found
+
+
+def _energy(tilt: float, slenderness: float) -> float:
+    """Rise of the centroid over the distance of the corner from it [-]."""
+    return math.cos(slenderness - tilt) - math.cos(slenderness)
+
+
+def damping_for(column: Column, model: Any, restitution: float) -> float:
+    """Stiffness damping β at which the first impact of the column as one body has a velocity restitution [s].
+
+    Raises
+    ------
+    InputError
+        No damping that is tried gives it.
+    """
+    found = np.minimum.accumulate(restitutions(column, model))
+    if not found[-1] <= restitution <= found[0]:
+        raise InputError(
+            f"restitution is {restitution:g}; the joints of {column.name!r} give {found[-1]:.3f} to {found[0]:.3f} "
+            f"(damped by {TRIED[-1]:g} s and undamped): choose one of these, or give stiffness_damping."
+        )
+    return float(np.interp(-restitution, -found, TRIED))
