@@ -54,7 +54,7 @@ def housner_errors(impacts: bool) -> np.ndarray:
 @cache
 def beam_errors(sliding: bool) -> np.ndarray:
     """The same of three drums on joints so soft and tough that they stay closed; the kinks of the motion fall on steps."""
-    joint = Joint(normal_stiffness=1e8, shear_stiffness=5e7)
+    joint = Joint(normal_stiffness=1e8, shear_stiffness=5e7, friction_coefficient=1.0)
     column = Column.tapered(height=2.0, bottom_width=1.5, top_width=1.2, drums=3, density=2000.0, joint=joint)
     motion = Motion(0.16, np.array([0.0, 1.0, 0.5]), factor=0.3 * g)
     stable = RigidBeam(sliding=sliding).stable_step(column)
