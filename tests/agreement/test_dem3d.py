@@ -72,8 +72,6 @@ def test_no_declared_collapse_recovers(drums):
 
 
 def test_what_the_model_cannot_compute_is_refused_in_one_sentence():
-    with pytest.raises(st.InputError, match="dem3d computes drums with circular sections"):
-        st.simulate(st.preset("paper-monolithic"), shaking(0.0, 0.1), MODEL)
     with pytest.raises(st.InputError, match=r"law is 'points'; allowed is rim, bed\."):
         DistinctElement3D(law="points")
     with pytest.raises(st.InputError, match=r"the largest stable step for this column is 0\.0005186 s"):

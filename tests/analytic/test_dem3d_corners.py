@@ -16,6 +16,8 @@ from stylobate.models.start import Start
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate_many
 
+pytestmark = pytest.mark.processor
+
 SIDE = 0.81
 JOINT = Joint(5e10, 2.5e10, friction_coefficient=0.7)
 

@@ -11,6 +11,8 @@ from validation.space import axis_of, cylinder, released, rolling, round_column,
 
 from stylobate.models.start import Start
 
+pytestmark = pytest.mark.processor
+
 COLUMN_QUARTERS = {0.10: 0.26600432, 0.25: 0.45253133, 0.50: 0.74849162, 0.75: 1.17190153, 0.90: 1.69947762}
 CYLINDER_QUARTERS = {0.10: 0.24786404, 0.25: 0.42156898, 0.50: 0.69705830, 0.75: 1.09113964, 0.90: 1.58222506}
 

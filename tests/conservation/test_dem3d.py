@@ -15,6 +15,8 @@ from stylobate.models.dem3d.restitution import TRIED, restitutions
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
+pytestmark = pytest.mark.processor
+
 MONOLITH, TWELVE = round_column(), round_column(12)
 AMPLITUDES = np.linspace(0.28, 0.32, 16) * g  # one block of lanes
 
