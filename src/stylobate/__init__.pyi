@@ -19,6 +19,7 @@ from .column.assembly import Block as Block
 from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
 from .column.imperfections import Imperfection as Imperfection
+from .column.specimen import Specimen as Specimen
 from .constants import g as g
 from .errors import InputError as InputError
 from .errors import OutOfRangeWarning as OutOfRangeWarning

@@ -10,6 +10,7 @@ from collections.abc import Generator, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .column import Column
+from .column.specimen import Specimen
 from .errors import InputError, check_range
 from .models.base import Case, Model, RunOptions
 from .motion import Motion
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def simulate(
-    column: Column,
+    column: Column | Specimen,
     motion: Motion,
     model: Model,
     *,
@@ -38,7 +39,7 @@ def simulate(
 
     Parameters
     ----------
-    column : Column
+    column : Column or Specimen
     motion : Motion
     model : Model
         e.g. ``DistinctElement2D()``.
@@ -75,7 +76,8 @@ def simulate(
     started = time.perf_counter()
     response = model.run(column, model.taken(motion), options)
     wall = time.perf_counter() - started
-    provenance = {"column": column.to_dict(), "column_digest": column.digest}
+    kind = "specimen" if isinstance(column, Specimen) else "column"
+    provenance = {kind: column.to_dict(), f"{kind}_digest": column.digest}
     provenance |= _provenance(model, motion, options, response.followed)
     return response.with_provenance(provenance, wall)
 
@@ -147,7 +149,7 @@ def simulate_iter(
 
 
 def simulate_many(
-    column: Column | Sequence[Column],
+    column: Column | Specimen | Sequence[Column | Specimen],
     motions: Sequence[Motion],
     model: Model,
     *,
@@ -159,7 +161,7 @@ def simulate_many(
 
     Parameters
     ----------
-    column : Column or sequence of Column
+    column : Column, Specimen or sequence of them
         One for all motions, or one for each motion.
     motions : sequence of Motion
     model : Model
@@ -175,7 +177,7 @@ def simulate_many(
     """
     import pandas
 
-    columns = [column] * len(motions) if isinstance(column, Column) else list(column)
+    columns = [column] * len(motions) if isinstance(column, (Column, Specimen)) else list(column)
     if len(columns) != len(motions):
         raise InputError(
             f"{len(columns)} columns are given for {len(motions)} motions; give one column, or one for each motion."

@@ -293,3 +293,8 @@ def test_a_turned_drum_on_another_stands_and_carries_its_weight_straight():
     assert not block.is_over(0) or block.collect(0).outcome != "collapsed"
     assert abs(float(drum["x"][2, 0])) < 1e-12
     assert float(drum["kz"][2, 0]) == pytest.approx(1.0, abs=1e-12)
+
+
+def test_a_restitution_chooses_the_damping_of_a_rectangular_column():
+    weak, strong = (DistinctElement3D(restitution=e).damping(prism()) for e in (0.965, 0.955))
+    assert 0.0 < weak < strong < 3e-3

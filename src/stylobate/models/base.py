@@ -12,6 +12,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..column import Column
+from ..column.specimen import Specimen
 from ..errors import InputError, LeftOutWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
@@ -63,7 +64,8 @@ class Model:
     Class attributes: ``name`` as on the command line, ``title`` for people, ``references`` as keys of the bibliography;
     ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
-    everything lies still, ``takes_start`` whether it can start from a pose.
+    everything lies still, ``takes_start`` whether it can start from a pose,
+    ``takes_specimens`` whether it computes single bodies of any shape.
     """
 
     name: ClassVar[str] = ""
@@ -75,10 +77,16 @@ class Model:
     takes_as_found: ClassVar[bool] = False
     follows_to_rest: ClassVar[bool] = False
     takes_start: ClassVar[bool] = False
+    takes_specimens: ClassVar[bool] = False
 
-    def check(self, column: Column, motion: Motion) -> None:
+    def check(self, column: Column | Specimen, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
-        if not self.takes_as_found:
+        if isinstance(column, Specimen):
+            if not self.takes_specimens:
+                raise InputError(
+                    f"{self.name} computes columns, and {column.name!r} is a specimen: use dem3d (DistinctElement3D)."
+                )
+        elif not self.takes_as_found:
             column.must_be_as_built(self.name)
         for axis, values in motion.components.items():
             peak = float(np.abs(values).max())

@@ -11,9 +11,10 @@ import numpy as np
 from ..column import Column
 from ..column.assembly import FAR_AWAY, Assembly
 from ..column.found_geometry import drum_outline, geometry
+from ..column.specimen import Specimen
 from ..constants import DEGREE
 from .poses import Reference
-from .shapes import CircularFrustum, Prism, RectangularFrustum, Shape
+from .shapes import CircularFrustum, ConvexSolid, Prism, RectangularFrustum, Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,4 +83,14 @@ def _(structure: Assembly) -> Bodies:
         tuple(block.fixed for block in blocks),
         Reference(np.zeros((len(blocks), 2)), np.zeros(len(blocks))),
         structure.ground,
+    )
+
+
+@bodies_of.register
+def _(structure: Specimen) -> Bodies:
+    return Bodies(
+        (structure.name,),
+        (ConvexSolid(structure.vertices),),
+        (False,),
+        Reference(np.zeros((1, 2)), np.zeros(1)),
     )

@@ -19,6 +19,7 @@ from ..column import Column
 from ..column.assembly import Assembly
 from ..column.assembly_files import assembly_from_dict
 from ..column.files import column_from_dict
+from ..column.specimen import Specimen
 from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome
 from .assembly_measures import response_of_blocks
@@ -31,6 +32,14 @@ from .response import Response
 
 if TYPE_CHECKING:
     import xarray
+
+#: What can have stood, by the name of its entry, and what its joints are.
+KINDS = {"column": Column, "assembly": Assembly, "specimen": Specimen}
+JOINTS = {
+    "column": "joint under the drum of that number",
+    "assembly": "joint, in the assembly's order",
+    "specimen": "contact with the base",
+}
 
 #: Terms of the energy ledger have this before their names.
 ENERGY = "energy_"
@@ -107,12 +116,12 @@ def to_dataset(response: Response, *, derived: bool = True) -> xarray.Dataset:
         "mechanism": None if response.mechanism is None else dataclasses.asdict(response.mechanism),
         "followed": response.followed,
     }
-    kind = "column" if isinstance(response.structure, Column) else "assembly"
+    kind = next(name for name, one in KINDS.items() if isinstance(response.structure, one))
     labelled[kind] = ((), store.as_json(response.structure.to_dict()))
     labelled |= {"facts": ((), store.as_json(facts)), "provenance": ((), store.as_json(response.provenance))}
     numbers = np.arange(1, len(bodies.names) + 1)
     joints = np.arange(1, h.opening.shape[1] + 1)
-    said = {"column": "joint under the drum of that number", "assembly": "joint, in the assembly's order"}[kind]
+    said = JOINTS[kind]
     coordinates: dict[str, Any] = {
         "time": ("time", h.time, {"units": "s", "long_name": "time"}),
         "joint": ("joint", joints, {"long_name": said}),
@@ -184,9 +193,11 @@ def _recorded(response: Response, of: str) -> list[tuple[str, tuple[str, ...], n
 
 
 def _from_dataset(data: xarray.Dataset) -> Response:
-    structure: Column | Assembly
+    structure: Column | Assembly | Specimen
     if "column" in data:
         structure = column_from_dict(store.from_json(data, "column"))
+    elif "specimen" in data:
+        structure = Specimen.from_dict(store.from_json(data, "specimen"))
     else:
         structure = assembly_from_dict(store.from_json(data, "assembly"))
     provenance = store.from_json(data, "provenance")
@@ -214,7 +225,7 @@ def _from_dataset(data: xarray.Dataset) -> Response:
     )
 
 
-def _of_format_1(data: xarray.Dataset, structure: Column | Assembly, provenance: dict[str, Any]) -> Response:
+def _of_format_1(data: xarray.Dataset, structure: Column | Assembly | Specimen, provenance: dict[str, Any]) -> Response:
     """Files of the first format: a mechanism is in the provenance, an assembly's joints and measures are found anew."""
     energy, wall = _energy(data), float(data.attrs["wall_s"])
     if isinstance(structure, Assembly):
@@ -250,12 +261,12 @@ def _of_format_1(data: xarray.Dataset, structure: Column | Assembly, provenance:
     )
 
 
-def _histories(data: xarray.Dataset, structure: Column | Assembly) -> Histories:
+def _histories(data: xarray.Dataset, structure: Column | Assembly | Specimen) -> Histories:
     def get(name: str) -> np.ndarray:
         return data[name].to_numpy()
 
     steps, energy = len(data["time"]), _energy(data)
-    bodies = structure.n if isinstance(structure, Column) else len(structure.bodies)
+    bodies = len(structure.bodies) if isinstance(structure, Assembly) else structure.n
     joint = {"joint_opening": get("joint_opening"), "joint_slip": get("joint_slip")}
     if "body_orientation" in data:
         names = ("body_position", "body_orientation", "joint_twist")

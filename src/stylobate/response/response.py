@@ -12,6 +12,7 @@ import numpy as np
 from ..bibliography import cite_run
 from ..column import Column
 from ..column.assembly import Assembly
+from ..column.specimen import Specimen
 from .bodies import Bodies, bodies_of
 from .histories import Histories
 from .measures import Measures
@@ -33,7 +34,7 @@ class Response(Views):
 
     Parameters
     ----------
-    structure : Column or Assembly
+    structure : Column, Assembly or Specimen
         What stood.
     histories : Histories
     measures : Measures
@@ -49,7 +50,7 @@ class Response(Views):
         Whether any two bodies, and all of them with the ground, may strike each other; of neighbours only otherwise.
     """
 
-    structure: Column | Assembly
+    structure: Column | Assembly | Specimen
     histories: Histories
     measures: Measures
     model: str

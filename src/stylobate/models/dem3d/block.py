@@ -39,12 +39,7 @@ class SpaceBlock(DrumBlock):
         """Start a case in a lane."""
         self.cases[lane] = case
         column, motion = case
-        packed = self.pack(column)
-        for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
-            for name, values in fields.items():
-                array[name][..., lane] = values
-        self.joint["d"][..., lane] = 0.0
-        dt, chunks = whole_steps(motion, self.options.tail, packed.step, self.chunk)
+        dt, chunks = whole_steps(motion, self.options.tail, self.place(lane, case), self.chunk)
         steps = chunks * self.chunk
         feed, watch = self.feed[0], self.watch[0]
         for name, samples in (("x", motion.samples), ("y", motion.y_samples), ("z", motion.z_samples)):
@@ -67,9 +62,7 @@ class SpaceBlock(DrumBlock):
         watch["vmax"][lane] = high * abs(motion.factor)
         self.lane["dt"][0, lane] = self.dt[lane] = dt
         watch["sx"][lane], watch["sy"][lane] = self.top_place(lane)
-        _, slip, twist = self.joints(lane)
-        self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane] = slip.T
-        self.joint["ot"][:-1, lane] = twist
+        self.mark_start(lane)
         if self.options.start is not None:
             drums, joints, force = placed(column, self.options.start, self.drum, lane)
             for array, fields in ((self.drum, drums), (self.joint, joints)):
@@ -80,6 +73,21 @@ class SpaceBlock(DrumBlock):
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
         self.start[lane] = self.energies(lane)
+
+    def place(self, lane: int, case: Case) -> float:
+        """Put a column at rest into a lane; its step [s]."""
+        packed = self.pack(case.column)
+        for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
+            for name, values in fields.items():
+                array[name][..., lane] = values
+        self.joint["d"][..., lane] = 0.0
+        return packed.step
+
+    def mark_start(self, lane: int) -> None:
+        """Keep where the drums stood on each other."""
+        _, slip, twist = self.joints(lane)
+        self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane] = slip.T
+        self.joint["ot"][:-1, lane] = twist
 
     def _sink(self, lane: int, force: float) -> None:
         """Lower the whole column until the base carries a force [N]."""

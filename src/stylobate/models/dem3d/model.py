@@ -9,21 +9,27 @@ from functools import lru_cache
 from typing import Any, ClassVar
 
 from ...column import Column
+from ...column.specimen import Specimen
 from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Histories, Response
-from ..base import RunOptions
+from ..base import Model, RunOptions
 from ..drums.block import PackedColumn
 from ..drums.joints import joint_stiffnesses
 from ..drums.stepped import SteppedDrums
-from ..shared.stable_step import stable_step
+from ..shared.soft_joints import check_step_resolves
+from ..shared.stable_step import chosen_step, stable_step
 from .block import SpaceBlock, histories
 from .packing import CORNERS, drum_fields, joint_fields, lane_fields
 from .restitution import damping_for
+from .specimen import SpecimenBlock, rows_for, top_frequency
 from .stability import highest_frequency
 
 #: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
 LAWS = {"rim": ("rim_forces", 1.0), "bed": ("bed_forces", 0.0)}
+
+#: In place of a section: one body that stands on its vertices.
+SPECIMEN = "specimen"
 
 #: The same for rectangular faces, and their corners.
 CORNER_LAW = ("corner_forces", 2.0)
@@ -86,6 +92,7 @@ class DistinctElement3D(SteppedDrums):
     )
     axes: ClassVar[str] = "xyz"
     takes_start: ClassVar[bool] = True
+    takes_specimens: ClassVar[bool] = True
 
     law: str = "rim"
     pivot_friction: float = 1.0
@@ -131,32 +138,61 @@ class DistinctElement3D(SteppedDrums):
         }
         return replace(response, provenance=response.provenance | chosen)
 
+    def check(self, column: Column | Specimen, motion: Motion) -> None:
+        """Refuse joints too soft, and a step that is unstable or passes over the motion."""
+        if not isinstance(column, Specimen):
+            super().check(column, motion)
+            return
+        if self.planar:
+            raise InputError(f"planar is on, and a specimen such as {column.name!r} moves in space; leave it off.")
+        if self.restitution is not None:
+            raise InputError(
+                f"restitution is given, and that of a specimen such as {column.name!r} depends on the side it falls to; give "
+                "stiffness_damping."
+            )
+        Model.check(self, column, motion)
+        chosen_step(self.stable_step(column), self.step_factor, self.time_step, f"{column.name!r}")
+        check_step_resolves(self.time_step, motion)
+
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kind(self, column: Column) -> tuple[int, str]:
-        """Columns of one kind can share a block of lanes: number of drums and section."""
+    def kind(self, column: Column | Specimen) -> tuple[int, str]:
+        """Columns of one kind can share a block of lanes: number of drums and section; specimens with as many rows."""
+        if isinstance(column, Specimen):
+            return rows_for(column), SPECIMEN
         return column.n, column.section
 
     def kernel(self, section: str = "circular") -> Any:
         """Module of kernels."""
+        if section == SPECIMEN:
+            return importlib.import_module("...kernels.dem3d.vertex_forces", __package__)
         name = LAWS[self.law][0] if section == "circular" else CORNER_LAW[0]
         return importlib.import_module(f"...kernels.dem3d.{name}", __package__)
 
     def record_types(self, section: str = "circular") -> tuple:
         """Record types of the kernel's arrays."""
+        if section == SPECIMEN:
+            return self.kernel(section).block_types(self.damped)
         return self.kernel(section).block_types(self.damped, 1 if section == "circular" else len(CORNERS))
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it."""
         return _pack(column, self)
 
-    def stable_step(self, column: Column) -> float:
+    def stable_step(self, column: Column | Specimen) -> float:
         """Largest stable time step of the closed column [s]."""
+        if isinstance(column, Specimen):
+            return stable_step(top_frequency(column), self.stiffness_damping)
         return _stable_step(column, self)
 
     def make_block(self, drums: int, options: RunOptions, section: str = "circular") -> SpaceBlock:
         """A block of lanes for columns of so many drums with a section."""
-        kernel, types, cost = self.kernel(section), self.record_types(section), self.cost(drums)
+        kernel, types = self.kernel(section), self.record_types(section)
+        if section == SPECIMEN:
+            return SpecimenBlock(
+                drums, self, kernel, types, self.pack, 1, options, self.cost(drums // 32), planar=self.planar
+            )
+        cost = self.cost(drums)
         return SpaceBlock(kernel, types, self.pack, drums, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:

@@ -36,7 +36,7 @@ def restitutions(column: Column, model: Any) -> np.ndarray:
     body = one_body(column)
     twin = dataclasses.replace(model, planar=True, stiffness_damping=float(TRIED[-1]), mass_damping=0.0, time_step=None)
     tilt = RELEASE * body.slenderness
-    block = twin.make_block(1, RunOptions(start=Start(tilt), until_end=True))
+    block = twin.block_for(twin.kind(body), RunOptions(start=Start(tilt), until_end=True))
     duration = 10.0 / body.frequency_parameter
     for lane, beta in enumerate(TRIED):
         block.load(lane, Case(body, Motion(duration, np.zeros(2))))

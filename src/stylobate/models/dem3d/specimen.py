@@ -1,0 +1,315 @@
+"""A specimen on the base as the kernels want it: principal axes, vertices, equilibrium, stable step, verdict."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from ...column.specimen import Specimen
+from ...errors import InputError
+from ...outcome import Outcome, classify
+from ...response import Collapse, Measures
+from ...response.collapse import OVERTURNED
+from ...response.measures import SpaceMeasures
+from ..base import Case
+from ..shared import ledger
+from ..shared.stable_step import highest_frequency
+from .block import SpaceBlock
+from .pose import rotation
+
+#: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
+ROUND_UP = 64
+
+#: Share of a body's size within which vertices may strike the base together [-].
+TOGETHER = 5e-3
+
+#: Tilt beyond which a body has toppled [rad].
+TOPPLED = 0.25 * math.pi
+
+
+def rows_for(specimen: Specimen) -> int:
+    """Rows of vertices that a block for this specimen has."""
+    return -(-len(specimen.vertices) // ROUND_UP) * ROUND_UP
+
+
+def vertex_stiffness(specimen: Specimen) -> tuple[float, float]:
+    """Normal and shear stiffness of one vertex [N/m]: those of the resting footprint over its vertices."""
+    share = specimen.resting.area / len(specimen.resting.footprint)
+    return specimen.joint.normal_stiffness * share, specimen.joint.shear_stiffness * share
+
+
+@lru_cache(maxsize=256)
+def principal(specimen: Specimen) -> tuple[np.ndarray, np.ndarray]:
+    """Principal moments about body axes i, j, k [kg m²], and those axes as columns in the axes of the vertices.
+
+    The moment that differs most from the other two belongs to k, so that the rotation is nearest to an exact one.
+    """
+    moments, axes = np.linalg.eigh(specimen.inertia)
+    order = [1, 2, 0] if moments[1] - moments[0] > moments[2] - moments[1] else [0, 1, 2]
+    moments, axes = moments[order], axes[:, order]
+    if np.linalg.det(axes) < 0.0:
+        axes[:, 2] = -axes[:, 2]
+    return moments, axes
+
+
+@lru_cache(maxsize=256)
+def top_frequency(specimen: Specimen) -> float:
+    """Highest angular frequency of the body with all vertices in contact that can strike the base together [rad/s]."""
+    from scipy.spatial import ConvexHull
+
+    kn, ks = vertex_stiffness(specimen)
+    moments, axes = principal(specimen)
+    vertices = specimen.vertices @ axes
+    hull: Any = ConvexHull(vertices)
+    size = float(np.ptp(vertices, axis=0).max())
+    inverse = 1.0 / np.concatenate((np.full(3, specimen.mass), moments))
+    highest = 0.0
+    for outward in np.unique(np.round(hull.equations, 9), axis=0):
+        near = vertices[vertices @ outward[:3] + outward[3] > -TOGETHER * size]
+        spring = ks * np.eye(3) + (kn - ks) * np.outer(outward[:3], outward[:3])
+        stiffness = np.zeros((6, 6))
+        for x, y, z in near:
+            skew = np.array([[0.0, z, -y], [-z, 0.0, x], [y, -x, 0.0]])  # displacement of the vertex per small rotation
+            rows = np.hstack((np.eye(3), skew))
+            stiffness += rows.T @ spring @ rows
+        highest = max(highest, highest_frequency(stiffness, inverse))
+    return highest
+
+
+class SpecimenBlock(SpaceBlock):
+    """A block of lanes of specimens; parameters as for :class:`SpaceBlock`.
+
+    Parameters
+    ----------
+    rows : int
+        Rows of vertices.
+    model : DistinctElement3D
+    """
+
+    def __init__(self, rows: int, model: Any, *arguments: Any, planar: bool) -> None:
+        super().__init__(*arguments, planar=planar)
+        from ..shared.lanes import aligned_zeros
+
+        self.joint = aligned_zeros(self.kernel.FIRST + rows, self.joint.dtype)
+        self.parameters = model
+
+    def place(self, lane: int, case: Case) -> float:
+        """Put a specimen at rest into a lane; its step [s]."""
+        specimen: Any = case.column
+        if self.options.start is not None:
+            raise InputError(f"the specimen {specimen.name!r} starts at rest; leave start out, or shake a column.")
+        first, rest, model = self.kernel.FIRST, specimen.resting, self.parameters
+        moments, axes = principal(specimen)
+        vertices, up = specimen.vertices @ axes, rest.rotation.T[:, 2] @ axes
+        kn, ks = vertex_stiffness(specimen)
+        for array in (self.drum, self.joint, self.lane):
+            for name in array.dtype.names or ():
+                array[name][..., lane] = 0.0
+        joint, drum = self.joint, self.drum
+        m = len(vertices)
+        joint["z"][first:, lane] = 1e9  # rows that no vertex takes
+        joint["near"][:] = 1.0
+        for c, name in enumerate("xyz"):
+            joint[name][first : first + m, lane] = vertices[:, c]
+        joint["kn"][first : first + m, lane], joint["ks"][first : first + m, lane] = kn, ks
+        joint["mu"][first:, lane] = specimen.joint.tan_phi
+        joint["rest"][first + rest.footprint, lane] = 1.0
+        turn = rest.rotation @ axes
+        values = {"m": specimen.mass, "im": 1.0 / specimen.mass, "z": rest.height}
+        values |= {
+            "ia": 1.0 / moments[1],
+            "ib": 1.0 / moments[0] - 1.0 / moments[1],
+            "ic": 1.0 / moments[2] - 1.0 / moments[1],
+        }
+        values |= {"rb": float(np.linalg.norm(vertices, axis=1).max()), "ht": float((vertices @ up).max())}
+        values |= {"n" + c: up[i] for i, c in enumerate("xyz")}
+        for name, value in values.items():
+            drum[name][1, lane] = value
+        self._turn(lane, turn)
+        for a, axis in enumerate("ijk"):
+            drum[axis + "xyz"[a]][0, lane] = 1.0
+        self.lane["g"][0, 2, lane] = specimen.gravity
+        self.lane["beta"][0, lane], self.lane["alpha"][0, lane] = model.stiffness_damping, model.mass_damping
+        self.lane["free"][0, lane] = 1.0
+        self._settle(lane, turn, specimen)
+        return model.step_for(specimen)
+
+    def _turn(self, lane: int, turn: np.ndarray) -> None:
+        for a, axis in enumerate("ijk"):
+            for c, name in enumerate("xyz"):
+                self.drum[axis + name][1, lane] = turn[c, a]
+
+    def _settle(self, lane: int, turn: np.ndarray, specimen: Specimen) -> None:
+        """Sink and tilt the body until its footprint carries it: Newton's method on depth and two small rotations."""
+        arms = (specimen.vertices @ specimen.resting.rotation.T)[specimen.resting.footprint]
+        rows = np.stack((np.ones(len(arms)), arms[:, 1], -arms[:, 0]), axis=1)  # rise of a vertex per z, θx, θy
+        stiffness = vertex_stiffness(specimen)[0] * rows.T @ rows
+        weight = specimen.mass * specimen.gravity
+        force = np.array([weight, 0.0, 0.0])
+        for _ in range(8):
+            step = -np.linalg.lstsq(stiffness, force, rcond=1e-12)[0]
+            self.drum["z"][1, lane] += step[0]
+            angle = math.hypot(step[1], step[2])
+            if angle > 0.0:
+                turn = rotation(np.array([step[1], step[2], 0.0]) / angle, angle) @ turn
+            self._turn(lane, turn)
+            carried, moment = self.net(lane)
+            force = np.array([weight - carried[0, 2], -moment[0, 0], -moment[0, 1]])
+            if np.abs(force).max() < 1e-12 * weight:
+                break
+
+    def mark_start(self, lane: int) -> None:
+        """Keep where the body stood."""
+        self.stood = getattr(self, "stood", {})
+        self.stood[lane] = (self.axes(lane)[0].copy(), self.foot(lane))
+
+    def up(self, lane: int) -> np.ndarray:
+        """Direction that was up at rest, in the axes of the body."""
+        return np.array([self.drum["n" + c][1, lane] for c in "xyz"])
+
+    def foot(self, lane: int) -> np.ndarray:
+        """Where the point of the body is that was under the centroid at rest [m], shape (3,)."""
+        specimen: Any = self.cases[lane].column  # type: ignore[union-attr]
+        place = np.array([self.drum[c][1, lane] for c in "xyz"])
+        return place - specimen.resting.height * self.axes(lane)[0] @ self.up(lane)
+
+    def top_place(self, lane: int) -> np.ndarray:
+        """Place in plan of the point that is as high as the highest vertex, above the centroid at rest [m], shape (2,)."""
+        place = np.array([self.drum[c][1, lane] for c in "xyz"])
+        return (place + self.drum["ht"][1, lane] * self.axes(lane)[0] @ self.up(lane))[:2]
+
+    def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Height of the highest vertex of the footprint [m], shift of its middle [m], twist [rad]: (1,), (1, 2), (1,)."""
+        specimen: Any = self.cases[lane].column  # type: ignore[union-attr]
+        rows = self.kernel.FIRST + specimen.resting.footprint
+        arms = np.stack([self.joint[c][rows, lane] for c in "xyz"], axis=-1)
+        axes = self.axes(lane)[0]
+        heights = self.drum["z"][1, lane] + (arms @ axes.T)[:, 2]
+        if lane not in getattr(self, "stood", {}):
+            return np.array([heights.max()]), np.zeros((1, 2)), np.zeros(1)
+        first, foot = self.stood[lane]
+        turn = axes @ first.T
+        twist = math.atan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])
+        return np.array([max(heights.max(), 0.0)]), (self.foot(lane) - foot)[None, :2], np.array([twist])
+
+    def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Slip [m] and twist [rad] since the start."""
+        return self.joints(lane)[1:]
+
+    def residual_acceleration(self, lane: int) -> float:
+        """Largest acceleration in the present position without input [m/s²]."""
+        force, moment = self.net(lane)
+        drum = self.drum[1]
+        least = 1.0 / principal(self.cases[lane].column)[0].min()  # type: ignore[union-attr, arg-type]
+        linear = force[0] * drum["im"][lane] - self.lane["g"][0, :, lane]
+        return float(max(np.abs(linear).max(), np.abs(moment).max() * least * drum["rb"][lane]))
+
+    def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Force [N] and moment [N m] of the base on the body in its present position, each of shape (1, 3)."""
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = 0.0
+        self.kernel.forces(self.drum, joint, state)
+        return joint["f"][:1, :, lane], joint["up"][:1, :, lane]
+
+    def snapshot(self, lane: int) -> dict[str, Any]:
+        """Everything that a history keeps of the present state; axes are those of the specimen's vertices."""
+        specimen: Any = self.cases[lane].column  # type: ignore[union-attr]
+        opening, slip, twist = self.joints(lane)
+        return {
+            "time": self.time(lane),
+            "position": np.stack([self.drum[c][1:, lane] for c in "xyz"], axis=-1),
+            "axes": self.axes(lane) @ principal(specimen)[1].T,
+            "opening": opening,
+            "slip": slip,
+            "twist": twist,
+            "base": self.foot(lane)[:2],
+            "top": self.top_place(lane),
+            "energy": self.energies(lane),
+        }
+
+    def collect(self, lane: int) -> Measures:
+        """Measures of a lane whose run is over."""
+        case = self.cases[lane]
+        assert case is not None
+        specimen, watch = case.column, self.watch[0]
+        assert isinstance(specimen, Specimen)
+        change = self.energies(lane) - self.start[lane]
+        barrier = height_barrier(specimen)
+        lowest = specimen.mass * specimen.gravity * (barrier.max() - specimen.resting.height)
+        imbalance = ledger.imbalance(
+            ledger.unaccounted(change),
+            work=float(watch["wmax"][lane]),
+            start=float(self.start[lane, 3]),
+            barrier=max(lowest, 0.0),
+            released=ledger.released(change),
+        )
+        _, slip, twist = self.joints(lane)
+        shift, width = float(np.hypot(*slip[0])), math.sqrt(specimen.resting.area)
+        collapsed = watch["status"][lane] == self.kernel.COLLAPSED
+        failed = watch["status"][lane] == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
+        outcome = classify(collapsed, failed, float(watch["open"][lane]) / width, shift / width)
+        top = self.top_place(lane) - (watch["sx"][lane], watch["sy"][lane])
+        return Measures(
+            outcome=outcome,
+            decided=outcome is Outcome.COLLAPSED or (not failed and self._stays(lane, specimen, change, barrier)),
+            collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
+            peak_top_displacement=float(watch["top"][lane]),
+            residual_top_displacement=float(np.hypot(*top)),
+            peak_rotation=math.acos(max(-1.0, 1.0 - float(watch["turn"][lane]))),
+            peak_joint_opening=float(watch["open"][lane]),
+            residual_joint_slip=shift,
+            energy_imbalance=imbalance,
+            time_step=float(self.dt[lane]),
+            steps=int(self.feed["step"][0, lane]),
+            reason=self.reason(lane, outcome, imbalance),
+            collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
+            space=SpaceMeasures(
+                peak_top_x=float(watch["topx"][lane]),
+                peak_top_y=float(watch["topy"][lane]),
+                peak_tilt=math.acos(max(-1.0, 1.0 - float(watch["turn"][lane]))),
+                peak_twist=math.nan,
+                residual_slip_per_joint=(shift,),
+                residual_twist_per_joint=(float(twist[0]),),
+            ),
+        )
+
+    def _stays(self, lane: int, specimen: Specimen, change: np.ndarray, barrier: np.ndarray) -> bool:
+        """Whether the energy that is left lifts the body over no ring of tilts between its own and 45°."""
+        tilt = math.acos(max(-1.0, min(1.0, float((self.axes(lane)[0] @ self.up(lane))[2]))))
+        energy = float(change[1] + change[2] + change[3])
+        beyond = barrier[np.linspace(0.0, TOPPLED, len(barrier)) > tilt]
+        rise = specimen.mass * specimen.gravity * (beyond - specimen.resting.height)
+        return len(beyond) > 0 and energy < float(rise.max())
+
+    def collapse(self, lane: int) -> Collapse:
+        """The toppling of a lane, with its direction in plan."""
+        watch = self.watch[0]
+        return Collapse(
+            time=float(watch["when"][lane] * self.dt[lane]),
+            joint=1,
+            mechanism=OVERTURNED,
+            azimuth=math.atan2(watch["ey"][lane], watch["ex"][lane]),
+        )
+
+    def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
+        """Why a run failed, or which way the body toppled; empty for one that stands."""
+        if outcome is Outcome.COLLAPSED:
+            return f"toppled, its tilt is beyond {math.degrees(TOPPLED):.0f}°, {self.direction(lane)}"
+        return super().reason(lane, outcome, imbalance)
+
+
+@lru_cache(maxsize=256)
+def height_barrier(specimen: Specimen) -> np.ndarray:
+    """Least height of the centroid over the base at tilts from 0 to 45°, over all azimuths [m], shape (91,)."""
+    vertices = specimen.vertices @ specimen.resting.rotation.T
+    azimuth = np.arange(180) * (math.pi / 90.0)
+    out = []
+    for tilt in np.linspace(0.0, TOPPLED, 91):
+        down = np.stack(
+            (math.sin(tilt) * np.cos(azimuth), math.sin(tilt) * np.sin(azimuth), np.full(180, -math.cos(tilt))), axis=1
+        )
+        out.append(float((vertices @ down.T).max(axis=0).min()))
+    return np.array(out)
