@@ -147,8 +147,8 @@ class DistinctElement3D(SteppedDrums):
             raise InputError(f"planar is on, and a specimen such as {column.name!r} moves in space; leave it off.")
         if self.restitution is not None:
             raise InputError(
-                f"restitution is given, and that of a specimen such as {column.name!r} depends on the side it falls to; give "
-                "stiffness_damping."
+                f"restitution is given, and that of a specimen such as {column.name!r} depends on the side it falls to; "
+                "give stiffness_damping."
             )
         Model.check(self, column, motion)
         chosen_step(self.stable_step(column), self.step_factor, self.time_step, f"{column.name!r}")
