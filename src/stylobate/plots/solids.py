@@ -1,0 +1,174 @@
+"""Solids as painted: faces with fluting and a mark, shaded, the farther ones first.
+
+Bodies are convex: faces of one that are turned to the viewer never hide each other, and of two bodies one can be painted
+first, because a plane parts them: the one on the viewer's side of it comes second.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..response.shapes import CircularFrustum, Mesh, Shape, hull
+from .view import View
+
+#: Flutes around a round drum, as on a Doric shaft.
+FLUTES = 20
+
+#: Tones of faces: stone, the dark half of a flute, the mark that shows how a body is turned, and what moves with the ground.
+STONE, FLUTE, MARK, FIXED = range(4)
+
+#: Colours of the tones in full light [-].
+COLOURS = np.array([[0.97, 0.93, 0.84], [0.80, 0.72, 0.56], [0.13, 0.40, 0.67], [0.86, 0.86, 0.86]])
+
+#: Where light comes from, to the right, upward and towards the viewer [-]; and the share that comes from everywhere.
+LIGHT, DIFFUSE = np.array([-0.45, 0.55, 0.70]), 0.6
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A body's surface in its own axes.
+
+    Parameters
+    ----------
+    vertices : array
+        [m], shape (m, 3)
+    faces : tuple of tuple of int
+        Vertices of each face, counter-clockwise from outside.
+    tones : tuple of int
+        Of the faces.
+    """
+
+    vertices: np.ndarray
+    faces: tuple[tuple[int, ...], ...]
+    tones: tuple[int, ...]
+
+    @cached_property
+    def normals(self) -> np.ndarray:
+        """Of the faces, outward [-], shape (f, 3)."""
+        return np.array([_normal(self.vertices[list(face)]) for face in self.faces])
+
+
+def surface_of(shape: Shape, fixed: bool = False) -> Surface:
+    """Surface of a body: a round one is fluted, and every one is marked on the side towards its own x axis.
+
+    Parameters
+    ----------
+    shape : Shape
+    fixed : bool
+        Whether it moves with the ground: then it is plain.
+    """
+    mesh = shape.mesh(2 * FLUTES)
+    if fixed:
+        return Surface(mesh.vertices, mesh.faces, (FIXED,) * len(mesh.faces))
+    if not isinstance(shape, CircularFrustum):
+        return _marked(mesh)
+    sides = len(mesh.faces) - 2
+    strips = [MARK if i in (0, sides - 1) else FLUTE if i % 2 else STONE for i in range(sides)]
+    return Surface(mesh.vertices, mesh.faces, (STONE, STONE, *strips))
+
+
+def _marked(mesh: Mesh) -> Surface:
+    """A body with flat sides: that towards x has a strip, or is marked as a whole where it has not four corners."""
+    at, faces = mesh.vertices, mesh.faces
+    facing = int(np.argmax([_normal(at[list(face)])[0] for face in faces]))
+    if len(faces[facing]) != 4:
+        return Surface(at, faces, tuple(MARK if i == facing else STONE for i in range(len(faces))))
+    a, b, c, d = faces[facing]
+    new = [at[p] + share * (at[q] - at[p]) for p, q in ((a, b), (d, c)) for share in (0.4, 0.6)]
+    e, f, h, i = range(len(at), len(at) + 4)
+    others = (*faces[:facing], *faces[facing + 1 :])
+    strips = ((a, e, h, d), (e, f, i, h), (f, b, c, i))
+    tones = (*(STONE,) * len(others), STONE, MARK, STONE)
+    return Surface(np.concatenate((at, new)), (*others, *strips), tones)
+
+
+def _normal(corners: np.ndarray) -> np.ndarray:
+    """Unit normal of a flat polygon, outward, shape (3,)."""
+    found = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+    return found / np.linalg.norm(found)
+
+
+@dataclass(frozen=True, eq=False)
+class Solid:
+    """A body in its place.
+
+    Parameters
+    ----------
+    surface : Surface
+    place : array
+        Of its centroid [m], shape (3,).
+    turn : array
+        Rotation matrix from the body's axes to those of space, shape (3, 3).
+    """
+
+    surface: Surface
+    place: np.ndarray
+    turn: np.ndarray
+
+    @cached_property
+    def vertices(self) -> np.ndarray:
+        """[m], shape (m, 3)"""
+        return self.surface.vertices @ self.turn.T + self.place
+
+    @cached_property
+    def normals(self) -> np.ndarray:
+        """Of the faces, outward [-], shape (f, 3)."""
+        return self.surface.normals @ self.turn.T
+
+    @cached_property
+    def levels(self) -> np.ndarray:
+        """Distances of the faces' planes from the origin [m], shape (f,)."""
+        return (self.normals * self.vertices[[face[0] for face in self.surface.faces]]).sum(axis=1)
+
+
+def hides(front: Solid, back: Solid, view: View) -> bool:
+    """Whether the first of two bodies may hide the second, and so must be painted after it."""
+    gaps = (front.normals @ back.vertices.T).min(axis=1) - front.levels
+    others = (back.normals @ front.vertices.T).min(axis=1) - back.levels
+    if gaps.max() > others.max():  # the second lies outside this face of the first
+        return bool(front.normals[gaps.argmax()] @ view.toward < 0.0)
+    return bool(back.normals[others.argmax()] @ view.toward > 0.0)
+
+
+def painting_order(solids: list[Solid], view: View) -> list[int]:
+    """Numbers of the bodies, in the order in which they are painted."""
+    seen = [view.across(solid.vertices) for solid in solids]
+    low, high = (np.array([getattr(one, end)(axis=0) for one in seen]) for end in ("min", "max"))
+    depth = [float(solid.place @ view.toward) for solid in solids]
+    left = sorted(range(len(solids)), key=depth.__getitem__)
+    before: dict[int, set[int]] = {i: set() for i in left}
+    for i in left:
+        for j in np.flatnonzero(((low[i] <= high) & (low <= high[i])).all(axis=1)).tolist():
+            if j > i:
+                first, second = (j, i) if hides(solids[i], solids[j], view) else (i, j)
+                before[second].add(first)
+    order: list[int] = []
+    while left:  # where they hide each other in a ring, the farthest is first
+        taken = next((i for i in left if before[i].isdisjoint(left)), left[0])
+        left.remove(taken)
+        order.append(taken)
+    return order
+
+
+def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarray]:
+    """What is to be painted, one after the other: polygons [m], each of shape (k, 2), and their colours, shape (p, 3).
+
+    Of each body its outline comes first, for a line around it, then the faces turned to the viewer.
+    """
+    axes = np.stack((view.right, view.up, view.toward))
+    light = LIGHT / np.linalg.norm(LIGHT) @ axes
+    polygons: list[np.ndarray] = []
+    colours: list[np.ndarray] = []
+    for number in painting_order(solids, view):
+        solid = solids[number]
+        points, facing = view.across(solid.vertices), solid.normals @ view.toward
+        shade = DIFFUSE + (1.0 - DIFFUSE) * np.clip(solid.normals @ light, 0.0, 1.0)
+        polygons.append(hull(points))
+        colours.append(COLOURS[FLUTE if solid.surface.tones[0] != FIXED else FIXED])
+        for i in np.flatnonzero(facing > 1e-9):
+            polygons.append(points[list(solid.surface.faces[i])])
+            colours.append(shade[i] * COLOURS[solid.surface.tones[i]])
+    return polygons, np.array(colours)
