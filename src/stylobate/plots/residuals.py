@@ -1,0 +1,81 @@
+"""Residual offsets and twists drum by drum in plan: what an archaeologist measures."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+
+from ..response import Response
+from .panels import most, panels_for, say, until_collapse
+from .scene import describe
+from .style import BLUE, BROWN, GREY, SAND, styled
+from .uplift import rim_radius
+
+#: Offsets and twists are drawn so large that the largest is about this share of a radius, and this angle [rad].
+FAR, TURNED = 0.3, 0.5
+
+
+@styled
+def draw_residuals(response: Response, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
+    """Each drum over what it stands on, in plan, at the end, or where collapse became certain.
+
+    Dashed is where the drum stood, blue the mark on its side. Offsets and twists are those along and about the joint,
+    from the start; small ones are drawn larger, by round numbers that the title says. The numbers are true.
+
+    Parameters
+    ----------
+    response : Response
+        Of a column in space.
+    title : str, optional
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
+    """
+    last = int(np.flatnonzero(until_collapse(response))[-1])
+    slip, twist = response.slip[last], response.twist[last]
+    azimuth = np.linspace(-math.pi, math.pi, 73)
+    rims = [rim_radius(shape, False, azimuth) for shape in response.bodies.shapes[: len(twist)]]
+    largest = max(float(rim.max()) for rim in rims)
+    far = round_factor(FAR * largest / max(float(np.hypot(*slip.T).max()), 1e-12))
+    turned = round_factor(TURNED / max(float(np.abs(twist).max()), 1e-12))
+    shown = most(np.hypot(*slip.T) + largest * np.abs(twist))
+    figure, panels = panels_for(len(shown), figure)
+    for axes, i in zip(panels, shown):
+        _draw_drum(axes, azimuth, rims[i], far * slip[i], turned * twist[i])
+        axes.set_xlim(-1.5 * largest, 1.5 * largest)
+        axes.set_ylim(-1.5 * largest, 1.5 * largest)
+        offset = 1000.0 * float(np.hypot(*slip[i]))
+        toward = f" to {math.degrees(math.atan2(slip[i, 1], slip[i, 0])) + 0.0:.0f}°" if offset >= 0.05 else ""
+        turn = round(math.degrees(twist[i]), 2) + 0.0
+        words = f"drum {i + 1}\n{offset:.1f} mm{toward}\ntwist {turn:.2f}°".replace("-", "−")
+        axes.set_title(words, fontsize=7.0, loc="center", pad=1.0)
+    when = "At the end" if math.isnan(response.collapse_time) else "Where collapse became certain"
+    drawn = "as they are" if far == turned == 1.0 else f"offsets × {far:g}, twists × {turned:g}"
+    words = f"{when} ({drawn}; x to the right, y up): {describe(response)}"
+    say(figure, title or words, len(twist) - len(shown))
+    return figure
+
+
+def _draw_drum(axes: Axes, azimuth: np.ndarray, rim: np.ndarray, offset: np.ndarray, twist: float) -> None:
+    axes.set_aspect("equal")
+    axes.set_axis_off()
+    circle = np.stack((np.cos(azimuth), np.sin(azimuth)), axis=1) * rim[:, None]
+    c, s = math.cos(twist), math.sin(twist)
+    placed = circle @ np.array([[c, s], [-s, c]]) + offset
+    axes.fill(*placed.T, facecolor=SAND, edgecolor=BROWN, linewidth=0.9)
+    axes.plot(*circle.T, color=GREY, linewidth=0.7, linestyle=(0, (3, 2)))
+    size = float(rim[len(rim) // 2])  # along the drum's own x axis
+    axes.plot([0.0, size], [0.0, 0.0], color=GREY, linewidth=0.7, linestyle=(0, (3, 2)))
+    axes.plot([offset[0], offset[0] + size * c], [offset[1], offset[1] + size * s], color=BLUE, linewidth=1.6)
+    axes.plot(*offset, ".", color=BLUE, markersize=4)
+
+
+def round_factor(wanted: float) -> float:
+    """The largest of 1, 2, 5, 10 … that is not larger than this, and at least 1."""
+    if wanted < 2.0:
+        return 1.0
+    wanted = min(wanted, 1e6)
+    decade = 10.0 ** math.floor(math.log10(wanted))
+    return max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= wanted)
