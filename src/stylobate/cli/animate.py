@@ -24,6 +24,14 @@ def animate(
         str | None, typer.Option("--from", metavar="TIME", help="Where the film begins, such as 2s.")
     ] = None,
     stop: Annotated[str | None, typer.Option("--to", metavar="TIME", help="Where the film ends, such as 8s.")] = None,
+    view: Annotated[
+        str | None,
+        typer.Option(
+            "--view",
+            metavar="AZIMUTH,ELEVATION",
+            help="From where a response in space is seen, in degrees: azimuth from x towards y; -40,18 if not given.",
+        ),
+    ] = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
@@ -35,6 +43,7 @@ def animate(
     from ..plots.animation import write_gif, write_mp4
     from ..plots.player import write_player
     from ..plots.scene import scene_of
+    from ..plots.view import OBLIQUE, parse_view
     from ..response import load_response
     from . import console
 
@@ -44,6 +53,9 @@ def animate(
     if response.is_dir():
         response = response / "response.nc"
     loaded = load_response(response)
+    if view is not None and loaded.dims != "xyz":
+        raise InputError(f"--view is for responses in space, and that of {loaded.model} is in the plane; leave it out.")
+    seen_from = OBLIQUE if view is None else parse_view(view)
     window = None
     if start is not None or stop is not None:
         first, last = float(loaded.time[0]), float(loaded.time[-1])
@@ -51,11 +63,19 @@ def animate(
     with console.folder(out or response.parent, f"{response.stem}.{to}") as folder:
         target = (folder or response.parent) / f"{response.stem}.{to}"
         if to == "html":
-            write_player(loaded, target, frames_per_second=frames, speed=pace, window=window)
+            write_player(loaded, target, frames_per_second=frames, speed=pace, window=window, seen_from=seen_from)
         else:
             write = write_gif if to == "gif" else write_mp4
             with console.progress(f"{to} film") as progress:
-                write(loaded, target, frames_per_second=frames, speed=pace, window=window, progress=progress)
+                write(
+                    loaded,
+                    target,
+                    frames_per_second=frames,
+                    speed=pace,
+                    window=window,
+                    progress=progress,
+                    seen_from=seen_from,
+                )
     duration = float(loaded.time[-1])
     if as_json:
         console.emit({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label})

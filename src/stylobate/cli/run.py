@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from ..motion import Motion
     from ..response import Response
 
+#: Pictures of what a model in space computes, besides those of every column.
+SPACE_PICTURES = ["orbit", "uplift", "residuals"]
+
 
 def run(
     context: typer.Context,
@@ -161,6 +164,7 @@ def conclude(
     from . import console
 
     pictures = ["histories", "filmstrip", *(["joints"] if isinstance(stone, Column) else []), "energy", "motion"]
+    pictures += SPACE_PICTURES if model.axes == "xyz" else []
     with console.folder(out, "response.nc", "run.json", *pictures) as folder:
         response, taken = follow(motion), model.taken(motion)
         summary, files = response.summary() | o.input_facts(taken), []
@@ -188,6 +192,9 @@ def write(response: Response, motion: Motion, folder: Path) -> list[Path]:
     pictures = {"histories": plots.draw_histories(response), "filmstrip": plots.draw_filmstrip(response)}
     if response.histories.top is not None:
         pictures["joints"] = plots.draw_joints(response)
+    if response.dims == "xyz":
+        drawn = plots.draw_orbit, plots.draw_uplift, plots.draw_residuals
+        pictures |= {name: draw(response) for name, draw in zip(SPACE_PICTURES, drawn, strict=True)}
     pictures |= {"energy": plots.draw_energy(response), "motion": plots.draw_motion(motion)}
     for name, figure in pictures.items():
         files += plots.save(figure, folder / name)

@@ -8,13 +8,16 @@ from .filmstrip import draw_filmstrip
 from .histories import draw_comparison, draw_histories
 from .joints import draw_joints
 from .motion import draw_motion
+from .orbit import draw_orbit
 from .probability import draw_probability
 from .pushover import draw_mechanism, draw_pushover
 from .record_verdicts import draw_record_verdicts
+from .residuals import draw_residuals
 from .rocking_spectrum import draw_rocking_spectrum
 from .spectra import draw_spectra
 from .style import save
 from .suite import draw_suite
+from .uplift import draw_uplift
 
 __all__ = [
     "draw_amplitudes",
@@ -29,11 +32,14 @@ __all__ = [
     "draw_joints",
     "draw_mechanism",
     "draw_motion",
+    "draw_orbit",
     "draw_probability",
     "draw_pushover",
     "draw_record_verdicts",
+    "draw_residuals",
     "draw_rocking_spectrum",
     "draw_spectra",
     "draw_suite",
+    "draw_uplift",
     "save",
 ]

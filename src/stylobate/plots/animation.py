@@ -13,7 +13,9 @@ from ..atomic import replacing
 from ..errors import InputError, check_range
 from ..response import Response
 from .scene import Scene, draw_bodies, scale_bar, scene_of, seen
-from .style import BLACK, GREY, RED, plain, styled
+from .solid_frame import draw_solids, paint
+from .style import BLACK, BLUE, GREY, RED, plain, styled
+from .view import OBLIQUE, View
 
 #: Size [inch] and resolution of a frame.
 SIZE, DOTS_PER_INCH = (6.4, 4.8), 100
@@ -66,7 +68,10 @@ def draw_frame(scene: Scene, index: int, limits: tuple[float, float, float, floa
     low, high, bottom, top = scene.view(np.array([index]), SHAPE) if limits is None else limits
     figure = Figure(figsize=SIZE)
     above, below = figure.subplots(2, 1, height_ratios=(4.0, 1.0))
-    draw_bodies(above, scene, scene.outlines(index), 0.8)
+    if scene.seen_from is None:
+        draw_bodies(above, scene, scene.outlines(index), 0.8)
+    else:
+        draw_solids(above, scene, index)
     above.set_xlim(low, high)
     above.set_ylim(bottom, top)
     above.set_title(_words(scene, index), fontsize=9.5, loc="left")
@@ -74,7 +79,10 @@ def draw_frame(scene: Scene, index: int, limits: tuple[float, float, float, floa
     above.plot([right - length, right], [top - 0.04 * (top - bottom)] * 2, color=BLACK, linewidth=2.0, zorder=1000)
     middle = (right - 0.5 * length, top - 0.055 * (top - bottom))
     above.text(*middle, f"{length:g} m", ha="center", va="top", fontsize=8.0, zorder=1000)
-    below.plot(scene.time, scene.ground, color=GREY, linewidth=0.7)
+    below.plot(scene.time, scene.ground, color=GREY, linewidth=0.7, label="x")
+    if scene.ground_across is not None:
+        below.plot(scene.time, scene.ground_across, color=BLUE, linewidth=0.7, linestyle=(0, (4, 1.5)), label="y")
+        below.legend(loc="upper right", ncols=2, fontsize=7.5)
     below.axvline(scene.time[index], color=RED, linewidth=1.2)
     below.set_xlim(scene.time[0], scene.time[-1] or 1.0)
     below.set_xlabel("time [s]")
@@ -107,14 +115,22 @@ def _images(
 def _turn_to(figure: Figure, scene: Scene, index: int) -> None:
     """Move what moves in a frame to another recorded state."""
     above, below = figure.axes
-    for patch, corners in zip(above.patches, scene.outlines(index), strict=True):
-        patch.set_xy(corners)  # pyright: ignore[reportAttributeAccessIssue]
+    if scene.seen_from is None:
+        for patch, corners in zip(above.patches, scene.outlines(index), strict=True):
+            patch.set_xy(corners)  # pyright: ignore[reportAttributeAccessIssue]
+    else:
+        paint(above, scene, index)
     above.set_title(_words(scene, index), fontsize=9.5, loc="left")
     below.lines[-1].set_xdata([scene.time[index]] * 2)
 
 
 def _words(scene: Scene, index: int) -> str:
     return plain(f"{scene.name}: {scene.time[index]:.2f} s")
+
+
+def film_of(response: Response, seen_from: View) -> Scene:
+    """What a film shows: bodies in space from somewhere, others along y."""
+    return scene_of(response, seen_from if response.dims == "xyz" else None)
 
 
 def write_gif(
@@ -125,6 +141,7 @@ def write_gif(
     speed: float = 1.0,
     window: tuple[float, float] | None = None,
     progress: Callable[[int, int], None] | None = None,
+    seen_from: View = OBLIQUE,
 ) -> Path:
     """Write a film as GIF.
 
@@ -140,10 +157,12 @@ def write_gif(
         Beginning and end of what the film shows [s]; all by default.
     progress : callable, optional
         Called with (frames drawn, all).
+    seen_from : View
+        Of what moved in space; the rest is seen along y.
     """
     from PIL import Image
 
-    scene = scene_of(response)
+    scene = film_of(response, seen_from)
     # a GIF counts in hundredths of a second; viewers slow down frames of only one
     hundredths = max(2, round(100.0 / check_rate(frames_per_second)))
     indices = frame_indices(scene.time, 100.0 / hundredths, speed, window)
@@ -164,6 +183,7 @@ def write_mp4(
     speed: float = 1.0,
     window: tuple[float, float] | None = None,
     progress: Callable[[int, int], None] | None = None,
+    seen_from: View = OBLIQUE,
 ) -> Path:
     """Write a film as MP4; needs the extra ``video``. Parameters as for :func:`write_gif`.
 
@@ -176,7 +196,7 @@ def write_mp4(
         import imageio_ffmpeg
     except ImportError:
         raise InputError("an MP4 film needs the extra 'video'; install stylobate[video], or write a GIF.") from None
-    scene = scene_of(response)
+    scene = film_of(response, seen_from)
     indices = frame_indices(scene.time, frames_per_second, speed, window)
     width, height = (int(side * DOTS_PER_INCH) for side in SIZE)
     target = Path(path)

@@ -14,6 +14,7 @@ from ..response import Response
 from ..response.instants import ASIDE, telling_states
 from .scene import Scene, describe, draw_bodies, scene_of
 from .style import WIDTH, page, styled
+from .view import ALONG_X, ALONG_Y
 
 #: Width that the words over a panel take [inch].
 WORDS = 0.66
@@ -33,7 +34,8 @@ def draw_filmstrip(
 ) -> Figure:
     """What stood at chosen instants, with the time and how far it has moved.
 
-    That is the displacement of a column's top relative to the ground, and the largest one of an assembly's blocks.
+    That is the displacement of a column's top relative to the ground, and the largest one of an assembly's blocks. What
+    moved in space is drawn twice: as seen along y, with x to the right, and against x, with y to the right.
 
     Parameters
     ----------
@@ -48,20 +50,24 @@ def draw_filmstrip(
     figure : Figure or SubFigure, optional
         To draw in; a new one by default.
     """
-    scene = scene_of(response)
+    space = response.dims == "xyz"
+    scenes = [scene_of(response, view) for view in ((ALONG_X, ALONG_Y) if space else (None,))]
+    scene = scenes[0]
     frames = telling_states(response) if instants is None else _frames_at(response.time, instants)
-    factor = _magnification(scene) if magnification is None else magnification
-    outlines = [scene.outlines(i, factor) for i in frames]
-    stood = np.ptp(np.concatenate(scene.outlines(0)), axis=0)
+    factor = _magnification(scenes) if magnification is None else magnification
+    outlines = [[one.outlines(i, factor) for i in frames] for one in scenes]
+    stood = np.ptp(np.concatenate([np.concatenate(one.outlines(0)) for one in scenes]), axis=0)
     draw = _strip if stood[1] > TALL * stood[0] and not any(scene.fixed) else _grid
-    figure, panels = draw(scene, outlines, frames, figure)
-    peak = float(np.nanmax(np.abs(scene.way[frames])))
+    figure, panels = draw(scenes, outlines, frames, figure)
+    peak = max(float(np.nanmax(np.abs(one.way[frames]))) for one in scenes)
     unit, size, digits = ("m", 1.0, 2) if peak >= 0.1 else ("mm", 1000.0, 1)
     sign = "+" if scene.signed else ""
-    for axes, index, shapes in zip(panels, frames, outlines):
-        draw_bodies(axes, scene, shapes)
-        far = f"{round(size * scene.way[index], digits) + 0.0:{sign}.{digits}f}".replace("-", "−")
-        axes.set_title(f"{scene.time[index]:.2f} s\n{far} {unit}", fontsize=8.5, loc="center")
+    shown = [(one, i, shapes) for one, strip in zip(scenes, outlines) for i, shapes in zip(frames, strip)]
+    for axes, (one, index, shapes) in zip(panels, shown, strict=True):
+        draw_bodies(axes, one, shapes)
+        far = f"{round(size * one.way[index], digits) + 0.0:{sign}.{digits}f}".replace("-", "−")
+        along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
+        axes.set_title(f"{scene.time[index]:.2f} s\n{along}{far} {unit}", fontsize=8.5, loc="center")
     said = "" if factor == 1.0 else f" (displacements × {factor:g})"
     figure.suptitle((title or describe(response)) + said, x=0.01, ha="left", fontsize=10.0)
     return figure
@@ -72,16 +78,15 @@ TALL = 1.5
 
 
 def _strip(
-    scene: Scene, outlines: list[list[np.ndarray]], frames: list[int], figure: Figure | SubFigure | None
+    scenes: list[Scene], outlines: list[list[list[np.ndarray]]], frames: list[int], figure: Figure | SubFigure | None
 ) -> tuple[Figure, list[Axes]]:
     """Panels each as wide as what it shows, all in one scale, in one row if that is not much smaller than in several."""
-    del frames
-    stood = np.concatenate(scene.outlines(0))
-    aside, margin = ASIDE * scene.size, 0.35 * float(np.ptp(stood[:, 0]))
+    stood = np.concatenate([np.concatenate(one.outlines(0)) for one in scenes])
+    aside, margin = ASIDE * scenes[0].size, 0.35 * float(np.ptp(stood[:, 0]))
     limits = float(stood[:, 0].min()) - aside, float(stood[:, 0].max()) + aside
-    spans = [_span(shape, limits, margin) for shape in outlines]
+    spans = [_span(shape, limits, margin) for strip in outlines for shape in strip]
     floor = min(0.0, *(bottom for *_, bottom in spans))
-    rows, scale = _rows([high - low for low, high, _, _ in spans], [top - floor for _, _, top, _ in spans])
+    rows, scale = _rows([high - low for low, high, _, _ in spans], [top - floor for _, _, top, _ in spans], len(frames))
     heights = [max(spans[i][2] for i in row) - floor for row in rows]
     size = (WIDTH, 1.05 * scale * sum(heights) + 0.5 * len(rows) + 0.25)
     figure = page(figure, size)
@@ -102,16 +107,20 @@ def _strip(
     return figure, panels
 
 
-def _rows(widths: list[float], heights: list[float]) -> tuple[list[list[int]], float]:
-    """Which panels stand in which row, and the scale of all [inch/m], from their widths and heights [m]."""
+def _rows(widths: list[float], heights: list[float], together: int) -> tuple[list[list[int]], float]:
+    """Which panels stand in which row, and the scale of all [inch/m], from their widths and heights [m].
+
+    A strip of so many panels begins a row.
+    """
     found: dict[int, tuple[list[list[int]], float]] = {}
+    least = len(widths) // together
     scale = LARGEST / (1.05 * max(heights))
     while True:
         rows: list[list[int]] = []
         room = -1.0
         for i, width in enumerate(widths):
             taken = max(scale * width, WORDS)
-            if taken > room:
+            if taken > room or i % together == 0:
                 rows.append([])
                 room = 0.96 * WIDTH
             rows[-1].append(i)
@@ -119,9 +128,9 @@ def _rows(widths: list[float], heights: list[float]) -> tuple[list[list[int]], f
         wide = max(sum(max(scale * widths[i], WORDS) for i in row) for row in rows)
         high = scale * sum(max(heights[i] for i in row) for row in rows)
         smallest = scale * max(heights) < 0.2
-        if smallest or (wide <= 0.96 * WIDTH and (len(rows) == 1 or high <= TALLEST)):
+        if smallest or (wide <= 0.96 * WIDTH and (len(rows) == least or high <= TALLEST)):
             found.setdefault(len(rows), (rows, scale))
-            if len(rows) == 1 or smallest:
+            if len(rows) == least or smallest:
                 break
         scale *= 0.98
     largest = max(scale for _, scale in found.values())
@@ -136,25 +145,27 @@ LARGEST = 3.2
 
 
 def _grid(
-    scene: Scene, outlines: list[list[np.ndarray]], frames: list[int], figure: Figure | SubFigure | None
+    scenes: list[Scene], outlines: list[list[list[np.ndarray]]], frames: list[int], figure: Figure | SubFigure | None
 ) -> tuple[Figure, list[Axes]]:
     """Panels with the same view, in as many rows as make them largest."""
     del outlines
-    low, high, bottom, top = scene.view(np.array(frames))
+    ends = [one.view(np.array(frames)) for one in scenes]
+    low, high, bottom, top = (pick(one[k] for one in ends) for k, pick in enumerate((min, max, min, max)))
     n, width, height = len(frames), high - low, top - bottom
 
     def scale(across: int) -> float:
-        return min(0.96 * WIDTH / across / width, TALLEST / math.ceil(n / across) / height)
+        return min(0.96 * WIDTH / across / width, TALLEST / (len(scenes) * math.ceil(n / across)) / height)
 
     across = max(range(1, n + 1), key=scale)
-    down = math.ceil(n / across)
+    down = len(scenes) * math.ceil(n / across)
     figure = page(figure, (WIDTH, down * (scale(across) * height + 0.45) + 0.35))
     panels = list(np.ravel(figure.subplots(down, across)))
     for axes in panels:
         axes.set_xlim(low, high)
         axes.set_ylim(bottom, top)
         axes.set_axis_off()
-    return figure, panels
+    each = len(panels) // len(scenes)
+    return figure, [axes for k in range(len(scenes)) for axes in panels[k * each :][:n]]
 
 
 def _span(shape: list[np.ndarray], limits: tuple[float, float], margin: float) -> tuple[float, float, float, float]:
@@ -176,8 +187,8 @@ def _frames_at(recorded: np.ndarray, instants: Sequence[float]) -> list[int]:
     return [int(np.abs(recorded - instant).argmin()) for instant in instants]
 
 
-def _magnification(scene: Scene) -> float:
-    peak = float(np.nanmax(np.abs(scene.way)))
+def _magnification(scenes: list[Scene]) -> float:
+    scene, peak = scenes[0], max(float(np.nanmax(np.abs(one.way))) for one in scenes)
     if peak <= 0.0 or peak > 0.02 * scene.size:
         return 1.0
     wanted = 0.05 * scene.size / peak

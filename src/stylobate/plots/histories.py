@@ -13,7 +13,7 @@ from ..constants import g
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from .scene import describe, seen
-from .style import BLACK, BROWN, CYCLE, GREY, RED, WIDTH, page, styled, zero_line
+from .style import BLACK, BLUE, CYCLE, GREY, RED, WIDTH, page, styled, zero_line
 
 #: Blocks of an assembly that are drawn by name.
 NAMED = 5
@@ -29,6 +29,8 @@ def draw_histories(
 ) -> Figure:
     """Displacements over the acceleration of the ground: horizontal of a column's base and top, or of an assembly's blocks.
 
+    In space there is one panel for each horizontal direction, all in one scale.
+
     Parameters
     ----------
     response : Response
@@ -43,23 +45,23 @@ def draw_histories(
     if response.histories.top is None:
         return _draw_blocks(response, title, (begin, end), figure)
     h = response.histories
-    figure = page(figure, (WIDTH, 3.6))
-    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
-    zero_line(upper)
-    for values, across, color, word, dashes in (
-        (h.top_displacement, GREY, BLACK, "top", (0, (4.5, 1.6))),
-        (h.base_displacement, BROWN, RED, "base", "-"),
-    ):
-        if values.ndim == 1:
-            upper.plot(h.time, values, color=color, linestyle=dashes, label=word)
-            continue
-        upper.plot(h.time, values[:, 1], color=across, linestyle=dashes, label=f"{word}, y")
-        upper.plot(h.time, values[:, 0], color=color, linestyle=dashes, label=f"{word}, x")
-    upper.set_ylabel("displacement\nrelative to the ground [m]")
-    _mark_collapse(upper, [(response, BLACK)])
-    _focus(upper, [response], (begin, end))
-    upper.legend(loc="upper left", ncols=2)
-    upper.set_title(title or describe(response))
+    space = response.dims == "xyz"
+    figure = page(figure, (WIDTH, 5.0 if space else 3.6))
+    *uppers, lower = figure.subplots(
+        3 if space else 2, 1, sharex=True, height_ratios=(*(3.2,) * (1 + space), 1.0 + space)
+    )
+    for k, upper in enumerate(uppers):
+        zero_line(upper)
+        of = (slice(None), k) if space else ...
+        upper.plot(h.time, h.top_displacement[of], color=BLACK, linestyle=(0, (4.5, 1.6)), label="top")
+        upper.plot(h.time, h.base_displacement[of], color=RED, label="base")
+        upper.set_ylabel(
+            f"displacement {'xy'[k]}\nto the ground [m]" if space else "displacement\nrelative to the ground [m]"
+        )
+        _mark_collapse(upper, [(response, BLACK)])
+        _focus(upper, [response], (begin, end))
+    uppers[0].legend(loc="upper left", ncols=2)
+    uppers[0].set_title(title or describe(response))
     _draw_ground(lower, response, (begin, end))
     figure.align_ylabels()
     return figure
@@ -142,7 +144,11 @@ def draw_comparison(
 
 def _draw_ground(axes: Axes, response: Response, window: tuple[float, float]) -> None:
     zero_line(axes)
-    axes.plot(response.time, response.histories.acceleration[:, 0] / g, color=GREY, linewidth=0.8)
+    along, across = response.histories.acceleration[:, :2].T / g
+    axes.plot(response.time, along, color=GREY, linewidth=0.8, label="x")
+    if response.dims == "xyz":
+        axes.plot(response.time, across, color=BLUE, linewidth=0.8, linestyle=(0, (4, 1.5)), label="y")
+        axes.legend(loc="upper right", ncols=2, fontsize=7.5)
     axes.set_ylabel("ground\n[g]")
     axes.set_xlabel("time [s]")
     axes.set_xlim(*window)

@@ -94,4 +94,3 @@ def _ends(response: Response) -> tuple[np.ndarray, np.ndarray]:
 
 def _length(value: float) -> str:
     return f"{value:g} m" if value >= 0.1 else f"{1000.0 * value:g} mm"
-

@@ -6,11 +6,14 @@ from pathlib import Path
 
 import numpy as np
 from jinja2 import Template
+from markupsafe import Markup
 
 from ..atomic import replacing
 from ..response import Response
-from .animation import SHAPE, frame_indices
-from .scene import scale_bar, scene_of
+from .animation import SHAPE, film_of, frame_indices
+from .scene import Scene, scale_bar
+from .solids import COLOURS, DIFFUSE, LIGHT
+from .view import OBLIQUE, View
 
 #: Corners of the polygons that stand for circles.
 AROUND = 24
@@ -23,6 +26,7 @@ def write_player(
     frames_per_second: float = 30.0,
     speed: float = 1.0,
     window: tuple[float, float] | None = None,
+    seen_from: View = OBLIQUE,
 ) -> Path:
     """Write the page.
 
@@ -36,15 +40,17 @@ def write_player(
         At which the page shows that many: 0.5 keeps twice as many states. The viewer chooses how fast it plays.
     window : (float, float), optional
         Beginning and end of what the page shows [s]; all by default.
+    seen_from : View
+        From where what moved in space is seen at first; the viewer turns it.
     """
-    scene = scene_of(response)
+    scene = film_of(response, seen_from)
     indices = np.unique(frame_indices(scene.time, frames_per_second, speed, window))
     view = scene.view(indices, SHAPE)
-    shown = list(scene.shown)
+    shown, space = list(scene.shown), response.dims == "xyz"
     poses = np.concatenate((response.body_position, response.body_orientation), axis=2)[indices][:, shown]
     data = {
         "time": scene.time[indices].round(4).tolist(),
-        "shapes": [response.bodies.shapes[i].mesh(AROUND).vertices.round(5).tolist() for i in shown],
+        "shapes": [one.round(5).tolist() for one in _vertices(scene)],
         "fixed": scene.fixed,
         "poses": np.nan_to_num(poses, nan=1e6).round(5).tolist(),
         "view": [round(float(end), 4) for end in view],
@@ -54,10 +60,39 @@ def write_player(
         "ground": scene.ground[indices].round(5).tolist(),
         "peak": float(np.abs(scene.ground).max()),
     }
+    if scene.ground_across is not None:
+        start = np.concatenate((response.body_position[0], response.body_orientation[0]), axis=1)[shown]
+        data |= {
+            "across": scene.ground_across[indices].round(5).tolist(),
+            "peak": max(data["peak"], float(np.abs(scene.ground_across).max())),
+            "space": _in_space(scene, seen_from, start),
+        }
     title = f"{scene.name}, {response.provenance.get('motion', '')}"
-    template = Template(Path(__file__).with_name("player.html").read_text(encoding="utf-8"), autoescape=True)
-    page = template.render(title=title, sentence=scene.sentence, data=data)
+    here = Path(__file__)
+    template = Template(here.with_name("player.html").read_text(encoding="utf-8"), autoescape=True)
+    script = Markup(here.with_name("player_space.js").read_text(encoding="utf-8")) if space else ""
+    page = template.render(title=title, sentence=scene.sentence, data=data, space=script)
     target = Path(path)
     with replacing(target) as partial:
         partial.write_text(page, encoding="utf-8")
     return target
+
+
+def _vertices(scene: Scene) -> list[np.ndarray]:
+    """Vertices of every body in its own axes [m], each of shape (m, 3)."""
+    if scene.seen_from is not None:
+        return [surface.vertices for surface in scene.surfaces]
+    return [scene.response.bodies.shapes[i].mesh(AROUND).vertices for i in scene.shown]
+
+
+def _in_space(scene: Scene, view: View, start: np.ndarray) -> dict:
+    """What the page needs to turn bodies: their faces with tones, poses at the start, the ground, view and light."""
+    return {
+        "faces": [[(tone, *face) for tone, face in zip(one.tones, one.faces, strict=True)] for one in scene.surfaces],
+        "start": start.round(5).tolist(),
+        "plate": scene.plate.round(4).tolist(),
+        "view": (view.azimuth, view.elevation),
+        "colours": COLOURS.tolist(),
+        "light": LIGHT.tolist(),
+        "diffuse": DIFFUSE,
+    }

@@ -41,13 +41,14 @@ def draw_residuals(response: Response, title: str | None = None, *, figure: Figu
     far = round_factor(FAR * largest / max(float(np.hypot(*slip.T).max()), 1e-12))
     turned = round_factor(TURNED / max(float(np.abs(twist).max()), 1e-12))
     shown = most(np.hypot(*slip.T) + largest * np.abs(twist))
+    reach = max(1.3 * largest, 1.05 * max(float(rims[i].max()) + far * float(np.hypot(*slip[i])) for i in shown))
     figure, panels = panels_for(len(shown), figure)
     for axes, i in zip(panels, shown):
         _draw_drum(axes, azimuth, rims[i], far * slip[i], turned * twist[i])
-        axes.set_xlim(-1.5 * largest, 1.5 * largest)
-        axes.set_ylim(-1.5 * largest, 1.5 * largest)
+        axes.set_xlim(-reach, reach)
+        axes.set_ylim(-reach, reach)
         offset = 1000.0 * float(np.hypot(*slip[i]))
-        toward = f" to {math.degrees(math.atan2(slip[i, 1], slip[i, 0])) + 0.0:.0f}°" if offset >= 0.05 else ""
+        toward = f" to {math.degrees(math.atan2(slip[i, 1], slip[i, 0])) % 360.0:.0f}°" if offset >= 0.05 else ""
         turn = round(math.degrees(twist[i]), 2) + 0.0
         words = f"drum {i + 1}\n{offset:.1f} mm{toward}\ntwist {turn:.2f}°".replace("-", "−")
         axes.set_title(words, fontsize=7.0, loc="center", pad=1.0)

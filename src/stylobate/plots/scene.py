@@ -13,24 +13,34 @@ from ..constants import g
 from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
+from ..response.poses import exaggerated, rotation_matrices
+from ..response.shapes import hull
 from ..response.words import title_of
+from .solids import Solid, Surface, surface_of
 from .style import BLACK, BROWN, GREY, SAND
+from .view import View
 
 #: A picture goes no farther below what stood at first than by this share of its size, and no farther aside than ``ASIDE``:
 #: what flies off, or falls where there is no ground, is let go.
 DOWN = 0.75
 
+#: Radius of the ground that is shown in space, over that of what stands on it.
+PLATE = 2.6
+
 
 @dataclass(frozen=True, eq=False)
 class Scene:
-    """Bodies at every recorded state, seen along y, in metres.
+    """Bodies at every recorded state, as they are seen, in metres.
 
     Parameters
     ----------
     response : Response
+    seen_from : View, optional
+        Of a response in space; by default everything is seen along y.
     """
 
     response: Response
+    seen_from: View | None = None
 
     @property
     def name(self) -> str:
@@ -65,21 +75,45 @@ class Scene:
     @property
     def slope(self) -> float:
         """Rise of the ground to the right [-]."""
-        return math.tan(self.response.bodies.reference.slope)
+        return math.tan(self.response.bodies.reference.slope) if self.seen_from is None else 0.0
 
     @property
     def ground(self) -> np.ndarray:
         """Acceleration of the ground along x [g], shape (T,)."""
         return self.response.histories.acceleration[:, 0] / g
 
+    @property
+    def ground_across(self) -> np.ndarray | None:
+        """Acceleration of the ground along y [g], shape (T,); None in the plane."""
+        return self.response.histories.acceleration[:, 1] / g if self.response.dims == "xyz" else None
+
     def outlines(self, index: int, factor: float = 1.0) -> list[np.ndarray]:
         """Corners of every body at a recorded state, displacements times a factor [m], each of shape (k, 2)."""
-        return [self.response.outline(index, i, factor) for i in self.shown]
+        if self.seen_from is None:
+            return [self.response.outline(index, i, factor) for i in self.shown]
+        return [hull(self.seen_from.across(solid.vertices)) for solid in self.solids(index, factor)]
+
+    def solids(self, index: int, factor: float = 1.0) -> list[Solid]:
+        """Every body in space at a recorded state, displacements and turns times a factor."""
+        poses = exaggerated(self.response.poses, index, factor)
+        turns = rotation_matrices(poses.orientation)
+        return [
+            Solid(surface, poses.position[i], turns[i]) for i, surface in zip(self.shown, self.surfaces, strict=True)
+        ]
+
+    @cached_property
+    def surfaces(self) -> tuple[Surface, ...]:
+        """Of the bodies in the picture."""
+        bodies = self.response.bodies
+        return tuple(surface_of(bodies.shapes[i], bodies.fixed[i]) for i in self.shown)
 
     @cached_property
     def way(self) -> np.ndarray:
-        """How far things have moved [m], shape (T,)."""
-        return way_of(self.response)
+        """How far things have moved [m], shape (T,); of a top in space, to the right."""
+        top = self.response.histories.top
+        if self.seen_from is None or top is None:
+            return way_of(self.response)
+        return top @ self.seen_from.right[:2]
 
     @property
     def signed(self) -> bool:
@@ -110,6 +144,9 @@ class Scene:
         supports = [shape for shape, fixed in zip(self.outlines(0), self.fixed, strict=True) if fixed]
         corners = np.concatenate([corners, *(np.clip(shape, low - near, high + near) for shape in supports)])
         low, high = corners.min(axis=0), corners.max(axis=0)
+        if self.seen_from is not None and self.seen_from.elevation > 0.0:
+            plate = self.seen_from.across(self.plate)
+            low, high = np.minimum(low, plate.min(axis=0)), np.maximum(high, plate.max(axis=0))
         if self.level is not None:
             low[1] = min(low[1], max(self.level, low[1] - near))
         margin = 0.05 * max(self.size, (high - low).max())
@@ -117,13 +154,22 @@ class Scene:
         aside = max(0.0, 0.5 * (least * (high[1] - low[1]) - (high[0] - low[0])))
         return low[0] - aside, high[0] + aside, low[1], high[1]
 
+    @cached_property
+    def plate(self) -> np.ndarray:
+        """A round piece of the ground around what stands, in space [m], shape (k, 3)."""
+        stood = np.concatenate([solid.vertices for solid in self.solids(0)])
+        low = stood[stood[:, 2] < stood[:, 2].min() + 0.05 * np.ptp(stood[:, 2])]
+        angle = np.arange(72) * (2.0 * np.pi / 72)
+        radius = PLATE * float(np.hypot(*low[:, :2].T).max())
+        return np.stack((radius * np.cos(angle), radius * np.sin(angle), np.full(72, self.level or 0.0)), axis=1)
+
     def _moving(self, index: int) -> list[np.ndarray]:
         return [shape for shape, fixed in zip(self.outlines(index), self.fixed, strict=True) if not fixed]
 
 
-def scene_of(response: Response) -> Scene:
-    """The scene of a response."""
-    return Scene(response)
+def scene_of(response: Response, seen_from: View | None = None) -> Scene:
+    """The scene of a response; one in space may be seen from anywhere."""
+    return Scene(response, seen_from)
 
 
 def describe(response: Response) -> str:

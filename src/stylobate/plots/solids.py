@@ -153,22 +153,31 @@ def painting_order(solids: list[Solid], view: View) -> list[int]:
     return order
 
 
-def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarray]:
-    """What is to be painted, one after the other: polygons [m], each of shape (k, 2), and their colours, shape (p, 3).
+def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarray, list[bool]]:
+    """What is painted, one after the other: of each body its outline, then the faces that are turned to the viewer.
 
-    Of each body its outline comes first, for a line around it, then the faces turned to the viewer.
+    Returns
+    -------
+    polygons : list of array
+        Corners [m], each of shape (k, 2).
+    colours : array
+        [-], shape (p, 3)
+    outlines : list of bool
+        Which of them are outlines.
     """
-    axes = np.stack((view.right, view.up, view.toward))
-    light = LIGHT / np.linalg.norm(LIGHT) @ axes
+    light = LIGHT / np.linalg.norm(LIGHT) @ np.stack((view.right, view.up, view.toward))
     polygons: list[np.ndarray] = []
     colours: list[np.ndarray] = []
+    outlines: list[bool] = []
     for number in painting_order(solids, view):
         solid = solids[number]
-        points, facing = view.across(solid.vertices), solid.normals @ view.toward
+        surface, points = solid.surface, view.across(solid.vertices)
         shade = DIFFUSE + (1.0 - DIFFUSE) * np.clip(solid.normals @ light, 0.0, 1.0)
         polygons.append(hull(points))
-        colours.append(COLOURS[FLUTE if solid.surface.tones[0] != FIXED else FIXED])
-        for i in np.flatnonzero(facing > 1e-9):
-            polygons.append(points[list(solid.surface.faces[i])])
-            colours.append(shade[i] * COLOURS[solid.surface.tones[i]])
-    return polygons, np.array(colours)
+        colours.append(COLOURS[surface.tones[0]])
+        outlines.append(True)
+        for i in np.flatnonzero(solid.normals @ view.toward > 1e-9).tolist():
+            polygons.append(points[list(surface.faces[i])])
+            colours.append(shade[i] * COLOURS[surface.tones[i]])
+            outlines.append(False)
+    return polygons, np.array(colours), outlines

@@ -52,11 +52,11 @@ class View:
 ALONG_X, ALONG_Y = View(-0.5 * math.pi, 0.0), View(0.0, 0.0)
 
 #: From where films show bodies in space unless they are told otherwise.
-OBLIQUE = View(-60.0 * DEGREE, 18.0 * DEGREE)
+OBLIQUE = View(-40.0 * DEGREE, 18.0 * DEGREE)
 
 
 def parse_view(text: str) -> View:
-    """A view from two angles in degrees, such as ``-60,18``.
+    """A view from two angles in degrees, such as ``-40,18``.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def parse_view(text: str) -> View:
         azimuth, elevation = (float(part.strip().removesuffix("deg")) for part in text.split(","))
     except ValueError:
         raise InputError(
-            f"the view is {text!r}; allowed are azimuth and elevation of the viewer in degrees, such as -60,18."
+            f"the view is {text!r}; allowed are azimuth and elevation of the viewer in degrees, such as -40,18."
         ) from None
     check_range("azimuth of the view", azimuth, -360.0, 360.0, unit="°")
     check_range("elevation of the view", elevation, 0.0, 90.0, unit="°")

@@ -36,7 +36,8 @@ def telling_states(response: Response) -> list[int]:
 
 def _of_a_top(response: Response) -> list[int]:
     """At rest, at the largest displacement in each fifth of the clear motion and before a collapse, and at the end."""
-    far = np.nan_to_num(np.abs(way_of(response)))
+    way = way_of(response) if response.dims == "xz" else np.hypot(*response.top_displacement.T)
+    far = np.nan_to_num(np.abs(way))
     time, last = response.collapse_time, _last_above_ground(response)
     before = far if math.isnan(time) else np.where(response.time <= time, far, 0.0)
     peak = int(before.argmax())
