@@ -56,7 +56,7 @@ def draw_histories(
         upper.plot(h.time, h.top_displacement[of], color=BLACK, linestyle=(0, (4.5, 1.6)), label="top")
         upper.plot(h.time, h.base_displacement[of], color=RED, label="base")
         upper.set_ylabel(
-            f"displacement {'xy'[k]}\nto the ground [m]" if space else "displacement\nrelative to the ground [m]"
+            f"{'xy'[k]}, relative\nto the ground [m]" if space else "displacement\nrelative to the ground [m]"
         )
         _mark_collapse(upper, [(response, BLACK)])
         _focus(upper, [response], (begin, end))

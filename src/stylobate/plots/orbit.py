@@ -12,7 +12,7 @@ from matplotlib.patches import Ellipse, Patch, Rectangle
 from ..response import Response
 from ..response.shapes import CircularFrustum
 from .scene import describe
-from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, page, styled
+from .style import BLACK, BLUE, BROWN, RED, SAND, page, styled
 
 #: Width and height of the picture [inch]: a column of a journal.
 SIZE = (3.4, 3.75)

@@ -21,21 +21,41 @@ function magnified(pose, start, factor) {
   const axis = turn.slice(1).map(x => x / (size || 1) * Math.sin(half));
   return [...place, ...after([Math.cos(half), ...axis], [w, x, y, z])];
 }
-// Which of two convex bodies hides the other: a plane parts them, and one is on the viewer's side of it.
-function hides(front, back, toward) {
-  const parting = (one, other) => one.faces.reduce((best, face) => {
-    const gap = Math.min(...other.at.map(p => dot(face.normal, p))) - face.level;
-    return gap > best.gap ? { gap, side: dot(face.normal, toward) } : best;
-  }, { gap: -Infinity });
-  const own = parting(front, back), others = parting(back, front);
-  return own.gap > others.gap ? own.side < 0 : others.side > 0;
+// A body in a pose: its vertices, in space and in the picture [m], faces with normals, and its outline and box.
+function formed(i, pose, [rightward, upward, toward]) {
+  const at = data.shapes[i].map(corner => placed(corner, pose));
+  const seen = at.map(p => [dot(p, rightward), dot(p, upward)]), edge = outline(seen.map(([x, y]) => [x, 0, y]));
+  const faces = space.faces[i].map(([tone, ...corners]) => {
+    const [p, q, r] = corners.map(j => at[j]), normal = unit(cross(minus(q, p), minus(r, q)));
+    return { tone, corners, normal, level: dot(normal, p), slope: dot(normal, toward) };
+  });
+  const [low, high] = [Math.min, Math.max].map(end => [0, 1].map(axis => end(...edge.map(p => p[axis]))));
+  const reached = ([x, y]) => Math.min(...faces.filter(face => face.slope > 1e-9).map(({ normal, level, slope }) =>
+    (level - x * dot(normal, rightward) - y * dot(normal, upward)) / slope));
+  return { i, seen, edge, faces, low, high, reached, depth: dot(pose, toward) };
 }
-function ordered(bodies, toward) {
+// A point inside two convex polygons; null where they do not overlap.
+function commonPoint(kept, other) {
+  for (let i = 0; i < other.length; i++) {
+    const [x, y] = other[i], [p, q] = other[(i + 1) % other.length];
+    const inside = kept.map(([a, b]) => (p - x) * (b - y) - (q - y) * (a - x));
+    if (inside.every(d => d <= 0)) return null;
+    kept = kept.flatMap((corner, j) => {
+      const next = (j + 1) % kept.length, share = inside[j] / (inside[j] - inside[next]);
+      const cut = inside[j] * inside[next] < 0 ? [[0, 1].map(k => corner[k] + share * (kept[next][k] - corner[k]))] : [];
+      return inside[j] >= 0 ? [corner, ...cut] : cut;
+    });
+  }
+  return [0, 1].map(k => kept.reduce((sum, corner) => sum + corner[k], 0) / kept.length);
+}
+// Convex bodies: which is nearer along one common line of sight is nearer along all of them.
+function ordered(bodies) {
   const left = [...bodies].sort((a, b) => a.depth - b.depth), order = [];
   for (const body of left) body.before = new Set();
   left.forEach((a, i) => left.slice(i + 1).forEach(b => {
     if ([0, 1].some(k => a.high[k] < b.low[k] || b.high[k] < a.low[k])) return;
-    hides(a, b, toward) ? a.before.add(b) : b.before.add(a);
+    const point = commonPoint(a.edge, b.edge);
+    if (point) a.reached(point) > b.reached(point) ? a.before.add(b) : b.before.add(a);
   }));
   while (left.length) {
     const free = left.findIndex(body => !left.some(other => body.before.has(other)));
@@ -49,8 +69,8 @@ function drawSpace(k) {
   const rightward = [-sa, ca, 0], upward = [-ca * se, -sa * se, ce], toward = [ca * ce, sa * ce, se];
   const scale = zoom * Math.min(width / (right - left), height / (ceiling - bottom));
   const middle = 0.5 * (bottom + ceiling) / Math.cos(space.view[1]) * ce;
-  const screen = p => [(dot(p, rightward) - 0.5 * (left + right)) * scale + 0.5 * width,
-    0.5 * height - (dot(p, upward) - middle) * scale];
+  const onScreen = ([x, y]) => [(x - 0.5 * (left + right)) * scale + 0.5 * width, 0.5 * height - (y - middle) * scale];
+  const screen = p => onScreen([dot(p, rightward), dot(p, upward)]);
   const path = points => { c.beginPath(); points.forEach(p => c.lineTo(...p)); c.closePath(); };
   const sum = (a, b) => a.map((x, i) => x + b[i]);
   const light = unit(sum(sum(rightward.map(x => x * space.light[0]), upward.map(x => x * space.light[1])),
@@ -64,22 +84,14 @@ function drawSpace(k) {
     const [from, to, beyond] = [0.72, 1, 1.08].map(s => screen([s * reach * x, s * reach * y, level]));
     c.beginPath(); c.moveTo(...from); c.lineTo(...to); c.stroke(); c.fillText(name, ...beyond);
   }
-  const bodies = data.shapes.map((vertices, i) => {
-    const pose = magnified(data.poses[k][i], space.start[i], +larger.value);
-    const at = vertices.map(corner => placed(corner, pose)), points = at.map(screen);
-    const faces = space.faces[i].map(([tone, ...corners]) => {
-      const [p, q, r] = corners.map(j => at[j]), normal = unit(cross(minus(q, p), minus(r, q)));
-      return { tone, corners, normal, level: dot(normal, p) };
-    });
-    const [low, high] = [Math.min, Math.max].map(end => [0, 1].map(axis => end(...points.map(p => p[axis]))));
-    return { at, points, faces, low, high, depth: dot(pose, toward) };
-  });
-  for (const { points, faces } of ordered(bodies, toward)) {
-    c.lineWidth = 2; c.strokeStyle = "#8c6d3f";
-    path(outline(points.map(([x, y]) => [x, 0, y])).map(([x, y]) => [x, y])); c.stroke();
+  const axes = [rightward, upward, toward];
+  const bodies = data.poses[k].map((pose, i) => formed(i, magnified(pose, space.start[i], +larger.value), axes));
+  for (const { seen, edge, faces } of ordered(bodies)) {
+    const points = seen.map(onScreen);
+    c.lineWidth = 2; c.strokeStyle = "#8c6d3f"; path(edge.map(onScreen)); c.stroke();
     c.lineWidth = 0.5;
-    for (const { tone, corners, normal } of faces) {
-      if (dot(normal, toward) <= 0) continue;
+    for (const { tone, corners, normal, slope } of faces) {
+      if (slope <= 0) continue;
       const shade = space.diffuse + (1 - space.diffuse) * Math.max(dot(normal, light), 0);
       c.fillStyle = c.strokeStyle = `rgb(${space.colours[tone].map(x => Math.round(255 * x * shade))})`;
       path(corners.map(j => points[j])); c.fill(); c.stroke();

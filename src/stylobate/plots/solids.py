@@ -1,7 +1,7 @@
 """Solids as painted: faces with fluting and a mark, shaded, the farther ones first.
 
-Bodies are convex: faces of one that are turned to the viewer never hide each other, and of two bodies one can be painted
-first, because a plane parts them: the one on the viewer's side of it comes second.
+Bodies are convex: faces of one that are turned to the viewer never hide each other, and of two bodies that are seen over
+each other the one that is nearer along one common line of sight is nearer along all of them.
 """
 
 from __future__ import annotations
@@ -124,26 +124,45 @@ class Solid:
         return (self.normals * self.vertices[[face[0] for face in self.surface.faces]]).sum(axis=1)
 
 
-def hides(front: Solid, back: Solid, view: View) -> bool:
-    """Whether the first of two bodies may hide the second, and so must be painted after it."""
-    gaps = (front.normals @ back.vertices.T).min(axis=1) - front.levels
-    others = (back.normals @ front.vertices.T).min(axis=1) - back.levels
-    if gaps.max() > others.max():  # the second lies outside this face of the first
-        return bool(front.normals[gaps.argmax()] @ view.toward < 0.0)
-    return bool(back.normals[others.argmax()] @ view.toward > 0.0)
+def reached(solid: Solid, point: np.ndarray, view: View) -> float:
+    """How near to the viewer a body reaches, along the line of sight through a point of the picture [m]."""
+    slope, eye = solid.normals @ view.toward, point[0] * view.right + point[1] * view.up
+    front = slope > 1e-9
+    return float(((solid.levels - solid.normals @ eye)[front] / slope[front]).min())
+
+
+def common_point(one: np.ndarray, other: np.ndarray) -> np.ndarray | None:
+    """A point inside two convex polygons, both counter-clockwise, shapes (k, 2); None where they do not overlap."""
+    kept = one
+    for corner, side in zip(other, np.roll(other, -1, axis=0) - other, strict=True):
+        inside = side[0] * (kept[:, 1] - corner[1]) - side[1] * (kept[:, 0] - corner[0])
+        if (inside <= 0.0).all():
+            return None
+        if (inside >= 0.0).all():
+            continue
+        after, beyond = np.roll(inside, -1), np.roll(kept, -1, axis=0)
+        crosses = inside * after < 0.0
+        share = inside / np.where(crosses, inside - after, 1.0)
+        both = np.stack((kept, kept + share[:, None] * (beyond - kept)), axis=1).reshape(-1, 2)
+        kept = both[np.stack((inside >= 0.0, crosses), axis=1).ravel()]
+    return kept.mean(axis=0)
 
 
 def painting_order(solids: list[Solid], view: View) -> list[int]:
     """Numbers of the bodies, in the order in which they are painted."""
-    seen = [view.across(solid.vertices) for solid in solids]
-    low, high = (np.array([getattr(one, end)(axis=0) for one in seen]) for end in ("min", "max"))
+    return _ordered(solids, [hull(view.across(solid.vertices)) for solid in solids], view)
+
+
+def _ordered(solids: list[Solid], outlines: list[np.ndarray], view: View) -> list[int]:
+    low, high = (np.array([getattr(one, end)(axis=0) for one in outlines]) for end in ("min", "max"))
     depth = [float(solid.place @ view.toward) for solid in solids]
     left = sorted(range(len(solids)), key=depth.__getitem__)
     before: dict[int, set[int]] = {i: set() for i in left}
     for i in left:
         for j in np.flatnonzero(((low[i] <= high) & (low <= high[i])).all(axis=1)).tolist():
-            if j > i:
-                first, second = (j, i) if hides(solids[i], solids[j], view) else (i, j)
+            if j > i and (point := common_point(outlines[i], outlines[j])) is not None:
+                nearer = reached(solids[i], point, view) > reached(solids[j], point, view)
+                first, second = (j, i) if nearer else (i, j)
                 before[second].add(first)
     order: list[int] = []
     while left:  # where they hide each other in a ring, the farthest is first
@@ -169,11 +188,12 @@ def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarr
     polygons: list[np.ndarray] = []
     colours: list[np.ndarray] = []
     outlines: list[bool] = []
-    for number in painting_order(solids, view):
+    hulls = [hull(view.across(solid.vertices)) for solid in solids]
+    for number in _ordered(solids, hulls, view):
         solid = solids[number]
         surface, points = solid.surface, view.across(solid.vertices)
         shade = DIFFUSE + (1.0 - DIFFUSE) * np.clip(solid.normals @ light, 0.0, 1.0)
-        polygons.append(hull(points))
+        polygons.append(hulls[number])
         colours.append(COLOURS[surface.tones[0]])
         outlines.append(True)
         for i in np.flatnonzero(solid.normals @ view.toward > 1e-9).tolist():
