@@ -260,6 +260,15 @@ def test_a_film_and_a_page(shaken, tmp_path):
     assert call(["animate", str(path), "--view", "30,120"]) == 2
 
 
+def test_a_run_writes_the_pictures_in_space(shaken, tmp_path, monkeypatch):
+    from stylobate.cli.run import SPACE_PICTURES, write
+
+    names = []
+    monkeypatch.setattr(plots, "save", lambda figure, stem: names.append(stem.name) or [stem])
+    write(shaken, st.Motion(0.01, np.zeros(200)), tmp_path)
+    assert names == ["histories", "filmstrip", "joints", *SPACE_PICTURES, "energy", "motion"]
+
+
 @pytest.mark.skipif(shutil.which("node") is None, reason="needs node")
 def test_the_page_magnifies_and_orders_as_films_do(shaken, tmp_path):
     page = write_player(shaken, tmp_path / "page.html", frames_per_second=10.0).read_text()

@@ -9,10 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..response import Response
+from ..response.shapes import Shape
 from .panels import most, panels_for, say, until_collapse
 from .scene import describe
 from .style import BLUE, BROWN, GREY, SAND, styled
-from .uplift import rim_radius
+from .uplift import face_outline, rim_radius
 
 #: Offsets and twists are drawn so large that the largest is about this share of a radius, and this angle [rad].
 FAR, TURNED = 0.3, 0.5
@@ -35,16 +36,16 @@ def draw_residuals(response: Response, title: str | None = None, *, figure: Figu
     """
     last = int(np.flatnonzero(until_collapse(response))[-1])
     slip, twist = response.slip[last], response.twist[last]
-    azimuth = np.linspace(-math.pi, math.pi, 73)
-    rims = [rim_radius(shape, False, azimuth) for shape in response.bodies.shapes[: len(twist)]]
-    largest = max(float(rim.max()) for rim in rims)
+    shapes = response.bodies.shapes
+    sizes = [float(np.hypot(*face_outline(shape, False).T).max()) for shape in shapes]
+    largest = max(sizes)
     far = round_factor(FAR * largest / max(float(np.hypot(*slip.T).max()), 1e-12))
     turned = round_factor(TURNED / max(float(np.abs(twist).max()), 1e-12))
     shown = most(np.hypot(*slip.T) + largest * np.abs(twist))
-    reach = max(1.3 * largest, 1.05 * max(float(rims[i].max()) + far * float(np.hypot(*slip[i])) for i in shown))
+    reach = max(1.3 * largest, 1.05 * max(sizes[i] + far * float(np.hypot(*slip[i])) for i in shown))
     figure, panels = panels_for(len(shown), figure)
     for axes, i in zip(panels, shown):
-        _draw_drum(axes, azimuth, rims[i], far * slip[i], turned * twist[i])
+        _draw_drum(axes, shapes[i], far * slip[i], turned * twist[i])
         axes.set_xlim(-reach, reach)
         axes.set_ylim(-reach, reach)
         offset = 1000.0 * float(np.hypot(*slip[i]))
@@ -59,24 +60,25 @@ def draw_residuals(response: Response, title: str | None = None, *, figure: Figu
     return figure
 
 
-def _draw_drum(axes: Axes, azimuth: np.ndarray, rim: np.ndarray, offset: np.ndarray, twist: float) -> None:
+def _draw_drum(axes: Axes, shape: Shape, offset: np.ndarray, twist: float) -> None:
     axes.set_aspect("equal")
     axes.set_axis_off()
-    circle = np.stack((np.cos(azimuth), np.sin(azimuth)), axis=1) * rim[:, None]
+    face = face_outline(shape, False)
+    face = np.append(face, face[:1], axis=0)
     c, s = math.cos(twist), math.sin(twist)
-    placed = circle @ np.array([[c, s], [-s, c]]) + offset
+    placed = face @ np.array([[c, s], [-s, c]]) + offset
     axes.fill(*placed.T, facecolor=SAND, edgecolor=BROWN, linewidth=0.9)
-    axes.plot(*circle.T, color=GREY, linewidth=0.7, linestyle=(0, (3, 2)))
-    size = float(rim[len(rim) // 2])  # along the drum's own x axis
+    axes.plot(*face.T, color=GREY, linewidth=0.7, linestyle=(0, (3, 2)))
+    size = float(rim_radius(shape, False, np.zeros(1))[0])
     axes.plot([0.0, size], [0.0, 0.0], color=GREY, linewidth=0.7, linestyle=(0, (3, 2)))
     axes.plot([offset[0], offset[0] + size * c], [offset[1], offset[1] + size * s], color=BLUE, linewidth=1.6)
     axes.plot(*offset, ".", color=BLUE, markersize=4)
 
 
 def round_factor(wanted: float) -> float:
-    """The largest of 1, 2, 5, 10 … that is not larger than this, and at least 1."""
+    """The largest of 1, 2, 5, 10 … 1000 that is not larger than this, and at least 1."""
     if wanted < 2.0:
         return 1.0
-    wanted = min(wanted, 1e6)
+    wanted = min(wanted, 1000.0)
     decade = 10.0 ** math.floor(math.log10(wanted))
     return max(step * decade for step in (1.0, 2.0, 5.0) if step * decade <= wanted)

@@ -18,6 +18,13 @@ from .style import BROWN, GREY, SAND, styled
 AROUND = 72
 
 
+def face_outline(shape: Shape, upper: bool) -> np.ndarray:
+    """Corners of a body's upper or lower face, counter-clockwise, along its own axes [m], shape (k, 2)."""
+    at = shape.mesh(AROUND).vertices
+    level = at[:, 2].max() if upper else at[:, 2].min()
+    return hull(at[np.abs(at[:, 2] - level) < 1e-9 * np.ptp(at[:, 2])][:, :2])
+
+
 def rim_radius(shape: Shape, upper: bool, azimuth: np.ndarray) -> np.ndarray:
     """Distance of the rim of a body's upper or lower face from its axis [m], shape of the azimuths.
 
@@ -31,9 +38,7 @@ def rim_radius(shape: Shape, upper: bool, azimuth: np.ndarray) -> np.ndarray:
     """
     if isinstance(shape, CircularFrustum):
         return np.full(np.shape(azimuth), 0.5 * (shape.top if upper else shape.bottom))
-    at = shape.mesh().vertices
-    level = at[:, 2].max() if upper else at[:, 2].min()
-    face = hull(at[np.abs(at[:, 2] - level) < 1e-9 * np.ptp(at[:, 2])][:, :2])
+    face = face_outline(shape, upper)
     side = np.roll(face, -1, axis=0) - face
     outward = np.stack((side[:, 1], -side[:, 0]), axis=1)
     reach = (outward * face).sum(axis=1)
@@ -103,7 +108,7 @@ def draw_uplift(response: Response, title: str | None = None, *, figure: Figure 
         axes.grid(color="#dddddd", linewidth=0.5)
         axes.spines["polar"].set(color=GREY, linewidth=0.6)
         toward = math.degrees(azimuth[int(peaks[i].argmax())])
-        said = f"{largest:.3g} mm, {toward:.0f}°" if largest > 5e-4 else "closed"
+        said = f"{largest:.3g} mm, {toward:.0f}°" if largest > 5e-3 else "closed"
         axes.set_title(f"joint {i + 1}\n{said}", fontsize=7.0, loc="center", pad=4.0)
     say(figure, title or f"Largest uplift by direction: {describe(response)}", len(peaks) - len(shown))
     return figure
