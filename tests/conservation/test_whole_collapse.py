@@ -12,7 +12,7 @@ from stylobate.models.assembly.run import follow
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
-from stylobate.response.assembly_measures import response_of_blocks
+from stylobate.response.assembly_measures import recorded_blocks
 from stylobate.simulate import simulate_assembly
 
 
@@ -43,12 +43,12 @@ CASES = {
 def contacts(engine):
     """Depth [m], width [m] and stiffness [N/m³ · m] of every overlap, and the force with which its bed presses [N]."""
     x, z, rotation = (engine.body[name][None] for name in ("x", "z", "th"))
-    response = response_of_blocks(
+    recorded = recorded_blocks(
         engine.assembly, np.zeros(1), x, z, rotation, {}, np.zeros(1), np.zeros(1), at_rest=True, failed=False,
         in_equilibrium=True, energy_imbalance=0.0, time_step=1.0, steps=1, model="dem2d", provenance={},
     )  # fmt: skip
     n, found = len(engine.body), {}
-    outlines = [np.ascontiguousarray(response.outline(0, i).T) for i in range(n)]
+    outlines = [np.ascontiguousarray(recorded.outline(0, i).T) for i in range(n)]
     px, pz, qx, qz = (np.zeros(near.MOST) for _ in range(4))
     from_b, q_from = (np.zeros(near.MOST, dtype=np.int64) for _ in range(2))
     for i in range(n):

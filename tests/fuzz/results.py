@@ -15,7 +15,7 @@ from stylobate.analysis.probability import CollapseProbability
 from stylobate.column.presets import preset
 from stylobate.errors import InputError
 from stylobate.response import Response
-from stylobate.response.assembly_measures import response_of_blocks
+from stylobate.response.assembly_measures import recorded_blocks
 
 from .target import Fault, Target, sentence
 
@@ -46,10 +46,10 @@ def _result(name: str):
         stone = st.Block(((0, 0), (1, 0), (1, 1), (0, 1)), 2000.0, "stone")
         assembly = st.Assembly((stone,), st.Joint(1e9, 5e8, friction_angle=30.0))
         time, places = np.linspace(0.0, 1.0, 50), np.random.default_rng(1).normal(size=(3, 50, 2))
-        return response_of_blocks(
+        return Response.of(recorded_blocks(
             assembly, time, *places, {"input": time}, time, time, at_rest=True, failed=False, in_equilibrium=True,
             energy_imbalance=0.0, time_step=1e-3, steps=50, model="dem2d", provenance={"version": "0"},
-        )  # fmt: skip
+        ))  # fmt: skip
     return KINDS[name].load(FORMER / f"{name}.nc")
 
 

@@ -12,7 +12,7 @@ import stylobate as st
 from stylobate.column.assembly import of_column
 from stylobate.column.presets import preset
 from stylobate.response import Measures, Response, load_response
-from stylobate.response.assembly_measures import response_of_blocks
+from stylobate.response.assembly_measures import recorded_blocks
 
 RECORDED = ("time", "x", "z", "rotation", "joint_opening", "joint_slip", "ground_acceleration", "ground_displacement")
 NUMBERS = some.floats(allow_nan=True, allow_infinity=True)
@@ -71,7 +71,7 @@ def responses(draw):
         return values
 
     terms = draw(some.sets(some.sampled_from(["input", "kinetic", "gravitational", "elastic"]), min_size=1))
-    found = response_of_blocks(
+    found = Response.of(recorded_blocks(
         assembly=assembly,
         time=np.arange(steps) * 0.01,
         **{name: array(steps, n) for name in ("x", "z", "rotation")},
@@ -85,7 +85,7 @@ def responses(draw):
         in_equilibrium=draw(some.none() | some.booleans()),
         model="dem2d",
         provenance={"version": "0.1.0", "parameters": {"points": 2, "restitution": None}, "share": draw(some.floats(0, 1))},
-    )  # fmt: skip
+    ))  # fmt: skip
     return dataclasses.replace(found, wall_time=draw(some.floats(0, 1e6)))
 
 
@@ -128,8 +128,8 @@ def test_four_hundred_blocks_fit_in_a_file(tmp_path):
     assembly = st.Assembly(blocks, st.Joint(1e9, 5e8))
     n, one = len(assembly.bodies), np.zeros(1)
     x, z, rotation = np.zeros((3, 1, n))
-    still = response_of_blocks(
+    still = Response.of(recorded_blocks(
         assembly, one, x, z, rotation, {"input": one}, one, one, at_rest=True, failed=False, in_equilibrium=True,
         energy_imbalance=0.0, time_step=1e-3, steps=1, model="dem2d", provenance={},
-    )  # fmt: skip
+    ))  # fmt: skip
     assert Response.load(still.save(tmp_path / "many.nc")).assembly == assembly

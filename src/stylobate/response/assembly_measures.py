@@ -12,7 +12,7 @@ from ..outcome import Outcome, classify
 from .collapse import FELL, Collapse, Touch
 from .histories import Histories
 from .measures import BlockMeasures, Measures
-from .response import Response
+from .recorded import Recorded
 
 #: A block has fallen when its centroid is lower than at the start by this share of the smaller side of its box …
 DROP = 0.5
@@ -24,7 +24,7 @@ TURNED = 0.25 * np.pi
 NEAR = 0.5
 
 
-def response_of_blocks(
+def recorded_blocks(
     assembly: Assembly,
     time: np.ndarray,
     x: np.ndarray,
@@ -43,8 +43,8 @@ def response_of_blocks(
     model: str,
     provenance: dict[str, Any],
     touched: Touch | None = None,
-) -> Response:
-    """Response of an assembly from the recorded poses of its bodies.
+) -> Recorded:
+    """A run of an assembly from the recorded poses of its bodies.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def response_of_blocks(
     histories = Histories.of_blocks(
         time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy
     )
-    return Response(assembly, histories, measures, model, provenance, followed=True)
+    return Recorded(assembly, histories, measures, model, provenance, followed=True)
 
 
 def joint_histories(

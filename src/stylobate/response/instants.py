@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from .response import Response
+    from .recorded import Recorded
 
 #: What has gone farther than this many times the size of what stood is out of every picture.
 ASIDE = 3.0
 
 
-def way_of(response: Response) -> np.ndarray:
+def way_of(response: Recorded) -> np.ndarray:
     """How far things have moved [m], shape (T,): the top along x with its sign, or the body that has moved farthest."""
     top = response.histories.top
     if top is None:
@@ -23,18 +23,18 @@ def way_of(response: Response) -> np.ndarray:
     return top if top.ndim == 1 else top[:, 0]
 
 
-def size_of(response: Response) -> float:
+def size_of(response: Recorded) -> float:
     """Larger side of the box around everything that can move, as it stood, seen along y [m]."""
     moving = [i for i, fixed in enumerate(response.bodies.fixed) if not fixed]
     return float(np.ptp(np.concatenate([response.outline(0, i) for i in moving]), axis=0).max())
 
 
-def telling_states(response: Response) -> list[int]:
+def telling_states(response: Recorded) -> list[int]:
     """Up to eight recorded states, from the first to the last that can be seen."""
     return _of_a_top(response) if response.histories.top is not None else _of_bodies(response)
 
 
-def _of_a_top(response: Response) -> list[int]:
+def _of_a_top(response: Recorded) -> list[int]:
     """At rest, at the largest displacement in each fifth of the clear motion and before a collapse, and at the end."""
     way = way_of(response) if response.dims == "xz" else np.hypot(*response.top_displacement.T)
     far = np.nan_to_num(np.abs(way))
@@ -52,7 +52,7 @@ def _of_a_top(response: Response) -> list[int]:
     return [i for i in chosen if last - i > apart] + [last]
 
 
-def _of_bodies(response: Response) -> list[int]:
+def _of_bodies(response: Recorded) -> list[int]:
     """The start, the end, and states between which the bodies have gone equal ways; the farthest if nothing falls."""
     places = response.body_position
     step = np.linalg.norm(np.diff(places, axis=0), axis=-1)
@@ -69,7 +69,7 @@ def _of_bodies(response: Response) -> list[int]:
     return [*frames, last] if last else frames
 
 
-def _last_above_ground(response: Response) -> int:
+def _last_above_ground(response: Recorded) -> int:
     """The last state to be seen: a model that does not follow what falls to the ground lets it pass through."""
     if response.followed:
         return len(response.time) - 1

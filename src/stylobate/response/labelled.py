@@ -22,13 +22,13 @@ from ..column.files import column_from_dict
 from ..column.specimen import Specimen
 from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome
-from .assembly_measures import response_of_blocks
+from .assembly_measures import recorded_blocks
 from .collapse import Collapse
 from .histories import Histories
 from .measures import BlockMeasures, Measures, SpaceMeasures
 from .mechanism import Mechanism
 from .poses import PlanePoses
-from .response import Response
+from .recorded import Recorded
 
 if TYPE_CHECKING:
     import xarray
@@ -85,12 +85,12 @@ _MEASURES = {
 }
 
 
-def to_dataset(response: Response, *, derived: bool = True) -> xarray.Dataset:
+def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
     """A response as a labelled data set; see :meth:`Response.to_xarray`.
 
     Parameters
     ----------
-    response : Response
+    response : Recorded
     derived : bool
         With what follows from the rest: position and tilt of plane models in space.
     """
@@ -144,7 +144,7 @@ def to_dataset(response: Response, *, derived: bool = True) -> xarray.Dataset:
     return xarray.Dataset(labelled, coordinates, attributes)
 
 
-def load(path: str | Path) -> Response:
+def load(path: str | Path) -> Recorded:
     """Read a response that was saved by this version or the one before it.
 
     Raises
@@ -163,7 +163,7 @@ def load(path: str | Path) -> Response:
         raise store.unreadable(path, error) from None
 
 
-def _recorded(response: Response, of: str) -> list[tuple[str, tuple[str, ...], np.ndarray]]:
+def _recorded(response: Recorded, of: str) -> list[tuple[str, tuple[str, ...], np.ndarray]]:
     """Name, dimensions and values of everything that a model recorded."""
     h, poses = response.histories, response.histories.poses
     body, joint = ("time", of), ("time", "joint")
@@ -192,7 +192,7 @@ def _recorded(response: Response, of: str) -> list[tuple[str, tuple[str, ...], n
     return found
 
 
-def _from_dataset(data: xarray.Dataset) -> Response:
+def _from_dataset(data: xarray.Dataset) -> Recorded:
     structure: Column | Assembly | Specimen
     if "column" in data:
         structure = column_from_dict(store.from_json(data, "column"))
@@ -213,7 +213,7 @@ def _from_dataset(data: xarray.Dataset) -> Response:
         "blocks": None if blocks is None else BlockMeasures(**blocks),
     }
     mechanism = facts["mechanism"]
-    return Response(
+    return Recorded(
         structure,
         _histories(data, structure),
         _measures(data.attrs, **parts),
@@ -225,14 +225,14 @@ def _from_dataset(data: xarray.Dataset) -> Response:
     )
 
 
-def _of_format_1(data: xarray.Dataset, structure: Column | Assembly | Specimen, provenance: dict[str, Any]) -> Response:
+def _of_format_1(data: xarray.Dataset, structure: Column | Assembly | Specimen, provenance: dict[str, Any]) -> Recorded:
     """Files of the first format: a mechanism is in the provenance, an assembly's joints and measures are found anew."""
     energy, wall = _energy(data), float(data.attrs["wall_s"])
     if isinstance(structure, Assembly):
         x, z, rotation, acceleration, displacement = (
             data[name].to_numpy() for name in ("x", "z", "rotation", "ground_acceleration", "ground_displacement")
         )
-        response = response_of_blocks(
+        response = recorded_blocks(
             structure, data["time"].to_numpy(), x, z, rotation, energy, acceleration, displacement,
             at_rest=bool(data.attrs["at_rest"]),
             failed=bool(data.attrs["failed"]),
@@ -249,7 +249,7 @@ def _of_format_1(data: xarray.Dataset, structure: Column | Assembly | Specimen, 
         mechanism = Mechanism(**_tuples({key: value for key, value in mechanism.items() if key != "sentence"}))
     followed = bool(provenance.pop("followed_to_the_ground", False))
     measures = _measures(data.attrs)
-    return Response(
+    return Recorded(
         structure,
         _histories(data, structure),
         measures,

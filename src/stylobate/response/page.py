@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .instants import ASIDE, size_of, telling_states
-from .words import title_of
+from .summary import summary_of
+from .words import sentence_of, title_of
 
 if TYPE_CHECKING:
-    from .response import Response
+    from .recorded import Recorded
 
 #: Height of the strip [px].
 HEIGHT = 180
@@ -19,19 +20,19 @@ HEIGHT = 180
 _LEFT_OUT = ("outcome", "reason", "wall_s", "model", "version", "mechanism", "collapse")
 
 
-def as_html(response: Response) -> str:
+def as_html(response: Recorded) -> str:
     """HTML without scripts and without anything from the network."""
-    facts = {key: value for key, value in response.summary().items() if key not in _LEFT_OUT and _plain(value)}
+    facts = {key: value for key, value in summary_of(response).items() if key not in _LEFT_OUT and _plain(value)}
     rows = "".join(
         f"<tr><td>{html.escape(key)}</td><td>{html.escape(_said(value))}</td></tr>" for key, value in facts.items()
     )
     return (
-        f"<p><b>{html.escape(title_of(response))}</b></p><p>{html.escape(response.sentence)}</p>"
+        f"<p><b>{html.escape(title_of(response))}</b></p><p>{html.escape(sentence_of(response))}</p>"
         f"{_strip(response)}<table>{rows}</table>"
     )
 
 
-def _strip(response: Response) -> str:
+def _strip(response: Recorded) -> str:
     """The telling states beside one another, in one scale, as a picture."""
     shown, bodies = response.bodies.shown, response.bodies
     states = telling_states(response)

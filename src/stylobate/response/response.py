@@ -1,25 +1,16 @@
-"""What happened: bodies, joints, ground, energy, verdict and provenance of one run, of a column or an assembly."""
+"""What happened in one run of a column or an assembly: its data, with words, tables, pages and files at hand."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-import numpy as np
-
+from .. import store
 from ..bibliography import cite_run
-from ..column import Column
-from ..column.assembly import Assembly
-from ..column.specimen import Specimen
-from .bodies import Bodies, bodies_of
-from .histories import Histories
-from .measures import Measures
-from .mechanism import Mechanism
-from .poses import PlanePoses, SpacePoses, exaggerated, rotation_matrices
-from .shapes import hull
-from .views import Views
+from .page import as_html
+from .recorded import Recorded
+from .summary import summary_of
 from .words import describe, sentence_of
 
 if TYPE_CHECKING:
@@ -27,7 +18,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Response(Views):
+class Response(Recorded):
     """Result of :func:`stylobate.simulate` and :func:`stylobate.simulate_assembly`; everything relative to the moving base.
 
     Histories and measures can be read off it directly: ``response.time``, ``response.peak_top_displacement``.
@@ -50,75 +41,10 @@ class Response(Views):
         Whether any two bodies, and all of them with the ground, may strike each other; of neighbours only otherwise.
     """
 
-    structure: Column | Assembly | Specimen
-    histories: Histories
-    measures: Measures
-    model: str
-    provenance: dict
-    wall_time: float = 0.0
-    mechanism: Mechanism | None = None
-    followed: bool = False
-
-    @property
-    def column(self) -> Column:
-        """The column that stood."""
-        if isinstance(self.structure, Column):
-            return self.structure
-        raise AttributeError(f"{self.structure.name!r} is no column; what stood is the attribute structure.")
-
-    @property
-    def assembly(self) -> Assembly:
-        """The assembly that stood."""
-        if isinstance(self.structure, Assembly):
-            return self.structure
-        raise AttributeError(f"{self.structure.name!r} is no assembly; what stood is the attribute structure.")
-
-    # -- bodies --------------------------------------------------------------------------------------------------
-
-    @cached_property
-    def bodies(self) -> Bodies:
-        """Names and shapes of all bodies."""
-        return bodies_of(self.structure)
-
-    @property
-    def poses(self) -> SpacePoses:
-        """Position and orientation of every body in space."""
-        return self._in_space
-
-    @cached_property
-    def _in_space(self) -> SpacePoses:
-        recorded = self.histories.poses
-        return self.bodies.reference.space(recorded) if isinstance(recorded, PlanePoses) else recorded
-
-    def outline(self, index: int, body: int, factor: float = 1.0) -> np.ndarray:
-        """Corners of a body at a recorded state as seen along y, horizontally and upward [m], shape (k, 2).
-
-        Parameters
-        ----------
-        index, body : int
-            Number of the state and of the body, from 0.
-        factor : float
-            By which displacements and rotations are drawn larger.
-        """
-        shape, recorded = self.bodies.shapes[body], self.histories.poses
-        if isinstance(recorded, PlanePoses):
-            x, z, angle = self._plane(factor)[index, body] if factor != 1.0 else self._placed[index, body]
-            c, s = np.cos(angle), np.sin(angle)
-            return shape.outline @ np.array([[c, s], [-s, c]]) + (x, z)
-        pose = exaggerated(recorded, index, factor)
-        corners = shape.mesh().vertices @ rotation_matrices(pose.orientation[body]).T + pose.position[body]
-        return hull(corners[:, [0, 2]])
-
-    @cached_property
-    def _placed(self) -> np.ndarray:
-        return self._plane(1.0)
-
-    def _plane(self, factor: float) -> np.ndarray:
-        recorded = self.histories.poses
-        assert isinstance(recorded, PlanePoses)
-        return self.bodies.reference.plane(recorded, factor)
-
-    # -- in words and as files -----------------------------------------------------------------------------------
+    @classmethod
+    def of(cls, recorded: Recorded) -> Response:
+        """The response to what was recorded."""
+        return cls(**{field.name: getattr(recorded, field.name) for field in fields(Recorded)})
 
     @property
     def sentence(self) -> str:
@@ -133,14 +59,10 @@ class Response(Views):
         return describe(self)
 
     def _repr_html_(self) -> str:
-        from .page import as_html
-
         return as_html(self)
 
     def summary(self) -> dict:
         """The JSON object of ``stylobate run``."""
-        from .summary import summary_of
-
         return summary_of(self)
 
     def citation(self) -> str:
@@ -173,10 +95,9 @@ class Response(Views):
         StylobateError
             The disk is full.
         """
-        from ..store import write
         from .labelled import to_dataset
 
-        return write(to_dataset(self, derived=False), "response", path)
+        return store.write(to_dataset(self, derived=False), "response", path)
 
     @classmethod
     def load(cls, path: str | Path) -> Response:
@@ -189,4 +110,4 @@ class Response(Views):
         """
         from .labelled import load
 
-        return load(path)
+        return cls.of(load(path))

@@ -8,16 +8,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 if TYPE_CHECKING:
-    from .response import Response
+    from .recorded import Recorded
 
 
-def summary_of(response: Response) -> dict:
+def summary_of(response: Recorded) -> dict:
     """Plain values. What has fallen has no residuals: they are None after a collapse, and peaks end with it."""
     run = {"wall_s": response.wall_time, "model": response.model, "version": response.provenance.get("version", "")}
     return (_of_blocks(response) if response.measures.blocks is not None else _of_column(response)) | run
 
 
-def _of_column(response: Response) -> dict:
+def _of_column(response: Recorded) -> dict:
     h, m = response.histories, response.measures
     row = m.row()
     before = h.time <= m.collapse_time if m.collapsed else np.ones(len(h.time), dtype=bool)
@@ -38,7 +38,7 @@ def _of_column(response: Response) -> dict:
     return row
 
 
-def _of_blocks(response: Response) -> dict:
+def _of_blocks(response: Recorded) -> dict:
     m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
     gone = m.collapsed

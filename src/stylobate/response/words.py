@@ -8,10 +8,10 @@ from ..column import Column
 from ..outcome import Outcome
 
 if TYPE_CHECKING:
-    from .response import Response
+    from .recorded import Recorded
 
 
-def title_of(response: Response) -> str:
+def title_of(response: Recorded) -> str:
     """What stood, motion, model and outcome in one line."""
     undecided = "" if response.decided else ", undecided"
     motion = response.provenance.get("motion", "motion")
@@ -19,7 +19,7 @@ def title_of(response: Response) -> str:
     return f"{response.structure.name}, {motion}, {response.model}: {outcome}{undecided}"
 
 
-def sentence_of(response: Response) -> str:
+def sentence_of(response: Recorded) -> str:
     """What happened, in one to three sentences."""
     if response.measures.blocks is not None:
         return _of_blocks(response)
@@ -38,7 +38,7 @@ def sentence_of(response: Response) -> str:
 UNDECIDED = "The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
 
 
-def describe(response: Response) -> str:
+def describe(response: Recorded) -> str:
     """One paragraph: what stood, what was run, what happened, and the measures."""
     m, structure = response.measures, response.structure
     n = len(response.bodies.names)
@@ -49,7 +49,7 @@ def describe(response: Response) -> str:
     top = "" if m.blocks else f"peak top displacement{until} {length(m.peak_top_displacement)}, "
     words = [
         f"<Response of {structure.name} ({size}) under {motion}, {response.model}, {end:.4g} s.",
-        response.sentence,
+        sentence_of(response),
         f"{top[:1].upper() + top[1:]}{'p' if top else 'P'}eak rotation{until} {m.peak_rotation:.4g} rad;"
         f" energy imbalance {m.energy_imbalance:.1e}; {len(response.time)} recorded states in {response.dims}.>",
     ]
@@ -61,7 +61,7 @@ def length(value: float) -> str:
     return f"{value:.2f} m" if not abs(value) < 1.0 else f"{1000.0 * value:.3g} mm"
 
 
-def _of_collapse(response: Response) -> str:
+def _of_collapse(response: Recorded) -> str:
     m, mechanism = response.measures, response.mechanism
     words = [m.outcome.sentence]
     if m.reason:
@@ -76,7 +76,7 @@ def _of_collapse(response: Response) -> str:
     return " ".join(words)
 
 
-def _of_blocks(response: Response) -> str:
+def _of_blocks(response: Recorded) -> str:
     names, fixed, fell = response.bodies.names, response.bodies.fixed, response.fell_at
     moving = [i for i, held in enumerate(fixed) if not held]
     all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")

@@ -12,7 +12,7 @@ from ...column.assembly import Assembly
 from ...errors import InputError, OutOfRangeWarning
 from ...motion import Motion
 from ...response import Response
-from ...response.assembly_measures import first_touch, response_of_blocks
+from ...response.assembly_measures import first_touch, recorded_blocks
 from ..base import RunOptions, refuse_endless, refuse_long_histories
 from ..shared import ledger
 from ..shared.ground import ground_histories
@@ -98,7 +98,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     acceleration, displacement = ground_histories(motion, stack["time"])
     step, poses = int(engine.now["touched"][0]), (stack["x"], stack["z"], stack["rotation"])
     touched = first_touch(assembly, stack["time"], *poses, step * engine.dt) if step >= 0 else None
-    return response_of_blocks(
+    recorded = recorded_blocks(
         assembly,
         stack["time"],
         *poses,
@@ -119,6 +119,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
             "deepest_penetration_m": engine.deepest(),
         },
     )
+    return Response.of(recorded)
 
 
 def follow(engine: Engine, options: RunOptions) -> tuple[list[dict[str, Any]], bool]:

@@ -1,0 +1,113 @@
+"""What is known of one run, as data: what stood, histories, measures and provenance, and its bodies in space.
+
+Words, tables, pages and files are made from it; :class:`stylobate.Response` is the same with all of these at hand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ..column import Column
+from ..column.assembly import Assembly
+from ..column.specimen import Specimen
+from .bodies import Bodies, bodies_of
+from .histories import Histories
+from .measures import Measures
+from .mechanism import Mechanism
+from .poses import PlanePoses, SpacePoses, exaggerated, rotation_matrices
+from .shapes import hull
+from .views import Views
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Recorded(Views):
+    """One run as data; everything relative to the moving base.
+
+    Parameters
+    ----------
+    structure : Column, Assembly or Specimen
+        What stood.
+    histories : Histories
+    measures : Measures
+    model : str
+        Name of the model, as on the command line.
+    provenance : dict
+        Versions, parameters and digests that reproduce the run; plain values.
+    wall_time : float
+        Time the run took [s].
+    mechanism : Mechanism, optional
+        What fell where, of a column that was followed to the ground.
+    followed : bool
+        Whether any two bodies, and all of them with the ground, may strike each other; of neighbours only otherwise.
+    """
+
+    structure: Column | Assembly | Specimen
+    histories: Histories
+    measures: Measures
+    model: str
+    provenance: dict
+    wall_time: float = 0.0
+    mechanism: Mechanism | None = None
+    followed: bool = False
+
+    @property
+    def column(self) -> Column:
+        """The column that stood."""
+        if isinstance(self.structure, Column):
+            return self.structure
+        raise AttributeError(f"{self.structure.name!r} is no column; what stood is the attribute structure.")
+
+    @property
+    def assembly(self) -> Assembly:
+        """The assembly that stood."""
+        if isinstance(self.structure, Assembly):
+            return self.structure
+        raise AttributeError(f"{self.structure.name!r} is no assembly; what stood is the attribute structure.")
+
+    # -- bodies --------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def bodies(self) -> Bodies:
+        """Names and shapes of all bodies."""
+        return bodies_of(self.structure)
+
+    @property
+    def poses(self) -> SpacePoses:
+        """Position and orientation of every body in space."""
+        return self._in_space
+
+    @cached_property
+    def _in_space(self) -> SpacePoses:
+        recorded = self.histories.poses
+        return self.bodies.reference.space(recorded) if isinstance(recorded, PlanePoses) else recorded
+
+    def outline(self, index: int, body: int, factor: float = 1.0) -> np.ndarray:
+        """Corners of a body at a recorded state as seen along y, horizontally and upward [m], shape (k, 2).
+
+        Parameters
+        ----------
+        index, body : int
+            Number of the state and of the body, from 0.
+        factor : float
+            By which displacements and rotations are drawn larger.
+        """
+        shape, recorded = self.bodies.shapes[body], self.histories.poses
+        if isinstance(recorded, PlanePoses):
+            x, z, angle = self._plane(factor)[index, body] if factor != 1.0 else self._placed[index, body]
+            c, s = np.cos(angle), np.sin(angle)
+            return shape.outline @ np.array([[c, s], [-s, c]]) + (x, z)
+        pose = exaggerated(recorded, index, factor)
+        corners = shape.mesh().vertices @ rotation_matrices(pose.orientation[body]).T + pose.position[body]
+        return hull(corners[:, [0, 2]])
+
+    @cached_property
+    def _placed(self) -> np.ndarray:
+        return self._plane(1.0)
+
+    def _plane(self, factor: float) -> np.ndarray:
+        recorded = self.histories.poses
+        assert isinstance(recorded, PlanePoses)
+        return self.bodies.reference.plane(recorded, factor)
