@@ -98,6 +98,14 @@ def test_it_lies_on_the_face_that_needs_the_smallest_turn():
     assert len(rest.footprint) == 4
 
 
+def test_it_turns_about_the_vertical_as_its_twist_says():
+    response = st.simulate(boulder(), shaken(0.3, 0.25), st.DistinctElement3D())
+    twist = response.twist[:, 0]
+    assert np.abs(twist).max() > 5e-5
+    assert response.measures.space.peak_twist == pytest.approx(np.abs(twist).max(), rel=0.05)
+    assert response.measures.space.residual_twist_per_joint[0] == twist[-1]
+
+
 def test_static_threshold_of_a_tripod():
     """Three feet: it topples over the nearest edge once a/g is above distance over height, and not below."""
     feet = np.array([(0.3, 0.0), (-0.15, 0.26), (-0.15, -0.26)])

@@ -11,7 +11,6 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ..column import Column
 from ..column.specimen import Specimen
 from ..errors import InputError, LeftOutWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
@@ -26,9 +25,9 @@ LONGEST_RUN, MOST_STATES = 3600.0, 5e7
 
 
 class Case(NamedTuple):
-    """One run of a batch."""
+    """One run of a batch: of a column, or of a specimen where the model takes one."""
 
-    column: Column
+    column: Any
     motion: Motion
 
 
@@ -79,7 +78,7 @@ class Model:
     takes_start: ClassVar[bool] = False
     takes_specimens: ClassVar[bool] = False
 
-    def check(self, column: Column | Specimen, motion: Motion) -> None:
+    def check(self, column: Any, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
         if isinstance(column, Specimen):
             if not self.takes_specimens:
@@ -106,18 +105,18 @@ class Model:
         """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
         return keep_axes(motion, self.axes)
 
-    def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
+    def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:
         """Time step that a run will take, and about what a step costs on one core, both [s]; the cost of a single run."""
         return motion.dt, 0.0
 
-    def check_length(self, column: Column, motion: Motion, options: RunOptions) -> None:
+    def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
         """Refuse a run that would not end, and histories that no memory holds, with the estimate (InputError)."""
         length = motion.duration + options.tail
         step, cost = self.expected_step(column, motion)
         refuse_endless(f"{column.name!r} under {motion.name!r}", length, step, cost)
         refuse_long_histories(length / options.output_interval, column.n)
 
-    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
+    def run(self, column: Any, motion: Motion, options: RunOptions) -> Response:
         """One run with histories."""
         raise NotImplementedError
 

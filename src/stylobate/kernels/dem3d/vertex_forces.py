@@ -10,6 +10,7 @@ further row a vertex of the body::
                near           1 in lane 0: some lane may bring the vertex to the base within the next steps
                s[3] d[3]      shear force, dashpot force [N]
     drum[1]    nx ny nz       what was up at rest, in the axes of the body [-]
+    drum[0]    x y z          where the point under the centroid stood [m];  i. j. k.  how the body stood
 """
 
 import math
@@ -125,6 +126,7 @@ def mark_near(drum, joint, lane, watch):
 def observe(drum, joint, feed, watch, lane):
     """Look at all lanes: peaks, and bodies that have toppled: whose tilt is beyond 45°."""
     u = drum[1]
+    v = drum[0]
     w = watch[0]
     for l in range(LANES):
         if w.status[l] != RUNNING:
@@ -135,6 +137,12 @@ def observe(drum, joint, feed, watch, lane):
             continue
         hx, hy, up = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
         w.turn[l] = max(w.turn[l], 1.0 - up)
+        # turn about the vertical from how it stood; the axes of the base's record keep that
+        more = u.iy[l] * v.ix[l] + u.jy[l] * v.jx[l] + u.ky[l] * v.kx[l]
+        less = u.ix[l] * v.iy[l] + u.jx[l] * v.jy[l] + u.kx[l] * v.ky[l]
+        even = u.ix[l] * v.ix[l] + u.jx[l] * v.jx[l] + u.kx[l] * v.kx[l]
+        even += u.iy[l] * v.iy[l] + u.jy[l] * v.jy[l] + u.ky[l] * v.ky[l]
+        w.spin[l] = max(w.spin[l], abs(math.atan2(more - less, even)))
         tx, ty = u.x[l] + u.ht[l] * hx - w.sx[l], u.y[l] + u.ht[l] * hy - w.sy[l]
         w.topx[l] = max(w.topx[l], abs(tx))
         w.topy[l] = max(w.topy[l], abs(ty))

@@ -129,8 +129,6 @@ class SpecimenBlock(SpaceBlock):
         for name, value in values.items():
             drum[name][1, lane] = value
         self._turn(lane, turn)
-        for a, axis in enumerate("ijk"):
-            drum[axis + "xyz"[a]][0, lane] = 1.0
         self.lane["g"][0, 2, lane] = specimen.gravity
         self.lane["beta"][0, lane], self.lane["alpha"][0, lane] = model.stiffness_damping, model.mass_damping
         self.lane["free"][0, lane] = 1.0
@@ -163,8 +161,11 @@ class SpecimenBlock(SpaceBlock):
 
     def mark_start(self, lane: int) -> None:
         """Keep where the body stood."""
-        self.stood = getattr(self, "stood", {})
-        self.stood[lane] = (self.axes(lane)[0].copy(), self.foot(lane))
+        drum = self.drum
+        for c, place in zip("xyz", self.foot(lane), strict=True):
+            drum[c][0, lane] = place
+            for axis in "ijk":
+                drum[axis + c][0, lane] = drum[axis + c][1, lane]
 
     def up(self, lane: int) -> np.ndarray:
         """Direction that was up at rest, in the axes of the body."""
@@ -188,9 +189,8 @@ class SpecimenBlock(SpaceBlock):
         arms = np.stack([self.joint[c][rows, lane] for c in "xyz"], axis=-1)
         axes = self.axes(lane)[0]
         heights = self.drum["z"][1, lane] + (arms @ axes.T)[:, 2]
-        if lane not in getattr(self, "stood", {}):
-            return np.array([heights.max()]), np.zeros((1, 2)), np.zeros(1)
-        first, foot = self.stood[lane]
+        foot = np.array([self.drum[c][0, lane] for c in "xyz"])
+        first = np.stack([[self.drum[a + c][0, lane] for c in "xyz"] for a in "ijk"], axis=-1)
         turn = axes @ first.T
         twist = math.atan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])
         return np.array([max(heights.max(), 0.0)]), (self.foot(lane) - foot)[None, :2], np.array([twist])
@@ -270,7 +270,7 @@ class SpecimenBlock(SpaceBlock):
                 peak_top_x=float(watch["topx"][lane]),
                 peak_top_y=float(watch["topy"][lane]),
                 peak_tilt=math.acos(max(-1.0, 1.0 - float(watch["turn"][lane]))),
-                peak_twist=math.nan,
+                peak_twist=float(watch["spin"][lane]),
                 residual_slip_per_joint=(shift,),
                 residual_twist_per_joint=(float(twist[0]),),
             ),
