@@ -51,6 +51,9 @@ GRIDS = dataclasses.replace(
     doubt_frequencies=np.array([0.5, 0.8]),
     doubt_amplitudes=np.array([0.2, 0.3, 0.4]) * st.g,
     replicates=3,
+    space_frequencies=np.array([0.66]),
+    space_amplitudes=np.array([0.2, 0.5]) * st.g,
+    space_replicates=2,
 )
 
 

@@ -88,6 +88,11 @@ class CollapseProbability:
         return v.share_collapsed(*self._counts)
 
     @property
+    def mean(self) -> float:
+        """Mean share that collapses, of the cells in which some runs have a verdict."""
+        return float(np.nanmean(self.frequency))
+
+    @property
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
         """Lower and upper confidence limit of the probability of collapse, each of shape (F, A).
 

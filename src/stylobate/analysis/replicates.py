@@ -31,8 +31,8 @@ from .probability import CollapseProbability
 #: Largest number of variations, and of runs in all.
 MAX_REPLICATES, MAX_RUNS = 10_000, 20_000_000
 
-#: Starts of a motion that are told apart, so that all variations share these samples.
-PHASES = 9
+#: Starts of a motion, and sizes of its component across, that are told apart, so that all variations share these samples.
+PHASES, ASIDES = 9, 8
 
 
 def collapse_probability(
@@ -158,7 +158,12 @@ class _Cases(Sequence):
         self.factors = 1.0 + size.amplitude * stream.uniform(-1.0, 1.0, number)
         starts = size.phase * np.linspace(-1.0, 1.0, PHASES) if size.phase else np.zeros(1)
         self.start = stream.integers(0, len(starts), number)
-        self.units = [[_sine(float(one), duration, float(start)) for start in starts] for one in f]
+        aside = size.across * np.linspace(-1.0, 1.0, ASIDES) if size.across else np.zeros(1)
+        self.aside = np.random.default_rng([seed, 2]).integers(0, len(aside), number)
+        self.units = [
+            [[_sine(float(one), duration, float(start), float(share)) for share in aside] for start in starts]
+            for one in f
+        ]
 
     def __len__(self) -> int:
         return int(np.prod(self.shape))
@@ -167,16 +172,19 @@ class _Cases(Sequence):
         if not 0 <= index < len(self):
             raise IndexError(index)
         i, j, k = np.unravel_index(index, self.shape)
-        motion = self.units[i][self.start[k]].scaled(float(self.amplitudes[j] * self.factors[k]))
+        unit = self.units[i][self.start[k]][self.aside[k]]
+        motion = unit.scaled(float(self.amplitudes[j] * self.factors[k]))
         return Case(self.columns[k], motion)
 
 
-def _sine(frequency: float, duration: float, start: float) -> Motion:
+def _sine(frequency: float, duration: float, start: float, aside: float) -> Motion:
+    """A unit sine that starts so many cycles late, with a component across of that share, a quarter of a cycle later."""
     unit = harmonic(frequency, 1.0, duration)
-    if not start:
+    if not start and not aside:
         return unit
-    cycles = np.arange(unit.steps) * unit.dt * frequency
-    return unit.replace(acceleration=np.sin(2.0 * np.pi * (cycles + start)))
+    angle = 2.0 * np.pi * (np.arange(unit.steps) * unit.dt * frequency + start)
+    lateral = -aside * np.cos(angle) if aside else None
+    return unit.replace(acceleration=np.sin(angle), lateral=lateral)
 
 
 def _kept(measures: Measures) -> dict:

@@ -28,6 +28,9 @@ class Imperfection:
         Of the motion's amplitude, relative [-].
     phase : float
         Of the instant in its cycle at which a harmonic motion starts [cycles].
+    across : float
+        Of a second component of a harmonic motion along y, a quarter of a cycle late, relative to its amplitude along x [-].
+        No shaking is plane; models in the plane leave this component out.
 
     Raises
     ------
@@ -40,6 +43,7 @@ class Imperfection:
     stiffness: float = 0.01
     amplitude: float = 0.0
     phase: float = 0.0
+    across: float = 0.0
 
     def __post_init__(self) -> None:
         for field, high in (
@@ -48,6 +52,7 @@ class Imperfection:
             ("stiffness", 0.9),
             ("amplitude", 0.5),
             ("phase", 0.5),
+            ("across", 1.0),
         ):
             check_range(f"{field} of the imperfections", getattr(self, field), 0.0, high, remedy="0.01 is one per cent")
 

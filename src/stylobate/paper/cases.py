@@ -9,10 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column import Column, preset
+from ..column.imperfections import Imperfection
 from ..column.presets import PRESETS
 from ..constants import g
 from ..models.base import Model
 from ..models.dem2d.model import DistinctElement2D
+from ..models.dem3d.model import DistinctElement3D
 from ..models.rigid_beam.model import RigidBeam
 from ..models.rigid_block.model import RigidBlock
 
@@ -66,6 +68,22 @@ VARIANTS: Mapping[str, tuple[str, Model, dict, float]] = {
     "DEM, 20 s": (DEM, DistinctElement2D(), {}, 20.0),
 }
 
+PLANE, TWIN, SPACE = "plane", "planar twin", "space"
+
+#: The same round columns three times: the plane model, the model in space held in its plane, and in space.
+POPULATIONS: Mapping[str, Model] = {
+    PLANE: DistinctElement2D(),
+    TWIN: DistinctElement3D(planar=True),
+    SPACE: DistinctElement3D(),
+}
+
+#: Stones, friction and stiffness within 1 %, and up to 1 % of the shaking across, which alone takes a round column out of
+#: the plane: every model sees the same columns and motions, and the plane ones leave the component across out.
+SCATTER = Imperfection(across=0.01)
+
+#: Plane computations that are held against the columns in space: (model, section).
+RIVALS = ((BEAM, "circular"), (BLOCKS, "circular"), (DEM, "circular"), (DEM, "rectangular"))
+
 #: The distinct elements that the variants are compared with.
 REFERENCE = "DEM, two points"
 
@@ -95,6 +113,10 @@ class Grids:
         Where verdicts are asked for again: with half of the step, and of slightly different columns.
     replicates : int
         Number of slightly different columns.
+    space_frequencies, space_amplitudes : array
+        Of the populations of round columns in space [Hz], [m/s²].
+    space_replicates : int
+        Number of slightly different round columns.
     """
 
     frequencies: np.ndarray
@@ -108,6 +130,9 @@ class Grids:
     doubt_frequencies: np.ndarray
     doubt_amplitudes: np.ndarray
     replicates: int
+    space_frequencies: np.ndarray
+    space_amplitudes: np.ndarray
+    space_replicates: int
 
     @classmethod
     def of(cls, quick: bool) -> Grids:
@@ -119,11 +144,13 @@ class Grids:
                 np.linspace(0.25, 4.0, 16), np.linspace(0.1, 0.5, 17) * g, TAIL, (BEAM, DEM), some,
                 np.array([0.66, 1.0, 2.0]), np.linspace(0.12, 0.6, 13) * g, limit,
                 np.linspace(0.3, 1.7, 8), np.linspace(0.2, 0.6, 9) * g, 10,
+                np.array([0.66, 1.0, 1.5]), np.linspace(0.2, 0.6, 5) * g, 8,
             )  # fmt: skip
         return cls(
             np.linspace(0.2, 4.0, 39), np.linspace(0.1, 0.6, 41) * g, TAIL, (BEAM, BLOCKS, DEM), tuple(VARIANTS),
             np.array([0.33, 0.66, 1.0, 1.5, 2.0]), np.linspace(0.12, 0.6, 25) * g, limit,
             np.linspace(0.3, 1.7, 15), np.linspace(0.2, 0.6, 33) * g, 30,
+            np.array([0.33, 0.5, 0.66, 1.0, 1.5, 2.0]), np.linspace(0.15, 0.6, 10) * g, 16,
         )  # fmt: skip
 
 

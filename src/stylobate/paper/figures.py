@@ -91,6 +91,17 @@ def draw(results: PaperResults, folder: Path) -> dict[str, list[Picture]]:
                     f"column. A line ends where nothing collapses up to {top}."
                 )
                 some.append(keep(f"figure-{number}-{section}", figure, caption))
+    populations = [
+        (TITLES[name], [(label, one) for (column, label), one in results.space.items() if column == name])
+        for name in PRESETS
+    ]
+    figure = plots.draw_probability_panels(populations, "Round columns: which shaking brings them down?")
+    many = results.grids.space_replicates
+    caption = (
+        f"Share of {many} slightly different round columns that collapse, in each cell under the same motions. Above each "
+        "panel the mean over its cells."
+    )
+    sections[page.IN_SPACE] = [keep("space", figure, caption)]
     some = sections[page.DOUBT] = []
     for name, doubt in results.doubts.items():
         figure = plots.draw_doubt(doubt, f"{TITLES[name]}: the same question, asked three times")

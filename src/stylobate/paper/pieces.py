@@ -26,6 +26,7 @@ from ..atomic import replacing
 from ..campaign.ledger import PROGRESS_FILE, Ledger, discard
 from ..campaign.runner import Progress, full_key
 from ..column import Column, preset
+from ..column.imperfections import Imperfection
 from ..constants import g
 from ..models.base import Model
 from ..motion import harmonic
@@ -55,17 +56,18 @@ def domain_piece(
 
 def population_piece(
     folder: Path, column: Column, model: Model, grid: tuple, replicates: int, tail: float, threads: int,
-    progress: Progress | None,
+    progress: Progress | None, imperfection: Imperfection | None = None,
 ) -> CollapseProbability:  # fmt: skip
-    """The same domain for slightly different columns, 1 % in geometry, friction and stiffness."""
+    """The same domain for slightly different columns, 1 % in geometry, friction and stiffness by default."""
     place = folder / "probability.nc"
     if is_ready(place):
         discard(folder / PROGRESS_FILE)
         return CollapseProbability.load(place)
     folder.mkdir(exist_ok=True)
     found = collapse_probability(
-        column, model, *grid, replicates=replicates, tail=tail, threads=threads, progress=progress, out=folder
-    )
+        column, model, *grid, replicates=replicates, imperfection=imperfection, tail=tail, threads=threads,
+        progress=progress, out=folder,
+    )  # fmt: skip
     if not found.complete:
         raise KeyboardInterrupt
     return found

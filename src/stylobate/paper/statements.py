@@ -9,6 +9,7 @@ from .conclusions import conclusions
 from .drums import drum_statements
 from .monolith import monolith_statements
 from .reading import MEANINGS, Reader, Statement
+from .space import space_statements
 from .statics import static_statements
 from .study import PaperResults
 
@@ -16,7 +17,13 @@ from .study import PaperResults
 def statements(results: PaperResults) -> list[Statement]:
     """All checkable sentences by section; values and verdicts from the results."""
     r = Reader(results)
-    rows = [*monolith_statements(r), *static_statements(), *drum_statements(r), *conclusions(r)]
+    rows = [
+        *monolith_statements(r),
+        *static_statements(),
+        *drum_statements(r),
+        *conclusions(r),
+        *space_statements(results),
+    ]
     return sorted(rows, key=lambda row: (not row.section[0].isdigit(), row.section[:3]))
 
 

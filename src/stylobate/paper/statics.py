@@ -87,8 +87,8 @@ def static_statements() -> list[Statement]:
             f"rigid block: {circular[0]:.4f} g with circular, {both[0]:.4f} g with rectangular sections; domains of "
             "both models with circular sections are on this page",
             judged(circular[0] > both[0]),
-            "A cone's centroid lies lower than a trapezium's. That the results are the more accurate ones is not "
-            "checked: it needs a model in space.",
+            "A cone's centroid lies lower than a trapezium's. Whether the results are the more accurate "
+            "ones is asked in a row of its own.",
             "In the rigid beam of prisms the section changes nothing at low frequency: tan α is 0.162 with both.",
         ),
     ]  # fmt: skip

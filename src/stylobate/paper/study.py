@@ -58,6 +58,10 @@ class PaperResults:
         By variant of the rigid beam, and for distinct elements: the monolith's thirty cases up to the end of the shaking.
     spots : dict
         By model: slightly different monoliths at 0.66 Hz and 0.2 g.
+    space : dict
+        By (column, population of :data:`stylobate.paper.cases.POPULATIONS`): round columns in the plane and in space.
+    rivals : dict
+        By (column, model, section): plane domains on the grid of ``space``.
     cost : dict
         By model: computing time of two seconds of a column of drums [s].
     """
@@ -72,15 +76,17 @@ class PaperResults:
     doubts: dict[str, Doubt] = field(default_factory=dict)
     shaken: dict[str, Domain] = field(default_factory=dict)
     spots: dict[str, CollapseProbability] = field(default_factory=dict)
+    space: dict[tuple[str, str], CollapseProbability] = field(default_factory=dict)
+    rivals: dict[tuple[str, str, str], Domain] = field(default_factory=dict)
     cost: dict[str, float] = field(default_factory=dict)
 
     @property
     def runs(self) -> int:
         """Number of time histories behind all of it."""
         single = [*self.domains.values(), *self.variants.values(), *self.limits.values()]
-        single += self.shaken.values()
+        single += [*self.shaken.values(), *self.rivals.values()]
         single += [one for doubt in self.doubts.values() for one in (doubt.steps.domain, doubt.steps.halved)]
-        many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values()]
+        many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
         cases = sum(one["verdict"].size for one in self.histories.values())
         return sum(len(one.rows) for one in single) + sum(one.codes.size for one in many) + cases
 
@@ -167,6 +173,18 @@ def _pieces(folder: Path, quick: bool, grids: c.Grids, threads: int | None, repo
         found.spots[label] = population_piece(
             data / slug("spot", label), preset(c.MONOLITH), c.MODELS[label], grid, 50, grids.tail, count, None
         )
+    grid = (grids.space_frequencies, grids.space_amplitudes, c.DURATION)
+    for name in PRESETS:
+        for label, model in c.POPULATIONS.items():
+            found.space[name, label] = population_piece(
+                data / slug("space", name, label), c.paper_column(name, "circular"), model, grid, grids.space_replicates,
+                grids.tail, count, advance(f"round columns, {name}: {label}"), c.SCATTER,
+            )  # fmt: skip
+        for label, section in c.RIVALS:
+            found.rivals[name, label, section] = domain_piece(
+                data / slug("rival", name, label, section), c.paper_column(name, section), c.MODELS[label], grid,
+                grids.tail, count, None,
+            )  # fmt: skip
     found.cost = cost_piece(data)
     for name, section in product(PRESETS, ("rectangular", "circular")):
         found.paths[name, section] = pushover(c.paper_column(name, section))

@@ -10,6 +10,7 @@ from .joints import draw_joints
 from .motion import draw_motion
 from .orbit import draw_orbit
 from .probability import draw_probability
+from .probability_panels import draw_probability_panels
 from .pushover import draw_mechanism, draw_pushover
 from .record_verdicts import draw_record_verdicts
 from .residuals import draw_residuals
@@ -34,6 +35,7 @@ __all__ = [
     "draw_motion",
     "draw_orbit",
     "draw_probability",
+    "draw_probability_panels",
     "draw_pushover",
     "draw_record_verdicts",
     "draw_residuals",

@@ -45,7 +45,7 @@ def draw_probability(
     """
     figure = page(figure, (WIDTH, 4.7))
     chart, cut = figure.subplots(1, 2, width_ratios=(1.75, 1.0), sharey=True)
-    handles = [*_draw_cells(chart, result), *_draw_band(chart, result)]
+    handles = [*draw_shares(chart, result), *draw_band(chart, result)]
     value = result.column.uplift_acceleration / g
     handles.append(
         chart.axhline(value, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.3, label=f"static uplift, {value:.3f} g")
@@ -94,7 +94,8 @@ def _about_the_others(result: CollapseProbability, facts: dict) -> str:
     return f"{share};\nthe uncertain band is {width:.2g} g wide (median; up to {facts['band_width_largest_g']:.2g} g){more}"
 
 
-def _draw_cells(axes: Axes, result: CollapseProbability) -> list[Patch]:
+def draw_shares(axes: Axes, result: CollapseProbability) -> list[Patch]:
+    """Fill every cell by the share of its variations that collapse; returns what a legend shows."""
     x, y, share, kinds = (
         cell_edges(result.frequencies),
         cell_edges(result.amplitudes / g),
@@ -121,7 +122,8 @@ def _draw_cells(axes: Axes, result: CollapseProbability) -> list[Patch]:
     return handles
 
 
-def _draw_band(axes: Axes, result: CollapseProbability) -> list[Line2D]:
+def draw_band(axes: Axes, result: CollapseProbability) -> list[Line2D]:
+    """The edges of the uncertain band; returns what a legend shows."""
     x, edges = cell_edges(result.frequencies), cell_edges(result.amplitudes / g)
     low, high = result.band
     with np.errstate(invalid="ignore"):
