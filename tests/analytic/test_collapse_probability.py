@@ -237,3 +237,27 @@ def test_an_undecided_run_is_no_collapse_and_no_survival_in_any_share():
     low, high = collapse_interval(3, 5, 2, 0.9)
     assert low == wilson_interval(3, 10, 0.9)[0]
     assert high == wilson_interval(5, 10, 0.9)[1]
+
+
+def test_a_component_across_takes_the_shaking_out_of_the_plane():
+    """Up to a share of the amplitude, a quarter of a cycle late, the same in every cell; plane models never see it."""
+    from stylobate.analysis.replicates import _Cases
+
+    f, a = np.array([0.5, 1.0]), np.array([1.0, 2.0])
+    cases = _Cases(preset("paper-monolithic"), f, a, 4.0, 30, Imperfection(0.0, 0.0, 0.0, across=0.02), 3)
+    shares = []
+    for index in range(30):
+        motion = cases[index].motion
+        share = motion.lateral[0] / -motion.factor
+        time = motion.time
+        np.testing.assert_allclose(motion.acceleration, np.sin(np.pi * time), atol=1e-12)
+        np.testing.assert_allclose(motion.lateral, -share * np.cos(np.pi * time), atol=1e-12)
+        assert cases[index + 30].motion.lateral[0] == pytest.approx(2.0 * motion.lateral[0])
+        shares.append(share)
+    assert 0.0 < np.abs(shares).min() < np.abs(shares).max() <= 0.02
+    assert np.unique(shares).size == 8
+    plane = collapse_probability(
+        preset("paper-monolithic"), st.HousnerBlock(), f, a, replicates=2, imperfection=Imperfection(across=0.02)
+    )
+    same = collapse_probability(preset("paper-monolithic"), st.HousnerBlock(), f, a, replicates=2)
+    np.testing.assert_array_equal(plane.codes, same.codes)

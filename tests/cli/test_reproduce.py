@@ -83,14 +83,15 @@ def test_everything_is_written(made):
         "pushover",
         "certainty-paper-12-drums",
         "probability-paper-monolithic",
+        "space",
     } <= stems
     assert {path.suffix for path in (folder / "figures").iterdir()} == {".png", ".svg"}
     assert len(list((folder / "figures").iterdir())) == 2 * summary["figures"]
     names = {"cases.csv", "certainty.csv", "domains.csv", "statements.csv"}
     assert {path.name for path in (folder / "tables").iterdir()} == names
     assert len(pandas.read_csv(folder / "tables" / "cases.csv")) == 2 * 2 * 4
-    assert len(list((folder / "data").glob("*/domain.nc"))) == 2 * (4 + 2 + 3 + 2 + len(GRIDS.variants)) + 4
-    assert len(list((folder / "data").glob("*/probability.nc"))) == 4
+    assert len(list((folder / "data").glob("*/domain.nc"))) == 2 * (4 + 2 + 3 + 2 + len(GRIDS.variants) + 4) + 4
+    assert len(list((folder / "data").glob("*/probability.nc"))) == 2 + 2 + 2 * 3
     assert not list((folder / "data").rglob("*.sqlite*"))
 
 
@@ -98,7 +99,7 @@ def test_every_sentence_has_a_verdict(made):
     folder, summary, _ = made
     table = pandas.read_csv(folder / "tables" / "statements.csv")
     assert set(table["verdict"]) <= {HOLDS, CHOICES, FAILS}
-    assert len(table) == summary["statements"] == sum(summary["verdicts"].values()) == 26
+    assert len(table) == summary["statements"] == sum(summary["verdicts"].values()) == 27
     assert not table["ours"].str.contains("nan").any()
     assert table["why"].notna().all()
 

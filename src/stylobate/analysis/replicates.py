@@ -96,7 +96,8 @@ def collapse_probability(
             f"{len(f)} × {len(a)} cells with {number} replicates are {len(f) * len(a) * number} runs; allowed is up to "
             f"{MAX_CELLS} cells and {MAX_RUNS} runs: give fewer."
         )
-    cases = _Cases(column, f, a, float(duration), number, size, seed)
+    seen = size if "y" in model.axes else dataclasses.replace(size, across=0.0)  # what the model would leave out
+    cases = _Cases(column, f, a, float(duration), number, seen, seed)
     key = {
         "column": column.digest,
         "frequencies": f.tolist(),

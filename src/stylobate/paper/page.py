@@ -109,7 +109,8 @@ DOUBT_TEXT = (
 )
 
 SPACE_TEXT = (
-    "A round column that is shaken in a plane does not stay in it: it runs round its rim instead of striking its other edge. "
+    "A round column that is shaken in a plane does not stay in it: it runs round its rim instead of striking its other "
+    "edge. "
     "Distinct elements with round drums were computed three times for the same columns and motions: in the plane, in space "
     "but held in the plane, and free in space. Stones, friction and stiffness vary within 1 %, and up to 1 % of the shaking "
     "goes across.",
