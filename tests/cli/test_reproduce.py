@@ -317,7 +317,8 @@ def test_runs_are_counted_and_certainty_is_what_its_domains_say(made):
     folder, summary, _ = made
     found = run_study(folder, True, 1, grids=GRIDS)
     single, population = 6 * (4 + 2) + 2 * 3 + 4 * len(GRIDS.variants), 3 * 6
-    assert summary["runs"] == found.runs == 2 * (single + 2 * 6 + population) + 2 * 50 + 4 * 4 + 4 * 4
+    space = 2 * (3 * 2 + 4)  # two cells: three populations of two columns, four plane domains
+    assert summary["runs"] == found.runs == 2 * (single + 2 * 6 + population + space) + 2 * 50 + 4 * 4 + 4 * 4
     assert list(found.shaken) == ["beam, as the paper", "beam, true drums", "beam, β = 0.5 ms", "DEM, two points"]
     for name, doubt in found.doubts.items():
         assert doubt.steps.halved.provenance["parameters"]["step_factor"] == 0.5 * st.DistinctElement2D().step_factor

@@ -40,7 +40,7 @@ def space_statements(results: PaperResults) -> list[Statement]:
     ]
     said = "; ".join(
         f"{'monolith' if name == MONOLITH else 'drums'}: "
-        + ", ".join(f"{label}, {section} {percent(far[name, label, section])}" for label, section in RIVALS)
+        + ", ".join(f"{label}, {section} {_share(far[name, label, section])}" for label, section in RIVALS)
         for name in (MONOLITH, DRUMS)
     )
     return [
@@ -53,6 +53,10 @@ def space_statements(results: PaperResults) -> list[Statement]:
             "verdict that is right in every cell and for every column, 50 % a coin toss.",
         )
     ]  # fmt: skip
+
+
+def _share(value: float) -> str:
+    return percent(value) if np.isfinite(value) else "no cell with verdicts"
 
 
 def space_rows(results: PaperResults) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
