@@ -14,9 +14,6 @@ from .motion import Motion, peak_velocity
 from .pulse_match import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
 
-#: Keys of the metadata that a summary repeats.
-FACTS = ("format", "stage", "unit", "station", "station_name", "network", "event", "start_time", "terms", "file")
-
 
 def peak_ground_velocity(motion: Motion, component: str = "x") -> float:
     """Largest absolute velocity from rest, also between samples [m/s]."""
