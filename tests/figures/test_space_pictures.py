@@ -23,7 +23,7 @@ from stylobate.plots.residuals import round_factor
 from stylobate.plots.solids import FLUTE, MARK, STONE, Solid, painted, painting_order, surface_of
 from stylobate.plots.uplift import rim_radius, rim_uplift
 from stylobate.plots.view import ALONG_X, ALONG_Y, OBLIQUE, View, parse_view
-from stylobate.response.poses import SpacePoses, exaggerated, rotation_matrices
+from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices
 from stylobate.response.shapes import CircularFrustum, RectangularFrustum
 from stylobate.simulate import simulate
 
@@ -258,6 +258,21 @@ def test_a_film_and_a_page(shaken, tmp_path):
     np.testing.assert_allclose(np.array(data["poses"])[..., :3], shaken.body_position[states], atol=1e-5)
     assert not re.search(r"(src|href)=|https?://|import ", page)
     assert call(["animate", str(path), "--view", "30,120"]) == 2
+
+
+def test_a_run_that_failed_is_drawn_as_far_as_it_goes(shaken):
+    position, orientation = shaken.body_position.copy(), shaken.body_orientation.copy()
+    matrices = rotation_matrices(orientation)
+    matrices[-5:, 3:] = position[-5:, 3:] = np.nan
+    failed = _posed(shaken, position, quaternions(matrices))
+    np.testing.assert_allclose(rotation_matrices(failed.body_orientation[:-5]), matrices[:-5], atol=1e-12)
+    assert np.isnan(failed.body_orientation[-5:, 3:]).all()
+    for draw in (plots.draw_orbit, plots.draw_uplift, plots.draw_residuals, plots.draw_filmstrip):
+        draw(failed).draw_without_rendering()
+    scene = film_of(failed, OBLIQUE)
+    draw_frame(
+        scene, len(failed.time) - 1, scene.view(np.arange(0, len(failed.time), 10), 1.6)
+    ).draw_without_rendering()
 
 
 def test_a_run_writes_the_pictures_in_space(shaken, tmp_path, monkeypatch):

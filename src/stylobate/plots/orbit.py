@@ -11,6 +11,7 @@ from matplotlib.patches import Ellipse, Patch, Rectangle
 
 from ..response import Response
 from ..response.shapes import CircularFrustum
+from .panels import until_collapse
 from .scene import describe
 from .style import BLACK, BLUE, BROWN, RED, SAND, page, styled
 
@@ -36,7 +37,7 @@ def draw_orbit(response: Response, title: str | None = None, *, figure: Figure |
     axes = figure.subplots()
     top, time = response.top_displacement, response.time
     fallen = not math.isnan(response.collapse_time)
-    kept = time <= response.collapse_time if fallen else np.isfinite(time)
+    kept = until_collapse(response)
     last = int(np.flatnonzero(kept)[-1])
     peak = float(np.hypot(*top[kept].T).max())
     unit, factor = ("m", 1.0) if peak >= 0.1 else ("mm", 1000.0)

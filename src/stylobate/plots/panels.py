@@ -18,9 +18,10 @@ MOST = 24
 
 
 def until_collapse(response: Response) -> np.ndarray:
-    """Which recorded states are before a collapse, all without one, shape (T,)."""
+    """Which recorded states are before a collapse, all without one, as long as all is finite, shape (T,)."""
     finite = np.isfinite(response.body_position).all(axis=(1, 2))
-    return finite if math.isnan(response.collapse_time) else finite & (response.time <= response.collapse_time)
+    last = math.inf if math.isnan(response.collapse_time) else response.collapse_time
+    return np.logical_and(finite, response.time <= last)
 
 
 def most(values: np.ndarray) -> list[int]:

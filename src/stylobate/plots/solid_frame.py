@@ -23,12 +23,13 @@ def draw_solids(axes: Axes, scene: Scene, index: int) -> None:
         start[2] = end[2] = scene.plate[0, 2]
         axes.annotate(
             "",
-            view.across(end),
+            tuple(view.across(end)),
             xytext=tuple(view.across(start)),
             arrowprops={"arrowstyle": "-|>", "color": BLACK, "linewidth": 0.9},
             zorder=2,
         )
-        axes.text(*(1.08 * view.across(end)), name, fontsize=8.5, ha="center", va="center", zorder=2)
+        right, up = 1.08 * view.across(end)
+        axes.text(float(right), float(up), name, fontsize=8.5, ha="center", va="center", zorder=2)
     axes.add_collection(PolyCollection([], zorder=3), autolim=False)
     axes.set_aspect("equal")
     axes.set_axis_off()
@@ -41,6 +42,6 @@ def paint(axes: Axes, scene: Scene, index: int) -> None:
     polygons, colours, outlines = painted(scene.solids(index), scene.seen_from)
     faces = next(one for one in axes.collections if isinstance(one, PolyCollection))
     faces.set_verts(polygons)
-    faces.set_facecolor(colours)
+    faces.set_facecolor([tuple(colour) for colour in colours])
     faces.set_edgecolor([BROWN if outline else tuple(colour) for outline, colour in zip(outlines, colours)])
     faces.set_linewidth([1.4 if outline else 0.3 for outline in outlines])

@@ -188,6 +188,7 @@ def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarr
     polygons: list[np.ndarray] = []
     colours: list[np.ndarray] = []
     outlines: list[bool] = []
+    solids = [solid for solid in solids if np.isfinite(solid.vertices).all()]
     hulls = [hull(view.across(solid.vertices)) for solid in solids]
     for number in _ordered(solids, hulls, view):
         solid = solids[number]

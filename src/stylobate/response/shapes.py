@@ -144,7 +144,9 @@ Shape = CircularFrustum | RectangularFrustum | Prism | ConvexSolid
 
 
 def hull(points: np.ndarray) -> np.ndarray:
-    """Corners of the convex hull of points in a plane, counter-clockwise [m], shape (k, 2)."""
+    """Corners of the convex hull of points in a plane, counter-clockwise [m], shape (k, 2); NaN where one is not finite."""
+    if not np.isfinite(points).all():
+        return np.full((3, 2), np.nan)
     from scipy.spatial import ConvexHull
 
     return points[ConvexHull(points).vertices]
