@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...column import Column
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
@@ -19,6 +20,8 @@ from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_step
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
 from .pose import placed
+from .toes import toe_energies
+from .touching import slips_where_closest
 from .verdict import stands_for_good
 
 
@@ -29,11 +32,14 @@ class SpaceBlock(DrumBlock):
     ----------
     planar : bool
         Hold the motion in the plane of x and z.
+    law : {"rim", "bed", "corners"}
+        Where a joint carries.
     """
 
-    def __init__(self, *arguments: Any, planar: bool) -> None:
+    def __init__(self, *arguments: Any, planar: bool, law: str = "rim") -> None:
         super().__init__(*arguments)
-        self.planar = planar
+        self.planar, self.law = planar, law
+        self.rest = np.zeros(self.lanes)
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
@@ -63,7 +69,9 @@ class SpaceBlock(DrumBlock):
         self.lane["dt"][0, lane] = self.dt[lane] = dt
         watch["sx"][lane], watch["sy"][lane] = self.top_place(lane)
         self.mark_start(lane)
+        self.rest[lane] = 0.0
         if self.options.start is not None:
+            self.rest[lane] = -self.energies(lane)[2:4].sum()
             drums, joints, force = placed(column, self.options.start, self.drum, lane)
             for array, fields in ((self.drum, drums), (self.joint, joints)):
                 for name, values in fields.items():
@@ -73,6 +81,8 @@ class SpaceBlock(DrumBlock):
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
         self.start[lane] = self.energies(lane)
+        if self.options.start is not None:  # what the pose and the velocity hold above the column upright
+            self.rest[lane] += self.start[lane, 1:4].sum()
 
     def place(self, lane: int, case: Case) -> float:
         """Put a column at rest into a lane; its step [s]."""
@@ -135,11 +145,11 @@ class SpaceBlock(DrumBlock):
         return self.feed["r"][0, :, lane].reshape(3, 3) @ a
 
     def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Opening of every joint [m], where the drum above it is along it [m], and its twist [rad]: (n,), (n, 2), (n,)."""
+        """Opening of every joint [m], its slip where it is closest [m], and its twist [rad]: (n,), (n, 2), (n,)."""
         n = len(self.drum) - 1
         opening, slip, twist = np.empty(n), np.empty((n, 2)), np.empty(n)
         self.kernel.joint_state(self.drum, lane, opening, slip, twist)
-        return opening, slip, twist
+        return opening, slips_where_closest(self.drum, lane, slip, twist), twist
 
     def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Slip [m] and twist [rad] of every joint since the start, shapes (n, 2) and (n,)."""
@@ -217,11 +227,11 @@ class SpaceBlock(DrumBlock):
         failed = watch["status"][lane] == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
         widths = column.joint_widths
         outcome = classify(collapsed, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max()))
-        mechanical = float(change[1] + change[2] + change[3])
+        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane])
         return Measures(
             outcome=outcome,
             decided=outcome is Outcome.COLLAPSED
-            or (not failed and stands_for_good(column, self.drum, lane, slip, mechanical)),
+            or (not failed and stands_for_good(column, self.drum, lane, slip, mechanical, self.toes(column))),
             collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
             peak_top_displacement=float(watch["top"][lane]),
             residual_top_displacement=float(np.hypot(*(self.top_place(lane) - (watch["sx"][lane], watch["sy"][lane])))),
@@ -242,6 +252,10 @@ class SpaceBlock(DrumBlock):
                 residual_twist_per_joint=tuple(float(one) for one in twist),
             ),
         )
+
+    def toes(self, column: Column) -> np.ndarray:
+        """See :func:`toe_energies`."""
+        return toe_energies(column, self.pack(column).fields[1]["kn"][:-1], self.law)
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane, with its direction in plan."""

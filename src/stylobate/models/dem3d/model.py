@@ -193,7 +193,8 @@ class DistinctElement3D(SteppedDrums):
                 drums, self, kernel, types, self.pack, 1, options, self.cost(drums // 32), planar=self.planar
             )
         cost = self.cost(drums)
-        return SpaceBlock(kernel, types, self.pack, drums, options, cost, planar=self.planar)
+        law = self.law if section == "circular" else "corners"
+        return SpaceBlock(kernel, types, self.pack, drums, options, cost, planar=self.planar, law=law)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""

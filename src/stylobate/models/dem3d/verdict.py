@@ -8,9 +8,12 @@ import numpy as np
 
 from ...column import Column
 from .packing import CORNERS
+from .toes import given_by_toes
 
 
-def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarray, energy: float) -> bool:
+def stands_for_good(
+    column: Column, drum: np.ndarray, lane: int, slip: np.ndarray, energy: float, toes: np.ndarray
+) -> bool:
     """Whether a column that no input shakes any more can neither overturn nor slide apart. Eq. (V1), in space.
 
     Parameters
@@ -23,14 +26,18 @@ def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarra
         Offset of each drum along the joint under it [m], shape (n, 2).
     energy : float
         Kinetic, gravitational and elastic energy above that of the column at rest [J].
+    toes : array
+        What each joint gives with its load on its edge, see :func:`~.toes.toe_energies` [J], shape (n,).
     """
     if column.section == "circular":
-        return _centroids_inside(column, drum, lane) and energy < flat_barrier(column, slip)
+        return _centroids_inside(column, drum, lane) and energy < flat_barrier(column, slip, toes=toes)
     turns = np.arctan2(drum["iy"][:, lane], drum["ix"][:, lane])
-    return _centroids_above_corners(column, drum, lane) and energy < flat_barrier(column, slip, turns)
+    return _centroids_above_corners(column, drum, lane) and energy < flat_barrier(column, slip, turns, toes)
 
 
-def flat_barrier(column: Column, slip: np.ndarray, turns: np.ndarray | None = None) -> float:
+def flat_barrier(
+    column: Column, slip: np.ndarray, turns: np.ndarray | None = None, toes: np.ndarray | None = None
+) -> float:
     """Lowest energy that overturns, or slides and lifts, some part of the column with its drums put down flat [J].
 
     A part overturns about the nearest edge of the overlap of its two faces, at a distance b from under its centroid:
@@ -44,6 +51,8 @@ def flat_barrier(column: Column, slip: np.ndarray, turns: np.ndarray | None = No
         Offset of each drum along the joint under it [m], shape (n, 2).
     turns : array, optional
         Azimuth of each body's first axis, the base's first [rad], shape (n + 1,); for rectangular sections.
+    toes : array, optional
+        See :func:`stands_for_good`; rigid joints without.
     """
     cornered = column.section != "circular"
     if cornered and turns is None:
@@ -77,7 +86,10 @@ def flat_barrier(column: Column, slip: np.ndarray, turns: np.ndarray | None = No
         loose = friction[max(j, 1) :].min(initial=math.inf)
         slides = loose < half / radius
         rise = loose * half - height * (1.0 - math.sqrt(1.0 - loose * loose)) if slides else radius - height
-        lowest = min(lowest, column.gravity * float(mass.sum()) * rise)
+        barrier = column.gravity * float(mass.sum()) * rise
+        if toes is not None:
+            barrier -= given_by_toes(column, toes, j, half, height)
+        lowest = min(lowest, barrier)
     return lowest
 
 
