@@ -193,6 +193,25 @@ def test_compare_models_under_one_motion_and_over_a_domain(command, tmp_path):
     assert pair["differing"] == pair["only_first_collapses"] + pair["only_second_collapses"]
 
 
+def test_a_model_is_compared_with_itself_under_other_options(command, tmp_path):
+    """The same law in the plane, held in its plane, and in space, each under the name that was typed."""
+    models = ["dem2d", "dem3d:planar=true", "dem3d"]
+    (tmp_path / "round.toml").write_text(
+        'name = "round"\nsection = "circular"\ndensity = 1600.0\n[tapered]\nheight = 5.0\nbottom_width = 0.96\n'
+        "top_width = 0.66\ndrums = 1\n[joint]\nnormal_stiffness = 5.0e10\nshear_stiffness = 2.5e10\nfriction_angle = 35.0\n"
+    )
+    shaking = ["--harmonic", "1Hz,0.25g,2s", "--across", "1Hz,0.1g,90deg"]
+    result = command("compare", tmp_path / "round.toml", "--models", ",".join(models), *shaking, "--json", "--out",
+                     tmp_path / "out")  # fmt: skip
+    assert result["models"] == models
+    plane, twin, free = result["runs"]
+    assert "peak_top_y_m" not in plane
+    assert twin["peak_top_y_m"] == 0.0 < free["peak_top_y_m"]
+    table = (tmp_path / "out" / "comparison.csv").read_text().splitlines()
+    assert [line.split(",")[0] for line in table[1:]] == models
+    assert (tmp_path / "out" / "response-dem3d-planar-true.nc").exists()
+
+
 def test_motion_tells_what_a_file_holds(command, tmp_path):
     path = tmp_path / "record.txt"
     path.write_text("\n".join(f"{0.4 * math.sin(2 * math.pi * i * 0.01):.9f}" for i in range(501)))

@@ -26,24 +26,29 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Responses of several models to one motion, in the order asked for."""
+    """Responses of several models to one motion, in the order asked for, and what each is called."""
 
     responses: list[Response]
+    labels: list[str]
 
     @property
     def table(self) -> pandas.DataFrame:
         """One row per model, columns named as the JSON keys of ``stylobate run``."""
         import pandas
 
-        rows = [{"model": r.model, **r.measures.row(), "wall_s": r.wall_time} for r in self.responses]
+        rows = [
+            {"model": label, **one.measures.row(), "wall_s": one.wall_time}
+            for label, one in zip(self.labels, self.responses, strict=True)
+        ]
         return pandas.DataFrame(rows)
 
 
 @dataclass(frozen=True, eq=False)
 class DomainComparison:
-    """Domains of several models over the same cells, in the order asked for."""
+    """Domains of several models over the same cells, in the order asked for, and what each is called."""
 
     domains: list[Domain]
+    labels: list[str]
 
     def differing(self, first: int, second: int) -> np.ndarray:
         """Cells in which both models have a verdict and the verdicts differ, shape (F, A)."""
@@ -65,8 +70,8 @@ class DomainComparison:
             differs = self.differing(i, j)
             rows.append(
                 {
-                    "first": self.domains[i].model,
-                    "second": self.domains[j].model,
+                    "first": self.labels[i],
+                    "second": self.labels[j],
                     "comparable": int(self.comparable(i, j).sum()),
                     "differing": int(differs.sum()),
                     "only_first_collapses": int((differs & (self.domains[i].verdicts == v.COLLAPSED)).sum()),
@@ -81,6 +86,7 @@ def compare_models(
     motion: Motion,
     models: Sequence[Model],
     *,
+    labels: Sequence[str] | None = None,
     tail: float = 0.0,
     output_interval: float = 0.01,
     progress: Callable[[int, int], None] | None = None,
@@ -92,6 +98,8 @@ def compare_models(
     column, motion
         As in :func:`stylobate.simulate`.
     models : sequence of Model
+    labels : sequence of str, optional
+        What they are called; their names by default.
     tail, output_interval
         As in :func:`stylobate.simulate`.
     progress : callable, optional
@@ -103,7 +111,7 @@ def compare_models(
         responses.append(simulate(column, motion, model, tail=tail, output_interval=output_interval))
         if progress:
             progress(len(responses), len(models))
-    return Comparison(responses)
+    return Comparison(responses, _labels(models, labels))
 
 
 def compare_domains(
@@ -113,6 +121,7 @@ def compare_domains(
     amplitudes: Sequence[float] | np.ndarray,
     duration: float = 10.0,
     *,
+    labels: Sequence[str] | None = None,
     tail: float = 0.0,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
@@ -120,8 +129,9 @@ def compare_domains(
 ) -> DomainComparison:
     """One domain through several models; parameters as in :func:`stylobate.collapse_domain`.
 
-    ``progress`` counts the runs of all models; ``ledgers``, one per model, keep finished runs and stay for the caller to
-    remove. An interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runner.Stopped`: half a comparison is none.
+    ``labels`` are what the models are called, their names by default. ``progress`` counts the runs of all models;
+    ``ledgers``, one per model, keep finished runs and stay for the caller to remove. An interrupt (Ctrl-C) is passed on, as
+    :class:`~stylobate.campaign.runner.Stopped`: half a comparison is none.
     """
     _at_least_one(models)
     cells = len(frequencies) * len(amplitudes)
@@ -149,9 +159,16 @@ def compare_domains(
                 i * cells + len(domain.rows) - domain.counts[v.NOT_RUN], len(models) * cells, *(ledgers or ())
             )
         domains.append(domain)
-    return DomainComparison(domains)
+    return DomainComparison(domains, _labels(models, labels))
 
 
 def _at_least_one(models: Sequence[Model]) -> None:
     if not models:
         raise InputError("no model is given to compare; name at least one.")
+
+
+def _labels(models: Sequence[Model], labels: Sequence[str] | None) -> list[str]:
+    names = [model.name for model in models] if labels is None else list(labels)
+    if len(names) != len(models):
+        raise InputError(f"{len(names)} labels are given for {len(models)} models; give one for each.")
+    return names

@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
+import dataclasses
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..errors import InputError
 from . import options as o
 
+if TYPE_CHECKING:
+    from ..models.base import Model
+
 
 def compare(
     context: typer.Context,
     column: o.ColumnName,
-    models: Annotated[str, typer.Option("--models", metavar="A,B,C", help="Models to compare, such as housner,dem2d.")],
+    models: Annotated[
+        str,
+        typer.Option(
+            "--models",
+            metavar="A,B,C",
+            help="Models to compare, such as housner,dem2d; with options, such as dem3d:planar=true,dem3d.",
+        ),
+    ],
     harmonic: o.Harmonic = None,
     across: o.Across = None,
     pulse: o.Pulse = None,
@@ -60,7 +71,7 @@ def compare(
         raise InputError(f"--models is {models!r}, with a model given twice; give each once.")
     count, after = o.the_threads(threads), o.the_tail(tail)
     stone = load_column(column)
-    chosen = [o.the_model(name, _settings_of(name, names, settings)) for name in names]
+    chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
     result: dict[str, Any] = {"models": names}
     said: dict[str, str] = {}
@@ -70,14 +81,14 @@ def compare(
         if harmonic or pulse or synthetic or motion:
             raise InputError("both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
-        each = [one for name in names for one in (f"domain-{name}.nc", f"domain-{name}")]
+        each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with (
             console.folder(out, "comparison.csv", "comparison", *each) as folder,
             console.progress("cells") as progress,
         ):
-            ledgers = [console.ledger(folder, name) for name in names]
+            ledgers = [console.ledger(folder, _stem(name)) for name in names]
             domains = compare_domains(
-                stone, chosen, *grid, tail=after, threads=count, progress=progress, ledgers=ledgers
+                stone, chosen, *grid, labels=names, tail=after, threads=count, progress=progress, ledgers=ledgers
             )
             files = [] if folder is None else _write_domains(domains, folder)
             console.done_with(*ledgers)
@@ -85,12 +96,12 @@ def compare(
         result |= {"domains": [one.summary() for one in domains.domains], "differences": table.to_dict("records")}
     else:
         shaking = o.the_request(context).motion(stone.frequency_parameter)
-        each = [f"response-{name}.nc" for name in names]
+        each = [f"response-{_stem(name)}.nc" for name in names]
         with (
             console.folder(out, "comparison.csv", "comparison", *each) as folder,
             console.progress("models") as progress,
         ):
-            comparison = compare_models(stone, shaking, chosen, tail=after, progress=progress)
+            comparison = compare_models(stone, shaking, chosen, labels=names, tail=after, progress=progress)
             files = [] if folder is None else _write_histories(comparison, folder)
         runs = [
             response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}
@@ -110,6 +121,17 @@ def compare(
             print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
 
 
+def _chosen(label: str, labels: list[str], settings: list[str] | None) -> Model:
+    """The model that a label names, with its options: those behind colons, and those of --set."""
+    name, *own = label.split(":")
+    return o.the_model(name, [*own, *_settings_of(label, labels, settings)])
+
+
+def _stem(label: str) -> str:
+    """A label as a part of a file's name."""
+    return label.replace(":", "-").replace("=", "-")
+
+
 def _settings_of(name: str, names: list[str], settings: list[str] | None) -> list[str]:
     mine = []
     for text in settings or []:
@@ -126,8 +148,10 @@ def _write_histories(comparison: Any, folder: Path) -> list[Path]:
     from . import console
 
     files = [console.write_table(comparison.table, folder / "comparison.csv")]
-    files += [response.save(folder / f"response-{response.model}.nc") for response in comparison.responses]
-    return files + plots.save(plots.draw_comparison(comparison.responses), folder / "comparison")
+    for label, response in zip(comparison.labels, comparison.responses, strict=True):
+        files.append(response.save(folder / f"response-{_stem(label)}.nc"))
+    figure = plots.draw_comparison(comparison.responses, labels=comparison.labels)
+    return files + plots.save(figure, folder / "comparison")
 
 
 def _write_domains(comparison: Any, folder: Path) -> list[Path]:
@@ -135,7 +159,8 @@ def _write_domains(comparison: Any, folder: Path) -> list[Path]:
     from . import console
 
     files = [console.write_table(comparison.table, folder / "comparison.csv")]
-    for one in comparison.domains:
-        files.append(one.save(folder / f"domain-{one.model}.nc"))
-        files += plots.save(plots.draw_domain(one), folder / f"domain-{one.model}")
-    return files + plots.save(plots.draw_boundaries(comparison.domains), folder / "comparison")
+    for label, one in zip(comparison.labels, comparison.domains, strict=True):
+        files.append(one.save(folder / f"domain-{_stem(label)}.nc"))
+        files += plots.save(plots.draw_domain(one), folder / f"domain-{_stem(label)}")
+    named = [dataclasses.replace(one, model=label) for label, one in zip(comparison.labels, comparison.domains)]
+    return files + plots.save(plots.draw_boundaries(named), folder / "comparison")

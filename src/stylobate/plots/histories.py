@@ -109,6 +109,7 @@ def draw_comparison(
     responses: Sequence[Response],
     title: str | None = None,
     *,
+    labels: Sequence[str] | None = None,
     window: tuple[float, float] | None = None,
     figure: Figure | SubFigure | None = None,
 ) -> Figure:
@@ -118,6 +119,8 @@ def draw_comparison(
     ----------
     responses : sequence of Response
     title : str, optional
+    labels : sequence of str, optional
+        What the models are called; their names by default.
     window : (float, float), optional
         Beginning and end of what is drawn [s]; all by default.
     figure : Figure or SubFigure, optional
@@ -128,8 +131,9 @@ def draw_comparison(
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(3.2, 1.0))
     zero_line(upper)
     marks = []
-    for response, line in zip(responses, CYCLE * (1 + len(responses) // len(CYCLE))):
-        label = f"{response.model} ({response.outcome.label.replace('_', ' ')})"
+    names = [one.model for one in responses] if labels is None else labels
+    for response, name, line in zip(responses, names, CYCLE * (1 + len(responses) // len(CYCLE))):
+        label = f"{name} ({response.outcome.label.replace('_', ' ')})"
         upper.plot(response.time, way_of(response), label=label, **line)
         marks.append((response, line["color"]))
     upper.set_ylabel("top displacement\nrelative to the ground [m]")
