@@ -189,8 +189,9 @@ class DistinctElement3D(SteppedDrums):
         """A block of lanes for columns of so many drums with a section."""
         kernel, types = self.kernel(section), self.record_types(section)
         if section == SPECIMEN:
+            damping, cost = (self.stiffness_damping, self.mass_damping), self.cost(drums // 32)
             return SpecimenBlock(
-                drums, self, kernel, types, self.pack, 1, options, self.cost(drums // 32), planar=self.planar
+                drums, damping, self.step_for, kernel, types, self.pack, 1, options, cost, planar=self.planar
             )
         cost = self.cost(drums)
         law = self.law if section == "circular" else "corners"
@@ -209,7 +210,8 @@ class DistinctElement3D(SteppedDrums):
 def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     drums = drum_fields(column, column.joint_weights / (kn * column.joint_areas))
-    return PackedColumn((drums, joint_fields(column, kn, ks), lane_fields(column, model)), model.step_for(column))
+    lanes = lane_fields(column, model.damping(column), model.mass_damping, model.pivot_friction, model.planar)
+    return PackedColumn((drums, joint_fields(column, kn, ks), lanes), model.step_for(column))
 
 
 @lru_cache(maxsize=4096)

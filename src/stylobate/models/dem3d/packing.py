@@ -91,13 +91,15 @@ def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np
     }
 
 
-def lane_fields(column: Column, model: Any) -> dict[str, Any]:
-    """Fields of a lane at the start of a run."""
+def lane_fields(
+    column: Column, stiffness_damping: float, mass_damping: float, pivot_friction: float, planar: bool
+) -> dict[str, Any]:
+    """Fields of a lane at the start of a run; parameters as of the model."""
     sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
     return sums | {
         "g": np.array([0.0, 0.0, column.gravity]),
-        "beta": model.damping(column),
-        "alpha": model.mass_damping,
-        "pivot": model.pivot_friction,
-        "free": 0.0 if model.planar else 1.0,
+        "beta": stiffness_damping,
+        "alpha": mass_damping,
+        "pivot": pivot_friction,
+        "free": 0.0 if planar else 1.0,
     }

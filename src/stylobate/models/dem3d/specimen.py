@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import Any
 
@@ -86,22 +87,32 @@ class SpecimenBlock(SpaceBlock):
     ----------
     rows : int
         Rows of vertices.
-    model : DistinctElement3D
+    damping : tuple of float
+        β and α of the model [s], [1/s].
+    step_for : callable
+        Time step for a specimen [s].
     """
 
-    def __init__(self, rows: int, model: Any, *arguments: Any, planar: bool) -> None:
+    def __init__(
+        self,
+        rows: int,
+        damping: tuple[float, float],
+        step_for: Callable[[Any], float],
+        *arguments: Any,
+        planar: bool,
+    ) -> None:
         super().__init__(*arguments, planar=planar)
         from ..shared.lanes import aligned_zeros
 
         self.joint = aligned_zeros(self.kernel.FIRST + rows, self.joint.dtype)
-        self.parameters = model
+        self.damping, self.step_for = damping, step_for
 
     def place(self, lane: int, case: Case) -> float:
         """Put a specimen at rest into a lane; its step [s]."""
         specimen: Any = case.column
         if self.options.start is not None:
             raise InputError(f"the specimen {specimen.name!r} starts at rest; leave start out, or shake a column.")
-        first, rest, model = self.kernel.FIRST, specimen.resting, self.parameters
+        first, rest = self.kernel.FIRST, specimen.resting
         moments, axes = principal(specimen)
         vertices, up = specimen.vertices @ axes, rest.rotation.T[:, 2] @ axes
         kn, ks = vertex_stiffness(specimen)
@@ -130,10 +141,10 @@ class SpecimenBlock(SpaceBlock):
             drum[name][1, lane] = value
         self._turn(lane, turn)
         self.lane["g"][0, 2, lane] = specimen.gravity
-        self.lane["beta"][0, lane], self.lane["alpha"][0, lane] = model.stiffness_damping, model.mass_damping
+        self.lane["beta"][0, lane], self.lane["alpha"][0, lane] = self.damping
         self.lane["free"][0, lane] = 1.0
         self._settle(lane, turn, specimen)
-        return model.step_for(specimen)
+        return self.step_for(specimen)
 
     def _turn(self, lane: int, turn: np.ndarray) -> None:
         for a, axis in enumerate("ijk"):

@@ -16,8 +16,8 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..rocking.block import RockingBlock
-from ..rocking.model import warn, warn_of_free_flight, warn_sliding
 from ..shared.lanes import MOST_SAMPLES, run_alike
+from ..shared.rocking_limits import warn, warn_of_free_flight, warn_sliding
 from .equations import BeamMatrices
 
 if TYPE_CHECKING:

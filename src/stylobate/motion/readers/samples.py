@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import gzip
 import tomllib
 from dataclasses import dataclass
@@ -12,7 +11,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from ...errors import InputError
+from ...errors import InputError, suggest
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -88,9 +87,8 @@ def sample_at(path: str | Path) -> Sample | None:
         return None
     name = text.removeprefix(PREFIX)
     if name not in samples():
-        close = difflib.get_close_matches(name, samples(), 1)
-        hint = f"did you mean {PREFIX}{close[0]}? " if close else ""
-        raise InputError(f"there is no sample motion {name!r}; {hint}they are {', '.join(samples())}.")
+        meant = suggest(text, (PREFIX + one for one in samples()))
+        raise InputError(f"there is no sample motion {name!r}; {meant}they are {', '.join(samples())}.")
     return samples()[name]
 
 

@@ -1,0 +1,37 @@
+"""Warnings of models that only rock: of columns that would slide, and of motions that would lift them off the ground."""
+
+from __future__ import annotations
+
+import math
+import warnings
+
+from ...column import Column
+from ...errors import OutOfRangeWarning
+from ...motion import Motion
+
+
+def warn(text: str) -> None:
+    """Warn that a model is used outside a limit it declares."""
+    warnings.warn(text, OutOfRangeWarning, stacklevel=4)
+
+
+def warn_sliding(column: Column, alpha: float, name: str, remedy: str) -> None:
+    """Warn of joints on which a column of slenderness α [rad] slides before it rocks, in a model without sliding."""
+    joint = min(range(column.n), key=lambda i: column.joints[i].tan_phi)
+    friction = column.joints[joint].tan_phi
+    if math.tan(alpha) > friction:
+        where = "" if column.n == 1 else f" of joint {joint + 1}"
+        warn(
+            f"tan α = {math.tan(alpha):.3f} is above the friction coefficient {friction:.3f}{where}: the column slides "
+            f"before it rocks, and {name} as it is set has no sliding; {remedy}."
+        )
+
+
+def warn_of_free_flight(column: Column, motion: Motion) -> None:
+    """Warn of a motion under which the column would leave the ground."""
+    vertical = motion.vertical
+    if vertical is not None and float(vertical.min()) <= -column.gravity:
+        warn(
+            f"the vertical acceleration of {motion.name!r} falls to {vertical.min() / column.gravity:.2f} g; below −1 g the "
+            "column would leave the ground, which this model does not follow: a run that gets there fails."
+        )
