@@ -7,6 +7,7 @@ import pytest
 from validation.space import round_column
 
 from stylobate.column import Column, Joint
+from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.dem3d.verdict import flat_barrier
@@ -80,3 +81,12 @@ def test_slip_of_a_joint_between_unequal_drums():
     _, slip, twist = block.joints(0)
     np.testing.assert_allclose(slip, [(0.0, 0.0), (0.03, -0.02)], atol=1e-12)
     assert twist[1] == pytest.approx(0.7, abs=1e-12)
+
+
+def test_a_start_out_of_the_plane_of_a_planar_run_is_refused():
+    still, model = Motion(0.02, np.zeros(2)), DistinctElement3D(planar=True)
+    for start in (Start(0.05, 1.0), Start(0.05, 0.0, (0.1, 0.0, 0.0)), Start(0.05, 0.0, (0.0, 0.0, 0.1))):
+        with pytest.raises(InputError, match="planar is on"):
+            simulate(round_column(), still, model, start=start)
+    response = simulate(round_column(), still, model, start=Start(0.05, math.pi, (0.0, 0.1, 0.0)))
+    assert response.energy_imbalance < 1e-3

@@ -19,7 +19,7 @@ from ..base import Case
 from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_steps
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
-from .pose import placed
+from .pose import check_in_plane, placed
 from .toes import toe_energies
 from .touching import slips_where_closest
 from .verdict import stands_for_good
@@ -71,6 +71,8 @@ class SpaceBlock(DrumBlock):
         self.mark_start(lane)
         self.rest[lane] = 0.0
         if self.options.start is not None:
+            if self.planar:
+                check_in_plane(self.options.start)
             self.rest[lane] = -self.energies(lane)[2:4].sum()
             drums, joints, force = placed(column, self.options.start, self.drum, lane)
             for array, fields in ((self.drum, drums), (self.joint, joints)):
