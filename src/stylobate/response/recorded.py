@@ -24,25 +24,7 @@ from .views import Views
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Recorded(Views):
-    """One run as data; everything relative to the moving base.
-
-    Parameters
-    ----------
-    structure : Column, Assembly or Specimen
-        What stood.
-    histories : Histories
-    measures : Measures
-    model : str
-        Name of the model, as on the command line.
-    provenance : dict
-        Versions, parameters and digests that reproduce the run; plain values.
-    wall_time : float
-        Time the run took [s].
-    mechanism : Mechanism, optional
-        What fell where, of a column that was followed to the ground.
-    followed : bool
-        Whether any two bodies, and all of them with the ground, may strike each other; of neighbours only otherwise.
-    """
+    """One run as data; everything relative to the moving base. The fields are those of :class:`stylobate.Response`."""
 
     structure: Column | Assembly | Specimen
     histories: Histories
