@@ -22,7 +22,7 @@ def test_replicates_give_counts_table_file_and_figure(capsys, tmp_path):
     assert set(result) >= KEYS
     assert (result["cells"], result["replicates"], result["runs"], result["seed"]) == (12, 5, 60, 7)
     assert result["imperfection"] == {
-        "geometry": 0.05, "friction": 0.0, "stiffness": 0.0, "amplitude": 0.0, "phase": 0.1,
+        "geometry": 0.05, "friction": 0.0, "stiffness": 0.0, "amplitude": 0.0, "phase": 0.1, "across": 0.0,
     }  # fmt: skip
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 60
     names = {path.name for path in tmp_path.glob("[!.]*")}

@@ -42,7 +42,7 @@ def domain(
         typer.Option(
             "--imperfection",
             metavar="SIZE|NAME=SIZE,…",
-            help="How different: 1%, or geometry=1%,friction=5%,stiffness=20%,amplitude=1%,phase=0.1.",
+            help="How different: 1%, or geometry=1%,friction=5%,stiffness=20%,amplitude=1%,phase=0.1,across=1%.",
         ),
     ] = None,
     seed: Annotated[
