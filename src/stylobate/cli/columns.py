@@ -12,6 +12,7 @@ from . import options as o
 
 if TYPE_CHECKING:
     from ..column import Column
+    from ..column.as_found import FoundDrum
 
 
 def columns(
@@ -85,19 +86,27 @@ def _facts(column: Column) -> dict[str, str]:
     }
 
 
+def _azimuth(one: FoundDrum, name: str) -> str:
+    angle = getattr(one, f"{name}_azimuth", 0.0)
+    return f" (azimuth {angle:g}°)" if angle else ""
+
+
 def _as_found(column: Column) -> dict[str, str]:
     """What is not as built, one line for the base and one for each drum."""
     facts = {}
     if column.as_found.base_tilt != 0.0:
-        facts["as found, base"] = f"slopes by {column.as_found.base_tilt:g}°, up to the right"
+        azimuth = column.as_found.base_azimuth
+        towards = f"towards azimuth {azimuth:g}°" if azimuth else "to the right"
+        facts["as found, base"] = f"slopes by {column.as_found.base_tilt:g}°, up {towards}"
     for one in column.as_found.drums:
         said = [
-            f"{word} {getattr(one, name):g} {unit}"
+            f"{word} {getattr(one, name):g} {unit}" + _azimuth(one, name)
             for name, word, unit in (
                 ("offset", "offset", "m"),
                 ("tilt", "tilted", "degrees"),
                 ("chip_left", "chipped on the left by", "m"),
                 ("chip_right", "chipped on the right by", "m"),
+                ("turn", "turned by", "degrees"),
             )
             if getattr(one, name) != 0.0
         ]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -22,6 +24,12 @@ class FoundDrum:
     tilt : float
         Lean of this drum, and of all that stands on it, out of the normal of the joint under it [degrees];
         counter-clockwise positive (the top goes to the left). The drum rests on its whole face: its bed is worn askew.
+    offset_azimuth, tilt_azimuth : float
+        The vertical plane of the offset and of the lean: its "right" lies at this azimuth, from x towards y [degrees].
+        180 turns left and right round; every other one than 0 and 180 takes a model in space.
+    turn : float
+        Of this drum, and of all that stands on it, about its axis on the joint under it, from x towards y [degrees];
+        takes a model in space.
     chip_left, chip_right : float
         Width that its lower face has lost at an edge [m]; the mass is taken as if nothing were lost.
 
@@ -36,6 +44,9 @@ class FoundDrum:
     tilt: float = 0.0
     chip_left: float = 0.0
     chip_right: float = 0.0
+    offset_azimuth: float = 0.0
+    tilt_azimuth: float = 0.0
+    turn: float = 0.0
 
     def __post_init__(self) -> None:
         if isinstance(self.drum, bool) or not isinstance(self.drum, (int, np.integer)) or self.drum < 1:
@@ -47,9 +58,28 @@ class FoundDrum:
             ("tilt", -30.0, 30.0, "degrees"),
             ("chip_left", 0.0, 10.0, "m"),
             ("chip_right", 0.0, 10.0, "m"),
+            ("offset_azimuth", -360.0, 360.0, "degrees"),
+            ("tilt_azimuth", -360.0, 360.0, "degrees"),
+            ("turn", -180.0, 180.0, "degrees"),
         ):
             value = check_range(f"{name} of drum {self.drum}", getattr(self, name), low, high, unit=unit)
             object.__setattr__(self, name, value)
+        _into_plane(self, "offset", "offset_azimuth")
+        _into_plane(self, "tilt", "tilt_azimuth")
+
+    @property
+    def in_plane(self) -> bool:
+        """Whether a plane model can take it."""
+        return self.offset_azimuth == self.tilt_azimuth == self.turn == 0.0
+
+
+def _into_plane(one: Any, value: str, azimuth: str) -> None:
+    """Give what lies in the plane of x and z the azimuth 0."""
+    angle, amount = getattr(one, azimuth), getattr(one, value)
+    if abs(angle) == 180.0:
+        object.__setattr__(one, value, -amount)
+    if amount == 0.0 or angle % 180.0 == 0.0:
+        object.__setattr__(one, azimuth, 0.0)
 
 
 @dataclass(frozen=True)
@@ -63,6 +93,8 @@ class AsFound:
     base_tilt : float
         Slope of the base, counter-clockwise positive (it rises to the right) [degrees]. Pushover and limit analysis count
         theirs downhill to the right, where their forces push.
+    base_azimuth : float
+        Where the base rises to, from x towards y [degrees]; every other azimuth than 0 and 180 takes a model in space.
 
     Raises
     ------
@@ -72,6 +104,7 @@ class AsFound:
 
     drums: tuple[FoundDrum, ...] = ()
     base_tilt: float = 0.0
+    base_azimuth: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "drums", tuple(sorted(self.drums, key=lambda one: one.drum)))
@@ -81,14 +114,34 @@ class AsFound:
             raise InputError(f"drum {twice} is given twice as found; give all of it at once.")
         tilt = check_range("base_tilt", self.base_tilt, -45.0, 45.0, unit="degrees")
         object.__setattr__(self, "base_tilt", tilt)
+        azimuth = check_range("base_azimuth", self.base_azimuth, -360.0, 360.0, unit="degrees")
+        object.__setattr__(self, "base_azimuth", azimuth)
+        _into_plane(self, "base_tilt", "base_azimuth")
 
     def __bool__(self) -> bool:
         return self.base_tilt != 0.0 or any(one != FoundDrum(one.drum) for one in self.drums)
+
+    @property
+    def in_plane(self) -> bool:
+        """Whether all of it lies in the plane of x and z, so that a plane model can take it."""
+        return self.base_azimuth == 0.0 and all(one.in_plane for one in self.drums)
+
+    def to_dict(self) -> dict[str, Any]:
+        """All of it as plain values; what takes a model in space only where there is some."""
+        drums = [
+            {key: value for key, value in dataclasses.asdict(one).items() if key not in _IN_SPACE or value != 0.0}
+            for one in self.drums
+        ]
+        plain: dict[str, Any] = {"drums": drums, "base_tilt": self.base_tilt}
+        return plain | ({"base_azimuth": self.base_azimuth} if self.base_azimuth else {})
 
     def of(self, drum: int) -> FoundDrum:
         """What is found at a drum, numbered from 1."""
         return next((one for one in self.drums if one.drum == drum), FoundDrum(drum))
 
+
+#: What of a drum a plane model cannot take.
+_IN_SPACE = ("offset_azimuth", "tilt_azimuth", "turn")
 
 #: A column exactly as it was built: no offset, tilt, chip or slope.
 AS_BUILT = AsFound()

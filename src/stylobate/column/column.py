@@ -20,6 +20,7 @@ from ..errors import InputError, OutOfRangeWarning, check_range
 from .as_found import AS_BUILT, AsFound
 from .drum import Drum, section_area, section_second_moment
 from .found_geometry import check_as_found, uplift_accelerations
+from .found_in_space import smallest_uplift
 from .joint import Joint
 
 MAX_DRUMS = 200
@@ -198,7 +199,7 @@ class Column:
         if self.as_found:
             raise InputError(
                 f"{what} takes columns as built, and {self.name!r} has offsets, tilts or chips as found; "
-                "use the model dem2d, or leave [as_found] out."
+                "use the model dem2d or dem3d, or leave [as_found] out."
             )
 
     # -- the stack -----------------------------------------------------------------------------------------------
@@ -319,9 +320,11 @@ class Column:
         """Static horizontal acceleration that opens each joint of the rigid stack above it [m/s²], shape (n,).
 
         A uniform acceleration a overturns the part above joint i about the edge of its contact section when
-        a (z_C − z_i) > g d_i / 2. As found, the smaller one of both directions.
+        a (z_C − z_i) > g d_i / 2. As found, the smaller one of both directions; out of the plane, the smallest of all.
         """
         if self.as_found:
+            if not self.as_found.in_plane:
+                return smallest_uplift(self)
             return np.abs(uplift_accelerations(self)).min(axis=1)
         out = np.empty(self.n)
         for i in range(self.n):
@@ -340,9 +343,9 @@ class Column:
     def to_dict(self) -> dict:
         """Everything that defines the column, as plain values in SI units."""
         plain = dataclasses.asdict(self)
-        as_found = plain.pop("as_found")
+        plain.pop("as_found")
         plain |= {"drums": list(plain["drums"]), "joints": list(plain["joints"])}
-        return plain | ({"as_found": as_found | {"drums": list(as_found["drums"])}} if self.as_found else {})
+        return plain | ({"as_found": self.as_found.to_dict()} if self.as_found else {})
 
     @cached_property
     def digest(self) -> str:

@@ -75,7 +75,9 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     drums = tuple(Drum(**fields) for fields in data["drums"])
     joints = tuple(joint_from_dict(fields) for fields in data["joints"])
     found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
-    as_found = AsFound(tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"])
+    as_found = AsFound(
+        tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
+    )
     return Column(drums, joints, data["name"], data["gravity"], as_found)
 
 
@@ -98,6 +100,8 @@ def _joint_fields(joint: Joint) -> dict[str, float]:
 
 def _as_found_fields(found: AsFound) -> dict[str, Any]:
     table: dict[str, Any] = {"base_tilt": found.base_tilt}
+    if found.base_azimuth:
+        table["base_azimuth"] = found.base_azimuth
     if found.drums:
         table["drum"] = [
             {"index": one.drum}

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..errors import InputError
+from .found_in_space import inside_overlap, space_geometry, space_load
 
 if TYPE_CHECKING:
     from .column import Column
@@ -136,25 +137,48 @@ def check_as_found(column: Column) -> None:
     for one in column.as_found.drums:
         if one.drum > column.n:
             raise InputError(f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.")
+    if not column.as_found.in_plane:
+        _check_in_space(column)
+        return
     at = geometry(column)
     parted = np.flatnonzero(at.high - at.low <= 0.0)
     if parted.size:
         raise InputError(f"joint {parted[0] + 1} of {name} has no contact left; make its offsets or chips smaller.")
     for j in range(column.n):
-        load, law = joint_load(column, at, j), column.joints[j]
-        friction = law.tan_phi * load.normal + law.cohesion * column.joint_areas[j]
-        if load.normal <= 0.0 or abs(load.shear) > friction:
-            raise InputError(
-                f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "
-                f"{abs(load.shear) - max(friction, 0.0):.4g} N of friction are missing; "
-                "make tilts or base_tilt smaller, or the friction larger."
-            )
+        load = joint_load(column, at, j)
         beyond = max(load.place - at.high[j], at.low[j] - load.place)
-        if beyond > 0.0:
+        _check_joint(column, j, load.normal, abs(load.shear), beyond)
+
+
+def _check_in_space(column: Column) -> None:
+    at = space_geometry(column)
+    for one in column.as_found.drums:
+        if one.chip_left or one.chip_right:
             raise InputError(
-                f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
-                f"the contact, {load.normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller."
+                f"drum {one.drum} of {column.name!r} is chipped, and the column is found out of the plane of x and z; "
+                "chips are known in the plane only: leave them or the azimuths and turns out."
             )
+    for j in range(column.n):
+        load = space_load(column, at, j)
+        inside = inside_overlap(column, at, j, load.place)
+        _check_joint(column, j, load.normal, float(np.hypot(*load.shear)), -inside)
+
+
+def _check_joint(column: Column, j: int, normal: float, shear: float, beyond: float) -> None:
+    """Refuse a joint that slides under its load [N], or that its load passes beyond its contact [m]."""
+    name, law = repr(column.name), column.joints[j]
+    friction = law.tan_phi * normal + law.cohesion * column.joint_areas[j]
+    if normal <= 0.0 or shear > friction:
+        raise InputError(
+            f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "
+            f"{shear - max(friction, 0.0):.4g} N of friction are missing; "
+            "make tilts or base_tilt smaller, or the friction larger."
+        )
+    if beyond > 0.0:
+        raise InputError(
+            f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
+            f"the contact, {normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller."
+        )
 
 
 def drum_outline(column: Column, i: int) -> np.ndarray:

@@ -57,19 +57,23 @@ class TaperedTable(Table):
 
 
 class FoundDrumTable(Table):
-    """``[[as_found.drum]]``: offset and chips in m, tilt in degrees, of the drum with that index (1 at the base)."""
+    """``[[as_found.drum]]``: offset and chips in m, angles in degrees, of the drum with that index (1 at the base)."""
 
     index: int
     offset: float = 0.0
     tilt: float = 0.0
     chip_left: float = 0.0
     chip_right: float = 0.0
+    offset_azimuth: float = 0.0
+    tilt_azimuth: float = 0.0
+    turn: float = 0.0
 
 
 class AsFoundTable(Table):
     """``[as_found]``: slope of the base in degrees, and what is not as built at single drums."""
 
     base_tilt: float = 0.0
+    base_azimuth: float = 0.0
     drum: list[FoundDrumTable] | None = None
 
 
@@ -151,7 +155,7 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     if table.as_found is None:
         return column
     some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())
-    return column.replace(as_found=AsFound(some, table.as_found.base_tilt))
+    return column.replace(as_found=AsFound(some, table.as_found.base_tilt, table.as_found.base_azimuth))
 
 
 def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:

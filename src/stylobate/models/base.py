@@ -87,6 +87,11 @@ class Model:
                 )
         elif not self.takes_as_found:
             column.must_be_as_built(self.name)
+        elif "y" not in self.axes and not column.as_found.in_plane:
+            raise InputError(
+                f"{self.name} computes the plane of x and z, and {column.name!r} is found out of it "
+                "(an azimuth other than 0 and 180, or a turn); use dem3d, or leave these out."
+            )
         for axis, values in motion.components.items():
             peak = float(np.abs(values).max())
             if not peak <= LARGEST_ACCELERATION:

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
+from ...column.found_in_space import base_axes
+from ...errors import InputError
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
@@ -55,7 +57,8 @@ class SpaceBlock(DrumBlock):
         feed["end"][lane] = steps
         feed["ratio"][lane] = dt / motion.dt
         feed["factor"][lane] = motion.factor
-        feed["r"][:, lane] = np.eye(3).ravel()
+        base = self.base(case)
+        feed["r"][:, lane] = base.T.ravel()
         for name in watch.dtype.names:
             watch[name][lane] = 0
         watch["status"][lane] = self.kernel.RUNNING
@@ -63,14 +66,20 @@ class SpaceBlock(DrumBlock):
         watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
         sides = np.zeros(2) if motion.y_samples is None else motion.y_samples
         flat = motion.samples**2 + sides**2 if len(sides) == motion.steps else motion.samples**2
-        watch["amax"][lane] = math.sqrt(float(flat.max())) * abs(motion.factor)
-        high = 0.0 if motion.z_samples is None else float(np.abs(motion.z_samples).max())
-        watch["vmax"][lane] = high * abs(motion.factor)
+        along = math.sqrt(float(flat.max())) * abs(motion.factor)
+        high = 0.0 if motion.z_samples is None else float(np.abs(motion.z_samples).max()) * abs(motion.factor)
+        level, slope = float(base[2, 2]), math.hypot(*base[2, :2])
+        watch["amax"][lane] = along + slope * high
+        watch["vmax"][lane] = level * high + slope * along
         self.lane["dt"][0, lane] = self.dt[lane] = dt
         watch["sx"][lane], watch["sy"][lane] = self.top_place(lane)
         self.mark_start(lane)
         self.rest[lane] = 0.0
         if self.options.start is not None:
+            if column.as_found:
+                raise InputError(
+                    f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
+                )
             if self.planar:
                 check_in_plane(self.options.start)
             self.rest[lane] = -self.energies(lane)[2:4].sum()
@@ -85,6 +94,10 @@ class SpaceBlock(DrumBlock):
         self.start[lane] = self.energies(lane)
         if self.options.start is not None:  # what the pose and the velocity hold above the column upright
             self.rest[lane] += self.start[lane, 1:4].sum()
+
+    def base(self, case: Case) -> np.ndarray:
+        """Axes of the base as columns, in those of the motion [-], shape (3, 3)."""
+        return base_axes(case.column)
 
     def place(self, lane: int, case: Case) -> float:
         """Put a column at rest into a lane; its step [s]."""

@@ -20,6 +20,7 @@ from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from .block import SpaceBlock, histories
+from .found_start import found_start
 from .packing import CORNERS, drum_fields, joint_fields, lane_fields
 from .restitution import damping_for
 from .specimen import SpecimenBlock, rows_for, top_frequency
@@ -93,6 +94,7 @@ class DistinctElement3D(SteppedDrums):
     axes: ClassVar[str] = "xyz"
     takes_start: ClassVar[bool] = True
     takes_specimens: ClassVar[bool] = True
+    takes_as_found: ClassVar[bool] = True
 
     law: str = "rim"
     pivot_friction: float = 1.0
@@ -139,9 +141,19 @@ class DistinctElement3D(SteppedDrums):
         return replace(response, provenance=response.provenance | chosen)
 
     def check(self, column: Column | Specimen, motion: Motion) -> None:
-        """Refuse joints too soft, and a step that is unstable or passes over the motion."""
+        """Refuse joints too soft, what is found that space does not know, and a step unstable or too long for the motion."""
         if not isinstance(column, Specimen):
             super().check(column, motion)
+            chipped = next((one.drum for one in column.as_found.drums if one.chip_left or one.chip_right), None)
+            if chipped is not None:
+                raise InputError(
+                    f"dem3d knows no chips, and drum {chipped} of {column.name!r} has one; use dem2d, or leave it out."
+                )
+            if self.planar and not column.as_found.in_plane:
+                raise InputError(
+                    f"planar = True holds the motion in the plane of x and z, and {column.name!r} is found out of it; "
+                    "leave one of the two out."
+                )
             return
         if self.planar:
             raise InputError(f"planar is on, and a specimen such as {column.name!r} moves in space; leave it off.")
@@ -209,9 +221,14 @@ class DistinctElement3D(SteppedDrums):
 @lru_cache(maxsize=4096)
 def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
-    drums = drum_fields(column, column.joint_weights / (kn * column.joint_areas))
-    lanes = lane_fields(column, model.damping(column), model.mass_damping, model.pivot_friction, model.planar)
-    return PackedColumn((drums, joint_fields(column, kn, ks), lanes), model.step_for(column))
+    closure = column.joint_weights / (kn * column.joint_areas)
+    drums, joints = drum_fields(column, closure), joint_fields(column, kn, ks)
+    lane = lane_fields(column, model.damping(column), model.mass_damping, model.pivot_friction, model.planar)
+    if column.as_found:
+        kernel, types = model.kernel(column.section), model.record_types(column.section)
+        found, friction = found_start(column, kernel, types, (drums, joints, lane), closure)
+        drums, joints = drums | found, joints | friction
+    return PackedColumn((drums, joints, lane), model.step_for(column))
 
 
 @lru_cache(maxsize=4096)

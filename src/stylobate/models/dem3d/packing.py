@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
+from ...column.found_in_space import upward
 
 #: Radius of the base, wide enough to be a half-space [m].
 BASE_RADIUS = 1.0e3
@@ -97,7 +98,7 @@ def lane_fields(
     """Fields of a lane at the start of a run; parameters as of the model."""
     sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
     return sums | {
-        "g": np.array([0.0, 0.0, column.gravity]),
+        "g": column.gravity * upward(column),
         "beta": stiffness_damping,
         "alpha": mass_damping,
         "pivot": pivot_friction,

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ...column import Column
+from ...column.found_in_space import rotation
 from ...errors import InputError
 from ..start import Start
 from .packing import CORNERS
@@ -89,13 +90,6 @@ def _lowest_corners(drum: np.ndarray, lane: int, h: np.ndarray) -> tuple[np.ndar
     far = corners @ h
     low = np.flatnonzero(far > far.max() - 1e-9 * np.abs(corners).max())
     return corners[low].mean(axis=0), low
-
-
-def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
-    """Matrix of a rotation by an angle [rad] about an axis of length 1."""
-    x, y, z = axis
-    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
-    return np.eye(3) + math.sin(angle) * skew + (1.0 - math.cos(angle)) * skew @ skew
 
 
 def _rolling_force(

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ...column.found_in_space import rotation
 from ...column.specimen import Specimen
 from ...errors import InputError
 from ...outcome import Outcome, classify
@@ -19,7 +20,6 @@ from ..base import Case
 from ..shared import ledger
 from ..shared.stable_step import highest_frequency
 from .block import SpaceBlock
-from .pose import rotation
 
 #: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
 ROUND_UP = 64
@@ -106,6 +106,10 @@ class SpecimenBlock(SpaceBlock):
 
         self.joint = aligned_zeros(self.kernel.FIRST + rows, self.joint.dtype)
         self.damping, self.step_for = damping, step_for
+
+    def base(self, case: Case) -> np.ndarray:
+        """The base under a specimen is level."""
+        return np.eye(3)
 
     def place(self, lane: int, case: Case) -> float:
         """Put a specimen at rest into a lane; its step [s]."""

@@ -7,6 +7,8 @@ import math
 import numpy as np
 
 from ...column import Column
+from ...column.found_in_space import SpaceGeometry, inside_overlap, space_geometry, space_load, upward
+from ...constants import DEGREE
 from .packing import CORNERS
 from .toes import given_by_toes
 
@@ -29,6 +31,16 @@ def stands_for_good(
     toes : array
         What each joint gives with its load on its edge, see :func:`~.toes.toe_energies` [J], shape (n,).
     """
+    if column.as_found:
+        inside = _centroids_inside if column.section == "circular" else _centroids_above_corners
+        if not inside(column, drum, lane):
+            return False
+        turns = np.unwrap(np.arctan2(drum["iy"][:, lane], drum["ix"][:, lane]))
+        twist = np.diff(turns) - [column.as_found.of(i + 1).turn * DEGREE for i in range(column.n)]
+        flat = space_geometry(column, slip=slip, twist=twist)
+        # what sliding down a slope has set free is not there any more to fall back on
+        lower = float(column.masses @ ((space_geometry(column).centroid - flat.centroid) @ upward(column)))
+        return energy + max(lower * column.gravity, 0.0) < found_barrier(column, flat, toes)
     if column.section == "circular":
         return _centroids_inside(column, drum, lane) and energy < flat_barrier(column, slip, toes=toes)
     turns = np.arctan2(drum["iy"][:, lane], drum["ix"][:, lane])
@@ -93,6 +105,37 @@ def flat_barrier(
     return lowest
 
 
+def found_barrier(column: Column, flat: SpaceGeometry, toes: np.ndarray) -> float:
+    """As :func:`flat_barrier` for a column as found, with its drums put down flat where they are; a lower bound [J].
+
+    On a joint that slopes by γ the nearest edge is b cos γ away across gravity, and may lie b sin γ lower; friction is what
+    the slope leaves of it.
+    """
+    up = upward(column)
+    level = np.minimum(flat.frame[:, :, 2] @ up, 1.0)
+    slope = np.arccos(level)
+    friction = np.array(
+        [math.tan(max(math.atan(one.tan_phi) - s, 0.0)) for one, s in zip(column.joints, slope, strict=True)]
+    )
+    lowest = math.inf
+    for j in range(column.n):
+        mass = column.masses[j:]
+        load = space_load(column, flat, j)
+        inside = inside_overlap(column, flat, j, load.place) if load.normal > 0.0 else 0.0
+        if inside <= 0.0:
+            return 0.0
+        place = flat.origin[j] + flat.frame[j, :, :2] @ load.place
+        half = inside * level[j]
+        height = float((mass @ flat.centroid[j:] / mass.sum() - place) @ up) + inside * math.sin(slope[j])
+        radius = math.hypot(half, height)
+        loose = friction[max(j, 1) :].min(initial=math.inf)
+        slides = loose < half / radius
+        rise = loose * half - height * (1.0 - math.sqrt(1.0 - loose * loose)) if slides else radius - height
+        barrier = column.gravity * float(mass.sum()) * level[j] * rise - given_by_toes(column, toes, j, half, height)
+        lowest = min(lowest, barrier)
+    return lowest
+
+
 def inside_by(point: np.ndarray, polygon: np.ndarray) -> float:
     """How far a point is inside a convex polygon given counter-clockwise, shape (k, 2); negative outside [m].
 
@@ -113,11 +156,12 @@ def _turn(angle: float) -> np.ndarray:
 
 
 def _centroids_above_corners(column: Column, drum: np.ndarray, lane: int) -> bool:
-    """Whether the centroid of every part is above the corners of the overlap of the joint under it, seen along z."""
+    """Whether the centroid of every part is above the corners of the overlap of the joint under it, along gravity."""
 
     def field(*names: str) -> np.ndarray:
         return np.stack([drum[name][..., lane] for name in names], axis=-1)
 
+    up = upward(column)
     axes = np.stack([field(f"{a}x", f"{a}y", f"{a}z") for a in "ijk"], axis=1)  # rows i, j, k
     centroids, foot, own = field("x", "y", "z"), field("fx", "fy", "fz"), field("px", "py", "pz")
     ends, ht = field("tx", "ty"), field("ht")
@@ -129,7 +173,8 @@ def _centroids_above_corners(column: Column, drum: np.ndarray, lane: int) -> boo
         corners = (centroids[j + 1] + (foot[j + 1] + own[j + 1]) @ upper - middle) @ lower.T
         corners[:, 2] *= (np.abs(corners[:, :2]) < ends[j]).all(axis=1)
         corners[:, :2] = np.clip(corners[:, :2], -ends[j], ends[j])
-        if inside_by(part[:2], (middle + corners @ lower)[:, :2]) <= 0.0:
+        corners = middle + corners @ lower
+        if inside_by(*(one[..., :2] - one[..., 2:] * up[:2] / up[2] for one in (part, corners))) <= 0.0:
             return False
     return True
 
@@ -140,6 +185,7 @@ def _centroids_inside(column: Column, drum: np.ndarray, lane: int) -> bool:
     def vector(i: int, names: str) -> np.ndarray:
         return np.array([drum[name][i, lane] for name in names.split()])
 
+    up = upward(column)
     axes = [np.array([vector(i, f"{a}x {a}y {a}z") for a in "ijk"]) for i in range(column.n + 1)]
     centroids = np.array([vector(i + 1, "x y z") for i in range(column.n)])
     for j in range(column.n):
@@ -153,7 +199,7 @@ def _centroids_inside(column: Column, drum: np.ndarray, lane: int) -> bool:
             (below, axes[j][2], drum["rt"][j, lane]),
         )
         for middle, normal, radius in faces:
-            drop = (part - middle) @ normal / normal[2]
-            if math.dist(part - np.array([0.0, 0.0, drop]), middle) >= radius:
+            drop = (part - middle) @ normal / (normal @ up)
+            if math.dist(part - drop * up, middle) >= radius:
                 return False
     return True

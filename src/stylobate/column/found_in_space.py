@@ -1,0 +1,161 @@
+"""A column as found in space: where its drums and joints are, how its weight goes down, what opens its joints."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from ..constants import DEGREE
+
+if TYPE_CHECKING:
+    from .column import Column
+
+#: Directions in which the smallest push that opens a joint is looked for, and halvings of it.
+DIRECTIONS, HALVINGS = 360, 60
+
+
+class SpaceGeometry(NamedTuple):
+    """A column as it stands, in axes along and normal to the base, from the middle of its contact.
+
+    ``frame`` has the axes of the joint under each drum as columns, ``axes`` those of the drum, ``bed`` those of its lower
+    face from its own; ``turned`` [rad] is how far each drum is turned about its axis. ``origin`` [m] is the middle of the
+    face under a drum, ``offset`` [m] where the middle of its own face lies along the joint. Shapes (n, 3, 3), (n,),
+    (n, 3) and (n, 2).
+    """
+
+    frame: np.ndarray
+    axes: np.ndarray
+    bed: np.ndarray
+    turned: np.ndarray
+    origin: np.ndarray
+    offset: np.ndarray
+    centroid: np.ndarray
+
+
+def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
+    """Matrix of a rotation by an angle [rad] about an axis of length 1."""
+    x, y, z = axis
+    skew = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.eye(3) + math.sin(angle) * skew + (1.0 - math.cos(angle)) * skew @ skew
+
+
+def space_geometry(
+    column: Column,
+    closing: np.ndarray | None = None,
+    slip: np.ndarray | None = None,
+    twist: np.ndarray | None = None,
+) -> SpaceGeometry:
+    """Where a column's drums and joints are.
+
+    Parameters
+    ----------
+    column : Column
+    closing : array, optional
+        Gap of each joint in the middle of the drum's face [m], and its rotation about the joint's first and second axis
+        [rad], shape (n, 3); closed without either if left out.
+    slip, twist : array, optional
+        What each drum has moved in the axes of the drum below [m], and turned on it [rad], since it was found; shapes
+        (n, 2) and (n,).
+    """
+    n = column.n
+    frames, beds = np.empty((n, 3, 3)), np.empty((n, 3, 3))
+    out = SpaceGeometry(
+        frames, np.empty((n, 3, 3)), beds, np.empty(n), np.empty((n, 3)), np.empty((n, 2)), np.empty((n, 3))
+    )
+    frame, origin, turned = np.eye(3), np.zeros(3), 0.0
+    up = np.array([0.0, 0.0, 1.0])
+    for i, drum in enumerate(column.drums):
+        one = column.as_found.of(i + 1)
+        azimuth = one.offset_azimuth * DEGREE
+        offset = one.offset * np.array([math.cos(azimuth), math.sin(azimuth)])
+        if slip is not None:
+            offset = offset + rotation(up, turned)[:2, :2] @ slip[i]
+        gap, first, second = (0.0, 0.0, 0.0) if closing is None else closing[i]
+        out.frame[i], out.origin[i], out.offset[i] = frame, origin, offset
+        middle = origin + frame @ (*offset, gap)
+        size = math.hypot(first, second)
+        if size > 0.0:
+            frame = frame @ rotation(np.array([first / size, second / size, 0.0]), size)
+        azimuth = one.tilt_azimuth * DEGREE
+        lean = rotation(np.array([math.sin(azimuth), -math.cos(azimuth), 0.0]), one.tilt * DEGREE)
+        frame = frame @ lean
+        turned += one.turn * DEGREE + (0.0 if twist is None else float(twist[i]))
+        spin = rotation(up, turned)
+        out.turned[i], out.axes[i], out.bed[i] = turned, frame @ spin, spin.T @ lean.T @ spin
+        out.centroid[i] = middle + drum.centroid_height * frame[:, 2]
+        origin = middle + drum.height * frame[:, 2]
+    return out
+
+
+def base_axes(column: Column) -> np.ndarray:
+    """Axes of the base as columns, in those of the motion [-], shape (3, 3): it rises towards its azimuth."""
+    azimuth = column.as_found.base_azimuth * DEGREE
+    return rotation(np.array([math.sin(azimuth), -math.cos(azimuth), 0.0]), column.as_found.base_tilt * DEGREE)
+
+
+def upward(column: Column) -> np.ndarray:
+    """Direction against gravity in the axes of the base [-], shape (3,)."""
+    return base_axes(column)[2]
+
+
+class SpaceLoad(NamedTuple):
+    """What the weight above a joint exerts on it: compression and shear [N], and where along the joint [m]."""
+
+    normal: float
+    shear: np.ndarray
+    place: np.ndarray
+
+
+def space_load(column: Column, at: SpaceGeometry, joint: int, acceleration: np.ndarray | None = None) -> SpaceLoad:
+    """Load of a joint under what stands on it, in the axes of the joint; under gravity, or −``acceleration`` [m/s²]."""
+    mass = column.masses[joint:]
+    towards = column.gravity * upward(column) if acceleration is None else acceleration
+    force = -float(mass.sum()) * (at.frame[joint].T @ towards)
+    arm = at.frame[joint].T @ (mass @ at.centroid[joint:] / mass.sum() - at.origin[joint])
+    normal = -float(force[2])
+    place = arm[:2] + arm[2] * force[:2] / normal if normal > 0.0 else np.full(2, np.nan)
+    return SpaceLoad(normal, force[:2], place)
+
+
+def inside_overlap(column: Column, at: SpaceGeometry, joint: int, place: np.ndarray) -> float:
+    """How far a place along a joint is inside both faces; negative outside [m]."""
+    drum, own = column.drums[joint], place - at.offset[joint]
+    below = column.drums[joint - 1] if joint else None
+    if drum.circular:
+        return min(
+            0.5 * drum.bottom_width - math.hypot(*own),
+            math.inf if below is None else 0.5 * below.top_width - math.hypot(*place),
+        )
+    up = np.array([0.0, 0.0, 1.0])
+    ends = [(own, at.turned[joint], drum.bottom_width, drum.depth)]
+    if below is not None:
+        ends.append((place, at.turned[joint - 1], below.top_width, below.depth))
+    inside = math.inf
+    for point, turned, width, depth in ends:
+        x, y = np.abs(rotation(up, -turned)[:2, :2] @ point)
+        inside = min(inside, 0.5 * width - x, 0.5 * depth - y)
+    return inside
+
+
+def smallest_uplift(column: Column) -> np.ndarray:
+    """Smallest static horizontal acceleration in any direction that opens each joint of the rigid stack [m/s²]."""
+    at, out = space_geometry(column), np.full(column.n, math.inf)
+    base = base_axes(column)
+    for j in range(column.n):
+        for azimuth in np.arange(DIRECTIONS) * (2.0 * math.pi / DIRECTIONS):
+            push = base.T @ (math.cos(azimuth), math.sin(azimuth), 0.0)
+            low, high = 0.0, float(min(out[j], 100.0 * column.gravity))
+            if _carries(column, at, j, high * push):
+                continue
+            for _ in range(HALVINGS):
+                middle = 0.5 * (low + high)
+                low, high = (middle, high) if _carries(column, at, j, middle * push) else (low, middle)
+            out[j] = high
+    return out
+
+
+def _carries(column: Column, at: SpaceGeometry, joint: int, push: np.ndarray) -> bool:
+    load = space_load(column, at, joint, column.gravity * upward(column) + push)
+    return load.normal > 0.0 and inside_overlap(column, at, joint, load.place) > 0.0

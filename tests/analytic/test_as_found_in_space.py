@@ -1,0 +1,169 @@
+"""Columns as found in space: statics in every direction, a slope as a steady push, the start, and what is refused."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from validation.space import round_column
+
+import stylobate as st
+from stylobate.column import Column
+from stylobate.column.files import write_column
+from stylobate.column.found_geometry import uplift_accelerations
+from stylobate.column.found_in_space import space_geometry, space_load
+from stylobate.models.base import Case, RunOptions
+from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.motion import Motion
+
+COLUMN = round_column(3)
+STILL = Motion(0.5, np.zeros(3))
+TURN = 37.0
+
+
+def found(turned=0.0, tilt=0.0, azimuth=0.0, **third):
+    """Offsets in two directions and a lean, all turned about the vertical."""
+    drums = (
+        st.FoundDrum(2, offset=0.06, offset_azimuth=60.0 + turned, turn=20.0),
+        st.FoundDrum(3, offset=-0.03, offset_azimuth=turned, tilt=0.8, tilt_azimuth=turned - 40.0, **third),
+    )
+    return COLUMN.replace(as_found=st.AsFound(drums, tilt, azimuth + turned))
+
+
+def block_of(column, motion=STILL, **model):
+    model = DistinctElement3D(**model)
+    block = model.make_block(column.n, RunOptions(), column.section)
+    block.load(0, Case(column, motion))
+    return block
+
+
+def test_in_the_plane_the_geometry_is_that_of_the_plane():
+    """Offsets, leans and slope at the azimuth 0 are today's; 180 turns them round."""
+    plane = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.05), st.FoundDrum(3, tilt=-0.7)), 1.0))
+    back = (st.FoundDrum(2, offset=-0.05, offset_azimuth=180.0), st.FoundDrum(3, tilt=0.7, tilt_azimuth=-180.0))
+    assert plane == COLUMN.replace(as_found=st.AsFound(back, -1.0, 180.0))
+    assert "azimuth" not in json.dumps(plane.to_dict())
+    from stylobate.column.found_geometry import geometry, joint_load
+
+    flat, at = geometry(plane), space_geometry(plane)
+    assert at.centroid[:, [0, 2]] == pytest.approx(flat.centroid, abs=1e-14)
+    for j in range(3):
+        one, other = joint_load(plane, flat, j), space_load(plane, at, j)
+        assert other.normal == pytest.approx(one.normal, rel=1e-13)
+        assert other.place[0] == pytest.approx(one.place, abs=1e-13)
+        assert other.shear[0] == pytest.approx(one.shear, abs=1e-9)
+
+
+@pytest.mark.parametrize("model", [{}, {"law": "bed"}])
+def test_a_found_column_stands_still_from_the_start(model):
+    column = found(tilt=1.5, azimuth=200.0)
+    block = block_of(column, **model)
+    assert block.residual_acceleration(0) < 2e-6
+    before = {name: block.drum[name][1:, 0].copy() for name in "xyz"}
+    block.advance(200)
+    for name, values in before.items():
+        assert block.drum[name][1:, 0] == pytest.approx(values, abs=1e-10)
+
+
+def test_square_drums_turned_and_offset_stand_still_too():
+    square = st.preset("paper-12-drums")
+    drums = (st.FoundDrum(2, offset=0.04, offset_azimuth=70.0), st.FoundDrum(5, turn=5.0))
+    block = block_of(square.replace(as_found=st.AsFound(drums, 1.0, 30.0)))
+    assert block.residual_acceleration(0) < 1e-4
+
+
+def test_the_eccentric_closure_of_an_offset_column_carries_its_load_where_statics_asks():
+    """An offset in the plane: normal force and moment of each joint are those of the plane's statics."""
+    column = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.1),)))
+    block = block_of(column)
+    joint, state = block.joint.copy(), block.lane.copy()
+    state["dt"] = 0.0
+    block.kernel.forces(block.drum, joint, state)
+    mass = column.masses
+    for j in range(3):
+        weight = mass[j:].sum() * column.gravity
+        assert joint["f"][j, 2, 0] == pytest.approx(weight, rel=1e-8)
+    # about its centroid drum 1 feels the weight of the others 0.1 m to the right, and the base's answer
+    moment = joint["up"][0, 1, 0] + joint["lo"][1, 1, 0]
+    assert moment == pytest.approx(0.0, abs=1e-6 * weight)
+    assert joint["lo"][1, 1, 0] == pytest.approx(
+        0.1 * mass[1:].sum() * column.gravity, rel=1e-4
+    )  # and what the joints give
+
+
+def test_uplift_by_hand_in_any_direction():
+    """On a level base the nearest point of the rim governs; a turned column opens at the same push."""
+    offset = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.1, offset_azimuth=TURN),)))
+    plane = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.1),)))
+    in_plane = np.abs(uplift_accelerations(plane)).min(axis=1)
+    assert offset.joint_uplift_accelerations == pytest.approx(in_plane, rel=1e-9)
+    assert plane.joint_uplift_accelerations == pytest.approx(in_plane, rel=1e-14)
+    slope = round_column().replace(as_found=st.AsFound((), 2.0, 90.0))
+    alpha = slope.slenderness - math.radians(2.0)
+    assert slope.uplift_acceleration == pytest.approx(st.g * math.tan(alpha), rel=1e-9)
+
+
+def test_a_slope_in_any_azimuth_is_a_steady_push():
+    """On a slope β a motion along it does what it does, on level ground, with g sin β added to it and gravity g cos β."""
+    slope, azimuth = math.radians(3.0), math.radians(TURN)
+    h = np.array([math.cos(azimuth), math.sin(azimuth)])
+    time = np.arange(401) * 5e-3
+    push = 0.25 * st.g * np.sin(1.4 * math.pi * time)
+    along, up = push * math.cos(slope), push * -math.sin(slope)
+    steady = st.g * math.sin(slope)
+    level = round_column().replace(gravity=st.g * math.cos(slope))
+    sloping = round_column().replace(as_found=st.AsFound((), 3.0, TURN), gravity=st.g)
+    model = DistinctElement3D(time_step=2e-4)
+    a = st.simulate(sloping, Motion(5e-3, push * h[0], push * h[1], 0.0 * up), model).measures
+    b = st.simulate(level, Motion(5e-3, (along + steady) * h[0], (along + steady) * h[1], up), model).measures
+    assert a.peak_rotation > 0.01
+    # the one starts in equilibrium with the slope, the other is pushed at once: they differ by the joint's own give
+    assert a.peak_rotation == pytest.approx(b.peak_rotation, rel=0.02)
+    assert a.energy_imbalance < 1e-3
+
+
+def test_everything_turned_by_37_degrees_turns_the_response():
+    """A leaning monolith off its place on a slope, and itself turned with its motion."""
+    time = np.arange(301) * 5e-3
+    push = 0.24 * st.g * np.sin(1.4 * math.pi * time)
+    peaks = []
+    for turned in (0.0, TURN):
+        c, s = math.cos(math.radians(turned)), math.sin(math.radians(turned))
+        drum = st.FoundDrum(1, offset=0.05, offset_azimuth=turned, tilt=1.0, tilt_azimuth=turned - 70.0)
+        column = round_column().replace(as_found=st.AsFound((drum,), 1.0, turned + 10.0))
+        peaks.append(st.simulate(column, Motion(5e-3, push * c, push * s), DistinctElement3D()).measures)
+    first, second = peaks
+    assert first.peak_top_displacement > 0.1
+    assert second.peak_top_displacement == pytest.approx(first.peak_top_displacement, rel=1e-7)
+    assert second.peak_rotation == pytest.approx(first.peak_rotation, rel=1e-7)
+    assert first.energy_imbalance < 1e-4
+
+
+def test_a_batch_of_found_columns_has_the_bits_of_single_runs():
+    time = np.arange(201) * 5e-3
+    motion = Motion(5e-3, 0.24 * st.g * np.sin(1.4 * math.pi * time), 0.05 * st.g * np.cos(9.0 * time))
+    columns = [found(turned, 1.0, 10.0) for turned in (0.0, TURN, 110.0)]
+    batch = st.simulate_many(columns, [motion] * 3, DistinctElement3D())
+    for i, column in enumerate(columns):
+        single = st.simulate(column, motion, DistinctElement3D()).measures
+        assert single.energy_imbalance < 1e-3
+        row = batch.iloc[i]
+        assert all(row[key] == value for key, value in single.row().items() if value is not None)
+
+
+def test_out_of_equilibrium_and_out_of_the_plane_are_refused_in_one_sentence(tmp_path):
+    with pytest.raises(
+        st.InputError, match=r"at joint 2 the weight above passes .* mm beyond the contact, .* N m are missing"
+    ):
+        COLUMN.replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.5, offset_azimuth=70.0),)))
+    with pytest.raises(st.InputError, match=r"joint 1 slides down its slope, .* N of friction are missing"):
+        round_column(friction=0.02).replace(as_found=st.AsFound((), 3.0, 70.0))
+    with pytest.raises(st.InputError, match=r"dem2d computes the plane of x and z, and .* is found out of it"):
+        st.simulate(found(), STILL, st.DistinctElement2D())
+    with pytest.raises(st.InputError, match="planar = True holds the motion in the plane"):
+        st.simulate(found(), STILL, DistinctElement3D(planar=True))
+    chipped = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(1, chip_left=0.02),)))
+    with pytest.raises(st.InputError, match="dem3d knows no chips, and drum 1"):
+        st.simulate(chipped, STILL, DistinctElement3D())
+    column = found(5.0, 1.0)
+    assert Column.from_toml(write_column(column, tmp_path / "c.toml")) == column
