@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import xarray
 
 import stylobate as st
 from stylobate.bibliography import bibliography
@@ -91,7 +92,7 @@ def test_the_package_alone_and_everything(capsys):
     ("arguments", "message"),
     [
         (["nowhere.nc"], "there is no file nowhere.nc"),
-        (["--model", "dem4d"], "there is no model 'dem4d'; did you mean dem2d?"),
+        (["--model", "dem4d"], "there is no model 'dem4d'; did you mean dem3d?"),
         (["--model", "dem2d", "--all"], "give one of RESULT, --model and --all"),
         (["--threads", "x"], "--threads is 'x'"),
     ],
@@ -105,14 +106,17 @@ def test_bad_input_is_one_sentence(capsys, arguments, message):
 def test_a_file_without_provenance_is_refused(capsys, tmp_path):
     file = tmp_path / "text.nc"
     file.write_text("no netCDF")
-    assert "holds no provenance" in said(capsys, file, code=2).err
+    assert "cannot be read as netCDF: it does not begin like one" in said(capsys, file, code=2).err
+    xarray.Dataset({"a": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
+    assert "holds no provenance" in said(capsys, tmp_path / "other.nc", code=2).err
 
 
 def test_the_citation_file_agrees_with_the_package():
     root = Path(__file__).parents[2]
     lines = dict(re.findall(r"^(?:  - )?(\w+): \"?(.*?)\"?$", (root / "CITATION.cff").read_text(), re.MULTILINE))
     project = tomllib.loads((root / "pyproject.toml").read_text())["project"]
-    assert lines["version"] == st.__version__ == project["version"] == PACKAGE.fields["version"]
+    assert project["dynamic"] == ["version"]  # which the build reads where the package does
+    assert lines["version"] == st.__version__ == PACKAGE.fields["version"]
     assert lines["title"] == PACKAGE.fields["title"]
     assert (lines["name"],) == PACKAGE.authors == tuple(one["name"] for one in project["authors"])
     assert lines["license"] == project["license"]
