@@ -32,7 +32,7 @@ class LeftOutWarning(OutOfRangeWarning):
 
 
 def suggest(word: str, known: Iterable[str]) -> str:
-    """The clause of a message about an unknown word: ``did you mean dem2d? ``, empty where no known word is like it."""
+    """The clause of a message about an unknown word: “did you mean dem2d?” and a blank; nothing if none is like it."""
     import difflib
 
     close = difflib.get_close_matches(word, list(known), 1)

@@ -51,13 +51,13 @@ def draw_suite(
         A key of :data:`stylobate.analysis.suite.INTENSITIES`.
     title : str, optional
         What stands behind the name of each column; the model by default.
+    figure : Figure or SubFigure, optional
+        To draw in; a new one by default.
 
     Raises
     ------
     InputError
         No such measure.
-    figure : Figure or SubFigure, optional
-        To draw in; a new one by default.
     """
     if against not in INTENSITIES or against not in table:
         raise InputError(f"there is no measure {against!r} of records; measures are {', '.join(INTENSITIES)}.")
