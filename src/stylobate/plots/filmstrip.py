@@ -13,7 +13,7 @@ from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, telling_states
 from .scene import Scene, describe, draw_bodies, scene_of
-from .style import WIDTH, page, styled
+from .style import WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y
 
 #: Width that the words over a panel take [inch].
@@ -69,7 +69,7 @@ def draw_filmstrip(
         along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
         axes.set_title(f"{scene.time[index]:.2f} s\n{along}{far} {unit}", fontsize=8.5, loc="center")
     said = "" if factor == 1.0 else f" (displacements × {factor:g})"
-    figure.suptitle((title or describe(response)) + said, x=0.01, ha="left", fontsize=10.0)
+    figure.suptitle(in_lines((title or describe(response)) + said), x=0.01, ha="left", fontsize=10.0)
     return figure
 
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from ..response import Response
 from .scene import describe, seen
-from .style import BLACK, BROWN, GREY, SAND, WIDTH, page, styled
+from .style import BLACK, BROWN, GREY, SAND, WIDTH, in_lines, page, styled
 
 
 @styled
@@ -67,5 +67,5 @@ def draw_joints(
     axes.set_yticks(range(1, n + 1, every))
     axes.set_xlabel("time [s]")
     axes.set_ylabel("joint, from the base\n(opening, each to its peak)")
-    axes.set_title(title or describe(response))
+    axes.set_title(in_lines(title or describe(response)))
     return figure

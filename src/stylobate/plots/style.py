@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -120,6 +121,11 @@ def panel(given: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
         return cast(Figure, given.figure), given
     figure = Figure(figsize=size)
     return figure, figure.subplots()
+
+
+def in_lines(title: str) -> str:
+    """A title in as many lines as the width of a page needs."""
+    return textwrap.fill(title, 82)
 
 
 def legend_below(axes: Axes, own: bool, **options: Any) -> None:
