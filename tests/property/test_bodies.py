@@ -1,5 +1,6 @@
 """Bodies in space: shapes are closed, poses are rigid, and those of plane models are the plane ones."""
 
+import dataclasses
 import math
 from itertools import pairwise
 
@@ -181,3 +182,14 @@ def test_a_collapse_has_one_story():
     assert said["peak_opening_per_joint_m"] == np.abs(response.joint_opening[before]).max(axis=0).tolist()
     for words in (f"certain at {collapse.time:.2f} s", "First to touch were", response.mechanism.describe()):
         assert words in response.sentence
+
+
+def test_measures_without_a_collapse_are_equal_on_every_python():
+    """A time of collapse that is no number is like another one, whichever objects they are; other numbers are not."""
+    column, motion = preset("paper-monolithic"), st.harmonic(1.0, 0.05 * st.g, 0.2)
+    found = st.simulate(column, motion, st.HousnerBlock()).measures
+    again = dataclasses.replace(found, collapse_time=float("nan"))
+    assert math.isnan(found.collapse_time)
+    assert found == again
+    assert found != dataclasses.replace(found, peak_rotation=1.0)
+    assert found != "measures"

@@ -69,7 +69,7 @@ class BlockMeasures:
     in_equilibrium: bool | None = None
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Measures:
     """What a run comes down to.
 
@@ -121,6 +121,13 @@ class Measures:
     collapse: Collapse | None = None
     space: SpaceMeasures | None = None
     blocks: BlockMeasures | None = None
+
+    def __eq__(self, other: object) -> bool:
+        """Equal to the bit, one missing number (NaN) like another; left alone, Python 3.13 tells NaN from NaN."""
+        if not isinstance(other, Measures):
+            return NotImplemented
+        pairs = zip(vars(self).values(), vars(other).values(), strict=True)
+        return all(mine == theirs or (mine != mine and theirs != theirs) for mine, theirs in pairs)
 
     @property
     def collapsed(self) -> bool:
