@@ -7,11 +7,12 @@ Legend of the joint's scratch ``w``, in the axes of the drum below::
     21     share of each corner in the area of the overlap [m²]
 """
 
-from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING, running_lanes
+from ..drums.frame import run_chunks
+from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING
 from ..jit import apart, kernel
 from .corner import clamped, contact, corner, touch
 from .ground import fill_ground
-from .look import close_chunk, joint_state
+from .look import check_finite, joint_state, observe
 from .move import ledger, move
 from .pose import cross, faces, in_body, in_space
 from .records import block_types
@@ -116,13 +117,6 @@ def forces(drum, joint, lane):
 
 @kernel
 def advance(drum, joint, lane, ground, feed, watch, chunks):
-    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
-    before = running_lanes(watch)
-    for _ in range(chunks):
-        if before == 0 or running_lanes(watch) < before:
-            break
-        fill_ground(ground, feed, watch)
-        for k in range(CHUNK):
-            forces(drum, joint, lane)
-            move(drum, joint, lane, ground, k)
-        close_chunk(drum, joint, lane, feed, watch)
+    """Advance all lanes: see :func:`run_chunks`."""
+    state = drum, joint, lane, ground, feed, watch
+    run_chunks(fill_ground, None, forces, move, check_finite, observe, state, chunks)

@@ -2,7 +2,7 @@
 
 import math
 
-from ..drums.lanes import CHUNK, FAILED, FAR, LANES, RUNNING, SUPPORT_MARGIN, end_runs
+from ..drums.lanes import FAILED, FAR, LANES, RUNNING, SUPPORT_MARGIN
 from ..jit import kernel, law, strict
 from .pose import cross, faces, in_body, in_space, lean
 from .support import end_of_corners, end_of_discs, middle_of_corners, middle_of_discs, opening_of_corners
@@ -173,14 +173,3 @@ def joint_state(drum, l, opening, slip, twist):
     """Opening [m], slip in the axes of the drum below [m] and twist [rad] of every joint of one lane."""
     for j in range(drum.shape[0] - 1):
         opening[j], slip[j, 0], slip[j, 1], twist[j] = joint_numbers(drum[j + 1], drum[j], l)
-
-
-@kernel
-def close_chunk(drum, joint, lane, feed, watch):
-    """What follows every chunk of steps: running lanes are that much further on, and all are looked at."""
-    for l in range(LANES):
-        if watch[0].status[l] == RUNNING:
-            feed[0].step[l] += CHUNK
-    check_finite(drum, watch)
-    observe(drum, joint, lane, feed, watch)
-    end_runs(lane, feed, watch)

@@ -17,7 +17,8 @@ import math
 
 import numpy as np
 
-from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING, end_runs, running_lanes
+from ..drums.frame import run_chunks
+from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING
 from ..jit import apart, kernel, strict
 from . import move as moving
 from . import records
@@ -123,7 +124,7 @@ def mark_near(drum, joint, lane, watch):
 
 
 @kernel
-def observe(drum, joint, feed, watch, lane):
+def observe(drum, joint, lane, feed, watch):
     """Look at all lanes: peaks, and bodies that have toppled: whose tilt is beyond 45°."""
     u = drum[1]
     v = drum[0]
@@ -161,19 +162,6 @@ def observe(drum, joint, feed, watch, lane):
 
 @kernel
 def advance(drum, joint, lane, ground, feed, watch, chunks):
-    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
-    before = running_lanes(watch)
-    for _ in range(chunks):
-        if before == 0 or running_lanes(watch) < before:
-            break
-        fill_ground(ground, feed, watch)
-        mark_near(drum, joint, lane, watch)
-        for k in range(CHUNK):
-            forces(drum, joint, lane)
-            move(drum, joint, lane, ground, k)
-        for l in range(LANES):
-            if watch[0].status[l] == RUNNING:
-                feed[0].step[l] += CHUNK
-        check_finite(drum, watch)
-        observe(drum, joint, feed, watch, lane)
-        end_runs(lane, feed, watch)
+    """Advance all lanes: see :func:`run_chunks`."""
+    state = drum, joint, lane, ground, feed, watch
+    run_chunks(fill_ground, mark_near, forces, move, check_finite, observe, state, chunks)
