@@ -1,4 +1,4 @@
-"""What the site computes when it is built: validation, comparison of the models, commands, Python reference, references.
+"""What the site computes when it is built: validation, other codes, models, commands, Python reference, references.
 
 Tables are written as Markdown and figures as PNG into ``docs/_build/computed``, and included by the pages. What takes
 time is computed again only when the code is newer.
@@ -9,6 +9,7 @@ from pathlib import Path
 import api_pages
 import command_pages
 import model_pages
+import other_codes_pages
 import validation_pages
 from sphinx.util import logging
 
@@ -32,7 +33,7 @@ def compute(app):
     ):
         return
     log.info("computing the validation cases and the comparison of the models …")
-    for text in validation_pages.computed(out) + model_pages.computed(out):
+    for text in validation_pages.computed(out) + other_codes_pages.computed(out) + model_pages.computed(out):
         write(*text)
     stamp.touch()
 

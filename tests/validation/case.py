@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 #: Kinds of evidence, in the order of the page.
-KINDS = ("closed forms", "conservation", "convergence", "agreement", "paper")
+KINDS = ("closed forms", "conservation", "convergence", "agreement", "paper", "other codes")
 
 
 class Criterion(Protocol):

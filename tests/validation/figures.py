@@ -9,6 +9,7 @@ from stylobate.plots.style import BLACK, BLUE, CYCLE, GREY, RED, SAND, WIDTH, st
 
 from . import agreement, conservation, convergence, paper, rocking, sliding, statics
 from . import overturning as pulses
+from .tapered_figure import thresholds_of_codes
 
 #: Marks of the models in all figures.
 MARKS = {
@@ -258,4 +259,8 @@ FIGURES: dict[str, dict[Callable[[], Figure], str]] = {
     },
     "agreement": {three_models: "The same column and motion through three models: one motion until impacts part them."},
     "paper": {unsafe_cells: "Drums are more prone than the monolith in the rigid beam, less where they may slide."},
+    "other codes": {
+        thresholds_of_codes: "Verdicts of dem2d over the length and the amplitude of the pulse, and the smallest "
+        "amplitudes that collapse the column in three other codes, as published."
+    },
 }
