@@ -112,3 +112,52 @@ def test_impossible_columns_are_refused_in_one_sentence(make, words):
         make()
     for word in words:
         assert word in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "shape", [(0.82, 1.11, 1.08, 0.9, 0.7), (5.0, 0.96, 0.66, 0.96, 0.66), (0.5, 0.6, 1.0, 1.2, 0.3)]
+)
+@pytest.mark.filterwarnings("ignore::stylobate.OutOfRangeWarning")
+def test_a_frustum_that_tapers_in_depth_against_quadrature(shape):
+    """Volume, centroid and all three moments of inertia, over the height."""
+    h, b, t, w, v = shape
+    drum = st.Drum(h, b, t, 2400.0, depth=w, top_depth=v)
+
+    def over_height(f):
+        def integrand(z):
+            return f(z, b + (t - b) * z / h, w + (v - w) * z / h)
+
+        return 2400.0 * quad(integrand, 0, h, epsabs=0, epsrel=1e-13)[0]
+
+    mass = over_height(lambda z, x, y: x * y)
+    centroid = over_height(lambda z, x, y: x * y * z) / mass
+    assert drum.mass == pytest.approx(mass, rel=1e-12)
+    assert drum.centroid_height == pytest.approx(centroid, rel=1e-12)
+    assert drum.inertia == pytest.approx(over_height(lambda z, x, y: x * y * (x * x / 12 + (z - centroid) ** 2)))
+    assert drum.cross_inertia == pytest.approx(over_height(lambda z, x, y: x * y * (y * y / 12 + (z - centroid) ** 2)))
+    assert drum.axial_inertia == pytest.approx(over_height(lambda z, x, y: x * y * (x * x + y * y) / 12))
+    # a depth that is the same above and below is what it was
+    assert st.Drum(h, b, t, 2400.0, depth=w, top_depth=w) == st.Drum(h, b, t, 2400.0, depth=w)
+
+
+def test_eight_square_blocks_of_one_taper_are_the_pyramid():
+    whole, stack = (
+        st.Column.tapered(
+            height=5.95,
+            bottom_width=1.11,
+            top_width=0.9,
+            drums=n,
+            density=2620.0,
+            joint=JOINT,
+            depth=1.11,
+            top_depth=0.9,
+        )
+        for n in (1, 8)
+    )
+    assert whole.mass == pytest.approx(2620.0 * 5.95 / 3 * (1.11**2 + 1.11 * 0.9 + 0.9**2), rel=1e-12)
+    for name in ("mass", "centroid_height", "corner_inertia", "uplift_acceleration"):
+        assert getattr(stack, name) == pytest.approx(getattr(whole, name), rel=1e-12), name
+    assert stack.joint_areas == pytest.approx(np.square(stack.joint_widths), rel=1e-12)
+    assert [drum.inertia for drum in stack.drums] == [drum.cross_inertia for drum in stack.drums]
+    with pytest.raises(st.InputError, match="circular section; leave it out"):
+        st.Drum(1.0, 1.0, 1.0, 2000.0, "circular", top_depth=0.9)

@@ -265,3 +265,20 @@ def test_joints_that_nobody_has_measured_are_warned_about(line, said, tmp_path):
     )
     with pytest.warns(st.OutOfRangeWarning, match=said):
         read_column(path)
+
+
+def test_a_taper_in_depth_goes_through_a_file(tmp_path):
+    """In both ways of stating drums; a column that has none keeps its digest."""
+    (tmp_path / "a.toml").write_text(
+        "depth = 1.11\ndensity = 2620.0\n[tapered]\nheight = 5.95\nbottom_width = 1.11\ntop_width = 0.9\ndrums = 8\n"
+        "top_depth = 0.9\n[joint]\nnormal_stiffness = 1e10\nshear_stiffness = 1e10\n"
+    )
+    column = st.Column.from_toml(tmp_path / "a.toml")
+    assert column.drums[0].depth == 1.11
+    assert column.drums[-1].top_depth == pytest.approx(0.9, rel=1e-15)
+    assert column.drums[3].top_depth == column.drums[4].depth
+    again = read_column(write_column(column, tmp_path / "b.toml"))
+    assert again == column
+    assert again.digest == column.digest
+    assert column_from_dict(column.to_dict()) == column
+    assert "top_depth" not in st.preset("paper-12-drums").to_dict()["drums"][0]

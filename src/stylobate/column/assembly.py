@@ -311,7 +311,7 @@ def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Asse
         c, s = math.cos(at.lean[i]), math.sin(at.lean[i])
         corners = drum_outline(column, i) @ np.array([[c, s], [-s, c]]) + at.centroid[i]
         # the depth of the bed: a round drum's mean thickness across its width
-        depth = drum.depth if not drum.circular else 0.25 * math.pi * drum.mean_width
+        depth = drum.mean_depth if not drum.circular else 0.25 * math.pi * drum.mean_width
         drums.append(
             Block(
                 tuple((float(x), float(z)) for x, z in corners),

@@ -135,6 +135,7 @@ class Column:
         joint: Joint,
         section: str = "rectangular",
         depth: float = 1.0,
+        top_depth: float | None = None,
         overrides: Mapping[int, Joint] | None = None,
         name: str = "column",
         gravity: float = STANDARD_GRAVITY,
@@ -153,15 +154,22 @@ class Column:
         section : {"rectangular", "circular"}
         depth : float
             Rectangular only [m].
+        top_depth : float, optional
+            Depth at the top of a column that tapers in depth too [m].
         overrides, name, gravity
             As in :meth:`of_drums`.
         """
         if isinstance(drums, bool) or not isinstance(drums, (int, np.integer)) or not 1 <= drums <= MAX_DRUMS:
             raise InputError(f"drums is {drums!r}; allowed is a whole number from 1 to {MAX_DRUMS}.")
-        whole = Drum(height, bottom_width, top_width, density, section, depth)
+        whole = Drum(height, bottom_width, top_width, density, section, depth, top_depth)
         taper = (whole.top_width - whole.bottom_width) / drums
         widths = [whole.bottom_width + taper * i for i in range(drums)] + [whole.top_width]
-        stack = [Drum(whole.height / drums, low, high, density, section, depth) for low, high in pairwise(widths)]
+        deep = [whole.depth_at(whole.height * i / drums) for i in range(drums)] + [whole.upper_depth]
+        ends = [(near, None if whole.top_depth is None else far) for near, far in pairwise(deep)]
+        stack = [
+            Drum(whole.height / drums, low, high, density, section, near, far)
+            for (low, high), (near, far) in zip(pairwise(widths), ends, strict=True)
+        ]
         return cls.of_drums(stack, joint, overrides=overrides, name=name, gravity=gravity)
 
     @classmethod
@@ -260,7 +268,7 @@ class Column:
         )
 
     def _joint_depth(self, i: int) -> float:
-        return min(self.drums[i].depth, self.drums[i - 1].depth) if i else self.drums[0].depth
+        return min(self.drums[i].depth, self.drums[i - 1].upper_depth) if i else self.drums[0].depth
 
     @cached_property
     def joint_weights(self) -> np.ndarray:
@@ -344,10 +352,15 @@ class Column:
         """Everything that defines the column, as plain values in SI units."""
         plain = dataclasses.asdict(self)
         plain.pop("as_found")
-        plain |= {"drums": list(plain["drums"]), "joints": list(plain["joints"])}
+        plain |= {"drums": [_without_none(one, "top_depth") for one in plain["drums"]], "joints": list(plain["joints"])}
         return plain | ({"as_found": self.as_found.to_dict()} if self.as_found else {})
 
     @cached_property
     def digest(self) -> str:
         """SHA-256 of :meth:`to_dict`."""
         return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
+
+
+def _without_none(fields: dict, name: str) -> dict:
+    """Fields without the one of that name where it is None: what is not there does not change a digest."""
+    return {key: value for key, value in fields.items() if key != name or value is not None}

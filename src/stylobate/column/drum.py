@@ -18,7 +18,7 @@ LENGTHS, DENSITIES = (1e-4, 1e3), (1.0, 1e5)
 
 @dataclass(frozen=True)
 class Drum:
-    """A drum: truncated cone (``circular``) or trapezium of constant depth (``rectangular``).
+    """A drum: truncated cone (``circular``) or frustum with rectangular faces (``rectangular``).
 
     Parameters
     ----------
@@ -30,12 +30,14 @@ class Drum:
         Mass density [kg/m³].
     section : {"circular", "rectangular"}
     depth : float
-        Depth w perpendicular to the plane [m]; used for rectangular sections only.
+        Depth w perpendicular to the plane [m], of the lower face; used for rectangular sections only.
+    top_depth : float, optional
+        Depth of the upper face [m]; that of the lower face if left out. Rectangular sections only.
 
     Raises
     ------
     InputError
-        A value is not finite or outside its range.
+        A value is not finite or outside its range, or a round drum has a ``top_depth``.
     """
 
     height: float
@@ -44,6 +46,7 @@ class Drum:
     density: float
     section: str = "rectangular"
     depth: float = 1.0
+    top_depth: float | None = None
 
     def __post_init__(self) -> None:
         if self.section not in SECTIONS:
@@ -57,11 +60,26 @@ class Drum:
         ):
             value = check_range(f"{name} of a drum", getattr(self, name), low, high, unit=unit, remedy="use SI units")
             object.__setattr__(self, name, value)
+        if self.top_depth is not None:
+            if self.circular:
+                raise InputError(f"top_depth of a drum is {self.top_depth:g} m for a circular section; leave it out.")
+            value = check_range("top_depth of a drum", self.top_depth, *LENGTHS, unit="m", remedy="use SI units")
+            object.__setattr__(self, "top_depth", None if value == self.depth else value)
 
     @property
     def circular(self) -> bool:
         """Whether the section is a circle."""
         return self.section == "circular"
+
+    @property
+    def upper_depth(self) -> float:
+        """Depth of the upper face [m]."""
+        return self.depth if self.top_depth is None else self.top_depth
+
+    @property
+    def mean_depth(self) -> float:
+        """Mean of the two depths [m]."""
+        return 0.5 * (self.depth + self.upper_depth)
 
     @property
     def mean_width(self) -> float:
@@ -74,7 +92,10 @@ class Drum:
         b, t, h = self.bottom_width, self.top_width, self.height
         if self.circular:
             return math.pi * h * (b * b + b * t + t * t) / 12.0
-        return self.depth * h * (b + t) / 2.0
+        if self.top_depth is None:
+            return self.depth * h * (b + t) / 2.0
+        w, v = self.depth, self.top_depth
+        return h * (2.0 * b * w + 2.0 * t * v + b * v + t * w) / 6.0
 
     @property
     def mass(self) -> float:
@@ -87,7 +108,10 @@ class Drum:
         b, t, h = self.bottom_width, self.top_width, self.height
         if self.circular:
             return h * (b * b + 2.0 * b * t + 3.0 * t * t) / (4.0 * (b * b + b * t + t * t))
-        return h * (b + 2.0 * t) / (3.0 * (b + t))
+        if self.top_depth is None:
+            return h * (b + 2.0 * t) / (3.0 * (b + t))
+        w, v = self.depth, self.top_depth
+        return h * (b * w + t * w + b * v + 3.0 * t * v) / (2.0 * (2.0 * b * w + 2.0 * t * v + b * v + t * w))
 
     @property
     def inertia(self) -> float:
@@ -102,8 +126,8 @@ class Drum:
         total = 0.0
         for x, weight in GAUSS_POINTS:
             z = 0.5 * h * (1.0 + x)
-            q = b + (t - b) * z / h
-            area, second = section_area(self.section, q, self.depth), section_second_moment(self.section, q, self.depth)
+            q, w = b + (t - b) * z / h, self.depth_at(z)
+            area, second = section_area(self.section, q, w), section_second_moment(self.section, q, w)
             total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
         return self.density * total
 
@@ -119,8 +143,8 @@ class Drum:
         total = 0.0
         for x, weight in GAUSS_POINTS:
             z = 0.5 * h * (1.0 + x)
-            q = b + (t - b) * z / h
-            area, second = section_area(self.section, q, self.depth), section_second_moment(self.section, self.depth, q)
+            q, w = b + (t - b) * z / h, self.depth_at(z)
+            area, second = section_area(self.section, q, w), section_second_moment(self.section, w, q)
             total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
         return self.density * total
 
@@ -131,15 +155,20 @@ class Drum:
         total = 0.0
         for x, weight in GAUSS_POINTS:
             q = b + (t - b) * 0.5 * (1.0 + x)
-            own = section_second_moment(self.section, q, self.depth)
-            other = own if self.circular else q * self.depth**3 / 12.0
+            w = self.depth_at(0.5 * h * (1.0 + x))
+            own = section_second_moment(self.section, q, w)
+            other = own if self.circular else q * w**3 / 12.0
             total += 0.5 * h * weight * (own + other)
         return self.density * total
 
+    def depth_at(self, z: float) -> float:
+        """Depth of the section at a height above the lower face [m]."""
+        return self.depth if self.top_depth is None else self.depth + (self.top_depth - self.depth) * z / self.height
+
     def as_prism(self) -> Drum:
-        """The paper's idealisation: a drum of constant, mean width."""
+        """The paper's idealisation: a drum of constant, mean width and depth."""
         d = self.mean_width
-        return Drum(self.height, d, d, self.density, self.section, self.depth)
+        return Drum(self.height, d, d, self.density, self.section, self.mean_depth)
 
 
 def section_area(section: str, width: float, depth: float) -> float:

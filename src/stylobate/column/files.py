@@ -55,9 +55,7 @@ def write_column(column: Column, path: str | Path) -> Path:
     common = Counter(column.joints).most_common(1)[0][0]
     sizes = ("height", "bottom_width", "top_width", "density")
     table: dict[str, Any] = {"name": column.name, "section": first.section, "gravity": column.gravity}
-    table["drum"] = [
-        {key: getattr(drum, key) for key in (*sizes, *(() if drum.circular else ("depth",)))} for drum in column.drums
-    ]
+    table["drum"] = [{key: getattr(drum, key) for key in (*sizes, *_depths(drum))} for drum in column.drums]
     table["joint"] = _joint_fields(common)
     others = [{"index": i, **_joint_fields(joint)} for i, joint in enumerate(column.joints, 1) if joint != common]
     if others:
@@ -68,6 +66,12 @@ def write_column(column: Column, path: str | Path) -> Path:
     with replacing(target) as partial:
         partial.write_text(tomli_w.dumps(table), encoding="utf-8")
     return target
+
+
+def _depths(drum: Drum) -> tuple[str, ...]:
+    if drum.circular:
+        return ()
+    return ("depth",) if drum.top_depth is None else ("depth", "top_depth")
 
 
 def column_from_dict(data: Mapping[str, Any]) -> Column:

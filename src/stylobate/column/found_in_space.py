@@ -131,7 +131,7 @@ def inside_overlap(column: Column, at: SpaceGeometry, joint: int, place: np.ndar
     up = np.array([0.0, 0.0, 1.0])
     ends = [(own, at.turned[joint], drum.bottom_width, drum.depth)]
     if below is not None:
-        ends.append((place, at.turned[joint - 1], below.top_width, below.depth))
+        ends.append((place, at.turned[joint - 1], below.top_width, below.upper_depth))
     inside = math.inf
     for point, turned, width, depth in ends:
         x, y = np.abs(rotation(up, -turned)[:2, :2] @ point)

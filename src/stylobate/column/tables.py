@@ -45,6 +45,7 @@ class DrumTable(Table):
     top_width: float
     density: float | None = None
     depth: float | None = None
+    top_depth: float | None = None
 
 
 class TaperedTable(Table):
@@ -54,6 +55,7 @@ class TaperedTable(Table):
     bottom_width: float
     top_width: float
     drums: int
+    top_depth: float | None = None
 
 
 class FoundDrumTable(Table):
@@ -202,7 +204,7 @@ def _drum(i: int, one: DrumTable, table: ColumnTable) -> Drum:
         raise InputError(f"[[drum]] number {i + 1} has a depth but a circular section; leave the depth out.")
     depth = one.depth if one.depth is not None else table.depth if table.depth is not None else 1.0
     try:
-        return Drum(one.height, one.bottom_width, one.top_width, density, table.section, depth)
+        return Drum(one.height, one.bottom_width, one.top_width, density, table.section, depth, one.top_depth)
     except InputError as error:
         raise InputError(f"[[drum]] number {i + 1}: {error}") from None
 

@@ -64,11 +64,11 @@ def _(structure: Column) -> Bodies:
         if one.chip_left or one.chip_right:  # the outline's axes are those of the lower face
             c, s = math.cos(one.tilt * DEGREE), math.sin(one.tilt * DEGREE)
             corners = drum_outline(structure, i) @ np.array([[c, -s], [s, c]])
-            shapes.append(Prism(corners, drum.mean_width if drum.circular else drum.depth))
+            shapes.append(Prism(corners, drum.mean_width if drum.circular else drum.mean_depth))
         elif drum.circular:
             shapes.append(CircularFrustum(drum.bottom_width, drum.top_width, drum.height, high))
         else:
-            sides = (drum.bottom_width, drum.depth), (drum.top_width, drum.depth)
+            sides = (drum.bottom_width, drum.depth), (drum.top_width, drum.upper_depth)
             shapes.append(RectangularFrustum(*sides, drum.height, high))
     names = tuple(f"drum {i + 1}" for i in range(structure.n))
     return Bodies(names, tuple(shapes), (False,) * structure.n, Reference(at.centroid, at.lean + at.tilt, slope))

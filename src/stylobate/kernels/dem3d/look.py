@@ -111,8 +111,6 @@ def observe(drum, joint, lane, feed, watch):
             if standing:
                 w.open[l] = max(w.open[l], opening)
                 w.spin[l] = max(w.spin[l], abs(twist - e.ot[l]))
-                a0, b0 = a - e.ox[l], b - e.oy[l]
-                w.slide[l] = max(w.slide[l], a0 * a0 + b0 * b0)
             # centroid of the part above, and how far it is beyond both faces on the side to which it leans
             each = 1.0 / w.m[l]
             gx, gy, gz = w.x[l] * each, w.y[l] * each, w.z[l] * each

@@ -41,7 +41,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                amax vmax      largest acceleration of the motion along the base and normal to it [m/s²]
                sx sy          where the middle of the topmost face stood [m]
                top topx topy  largest displacement of the middle of the topmost face in plan, and of each component [m]
-               open slide turn  largest opening of a joint [m], squared slip [m²], 1 − cos of a drum's tilt [-]
+               open turn      largest opening of a joint [m], 1 − cos of a drum's tilt [-]
                spin wmax      largest twist of a joint [rad]; largest |input work| [J]
                when which     collapse: step, joint; −1 while there is none
                parted about wide  1 if the faces have parted; the joint that is widest open then, and how wide [m]
@@ -97,6 +97,6 @@ def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
         np.dtype(counts("x y z last step end") + fields("ratio factor", r=9)),
         np.dtype(
             counts("status follow when which parted about")
-            + fields("amax vmax sx sy top topx topy open slide turn spin wmax wide ex ey m x y z px py")
+            + fields("amax vmax sx sy top topx topy open turn spin wmax wide ex ey m x y z px py")
         ),
     )

@@ -169,6 +169,9 @@ class SpaceBlock(DrumBlock):
     def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Slip [m] and twist [rad] of every joint since the start, shapes (n, 2) and (n,)."""
         _, slip, twist = self.joints(lane)
+        return self._moved(lane, slip, twist)
+
+    def _moved(self, lane: int, slip: np.ndarray, twist: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         first = np.stack((self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane]), axis=1)
         return slip - first, twist - self.joint["ot"][:-1, lane]
 
@@ -210,14 +213,15 @@ class SpaceBlock(DrumBlock):
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
         drum = self.drum
-        slip, twist = self.since_start(lane)
+        opening, slip, twist = self.joints(lane)
+        slip, twist = self._moved(lane, slip, twist)
         axes = self.axes(lane)
         foot = np.array([drum[name][1, lane] for name in ("fx", "fy", "fz")])
         return {
             "time": self.time(lane),
             "position": np.stack([drum[c][1:, lane] for c in "xyz"], axis=-1),
             "axes": axes,
-            "opening": self.joints(lane)[0],
+            "opening": opening,
             "slip": slip,
             "twist": twist,
             "base": np.array([drum[c][1, lane] for c in "xy"]) + (axes[0] @ foot)[:2],

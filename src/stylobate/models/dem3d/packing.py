@@ -26,7 +26,8 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
 
     cross = np.array([drum.cross_inertia for drum in column.drums])
     half = {
-        name: [0.5 * getattr(drum, name) for drum in column.drums] for name in ("bottom_width", "top_width", "depth")
+        name: [0.5 * getattr(drum, name) for drum in column.drums]
+        for name in ("bottom_width", "top_width", "depth", "upper_depth")
     }
     fields = dict.fromkeys(("x", "y", "vx", "vy", "vz", "lx", "ly", "lz", "wx", "wy", "wz"), zero)
     fields |= {axis + c: one if "ijk".index(axis) == "xyz".index(c) else zero for axis in "ijk" for c in "xyz"}
@@ -47,7 +48,7 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
             "nz": one,
             "ht": on_base(column.heights - centroid),
             "tx": on_base(half["top_width"], BASE_RADIUS),
-            "ty": on_base(half["depth"], BASE_RADIUS),
+            "ty": on_base(half["upper_depth"], BASE_RADIUS),
         }
         | (_round(half, on_base) if column.section == "circular" else _cornered(half, on_base))
     )
@@ -71,7 +72,7 @@ def _cornered(half: dict[str, list[float]], on_base: Callable[..., np.ndarray]) 
         "py": depth[:, None] * CORNERS[:, 1],
         "pz": np.zeros((len(along), 4)),
         "rb": np.hypot(along, depth),
-        "rt": np.hypot(on_base(half["top_width"], BASE_RADIUS), depth),
+        "rt": np.hypot(on_base(half["top_width"], BASE_RADIUS), on_base(half["upper_depth"])),
     }
 
 

@@ -25,7 +25,8 @@ RELEASE = 0.5
 def one_body(column: Column) -> Column:
     """The column as a single drum of its outline and mass on the joint with the base."""
     first, last = column.drums[0], column.drums[-1]
-    drum = Drum(column.height, first.bottom_width, last.top_width, first.density, column.section, first.depth)
+    ends = first.depth, None if column.section == "circular" else last.upper_depth
+    drum = Drum(column.height, first.bottom_width, last.top_width, first.density, column.section, *ends)
     drum = dataclasses.replace(drum, density=first.density * column.mass / drum.mass)
     return Column.of_drums([drum], column.joints[0], name=f"{column.name} as one body", gravity=column.gravity)
 

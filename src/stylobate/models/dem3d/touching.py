@@ -21,39 +21,38 @@ def slips_where_closest(drum: np.ndarray, lane: int, middles: np.ndarray, twists
     twists : array
         Turn of each upper drum about the joint's normal [rad], shape (n,).
     """
-    slips = middles.copy()
-    for j, twist in enumerate(twists):
-        slips[j] = _slip(drum, lane, j, float(twist))
-    return slips
+    u, v = drum[1:], drum[:-1]
 
+    def vectors(records: np.ndarray, names: str) -> np.ndarray:
+        return np.stack([records[name][..., lane] for name in names.split()], axis=-1)
 
-def _slip(drum: np.ndarray, lane: int, j: int, twist: float) -> np.ndarray:
-    u, v = drum[j + 1], drum[j]
-
-    def vector(record: np.void, names: str) -> np.ndarray:
-        return np.array([record[name][..., lane] for name in names.split()])
-
-    upper, lower = (np.stack([vector(record, f"{a}x {a}y {a}z") for a in "ijk"]) for record in (u, v))
-    turn = lower @ upper.T  # axes of the upper drum as columns, in those of the lower one
-    normal = turn @ vector(u, "nx ny nz")
-    foot = vector(u, "fx fy fz")
-    middle = lower @ (vector(u, "x y z") + foot @ upper - vector(v, "x y z")) - (0.0, 0.0, v["ht"][lane])
-    cornered = u["px"].shape[0] > 1
+    # axes of each upper drum as columns, in those of the lower one
+    upper, lower = (np.stack([vectors(one, f"{a}x {a}y {a}z") for a in "ijk"], axis=1) for one in (u, v))
+    turn = lower @ upper.transpose(0, 2, 1)
+    normal = (turn @ vectors(u, "nx ny nz")[:, :, None])[:, :, 0]
+    foot = (vectors(u, "fx fy fz")[:, None, :] @ upper)[:, 0]
+    middle = (lower @ (vectors(u, "x y z") + foot - vectors(v, "x y z"))[:, :, None])[:, :, 0]
+    middle[:, 2] -= v["ht"][:, lane]
+    n = len(middle)
+    cornered = u["px"].shape[1] > 1
     if cornered:
-        places = middle + (turn @ vector(u, "px py pz")).T
-        ends = vector(v, "tx ty")
-        inside = (np.abs(places[:, :2]) < ends).all(axis=1)
-        places[:, 2] *= inside
-        places[:, :2] = np.clip(places[:, :2], -ends, ends)
+        places = middle[:, None] + vectors(u, "px py pz") @ turn.transpose(0, 2, 1)
+        ends = vectors(v, "tx ty")[:, None]
+        inside = (np.abs(places[..., :2]) < ends).all(axis=-1)
+        places[..., 2] *= inside
+        places[..., :2] = np.clip(places[..., :2], -ends, ends)
     else:
-        sine = float(np.hypot(normal[0], normal[1]))
-        h = np.array([normal[0] / sine, normal[1] / sine, 0.0]) if sine > 0.0 else np.array([1.0, 0.0, 0.0])
-        down = np.array([normal[2] * h[0], normal[2] * h[1], -sine])
-        places = np.stack((middle + u["rb"][lane] * down, v["rt"][lane] * h))
+        sine = np.hypot(normal[:, 0], normal[:, 1])
+        flat = sine == 0.0
+        each = 1.0 / np.where(flat, 1.0, sine)
+        h = np.stack((np.where(flat, 1.0, normal[:, 0] * each), normal[:, 1] * each, np.zeros(n)), axis=1)
+        down = np.stack((normal[:, 2] * h[:, 0], normal[:, 2] * h[:, 1], -sine), axis=1)
+        places = np.stack((middle + u["rb"][:, lane, None] * down, v["rt"][:, lane, None] * h), axis=1)
         inside = np.array([True, False])
-    gaps = np.where(inside, places[:, 2], (middle - places) @ normal)
+    gaps = np.where(inside, places[..., 2], ((middle[:, None] - places) @ normal[:, :, None])[..., 0])
     # of the ends of two discs the one that lies over the other disc touches: it is the less deep of the two
-    place = places[int(gaps.argmin() if cornered else gaps.argmax())]
-    stone = turn.T @ (place - middle)
-    c, s = np.cos(twist), np.sin(twist)
-    return place[:2] - (c * stone[0] - s * stone[1], s * stone[0] + c * stone[1])
+    place = places[np.arange(n), gaps.argmin(axis=1) if cornered else gaps.argmax(axis=1)]
+    stone = ((place - middle)[:, None, :] @ turn)[:, 0]
+    c, s = np.cos(twists), np.sin(twists)
+    moved = np.stack((c * stone[:, 0] - s * stone[:, 1], s * stone[:, 0] + c * stone[:, 1]), axis=1)
+    return place[:, :2] - moved

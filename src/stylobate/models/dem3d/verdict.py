@@ -84,7 +84,7 @@ def flat_barrier(
             beside = back @ (place[j - 1] if j else np.zeros(2))
             corners = corners + back @ place[j] - beside
             if under is not None:
-                ends = np.array([0.5 * under.top_width, 0.5 * under.depth])
+                ends = np.array([0.5 * under.top_width, 0.5 * under.upper_depth])
                 corners = np.clip(corners, -ends, ends)
             half = inside_by(back @ middle - beside, corners)
         else:
