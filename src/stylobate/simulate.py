@@ -128,6 +128,7 @@ def simulate_iter(
     *,
     tail: float = 0.0,
     until_end: bool = False,
+    quiet: float = 0.0,
     threads: int | None = None,
 ) -> Generator[tuple[int, Measures], None, None]:
     """Run many cases; yields (index, measures) as they finish, in any order.
@@ -138,10 +139,13 @@ def simulate_iter(
     model : Model
     tail, until_end
         As in :func:`simulate`.
+    quiet : float
+        Share of what opens a joint below which the lead-in and the end of a motion are not stepped [-]; 0 steps all of it.
     threads : int, optional
         All cores by default.
     """
-    options = _options(tail, 0.01, until_end)
+    share = check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion")
+    options = dataclasses.replace(_options(tail, 0.01, until_end), quiet=share)
     for column, motion in _to_check(cases):
         model.check(column, motion)
         model.check_length(column, motion, options)

@@ -17,6 +17,7 @@ from ..column import Column
 from ..constants import g
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
+from ..models.shared.quiet import share_of
 from ..motion import Motion
 from . import verdicts as v
 
@@ -127,6 +128,7 @@ def critical_amplitude(
     *,
     nominal: float | None = None,
     tail: float = 0.0,
+    whole: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
     ledger: str | Path | None = None,
@@ -145,6 +147,9 @@ def critical_amplitude(
         Amplitude that ``motion`` stands for as it is [m/s²]; its peak along x by default.
     tail : float
         Time to go on after the motion has ended [s].
+    whole : bool
+        Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
+        shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
     threads : int, optional
         All cores by default.
     progress : callable, optional
@@ -169,7 +174,10 @@ def critical_amplitude(
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
     cases = [Case(column, motion.scaled(a / as_is)) for a in amplitudes]
     key = {"column": column.digest, "motion": motion.digest, "as_is": as_is, "amplitudes": amplitudes.tolist()}
-    result = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
+    quiet = share_of([motion], whole)
+    result = run_campaign(
+        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
+    )
     if result.interrupted:
         raise Stopped(sum(row is not None for row in result.rows), len(cases), ledger)
     rows = [row for row in result.rows if row is not None]

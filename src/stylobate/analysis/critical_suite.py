@@ -14,6 +14,7 @@ from ..column import Column
 from ..constants import g
 from ..errors import InputError
 from ..models.base import Case, Model
+from ..models.shared.quiet import share_of
 from ..motion import Motion
 from . import verdicts as v
 from .critical import CriticalAmplitude, amplitude_grid
@@ -108,6 +109,7 @@ def critical_suite(
     step: float = 0.005 * g,
     *,
     tail: float = 0.0,
+    whole: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
     ledger: str | Path | None = None,
@@ -120,7 +122,7 @@ def critical_suite(
     motions : sequence of Motion
         Each is scaled, all its components alike, so that its peak along x takes the amplitudes of the grid.
     model : Model
-    start, stop, step, tail, threads, progress, ledger
+    start, stop, step, tail, whole, threads, progress, ledger
         As for :func:`stylobate.analysis.critical.critical_amplitude`.
 
     Returns
@@ -144,7 +146,10 @@ def critical_suite(
         "motions": [motion.digest for motion in motions],
         "amplitudes": amplitudes.tolist(),
     }
-    campaign = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
+    quiet = share_of(motions, whole)
+    campaign = run_campaign(
+        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
+    )
     if campaign.interrupted:
         raise Stopped(sum(row is not None for row in campaign.rows), len(cases), ledger)
     rows = [row for row in campaign.rows if row is not None]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
 from ..models.base import Case, Model
+from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from .verdicts import verdict
@@ -47,6 +48,7 @@ def suite_table(
     model: Model,
     *,
     tail: float = 0.0,
+    whole: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
     ledger: str | Path | None = None,
@@ -61,6 +63,9 @@ def suite_table(
     model : Model
     tail : float
         Time to go on after each motion [s].
+    whole : bool
+        Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
+        shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
     threads : int, optional
         All cores by default.
     progress : callable, optional
@@ -91,7 +96,10 @@ def suite_table(
             rows.append({"number": number, "record": motion.name, "column": column.name} | record | relation)
     cases = [Case(column, motion) for column in stands for motion in motions]
     key = {"columns": [one.digest for one in stands], "motions": [one.digest for one in motions]}
-    found = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
+    quiet = share_of(motions, whole)
+    found = run_campaign(
+        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
+    )
     if found.interrupted:
         raise Stopped(sum(row is not None for row in found.rows), len(cases), ledger)
     for case, row, line in zip(cases, found.rows, rows):

@@ -45,6 +45,7 @@ def run_campaign(
     model: Model,
     *,
     tail: float = 0.0,
+    quiet: float = 0.0,
     threads: int | None = None,
     progress: Progress | None = None,
     ledger: str | Path | None = None,
@@ -58,6 +59,8 @@ def run_campaign(
     model : Model
     tail : float
         Time to go on after each motion has ended [s].
+    quiet : float
+        As for :func:`stylobate.simulate.simulate_iter`; part of the campaign's key.
     threads : int, optional
         All cores by default.
     progress : callable, optional
@@ -74,7 +77,8 @@ def run_campaign(
     if progress:
         progress(0, len(cases))
     try:
-        with closing(finished_runs(cases, model, tail=tail, threads=threads, ledger=ledger, key=key)) as finished:
+        runs = finished_runs(cases, model, tail=tail, quiet=quiet, threads=threads, ledger=ledger, key=key)
+        with closing(runs) as finished:
             for number, row in finished:
                 rows[number] = row
                 done += 1
@@ -90,6 +94,7 @@ def finished_runs(
     model: Model,
     *,
     tail: float = 0.0,
+    quiet: float = 0.0,
     threads: int | None = None,
     ledger: str | Path | None = None,
     key: Mapping[str, Any] | None = None,
@@ -101,12 +106,13 @@ def finished_runs(
     ----------
     cases : sequence of Case
         Asked for one by one, so that it can make them as they are needed.
-    model, tail, threads, ledger, key
+    model, tail, quiet, threads, ledger, key
         As in :func:`run_campaign`.
     keep : callable
         What of a run goes into the ledger and to the caller.
     """
-    book = Ledger(ledger, full_key(model, tail, key or {}), len(cases)) if ledger is not None else None
+    decisive = {**(key or {}), "quiet": quiet}
+    book = Ledger(ledger, full_key(model, tail, decisive), len(cases)) if ledger is not None else None
     try:
         known: set[int] = set()
         for number, row in book.rows() if book else ():
@@ -114,7 +120,7 @@ def finished_runs(
                 known.add(number)
                 yield number, row
         todo = _Others(cases, known)
-        with closing(simulate_iter(todo, model, tail=tail, threads=threads)) as finished:
+        with closing(simulate_iter(todo, model, tail=tail, quiet=quiet, threads=threads)) as finished:
             for index, measures in finished:
                 number, row = int(todo.numbers[index]), keep(measures)
                 if book:

@@ -43,6 +43,7 @@ def critical(
     condition: o.Condition = None,
     vertical: o.Vertical = "on",
     tail: o.Tail = "0s",
+    whole: o.Whole = False,
     settings: o.Settings = None,
     threads: o.Threads = None,
     out: o.Out = None,
@@ -65,7 +66,7 @@ def critical(
     after, count = o.the_tail(tail), o.the_threads(threads)
     if asked.several:
         suite = asked.expand(stone.frequency_parameter, amplitude_open=True)
-        over_suite(stone, suite, how, grid, after, count, out, as_json)
+        over_suite(stone, suite, how, grid, after, whole, count, out, as_json)
         return
     shaking = asked.motion(stone.frequency_parameter, amplitude_open=True)
     # the amplitude of a formula is that of its sine; of a record, or once it is conditioned, the peak that it has along x
@@ -74,7 +75,16 @@ def critical(
         with console.progress("amplitudes") as progress:
             ledger = console.ledger(folder)
             result = critical_amplitude(
-                stone, shaking, how, *grid, nominal=nominal, tail=after, threads=count, progress=progress, ledger=ledger
+                stone,
+                shaking,
+                how,
+                *grid,
+                nominal=nominal,
+                tail=after,
+                whole=whole,
+                threads=count,
+                progress=progress,
+                ledger=ledger,
             )
         summary, files = result.summary() | o.input_facts(how.taken(shaking)), []
         if folder is not None:
@@ -93,6 +103,7 @@ def over_suite(
     model: Model,
     grid: list[float],
     tail: float,
+    whole: bool,
     threads: int,
     out: Path | None,
     as_json: bool,
@@ -105,7 +116,15 @@ def over_suite(
         with console.progress("runs") as progress:
             ledger = console.ledger(folder)
             result = critical_suite(
-                column, suite.motions, model, *grid, tail=tail, threads=threads, progress=progress, ledger=ledger
+                column,
+                suite.motions,
+                model,
+                *grid,
+                tail=tail,
+                whole=whole,
+                threads=threads,
+                progress=progress,
+                ledger=ledger,
             )
         summary, files = result.summary() | {"refused": suite.refused}, []
         if folder is not None:

@@ -97,6 +97,9 @@ Pga = Annotated[
 ]
 Vertical = Annotated[str, typer.Option("--vertical", metavar="on|off", help="Whether the vertical component acts.")]
 Tail = Annotated[str, typer.Option("--tail", metavar="TIME", help="Go on for this long after the motion, such as 5s.")]
+Whole = Annotated[
+    bool, typer.Option("--whole", help="Step all of a record, its quiet before, between and after shocks too.")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output, and nothing else there.")]
 Out = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Folder for files and figures; without it none are written.")

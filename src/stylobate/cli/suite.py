@@ -46,6 +46,7 @@ def suite(
     pga: o.Pga = None,
     vertical: o.Vertical = "on",
     tail: o.Tail = "0s",
+    whole: o.Whole = False,
     settings: o.Settings = None,
     threads: o.Threads = None,
     out: o.Out = None,
@@ -58,6 +59,7 @@ def suite(
     from ..analysis.suite import INTENSITIES, suite_table
     from ..column.files import load_column
     from ..errors import InputError
+    from ..models.shared.quiet import share_of
     from . import console
 
     workers, after = o.the_threads(threads), o.the_tail(tail)
@@ -73,13 +75,14 @@ def suite(
         ledger = console.ledger(folder)
         with console.progress("runs") as progress:
             table = suite_table(
-                stones, records.motions, how, tail=after, threads=workers, progress=progress, ledger=ledger
+                stones, records.motions, how, tail=after, whole=whole, threads=workers, progress=progress, ledger=ledger
             )
         counts = {name: Counter(rows["verdict"]) for name, rows in table.groupby("column", sort=False)}
         result = {
             "runs": table.astype(object).where(table.notna(), None).to_dict("records"),
             "verdicts": counts,
             "inputs": [o.input_facts(how.taken(motion)) for motion in records.motions],
+            "quiet_share": share_of(records.motions, whole),
             "refused": records.refused,
             "model": how.name,
         }
@@ -103,6 +106,9 @@ def suite(
     for motion in records.motions:
         if left_out := o.input_facts(how.taken(motion))["left_out"]:
             print(f"left out of {motion.name}: {'; '.join(left_out)}")
+    if "stepped_s" in table:
+        share = table["stepped_s"].sum() / table["duration_s"].sum()
+        print(f"stepped: {100 * share:.0f} % of the records, without what is quiet (--whole steps all)")
     console.print_refused(records.refused)
     if files:
         print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")

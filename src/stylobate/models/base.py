@@ -47,6 +47,9 @@ class RunOptions:
         Go on after the motion until everything lies still (models that follow a collapse to the ground).
     start : Start, optional
         Pose and velocity at the start, instead of rest (models with ``takes_start``).
+    quiet : float
+        Share of what opens a joint below which the lead-in and the end of a motion are not stepped (models of drums; see
+        ``models/shared/quiet.py``); 0 steps the whole motion [-].
     """
 
     tail: float = 0.0
@@ -54,6 +57,7 @@ class RunOptions:
     until_end: bool = False
     until_rest: bool = False
     start: Start | None = None
+    quiet: float = 0.0
 
 
 @dataclass(frozen=True)

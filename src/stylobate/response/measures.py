@@ -104,6 +104,8 @@ class Measures:
         Of a model in space.
     blocks : BlockMeasures, optional
         Of an assembly.
+    stepped : (float, float, float), optional
+        Where the quiet of the motion was left out: times from and to which it was stepped, and how much of it [s].
     """
 
     outcome: Outcome
@@ -121,6 +123,7 @@ class Measures:
     collapse: Collapse | None = None
     space: SpaceMeasures | None = None
     blocks: BlockMeasures | None = None
+    stepped: tuple[float, float, float] | None = None
 
     def __eq__(self, other: object) -> bool:
         """Equal to the bit, one missing number (NaN) like another; left alone, Python 3.13 tells NaN from NaN."""
@@ -154,4 +157,6 @@ class Measures:
         if self.space is not None:
             azimuth = None if self.collapse is None else self.collapse.azimuth
             row |= self.space.row() | {"collapse_azimuth_deg": None if azimuth is None else math.degrees(azimuth)}
+        if self.stepped is not None:
+            row |= dict(zip(("stepped_from_s", "stepped_to_s", "stepped_s"), map(float, self.stepped), strict=True))
         return row

@@ -53,8 +53,7 @@ class SpaceBlock(DrumBlock):
         for name, samples in (("x", motion.samples), ("y", motion.y_samples), ("z", motion.z_samples)):
             feed[name][lane] = 0 if samples is None else samples.ctypes.data
         feed["last"][lane] = motion.steps - 1
-        feed["step"][lane] = 0
-        feed["end"][lane] = steps
+        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
         feed["ratio"][lane] = dt / motion.dt
         feed["factor"][lane] = motion.factor
         base = self.base(case)
@@ -136,7 +135,7 @@ class SpaceBlock(DrumBlock):
     def _half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
         half, drum = 0.5 * self.dt[lane], self.drum
-        kick = np.repeat(self.ground_acceleration(lane, 0.0)[None], len(drum) - 1, axis=0)
+        kick = np.repeat(self.ground_acceleration(lane, self.time(lane))[None], len(drum) - 1, axis=0)
         if self.options.start is not None:
             force, moment = self.net(lane)
             kick = kick + self.lane["g"][0, :, lane] - force * drum["im"][1:, lane, None]
@@ -259,9 +258,10 @@ class SpaceBlock(DrumBlock):
             residual_joint_slip=float(slips.max()),
             energy_imbalance=imbalance,
             time_step=float(self.dt[lane]),
-            steps=int(self.feed["step"][0, lane]),
+            steps=int(self.feed["step"][0, lane] - self.spans.left_out[lane]),
             reason=self.reason(lane, outcome, imbalance),
             collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
+            stepped=self.spans.stepped(lane, int(self.feed["step"][0, lane]), float(self.dt[lane])),
             space=SpaceMeasures(
                 peak_top_x=float(watch["topx"][lane]),
                 peak_top_y=float(watch["topy"][lane]),

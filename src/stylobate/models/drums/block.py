@@ -17,7 +17,7 @@ from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
 from ...response.collapse import SLID_OFF, in_plane
 from ..base import Case, RunOptions
-from ..shared import ledger
+from ..shared import ledger, quiet
 from ..shared.ground import along_base, ground_histories
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..shared.soft_joints import resolving
@@ -131,6 +131,7 @@ class DrumBlock:
         self.start = np.zeros((self.lanes, 6))
         self.slip = np.zeros((self.lanes, drums))
         self.cases: list[Case | None] = [None] * self.lanes
+        self.spans = quiet.Spans(self.lanes, options, self.chunk)
         self.chunks_per_call = 1
         self.piece = longest_piece(cost, self.chunk)
 
@@ -151,8 +152,7 @@ class DrumBlock:
         feed["x"][lane] = x.ctypes.data
         feed["z"][lane] = 0 if z is None else z.ctypes.data
         feed["last"][lane] = len(x) - 1
-        feed["step"][lane] = 0
-        feed["end"][lane] = steps
+        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
         feed["ratio"][lane] = dt / motion.dt
         feed["factor"][lane] = motion.factor
         slope = column.as_found.base_tilt * DEGREE
@@ -169,7 +169,7 @@ class DrumBlock:
         watch["stood"][lane] = self.top(lane)
         self.dt[lane] = dt
         # velocities half a step before the start, of drums that do not move yet in a base that may
-        ground = self.ground_acceleration(lane, 0.0)
+        ground = self.ground_acceleration(lane, self.time(lane))
         self.drum["vx"][1:, lane], self.drum["vz"][1:, lane] = 0.5 * dt * ground[0], 0.5 * dt * ground[1]
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
@@ -184,8 +184,24 @@ class DrumBlock:
             left -= count
 
     def is_over(self, lane: int) -> bool:
-        """Whether the lane's run has ended."""
-        return self.watch["status"][0, lane] != self.kernel.RUNNING
+        """Whether the lane's run has ended; one that still moves after the shaking, or is shaken again, goes on."""
+        feed, watch = self.feed[0], self.watch[0]
+        others = (self.kernel.RUNNING, self.kernel.COLLAPSED, self.kernel.FAILED)
+        if watch["status"][lane] not in others and feed["end"][lane] < self.steps[lane]:
+            now = int(feed["step"][lane])
+            first, end = self.spans.onward(lane, now, int(self.steps[lane]), self.at_rest(lane))
+            if end > now:
+                feed["step"][lane], feed["end"][lane] = first, end
+                watch["status"][lane] = self.kernel.RUNNING
+                self.lane["dt"][0, lane] = self.dt[lane]
+        return watch["status"][lane] != self.kernel.RUNNING
+
+    def at_rest(self, lane: int) -> bool:
+        """Whether a lane's column has next to no energy above that at its start."""
+        case = self.cases[lane]
+        assert case is not None
+        change = self.energies(lane) - self.start[lane]
+        return float(change[1] + change[2] + change[3]) < quiet.AT_REST * lowest_barrier(case.column)
 
     def time(self, lane: int) -> float:
         """Time of the lane's present state [s]."""
@@ -278,9 +294,10 @@ class DrumBlock:
             residual_joint_slip=float(np.abs(slip).max()),
             energy_imbalance=imbalance,
             time_step=float(self.dt[lane]),
-            steps=int(self.feed["step"][0, lane]),
+            steps=int(self.feed["step"][0, lane] - self.spans.left_out[lane]),
             reason=self.reason(lane, outcome, imbalance),
             collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
+            stepped=self.spans.stepped(lane, int(self.feed["step"][0, lane]), float(self.dt[lane])),
         )
 
     def collapse(self, lane: int) -> Collapse:

@@ -1,0 +1,116 @@
+"""Quiet stretches of records that are not stepped: what must not change, and what is never left out."""
+
+import warnings
+
+import numpy as np
+import pytest
+from records import FOLDER, needs_folder
+
+import stylobate as st
+from stylobate.analysis.suite import suite_table
+from stylobate.analysis.verdicts import verdict
+from stylobate.constants import g
+from stylobate.errors import OutOfRangeWarning
+from stylobate.models.base import Case
+from stylobate.models.drums.block import DrumBlock
+from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, opening_acceleration, shaking, share_of
+from stylobate.motion import harmonic
+from stylobate.simulate import simulate_iter
+
+MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement2D(stiffness_damping=1e-4), st.DistinctElement3D()]
+SOFT = st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=0.7)
+COLUMN = st.Column.tapered(
+    height=4.0, bottom_width=0.8, top_width=0.6, drums=3, density=2600.0, joint=SOFT, section="circular"
+)
+
+
+def shocks(*sizes, pause=8.0, last=None):
+    """Pulses of one second [g], each after a pause; a record as far as its metadata say."""
+    parts = [np.zeros(round(pause / 0.01))]
+    for size in sizes:
+        parts += [size * g * np.sin(2.0 * np.pi * np.arange(101) / 100.0), np.zeros(round(pause / 0.01))]
+    return st.Motion(0.01, np.concatenate(parts), metadata={"format": "made for this test"})
+
+
+def rows(motions, model, quiet, column=COLUMN, tail=0.0):
+    cases = [Case(column, motion) for motion in motions]
+    found = dict(simulate_iter(cases, model, tail=tail, quiet=quiet, threads=1))
+    return [found[i].row() for i in range(len(cases))]
+
+
+@pytest.mark.parametrize("model", MODELS, ids=["dem2d", "rigid-block", "damped", "dem3d"])
+def test_a_run_in_pieces_has_the_bits_of_one_in_a_piece(model, monkeypatch):
+    # A motion that is loud at once and whose column never counts as at rest is stepped as a whole, looked at in between.
+    monkeypatch.setattr(DrumBlock, "at_rest", lambda *_: False)
+    motion = st.Motion(0.01, np.concatenate([shocks(0.5).samples[790:], np.zeros(300)]))
+    whole, pieces = (rows([motion, motion.scaled(0.3)], model, quiet) for quiet in (0.0, QUIET))
+    for one, other in zip(whole, pieces, strict=True):
+        assert other.pop("stepped_s") == other.pop("stepped_to_s") - other.pop("stepped_from_s")
+        assert one == other
+
+
+@pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=["dem2d", "dem3d"])
+def test_shocks_with_quiet_between_them(model):
+    # Zeros before, between and after the shocks: exactly nothing is left out, so peaks agree to what the quiet elastic
+    # vibration of the joints changes, and a collapse is found at its time in the record.
+    motions = [shocks(0.25, 0.1), shocks(0.1, 4.0)]
+    whole, cut = (rows(motions, model, quiet) for quiet in (0.0, QUIET))
+    assert [verdict(one) for one in whole] == [verdict(one) for one in cut] == ["stands", "collapsed"]
+    assert cut[0]["peak_top_displacement_m"] == pytest.approx(whole[0]["peak_top_displacement_m"], rel=0.05)
+    assert cut[1]["collapse_time_s"] == pytest.approx(whole[1]["collapse_time_s"], abs=0.1)
+    assert cut[1]["collapse_time_s"] > 17.0
+    for one, other in zip(whole, cut, strict=True):
+        assert other["stepped_from_s"] == pytest.approx(8.0 - BEFORE, abs=0.1)
+        assert other["steps"] * other["time_step_s"] == pytest.approx(other["stepped_s"], rel=1e-9)
+        assert other["steps"] < (0.75 if one["outcome"] != "collapsed" else 0.95) * one["steps"]
+
+
+def test_what_still_rocks_goes_on():
+    # The pulse ends at 1 s and the column rocks on for seconds: it is stepped until it lies at rest, not to the pulse's end.
+    motion = st.Motion(0.01, np.concatenate([shocks(0.27, pause=0.05).samples[:106], np.zeros(3000)]))
+    [one] = rows([motion], st.DistinctElement2D(), QUIET)
+    [whole] = rows([motion], st.DistinctElement2D(), 0.0)
+    assert 1.0 + 3.0 * LOOK < one["stepped_to_s"] < 25.0
+    assert one["peak_top_displacement_m"] == whole["peak_top_displacement_m"]
+    assert verdict(one) == verdict(whole) == "stands"
+
+
+def test_the_level_counts_every_component_and_sliding():
+    a = np.array([0.0, 3.0, 0.0])
+    flat = st.Motion(0.01, a)
+    opens = COLUMN.uplift_acceleration
+    assert level(flat, COLUMN)[1] == pytest.approx(3.0 / opens)
+    assert level(flat.replace(ay=4.0 / 3.0 * a), COLUMN)[1] == pytest.approx(5.0 / opens)
+    assert level(flat.replace(az=a, factor=-2.0), COLUMN)[1] == pytest.approx(6.0 / opens + 6.0 / 9.81)
+    slippery = COLUMN.with_joint(friction_coefficient=0.05)
+    assert opening_acceleration(slippery) == pytest.approx(0.05 * 9.81)
+    slab = st.Column.tapered(
+        height=4.0, bottom_width=0.8, top_width=0.8, drums=1, density=2600.0, joint=SOFT, depth=0.2
+    )
+    assert opening_acceleration(slab) == pytest.approx(0.25 * slab.uplift_acceleration)
+
+
+def test_stretches_of_a_record():
+    motion = shocks(0.3, 0.3, pause=10.0)
+    found = shaking(motion, COLUMN, QUIET)
+    assert found == pytest.approx(np.array([[10.0, 11.0], [21.0, 22.0]]), abs=0.05)
+    faint = shaking(motion.scaled(1e-3), COLUMN, QUIET)  # below the share: its peak
+    assert len(faint) >= 1
+    assert 10.0 < faint[0][0] < faint[0][1] < 11.0
+
+
+def test_only_records_are_cut():
+    record = shocks(0.3)
+    assert share_of([record], False) == QUIET
+    assert share_of([record], True) == 0.0
+    assert share_of([record, harmonic(1.0, 0.3 * g, 10.0)], False) == 0.0
+
+
+@needs_folder
+def test_the_verdicts_of_real_records_are_the_same():
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)
+        motions = st.read_suite(FOLDER, "g").motions
+        whole, cut = (suite_table(COLUMN, motions, st.DistinctElement2D(), whole=one) for one in (True, False))
+    assert list(whole["verdict"]) == list(cut["verdict"])
+    assert cut["steps"].sum() < whole["steps"].sum() / 1.6
