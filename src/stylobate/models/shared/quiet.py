@@ -40,7 +40,13 @@ def opening_acceleration(column: Column) -> float:
     """Smallest static horizontal acceleration that opens a joint or makes it slide, in any direction [m/s²]: a_0."""
     least = column.uplift_acceleration
     if column.section == "rectangular":  # across its depth
-        least *= min(1.0, *(drum.depth / max(drum.bottom_width, drum.top_width) for drum in column.drums))
+        least *= min(
+            1.0,
+            *(
+                min(drum.depth, drum.top_depth or drum.depth) / max(drum.bottom_width, drum.top_width)
+                for drum in column.drums
+            ),
+        )
     return min(least, column.gravity * min(joint.tan_phi for joint in column.joints))
 
 

@@ -1,0 +1,215 @@
+"""Intensity measures by the names that a person types: ``pga``, ``pgv@geomean``, ``sa:1.0s``, ``avgsa:0.5s-3s``."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..constants import g
+from ..errors import InputError, suggest
+from .intensity import arias_intensity, cumulative_absolute_velocity, rocking_measures, significant_duration
+from .motion import Motion
+from .specs import parse_time
+from .spectra import pseudo_acceleration
+
+#: Periods of an average spectral acceleration by default [s], and how many of them, evenly spaced in their logarithm: a
+#: rocking column has no period of its own, and answers to long ones.
+AVERAGED, PERIODS = (0.5, 3.0), 10
+
+#: Directions in which an orientation-independent measure looks, one degree apart (Boore 2010).
+DIRECTIONS = np.radians(np.arange(180.0))
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of measure.
+
+    Parameters
+    ----------
+    words, unit : str
+    power : int
+        Of the factor of a motion that the measure grows with [-]; 0 where scaling does not change it.
+    of : callable
+        Value of one component (x) of a motion, given periods [s] and (tan α, p) of a column.
+    column : bool
+        Whether it relates the motion to a column.
+    """
+
+    words: str
+    unit: str
+    power: int
+    of: Callable[[Motion, tuple[float, ...], tuple[float, float] | None], float]
+    column: bool = False
+
+
+def _rocking(key: str) -> Callable[[Motion, tuple[float, ...], tuple[float, float] | None], float]:
+    def of(motion: Motion, _: tuple[float, ...], column: tuple[float, float] | None) -> float:
+        assert column is not None
+        value = rocking_measures(motion, *column)[key]
+        return math.nan if value is None else float(value)
+
+    return of
+
+
+def _average(motion: Motion, periods: tuple[float, ...], _: object) -> float:
+    t = np.geomspace(*periods, PERIODS)
+    return float(np.exp(np.log(pseudo_acceleration(motion, t)).mean())) / g
+
+
+#: Kinds by name. Sources: docs/theory/fragility.md.
+KINDS: dict[str, Kind] = {
+    "pga": Kind("peak ground acceleration", "g", 1, lambda m, *_: m.pga / g),
+    "pgv": Kind("peak ground velocity", "m/s", 1, lambda m, *_: m.pgv),
+    "pgv_over_pga": Kind("PGV/PGA", "s", 0, lambda m, *_: m.pgv / m.pga if m.pga else math.nan),
+    "sa": Kind("Sa, 5 % damping", "g", 1, lambda m, t, _: float(pseudo_acceleration(m, t)[0]) / g),
+    "avgsa": Kind("average Sa", "g", 1, _average),
+    "cav": Kind("cumulative absolute velocity", "m/s", 1, lambda m, *_: cumulative_absolute_velocity(m)),
+    "arias": Kind("Arias intensity", "m/s", 2, lambda m, *_: arias_intensity(m)),
+    "d5_95": Kind("significant duration 5–95 %", "s", 0, lambda m, *_: significant_duration(m)),
+    "d5_75": Kind("significant duration 5–75 %", "s", 0, lambda m, *_: significant_duration(m, 0.05, 0.75)),
+    "pga_over_g_tan_alpha": Kind("PGA/(g tan α)", "-", 1, _rocking("pga_over_g_tan_alpha"), True),
+    "pgv_p_over_g_tan_alpha": Kind("p PGV/(g tan α)", "-", 1, _rocking("pgv_p_over_g_tan_alpha"), True),
+    "omega_g_over_p": Kind("ω_g/p", "-", 0, _rocking("omega_g_over_p"), True),
+}
+
+#: What is made of the two horizontal components.
+COMPONENTS = ("x", "y", "z", "geomean", "larger", "rotd50", "rotd100")
+
+_SPEC = re.compile(r"(?P<kind>[a-z0-9_]+)(?::(?P<periods>[^@]+))?(?:@(?P<component>[a-z0-9]+))?")
+
+
+@dataclass(frozen=True)
+class IntensityMeasure:
+    """One number for how strong a motion is.
+
+    Parameters
+    ----------
+    kind : str
+        Of :data:`KINDS`.
+    periods : tuple of float
+        One for ``sa``, first and last for ``avgsa`` [s].
+    component : str
+        ``x`` (the plane of the plane models), ``y``, ``z``, or of both horizontal components their geometric mean, the
+        larger one, or the median or largest over all directions (RotD50, RotD100: of ``pga``, ``pgv``, ``sa``, ``avgsa``).
+    """
+
+    kind: str
+    periods: tuple[float, ...] = ()
+    component: str = "x"
+
+    @property
+    def name(self) -> str:
+        """As it is typed."""
+        periods = "-".join(f"{t:g}s" for t in self.periods)
+        at = "" if self.component == "x" else f"@{self.component}"
+        return f"{self.kind}{':' if periods else ''}{periods}{at}"
+
+    @property
+    def unit(self) -> str:
+        """``g``, ``m/s``, ``s`` or ``-``."""
+        return KINDS[self.kind].unit
+
+    @property
+    def power(self) -> int:
+        """Of the factor of a motion that it grows with; 0: scaling does not change it."""
+        return KINDS[self.kind].power
+
+    @property
+    def words(self) -> str:
+        """For the axis of a picture, with its unit."""
+        periods = " to ".join(f"{t:g}" for t in self.periods)
+        at = "" if self.component == "x" else f", {self.component}"
+        return f"{KINDS[self.kind].words}{f' at {periods} s' if periods else ''}{at} [{self.unit}]"
+
+    @property
+    def key(self) -> str:
+        """Its column in a table."""
+        unit = {"g": "_g", "m/s": "_m_s", "s": "_s", "-": ""}[self.unit]
+        return self.name.replace(":", "_").replace("@", "_") + unit
+
+    def of(self, motion: Motion, column: tuple[float, float] | None = None) -> float:
+        """Value for a motion, in :attr:`unit`.
+
+        Parameters
+        ----------
+        motion : Motion
+        column : (float, float), optional
+            tan α [-] and p [rad/s] of the column, for the measures of rocking.
+
+        Raises
+        ------
+        InputError
+            A component that the motion lacks, or a measure of rocking without a column.
+        """
+        kind = KINDS[self.kind]
+        if kind.column and column is None:
+            raise InputError(f"{self.name} relates a motion to a column, and none is given here; use another measure.")
+        needed = {"x": "x", "y": "y", "z": "z"}.get(self.component, "y")
+        if needed not in motion.components:
+            word = {"y": "a second horizontal", "z": "a vertical"}[needed]
+            raise InputError(
+                f"{self.name} needs {word} component, which {motion.name!r} has not; use {self.kind} along x, or leave "
+                "the record out."
+            )
+        if self.component.startswith("rotd"):
+            return self._over_directions(motion)
+        values = [kind.of(_along(motion, axis), self.periods, column) for axis in _AXES.get(self.component, "xy")]
+        if self.component == "geomean":
+            return math.sqrt(values[0] * values[1])
+        return max(values)
+
+    def _over_directions(self, motion: Motion) -> float:
+        x, y = motion.acceleration, motion.components["y"]
+        kind, step = KINDS[self.kind], 1 if self.kind in ("pga", "pgv") else 10
+        values = [
+            kind.of(Motion(motion.dt, x * math.cos(a) + y * math.sin(a)), self.periods, None)
+            for a in DIRECTIONS[::step]
+        ]
+        return float(np.percentile(values, 50.0 if self.component == "rotd50" else 100.0))
+
+
+_AXES = {"x": "x", "y": "y", "z": "z"}
+
+
+def _along(motion: Motion, axis: str) -> Motion:
+    if axis == "x":
+        return motion
+    return Motion(motion.dt, motion.components[axis], name=motion.name, metadata=motion.metadata)
+
+
+def parse_measure(text: str) -> IntensityMeasure:
+    """An intensity measure as typed: a kind, periods behind a colon, a component behind an @.
+
+    Raises
+    ------
+    InputError
+        No such measure; the message names those that are.
+    """
+    found = _SPEC.fullmatch(text.strip().lower())
+    if found is None or found["kind"] not in KINDS:
+        word = text if found is None else found["kind"]
+        raise InputError(
+            f"intensity measure {text!r} is not known; {suggest(word, KINDS)}allowed is {', '.join(KINDS)}, "
+            "such as pgv, sa:1.0s or pga@geomean."
+        )
+    kind, component = found["kind"], found["component"] or "x"
+    if component not in COMPONENTS:
+        raise InputError(f"intensity measure {text!r} is of no component known; allowed is {', '.join(COMPONENTS)}.")
+    if component.startswith("rotd") and kind not in ("pga", "pgv", "sa", "avgsa"):
+        raise InputError(f"{text!r} is not defined over directions; use {kind}@geomean or {kind}@larger.")
+    periods = tuple(parse_time(one) for one in (found["periods"] or "").split("-") if one)
+    if kind == "avgsa" and not periods:
+        periods = AVERAGED
+    wanted = {"sa": 1, "avgsa": 2}.get(kind, 0)
+    if (
+        len(periods) != wanted
+        or not all(0.001 <= one <= 1000.0 for one in periods)
+        or sorted(set(periods)) != list(periods)
+    ):
+        example = {"sa": "sa:1.0s", "avgsa": "avgsa:0.5s-3s"}.get(kind, kind)
+        raise InputError(f"intensity measure {text!r} has the wrong periods; write it as {example}.")
+    return IntensityMeasure(kind, periods, component)
