@@ -1,15 +1,9 @@
 """Commands that are stopped keep what is finished, and no command writes over what is not its own."""
 
 import math
-import os
-import signal
-import subprocess
-import sys
-import time
 
 import pytest
 
-from stylobate.cli import signals
 from stylobate.cli.main import call
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.own_files import LIST
@@ -111,50 +105,6 @@ def test_a_folder_of_records_goes_on_with_the_next(records, tmp_path, capsys, mo
     assert len(made) == 1
     assert capsys.readouterr().out.count("record-") >= 3
     assert {path.name for path in out.glob("[!.]*")} == {f"record-{k}.csv" for k in range(3)}
-
-
-@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
-@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP", "SIGINT"])
-def test_a_signal_ends_even_what_does_not_listen_within_a_second(name):
-    script = (
-        "import time\n"
-        "from stylobate.cli import signals\n"
-        "signals.listen(130)\n"
-        "said = False\n"
-        "while True:\n"
-        "    try:\n"
-        "        if not said:\n"
-        "            print('ready', flush=True)\n"
-        "            said = True\n"
-        "        time.sleep(100)\n"
-        "    except KeyboardInterrupt:\n"
-        "        pass\n"
-    )
-    process = subprocess.Popen(
-        [sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        preexec_fn=lambda: [signal.signal(one, signal.SIG_DFL) for one in (signal.SIGINT, signal.SIGHUP)],
-    )  # fmt: skip
-    assert process.stdout.readline() == "ready\n"
-    started = time.monotonic()
-    process.send_signal(getattr(signal, name))
-    _, said = process.communicate(timeout=60)
-    assert process.returncode == 130
-    assert said == "stylobate: interrupted; nothing is kept.\n"
-    assert signals.PATIENCE < 1.0
-    assert time.monotonic() - started < 10.0  # a second, where nothing else is running
-
-
-@pytest.mark.skipif(os.name == "nt", reason="signals of POSIX")
-def test_what_is_ignored_stays_ignored():
-    script = (
-        "import signal\nfrom stylobate.cli import signals\nsignals.listen(130)\n"
-        "print(signal.getsignal(signal.SIGHUP) == signal.SIG_IGN)\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", script], capture_output=True, text=True, check=True,
-        preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN),
-    )  # fmt: skip
-    assert done.stdout == "True\n"
 
 
 def test_columns_do_not_rewrite_the_file_they_read(tmp_path, monkeypatch, capsys):

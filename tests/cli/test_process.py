@@ -11,7 +11,7 @@ from contextlib import closing
 
 import pytest
 
-STYLOBATE = [sys.executable, "-c", "from stylobate.cli.main import main; main()"]
+STYLOBATE = [sys.executable, "-c", "from stylobate.cli.start import main; main()"]
 HEAVY = ("numpy", "numba", "scipy", "matplotlib", "pandas", "xarray", "pydantic")
 
 

@@ -31,7 +31,7 @@ def noted(self, number, row):
     os.write(notes, f"{time.time()} {number} {os.path.abspath(self.path)}\\n".encode())
 ledger.Ledger.record = noted
 import stylobate.analysis.replicates, stylobate.campaign.runner
-from stylobate.cli.main import main
+from stylobate.cli.start import main
 main()
 """
 

@@ -32,7 +32,7 @@ from . import (
     suite,
 )
 
-BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, 130
+BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 
 # Base of typer's own complaints about a command line.
 _UsageError: type[Exception] = next(one for one in typer.BadParameter.__mro__ if one.__name__ == "ClickException")
@@ -86,9 +86,13 @@ def main() -> None:
     ):  # file names need not be text; terminals may lack characters
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
-    signals.listen(INTERRUPTED)
-    code = call(sys.argv[1:])
-    signals.said()
+    signals.listen()
+    code = INTERRUPTED
+    try:
+        code = call(sys.argv[1:])
+        signals.said()
+    except KeyboardInterrupt:  # before the command had begun, or when it had ended
+        signals.end_now(code)
     if signals.TOLD.is_set():
         signals.end_now(code)  # at once: what others have under way is not waited for
     sys.exit(code)

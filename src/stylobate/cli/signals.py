@@ -1,12 +1,15 @@
 """What a command does when it is told to stop: SIGTERM and SIGHUP as Ctrl-C, and an answer within a second.
 
-Python hands a signal to the main thread between two of its instructions, and a compiled loop is one. So a thread of its
-own hears of each signal as well; where the main thread has not ended in time, it writes what the ledgers have not written
-yet, removes the temporary files of this process, and ends it.
+Python hands a signal to the main thread between two of its instructions, as an exception. Two things can keep that from
+stopping anything. A compiled loop is one instruction: so a thread of its own hears of each signal as well; where the main
+thread has not ended in time, it writes what the ledgers have not written yet, removes the temporary files of this process,
+and ends it. And Python throws an exception away that is raised while it clears away an object (``__del__``, the callback
+of a weak reference): that is seen by a hook, and the same thread sends the signal again.
 """
 
 from __future__ import annotations
 
+import _thread
 import os
 import signal
 import socket
@@ -15,6 +18,9 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+
+#: Exit code after an interrupt.
+INTERRUPTED = 130
 
 #: Time that the main thread has to end by itself [s].
 PATIENCE = 0.8
@@ -30,15 +36,24 @@ TOLD = threading.Event()
 
 _said = threading.Event()
 
+#: The interrupt was raised where Python throws exceptions away: it is to be raised again.
+_thrown_away = threading.Event()
 
-def listen(interrupted: int) -> None:
-    """Stop at every such signal, within a second; for the main thread of a process.
+#: Time until the signal is sent again, in which the clearing away ends [s].
+_AGAIN = 0.005
+
+
+def listen(interrupted: int = INTERRUPTED) -> None:
+    """Stop at every such signal, within a second; for the main thread of a process. A second call does nothing.
 
     Parameters
     ----------
     interrupted : int
-        Exit code after an interrupt.
+        Exit code.
     """
+    if sys.unraisablehook is _not_raised:
+        return
+    sys.unraisablehook = _not_raised
     heard = set()
     for number in (getattr(signal, name) for name in STOPPING if hasattr(signal, name)):
         if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):  # not below nohup: ignored there
@@ -71,15 +86,39 @@ def sentence() -> str:
 
 
 def _stop(number: int, frame: object) -> None:
+    # Once, so that a second signal does not break the clean-up of the first; and not when there is nothing left to stop.
+    if _said.is_set() or (TOLD.is_set() and not _thrown_away.is_set()):
+        return
     TOLD.set()
+    _thrown_away.clear()
     raise KeyboardInterrupt
 
 
+def _not_raised(what: sys.UnraisableHookArgs) -> None:
+    """In place of ``sys.unraisablehook``: told of exceptions that Python throws away."""
+    if what.exc_type is KeyboardInterrupt and TOLD.is_set():
+        _thrown_away.set()
+    elif not TOLD.is_set():
+        sys.__unraisablehook__(what)
+
+
 def _watch(ear: socket.socket, _: socket.socket, heard: set[int], interrupted: int) -> None:
-    while heard.isdisjoint(ear.recv(64)):
+    while not (told := heard.intersection(ear.recv(64))):
         pass
-    time.sleep(PATIENCE)
+    end = time.monotonic() + PATIENCE
+    while (left := end - time.monotonic()) > 0.0:
+        if _thrown_away.wait(left):
+            time.sleep(_AGAIN)
+            _send(min(told))
     end_now(interrupted)
+
+
+def _send(number: int) -> None:
+    """Send a signal to the main thread of this process; it wakes one that waits where the system can do that."""
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, number)
+    else:
+        _thread.interrupt_main(number)
 
 
 def end_now(code: int, leave: Callable[[int], object] = os._exit) -> None:
