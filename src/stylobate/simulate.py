@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING, Any
 from .column import Column
 from .column.specimen import Specimen
 from .errors import InputError, check_range
-from .models.base import Case, Model, RunOptions
+from .models.base import Case, Cases, Model, RunOptions
 from .motion import Motion
 from .response import Measures, Response
+from .response.rows import Rows
 from .version import __version__
 
 if TYPE_CHECKING:
@@ -179,22 +180,18 @@ def simulate_many(
     pandas.DataFrame
         One row per run in the order given, columns named as the JSON keys of ``stylobate run``.
     """
-    import pandas
-
     columns = [column] * len(motions) if isinstance(column, (Column, Specimen)) else list(column)
     if len(columns) != len(motions):
         raise InputError(
             f"{len(columns)} columns are given for {len(motions)} motions; give one column, or one for each motion."
         )
     started = time.perf_counter()
-    cases = [Case(one, motion) for one, motion in zip(columns, motions, strict=True)]
-    rows: list[dict] = [{}] * len(cases)
+    cases = Cases(len(columns), lambda number: Case(columns[number], motions[number]))
+    rows = Rows(len(cases))
     for index, measures in simulate_iter(cases, model, tail=tail, until_end=until_end, threads=threads):
         rows[index] = measures.row()
     wall = (time.perf_counter() - started) / max(1, len(cases))
-    for row in rows:
-        row |= {"wall_s": wall, "model": model.name, "version": __version__}
-    return pandas.DataFrame(rows)
+    return rows.table().assign(wall_s=wall, model=model.name, version=__version__)
 
 
 #: Cases that are compared at a time, to check only one of those that share column and samples.

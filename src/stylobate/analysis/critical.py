@@ -16,9 +16,10 @@ from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
 from ..constants import g
 from ..errors import InputError, check_range
-from ..models.base import Case, Model
+from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
+from ..response.rows import Rows
 from . import verdicts as v
 
 if TYPE_CHECKING:
@@ -40,7 +41,7 @@ class CriticalAmplitude:
     model : str
     amplitudes : array
         Peak accelerations along x [m/s²], shape (runs,), rising.
-    rows : list of dict
+    rows : Rows, or a list of dict
         One per amplitude, with the keys of ``Measures.row()``.
     wall_time : float
         [s]
@@ -50,13 +51,16 @@ class CriticalAmplitude:
     motion: Motion
     model: str
     amplitudes: np.ndarray
-    rows: list[dict]
+    rows: Rows
     wall_time: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rows", Rows.of(self.rows))
 
     @property
     def verdicts(self) -> list[str]:
         """Verdict of each run: stands, collapsed, undecided or failed."""
-        return [v.verdict(row) for row in self.rows]
+        return v.verdicts_of(self.rows).tolist()
 
     @property
     def critical(self) -> float | None:
@@ -79,14 +83,10 @@ class CriticalAmplitude:
     @property
     def table(self) -> pandas.DataFrame:
         """One row per run: ``amplitude_g``, ``verdict`` and the measures."""
-        import pandas
-
-        return pandas.DataFrame(
-            [
-                {"amplitude_g": a / g, "verdict": one, **row}
-                for a, one, row in zip(self.amplitudes, self.verdicts, self.rows)
-            ]
-        )
+        table = self.rows.table()
+        table.insert(0, "amplitude_g", self.amplitudes / g)
+        table.insert(1, "verdict", self.verdicts)
+        return table
 
     @property
     def alternation(self) -> pandas.DataFrame:
@@ -172,16 +172,15 @@ def critical_amplitude(
     as_is = motion.pga if nominal is None else nominal
     if as_is == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
-    cases = [Case(column, motion.scaled(a / as_is)) for a in amplitudes]
+    cases = Cases(len(amplitudes), lambda number: Case(column, motion.scaled(amplitudes[number] / as_is)))
     key = {"column": column.digest, "motion": motion.digest, "as_is": as_is, "amplitudes": amplitudes.tolist()}
     quiet = share_of([motion], whole)
     result = run_campaign(
         cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
     )
     if result.interrupted:
-        raise Stopped(sum(row is not None for row in result.rows), len(cases), ledger)
-    rows = [row for row in result.rows if row is not None]
-    return CriticalAmplitude(column, motion, model.name, amplitudes, rows, result.wall_time)
+        raise Stopped(result.rows.finished, len(cases), ledger)
+    return CriticalAmplitude(column, motion, model.name, amplitudes, result.rows, result.wall_time)
 
 
 def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:

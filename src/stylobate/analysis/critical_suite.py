@@ -13,7 +13,7 @@ from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
 from ..constants import g
 from ..errors import InputError
-from ..models.base import Case, Model
+from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from . import verdicts as v
@@ -140,7 +140,10 @@ def critical_suite(
     for motion in motions:
         if motion.pga == 0.0:
             raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
-    cases = [Case(column, motion.scaled_to_pga(a)) for motion in motions for a in amplitudes]
+    count = len(amplitudes)
+    cases = Cases(
+        len(motions) * count, lambda i: Case(column, motions[i // count].scaled_to_pga(float(amplitudes[i % count])))
+    )
     key = {
         "column": column.digest,
         "motions": [motion.digest for motion in motions],
@@ -151,12 +154,10 @@ def critical_suite(
         cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
     )
     if campaign.interrupted:
-        raise Stopped(sum(row is not None for row in campaign.rows), len(cases), ledger)
-    rows = [row for row in campaign.rows if row is not None]
-    count = len(amplitudes)
+        raise Stopped(campaign.rows.finished, len(cases), ledger)
     return CriticalSuite(
         tuple(
-            CriticalAmplitude(column, motion, model.name, amplitudes, rows[i * count : (i + 1) * count], 0.0)
+            CriticalAmplitude(column, motion, model.name, amplitudes, campaign.rows[i * count : (i + 1) * count], 0.0)
             for i, motion in enumerate(motions)
         ),
         campaign.wall_time,

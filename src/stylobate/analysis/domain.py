@@ -17,9 +17,10 @@ from ..campaign.runner import Progress, run_campaign
 from ..column import Column
 from ..constants import g
 from ..errors import InputError, check_range
-from ..models.base import Case, Model
+from ..models.base import Case, Cases, Model
 from ..motion import harmonic
 from ..outcome import Outcome
+from ..response.rows import Rows
 from ..version import __version__
 from . import verdicts as v
 
@@ -60,7 +61,7 @@ class Domain:
         [Hz], shape (F,), rising.
     amplitudes : array
         [m/s²], shape (A,), rising.
-    rows : list of dict or None
+    rows : Rows, or a list of dict or None
         One per cell, frequency by frequency, with the keys of ``Measures.row()``; None where the cell was not run.
     wall_time : float
         [s]
@@ -72,9 +73,12 @@ class Domain:
     model: str
     frequencies: np.ndarray
     amplitudes: np.ndarray
-    rows: list[dict | None]
+    rows: Rows
     wall_time: float
     provenance: dict
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rows", Rows.of(self.rows))
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -84,12 +88,12 @@ class Domain:
     @property
     def complete(self) -> bool:
         """Whether every cell was run; False after an interrupt."""
-        return all(row is not None for row in self.rows)
+        return bool(self.rows.made.all())
 
     @property
     def verdicts(self) -> np.ndarray:
         """Verdict of each cell: stands, collapsed, undecided, failed or not run; shape (F, A)."""
-        return np.array([v.verdict(row) for row in self.rows]).reshape(self.shape)
+        return v.verdicts_of(self.rows).reshape(self.shape)
 
     @property
     def counts(self) -> dict[str, int]:
@@ -109,21 +113,16 @@ class Domain:
     @property
     def table(self) -> pandas.DataFrame:
         """One row per cell that was run: ``frequency_hz``, ``amplitude_g``, ``verdict`` and the measures."""
-        import pandas
-
-        cells = [(f, a) for f in self.frequencies for a in self.amplitudes]
-        return pandas.DataFrame(
-            [
-                {"frequency_hz": float(f), "amplitude_g": float(a / g), "verdict": v.verdict(row), **row}
-                for (f, a), row in zip(cells, self.rows)
-                if row is not None
-            ]
-        )
+        made = self.rows.made
+        table = self.rows.table()
+        table.insert(0, "frequency_hz", np.repeat(self.frequencies, self.shape[1])[made])
+        table.insert(1, "amplitude_g", np.tile(self.amplitudes / g, self.shape[0])[made])
+        table.insert(2, "verdict", self.verdicts.ravel()[made].astype(object))
+        return table
 
     def grid(self, name: str) -> np.ndarray:
         """One of the measures as an array of shape (F, A); NaN where there is no value."""
-        values = [np.nan if row is None or row[name] is None else float(row[name]) for row in self.rows]
-        return np.array(values).reshape(self.shape)
+        return self.rows.floats(name).reshape(self.shape)
 
     def summary(self) -> dict:
         """The JSON object of ``stylobate domain``."""
@@ -154,7 +153,10 @@ class Domain:
         import xarray
 
         dims = ("frequency", "amplitude")
-        flags = np.array([[v.VERDICTS.index(one) for one in line] for line in self.verdicts], dtype=np.int8)
+        verdicts = self.verdicts
+        flags = np.zeros(self.shape, dtype=np.int8)
+        for flag, verdict in enumerate(v.VERDICTS):
+            flags[verdicts == verdict] = flag
         variables: dict[str, Any] = {
             "verdict": (
                 dims,
@@ -166,10 +168,12 @@ class Domain:
                 },
             )
         }
-        outcomes = [-1 if row is None else Outcome[row["outcome"].upper()] for row in self.rows]
+        outcomes = np.full(len(self.rows), -1, dtype=np.int8)
+        for one in Outcome:
+            outcomes[self.rows.are("outcome", one.label)] = int(one)
         variables["outcome"] = (
             dims,
-            np.array(outcomes, dtype=np.int8).reshape(self.shape),
+            outcomes.reshape(self.shape),
             {
                 "long_name": "outcome of the run, -1 where it was not made",
                 "flag_values": np.array([int(one) for one in Outcome], dtype=np.int8),
@@ -230,7 +234,7 @@ class Domain:
             provenance = json.loads(str(data["provenance"].values))
             axes = data["frequency"].values, data["amplitude"].values
             model, wall = str(data.attrs["model"]), float(data.attrs["wall_s"])
-            rows: list[dict | None] = [
+            rows = Rows.of(
                 None
                 if verdict == v.NOT_RUN
                 else {
@@ -240,7 +244,7 @@ class Domain:
                     **{name: _or_none(name, float(grid[i])) for name, grid in grids.items()},
                 }
                 for i, (verdict, outcome) in enumerate(zip(verdicts, outcomes, strict=True))
-            ]
+            )
             return cls(column, model, *axes, rows, wall, provenance)
         except Exception as error:
             raise store.unreadable(path, error) from None
@@ -299,7 +303,7 @@ def collapse_domain(
         raise InputError(f"the domain has {len(f)} × {len(a)} cells; allowed is up to {MAX_CELLS}: give fewer.")
     # One sine per frequency; its scaled copies share the samples.
     units = [harmonic(float(one), 1.0, duration) for one in f]
-    cases = [Case(column, unit.scaled(float(amplitude))) for unit in units for amplitude in a]
+    cases = Cases(len(f) * len(a), lambda cell: Case(column, units[cell // len(a)].scaled(float(a[cell % len(a)]))))
     key = {"column": column.digest, "frequencies": f.tolist(), "amplitudes": a.tolist(), "duration": float(duration)}
     if out is not None:
         ledger = Path(out) / PROGRESS_FILE

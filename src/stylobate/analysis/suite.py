@@ -101,7 +101,7 @@ def suite_table(
         cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
     )
     if found.interrupted:
-        raise Stopped(sum(row is not None for row in found.rows), len(cases), ledger)
+        raise Stopped(found.rows.finished, len(cases), ledger)
     for case, row, line in zip(cases, found.rows, rows):
         if row is not None:
             size = row["peak_top_displacement_m"] / case.column.base_width

@@ -19,6 +19,8 @@ from typing import Any
 
 import numpy as np
 
+from ..response.rows import Rows
+
 STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN = "stands", "collapsed", "undecided", "failed", "not run"
 VERDICTS = (STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN)
 
@@ -32,6 +34,18 @@ def verdict(row: Mapping[str, Any] | None) -> str:
     if not row["decided"]:
         return UNDECIDED
     return COLLAPSED if row["collapsed"] else STANDS
+
+
+def verdicts_of(rows: Rows) -> np.ndarray:
+    """Verdicts of many runs, as :func:`verdict` gives them; texts, shape (runs,)."""
+    collapsed, decided = rows.floats("collapsed") == 1.0, rows.floats("decided") == 1.0
+    states = (
+        (~rows.made, NOT_RUN),
+        (rows.are("outcome", "failed"), FAILED),
+        (~decided, UNDECIDED),
+        (collapsed, COLLAPSED),
+    )
+    return np.select([where for where, _ in states], [name for _, name in states], STANDS)
 
 
 def count(verdicts: Sequence[str] | np.ndarray) -> dict[str, int]:

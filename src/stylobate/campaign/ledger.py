@@ -33,6 +33,9 @@ COMMIT_INTERVAL = 0.5
 #: Runs that are written at once, however little time has passed.
 BATCH = 5_000
 
+#: Runs that may wait to be written; whoever has more waits as well.
+MOST_WAITING = 20_000
+
 #: What tells a ledger from other SQLite files, and its layout from others ("Styl", 2).
 APPLICATION, LAYOUT = 0x5374796C, 2
 
@@ -122,7 +125,10 @@ class Ledger:
         self._check()
         with self._wake:
             self._pending.append((number, salvage.write_line(number, row, self.campaign)))
+            waiting = len(self._pending)
             self._wake.notify()
+        if waiting > MOST_WAITING:  # a slow disk is waited for
+            self.flush()
 
     def flush(self) -> None:
         """Write what has come in, now."""

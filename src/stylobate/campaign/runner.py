@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Mapping, Sequence, Set
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..models.base import Case, Model
 from ..response import Measures
+from ..response.rows import Rows
 from ..simulate import simulate_iter
 from ..version import __version__
 from .ledger import Ledger, what_is_kept
+from .others import Others
 
 #: Called with (finished runs, all runs) whenever a run finishes.
 Progress = Callable[[int, int], None]
@@ -27,7 +27,7 @@ class CampaignResult:
 
     Parameters
     ----------
-    rows : list of dict or None
+    rows : Rows
         One per case in their order, with the keys of ``Measures.row()``; None where the case was not run.
     interrupted : bool
         Whether the campaign was stopped (Ctrl-C) before its end.
@@ -35,7 +35,7 @@ class CampaignResult:
         [s], of this call only.
     """
 
-    rows: list[dict | None]
+    rows: Rows
     interrupted: bool
     wall_time: float
 
@@ -72,7 +72,7 @@ def run_campaign(
         What decides the results besides the version and the model's parameters, e.g. the column's digest.
     """
     started = time.perf_counter()
-    rows: list[dict | None] = [None] * len(cases)
+    rows = Rows(len(cases))
     done, interrupted = 0, False
     if progress:
         progress(0, len(cases))
@@ -114,15 +114,13 @@ def finished_runs(
     decisive = {**(key or {}), "quiet": quiet}
     book = Ledger(ledger, full_key(model, tail, decisive), len(cases)) if ledger is not None else None
     try:
-        known: set[int] = set()
+        others = Others(cases)
         for number, row in book.rows() if book else ():
-            if number not in known:
-                known.add(number)
+            if others.leave_out(number):
                 yield number, row
-        todo = _Others(cases, known)
-        with closing(simulate_iter(todo, model, tail=tail, quiet=quiet, threads=threads)) as finished:
+        with closing(simulate_iter(others, model, tail=tail, quiet=quiet, threads=threads)) as finished:
             for index, measures in finished:
-                number, row = int(todo.numbers[index]), keep(measures)
+                number, row = others.number(index), keep(measures)
                 if book:
                     book.record(number, row)
                 yield number, row
@@ -144,24 +142,6 @@ class Stopped(KeyboardInterrupt):
 
     def __init__(self, done: int, total: int, *ledgers: str | Path | None) -> None:
         super().__init__(what_is_kept(done, total, *ledgers))
-
-
-class _Others(Sequence):
-    """The cases that are not known yet."""
-
-    def __init__(self, cases: Sequence[Case], known: Set[int]) -> None:
-        self.cases = cases
-        self.numbers: range | np.ndarray = range(len(cases))
-        if known:  # eight bytes a case, where a list of Python's numbers takes forty
-            rest = np.ones(len(cases), dtype=bool)
-            rest[np.fromiter(known, np.int64, len(known))] = False
-            self.numbers = np.flatnonzero(rest)
-
-    def __len__(self) -> int:
-        return len(self.numbers)
-
-    def __getitem__(self, index: Any) -> Any:
-        return self.cases[int(self.numbers[index])]
 
 
 def full_key(model: Model, tail: float, key: Mapping[str, Any]) -> dict[str, Any]:

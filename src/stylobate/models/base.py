@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import typing
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
@@ -29,6 +29,28 @@ class Case(NamedTuple):
 
     column: Any
     motion: Motion
+
+
+class Cases(Sequence[Any]):
+    """Cases that are made when they are asked for, so that there may be millions of them.
+
+    Parameters
+    ----------
+    count : int
+    make : callable
+        The case of a number from 0 to ``count`` − 1.
+    """
+
+    def __init__(self, count: int, make: Callable[[int], Case]) -> None:
+        self.length, self.make = count, make
+
+    def __len__(self) -> int:
+        return self.length
+
+    def __getitem__(self, index: Any) -> Any:
+        if not 0 <= index < self.length:
+            raise IndexError(index)
+        return self.make(index)
 
 
 @dataclass(frozen=True)

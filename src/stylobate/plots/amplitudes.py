@@ -34,7 +34,7 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
         To draw in; those of a new figure by default.
     """
     amplitudes, verdicts = result.amplitudes / g, np.array(result.verdicts)
-    peaks = np.array([row["peak_top_displacement_m"] for row in result.rows]) / result.column.base_width
+    peaks = result.rows.floats("peak_top_displacement_m") / result.column.base_width
     finite = peaks[np.isfinite(peaks) & (verdicts != v.COLLAPSED)]
     ceiling = 1.25 * max(float(finite.max()) if finite.size else 0.0, 0.1)
     shown = np.where((verdicts == v.COLLAPSED) | ~np.isfinite(peaks), ceiling, np.minimum(peaks, ceiling))

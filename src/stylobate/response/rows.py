@@ -1,0 +1,191 @@
+"""Rows of many runs, kept in columns: for each run the bytes of its numbers, not a dictionary."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import pandas
+
+#: What a row has under a name: nothing, None, or a value.
+_NOTHING, _NONE, _VALUE = 0, 1, 2
+
+#: How values of a type are kept; texts as their place in a list of all texts.
+_TYPES = {bool: np.int8, int: np.int64, float: np.float64, str: np.int32}
+
+
+class Rows(Sequence[Any]):
+    """Rows (``Measures.row()``) by number; None where there is none.
+
+    A sequence of dictionaries for whoever reads it. Numbers, short texts and lists of numbers take eight bytes a number, a
+    text four and the text once, and one byte says whether there is a value; other values are kept as they are.
+
+    Parameters
+    ----------
+    count : int
+        Number of runs.
+    """
+
+    def __init__(self, count: int) -> None:
+        self.made = np.zeros(count, dtype=bool)
+        self._columns: dict[str, _Column] = {}
+
+    @classmethod
+    def of(cls, rows: Iterable[Mapping[str, Any] | None]) -> Rows:
+        """Rows that are given; as they are, if they are rows in columns already."""
+        if isinstance(rows, Rows):
+            return rows
+        listed = list(rows)
+        found = cls(len(listed))
+        for number, row in enumerate(listed):
+            if row is not None:
+                found[number] = row
+        return found
+
+    @property
+    def finished(self) -> int:
+        """Number of rows that are there."""
+        return int(np.count_nonzero(self.made))
+
+    def floats(self, name: str) -> np.ndarray:
+        """Numbers (or truths) under a name, shape (count,); NaN where there is none."""
+        column = self._columns.get(name)
+        return np.full(len(self), np.nan) if column is None else column.floats()
+
+    def are(self, name: str, text: str) -> np.ndarray:
+        """Where the value under a name is this text, shape (count,)."""
+        column = self._columns.get(name)
+        return np.zeros(len(self), dtype=bool) if column is None else column.are(text)
+
+    def table(self) -> pandas.DataFrame:
+        """The rows that are there, one after the other."""
+        import pandas
+
+        columns = {name: pandas.Series(one.listed(self.made)) for name, one in self._columns.items()}
+        return pandas.DataFrame(columns, index=range(self.finished))
+
+    def __len__(self) -> int:
+        return len(self.made)
+
+    def __setitem__(self, number: int, row: Mapping[str, Any]) -> None:
+        for name, value in row.items():
+            column = self._columns.get(name)
+            if column is None:
+                column = self._columns[name] = _Column(np.zeros(len(self), dtype=np.uint8))
+            column.put(number, value)
+        self.made[number] = True
+
+    @overload
+    def __getitem__(self, index: int) -> dict[str, Any] | None: ...
+    @overload
+    def __getitem__(self, index: slice) -> Rows: ...
+    def __getitem__(self, index: int | slice) -> dict[str, Any] | Rows | None:
+        if isinstance(index, slice):
+            part = Rows(0)
+            part.made = self.made[index]
+            part._columns = {name: one.part(index) for name, one in self._columns.items()}
+            return part
+        if not self.made[index]:
+            return None
+        return {name: one.get(index) for name, one in self._columns.items() if one.state[index] != _NOTHING}
+
+    def __eq__(self, other: object) -> bool:
+        """Whether another sequence holds equal rows."""
+        if not isinstance(other, Sequence):
+            return NotImplemented
+        return len(self) == len(other) and all(mine == theirs for mine, theirs in zip(self, other, strict=True))
+
+    __hash__ = None  # type: ignore[assignment]  # rows can be put in
+
+
+class _Column:
+    """Values under one name: of one type in an array, else as they are in a list."""
+
+    def __init__(self, state: np.ndarray) -> None:
+        self.state = state
+        self.kind: tuple | None = None  # of no value so far
+        self.values: Any = None
+        self.texts: list[str] = []
+        self.codes: dict[str, int] = {}
+
+    def put(self, number: int, value: Any) -> None:
+        """Keep a value."""
+        if value is None:
+            self.state[number] = _NONE
+            return
+        if self.kind != (kind := _kind(value)):
+            kind = self._take(kind)
+        if kind == (str,):
+            code = self.codes.setdefault(value, len(self.texts))
+            if code == len(self.texts):
+                self.texts.append(value)
+            value = code
+        self.values[number] = value
+        self.state[number] = _VALUE
+
+    def get(self, number: int) -> Any:
+        """The value as it was given."""
+        if self.state[number] != _VALUE:
+            return None
+        if self.kind == (object,):
+            return self.values[number]
+        if self.kind == (str,):
+            return self.texts[self.values[number]]
+        if self.kind == (bool,):
+            return bool(self.values[number])
+        return self.values[number].tolist()
+
+    def part(self, which: slice) -> _Column:
+        """Some of the values."""
+        part = _Column(self.state[which])
+        part.kind, part.texts, part.codes = self.kind, self.texts, self.codes
+        part.values = None if self.values is None else self.values[which]
+        return part
+
+    def floats(self) -> np.ndarray:
+        """As floats, NaN where there is no value."""
+        if self.kind == (object,):
+            return np.array([np.nan if value is None else float(value) for value in self.values])
+        there = self.state == _VALUE
+        return np.full(len(there), np.nan) if self.values is None else np.where(there, self.values, np.nan)
+
+    def are(self, text: str) -> np.ndarray:
+        """Where the value is this text."""
+        if self.kind == (str,):
+            return (self.state == _VALUE) & (self.values == self.codes.get(text, -1))
+        return np.array([self.get(number) == text for number in range(len(self.state))], dtype=bool)
+
+    def listed(self, which: np.ndarray) -> Any:
+        """Values where ``which`` is true, as a column of a table: an array where there are numbers only."""
+        numbers, there = np.flatnonzero(which).tolist(), self.state[which] == _VALUE
+        if self.kind in (None, (float,)) or (self.kind == (int,) and not there.all()):
+            return self.floats()[which]
+        if self.kind in ((int,), (bool,)) and there.all():
+            return self.values[which].astype(bool if self.kind == (bool,) else np.int64)
+        return np.fromiter((self.get(number) for number in numbers), dtype=object, count=len(numbers))
+
+    def _take(self, kind: tuple) -> tuple:
+        if self.kind is None:
+            self.kind = kind
+            count = len(self.state)
+            if kind == (object,):
+                self.values = [None] * count
+            else:
+                self.values = np.zeros((count, *kind[1:]), dtype=_TYPES[kind[0]])
+        elif self.kind != (object,):  # values of several types
+            self.values = [self.get(number) for number in range(len(self.state))]
+            self.kind = (object,)
+        return self.kind
+
+
+def _kind(value: Any) -> tuple:
+    """The type of a value, and the length of a list of floats; object for anything else."""
+    for one in (float, bool, int, str):
+        if isinstance(value, one):
+            return (object,) if one is int and not -(2**63) <= value < 2**63 else (one,)
+    if isinstance(value, list) and all(isinstance(one, float) for one in value):
+        return float, len(value)
+    return (object,)

@@ -1,0 +1,167 @@
+"""Memory of campaigns: nothing grows with the number of cases but what is asked for, in columns or in bits."""
+
+import dataclasses
+import math
+import tracemalloc
+from collections import deque
+from contextlib import closing
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.campaign.ledger import Ledger
+from stylobate.campaign.others import Others
+from stylobate.campaign.runner import finished_runs, full_key, run_campaign
+from stylobate.models.base import Case, Cases, Model
+from stylobate.models.shared.lanes import WINDOW, run_alike
+from stylobate.outcome import Outcome
+from stylobate.response import Measures
+from stylobate.response.rows import Rows
+
+COLUMN, MOTION = st.preset("paper-monolithic"), st.harmonic(1.0, 1.0, 1.0)
+ONE = Case(COLUMN, MOTION)
+
+
+class AtOnce:
+    """A block of lanes whose runs end at once, each with numbers of its own."""
+
+    lanes = 16
+
+    def __init__(self):
+        self.number = 0.0
+
+    def load(self, lane, case):
+        pass
+
+    def advance(self):
+        pass
+
+    def is_over(self, lane):
+        return True
+
+    def collect(self, lane):
+        self.number += 1.0
+        sizes = [self.number / size for size in range(1, 7)]
+        return Measures(Outcome.ROCKED, True, math.nan, *sizes, 1e-4, 1000)
+
+
+@dataclasses.dataclass(frozen=True)
+class Instant(Model):
+    """Every run takes no time."""
+
+    name = "instant"
+
+    def run_many(self, cases, options, threads):
+        return run_alike(lambda case: "one", lambda kind: AtOnce(), cases, 1)
+
+
+def bytes_per_case(work, few, many):
+    """Slope of the largest memory over the number of cases; from the first to the second ``yield`` of ``work``."""
+
+    def peak(count):
+        given = work(count)
+        next(given)
+        tracemalloc.start()
+        kept = next(given)
+        found = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        given.close()
+        del kept
+        return found
+
+    peak(100)  # what is loaded once
+    return (peak(many) - peak(few)) / (many - few)
+
+
+def cases(count):
+    return Cases(count, lambda number: ONE)
+
+
+def test_a_campaign_keeps_the_bytes_of_its_numbers():
+    def work(count):
+        yield
+        yield run_campaign(cases(count), Instant())
+
+    # ten numbers and a step count of eight bytes each, two truths, two texts, a byte for each that there is a value;
+    # beside it some hundreds of results that wait for the caller, more or fewer of them as the threads take turns
+    assert bytes_per_case(work, 2 * WINDOW, 6 * WINDOW) < 200.0
+
+
+def test_a_stream_of_runs_keeps_nothing_and_one_that_goes_on_a_bit_for_each(tmp_path):
+    left = 200
+    row = AtOnce().collect(0).row()
+
+    def work(count):
+        ledger = tmp_path / f"{count}.sqlite"
+        with closing(Ledger(ledger, full_key(Instant(), 0.0, {"quiet": 0.0}), count)) as book:
+            for number in range(count - left):
+                book.record(number, row)
+        yield
+        yield deque(finished_runs(cases(count), Instant(), ledger=ledger), maxlen=0)
+
+    assert bytes_per_case(work, WINDOW, 6 * WINDOW) < 1.0
+
+
+def test_what_is_left_of_a_campaign_is_found_again():
+    stream = np.random.default_rng(3)
+    for count, known in ((1, 0), (9, 3), (4095, 4000), (30_000, 29_000), (30_000, 5), (8192, 8192)):
+        others = Others(range(count))
+        out = stream.permutation(count)[:known]
+        assert all(others.leave_out(int(number)) for number in out)
+        assert not any(others.leave_out(int(number)) for number in [*out[:5], -1, count])
+        want = np.setdiff1d(np.arange(count), out)
+        assert len(others) == len(want)
+        assert [others.number(index) for index in range(len(want))] == want.tolist() == list(others)
+        for beyond in (-1, len(want)):
+            with pytest.raises(IndexError):
+                others.number(beyond)
+
+
+ROWS = [
+    {"outcome": "rocked", "at": None, "size": 0.1 + 0.2, "steps": 7, "ok": True, "reason": "", "list": [0.1, math.inf]},
+    None,
+    {"outcome": "failed", "at": None, "size": -0.0, "steps": 2**62, "ok": False, "reason": "a line\nand ü"},
+    {"outcome": "rocked", "at": 1.5, "size": None, "steps": 0, "ok": True, "reason": "", "list": [1e-300, 2.0]},
+    {"outcome": 3, "at": 1, "size": "x", "steps": 2**70, "ok": None, "reason": "", "list": [1.0], "new": {"a": [1]}},
+]
+
+
+def test_rows_come_back_as_they_were_put_in():
+    some = Rows(len(ROWS))
+    for number in (3, 0, 4, 2):  # as they are finished
+        some[number] = ROWS[number]
+    assert list(some) == ROWS
+    assert some == ROWS
+    assert some == Rows.of(ROWS)
+    assert some != ROWS[:-1]
+    assert some != [None, *ROWS[1:]]
+    assert some[1:4] == ROWS[1:4]
+    assert some.finished == 4
+    assert [type(value) for value in some[0].values()] == [type(ROWS[0][name]) for name in some[0]]
+    assert math.copysign(1.0, some[2]["size"]) == -1.0
+    part = Rows.of(ROWS[:4])
+    np.testing.assert_array_equal(part.floats("size"), [0.1 + 0.2, np.nan, -0.0, np.nan])
+    np.testing.assert_array_equal(part.floats("nothing"), np.full(4, np.nan))
+    assert part.are("outcome", "rocked").tolist() == [True, False, False, True]
+    assert Rows.of(ROWS[-1:]).are("outcome", "rocked").tolist() == [False]
+
+
+def test_a_table_of_rows_is_that_of_their_dictionaries():
+    import pandas
+
+    made = [row for row in ROWS[:4] if row is not None]
+    table = Rows.of(ROWS[:4]).table()
+    assert table.to_csv(index=False) == pandas.DataFrame(made).to_csv(index=False)
+    assert table.steps.dtype == np.int64
+    assert table.ok.dtype == bool
+    assert list(Rows(3).table().columns) == []
+
+
+def test_cases_are_made_when_they_are_asked_for():
+    made = []
+    some = Cases(3, lambda number: made.append(number) or ONE)
+    assert len(some) == 3
+    assert made == []
+    assert len(list(some)) == 3
+    assert made == [0, 1, 2]
