@@ -53,7 +53,8 @@ def simulate(
     until_rest : bool
         Go on until everything lies still, on the ground if need be (``DistinctElement2D``; others refuse).
     start : Start, optional
-        Release the column from a pose, with a velocity, instead of rest (``DistinctElement3D``; others refuse).
+        Release the column from a pose, with a velocity, instead of rest (``DistinctElement2D`` and
+        ``DistinctElement3D``; others refuse).
 
     Returns
     -------
@@ -66,7 +67,9 @@ def simulate(
     """
     options = dataclasses.replace(_options(tail, output_interval, until_end, until_rest), start=start)
     if start is not None and not model.takes_start:
-        raise InputError(f"{model.name} starts from rest; leave start out, or use dem3d (DistinctElement3D).")
+        raise InputError(
+            f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
+        )
     if until_rest and not model.follows_to_rest:
         raise InputError(
             f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or leave "

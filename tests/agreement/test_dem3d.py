@@ -77,4 +77,4 @@ def test_what_the_model_cannot_compute_is_refused_in_one_sentence():
     with pytest.raises(st.InputError, match=r"the largest stable step for this column is 0\.0005186 s"):
         st.simulate(round_column(), shaking(0.0, 0.1), DistinctElement3D(time_step=1e-3))
     with pytest.raises(st.InputError, match="starts from rest; leave start out"):
-        st.simulate(round_column(), shaking(0.0, 0.1), st.DistinctElement2D(), start=st.Start(0.1))
+        st.simulate(round_column(), shaking(0.0, 0.1), st.RigidBlock(), start=st.Start(0.1))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from validation.space import round_column
 
-from stylobate.column import Column, Joint
+from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -86,7 +86,72 @@ def test_slip_of_a_joint_between_unequal_drums():
 def test_a_start_out_of_the_plane_of_a_planar_run_is_refused():
     still, model = Motion(0.02, np.zeros(2)), DistinctElement3D(planar=True)
     for start in (Start(0.05, 1.0), Start(0.05, 0.0, (0.1, 0.0, 0.0)), Start(0.05, 0.0, (0.0, 0.0, 0.1))):
-        with pytest.raises(InputError, match="planar is on"):
+        with pytest.raises(InputError, match="planar = True keeps to the plane"):
             simulate(round_column(), still, model, start=start)
     response = simulate(round_column(), still, model, start=Start(0.05, math.pi, (0.0, 0.1, 0.0)))
     assert response.energy_imbalance < 1e-3
+
+
+def on_a_plate(height: float, stiffness: float) -> Column:
+    """A column of one drum on a plate, both on soft joints."""
+    drums = [Drum(height, 1.0, 1.0, 1600.0, section="circular"), Drum(3.0, 1.0, 1.0, 1600.0, section="circular")]
+    return Column.of_drums(drums, Joint(stiffness, 0.5 * stiffness, friction_coefficient=0.7), name="on a plate")
+
+
+def test_a_plate_that_has_sunk_below_its_middle_is_not_lying():
+    """Its joint closes by 12 mm, 0.4 of its 30 mm; the base's surface is above its centroid once it is pressed further."""
+    column = on_a_plate(0.03, 3.98e6)
+    pressed = Motion(0.01, np.zeros(21), az=0.3 * 9.81 * np.sin(np.arange(21) * 0.2))
+    block = DistinctElement3D().make_block(2, RunOptions())
+    block.load(0, Case(column, pressed))
+    lowest = float(block.drum["z"][1, 0])
+    while not block.is_over(0):
+        block.advance(1)
+        lowest = min(lowest, float(block.drum["z"][1, 0]))
+    assert lowest < -1e-3
+    assert block.collect(0).outcome is not Outcome.COLLAPSED
+
+
+def test_a_plate_pressed_in_by_more_than_half_of_its_height_is_refused():
+    with pytest.raises(InputError, match=r"drum 1 of 'on a plate' is 0\.02 m high and sinks by 0\.0119 m under"):
+        simulate(on_a_plate(0.02, 3.98e6), Motion(0.1, np.zeros(3)), DistinctElement3D())
+
+
+def test_twists_count_full_turns():
+    """A disc that spins freely at 9 rad/s has turned by 9 rad after a second, in the state, the peak and the history."""
+    column = Column.of_drums(
+        [Drum(0.5, 1.0, 1.0, 1600.0, section="circular")], Joint(5e8, 2.5e8, friction_coefficient=0.7)
+    )
+    block = DistinctElement3D(pivot_friction=0.0).make_block(1, RunOptions())
+    block.load(0, Case(column, Motion(1.0, np.zeros(2))))
+    for name, value in {"lz": column.drums[0].axial_inertia * 9.0, "wz": 9.0}.items():
+        block.drum[name][1, 0] = value
+    while not block.is_over(0):
+        block.advance()
+    assert block.since_start(0)[1] == pytest.approx([9.0], abs=1e-6)
+    measures = block.collect(0)
+    assert measures.space.peak_twist == pytest.approx(9.0, abs=1e-6)
+    assert measures.space.residual_twist_per_joint == pytest.approx((9.0,), abs=1e-6)
+
+
+def test_a_found_lean_is_not_a_rotation_of_the_run():
+    lean = AsFound((FoundDrum(2, tilt=1.5, tilt_azimuth=30.0),))
+    found = simulate(round_column(3).replace(as_found=lean), Motion(0.1, np.zeros(3)), DistinctElement3D())
+    assert found.peak_rotation < 1e-6
+    assert found.measures.space.peak_tilt == pytest.approx(math.radians(1.5), rel=1e-2)
+
+
+@pytest.mark.parametrize("drums", [1, 3])
+def test_peaks_of_a_column_that_falls_are_those_before_it_fell(drums):
+    """A fall between drums is certain only late; what the top has done by then is the fall. At its edge the whole column
+    leans by 0.215 rad and has gone 1.07 m."""
+    push = np.concatenate((np.full(120, -0.5 * 9.81), np.zeros(800)))
+    response = simulate(round_column(drums), Motion(5e-3, push), DistinctElement3D())
+    assert response.outcome is Outcome.COLLAPSED
+    when = np.searchsorted(response.time, response.measures.collapse_time) - 1
+    seen = np.hypot(*response.top_displacement[: when + 1].T)
+    assert response.peak_top_displacement < 0.999 * seen.max()
+    # at the peak the column was not yet beyond its edge
+    at = int(np.argmax(seen >= response.peak_top_displacement))
+    part = response.body_position[at, :, 0] @ round_column(drums).masses / round_column(drums).masses.sum()
+    assert abs(part) < 0.5

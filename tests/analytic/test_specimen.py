@@ -202,3 +202,23 @@ def test_other_models_and_steps_that_are_too_long_are_refused():
         st.simulate(box(), motion, st.DistinctElement3D(), start=st.Start(0.1))
     with pytest.raises(st.InputError, match="planar is on"):
         st.simulate(box(), motion, st.DistinctElement3D(planar=True))
+
+
+def test_a_body_that_leans_has_not_slipped():
+    """Turned by 0.1 rad about its lower edge, which stays where it is; the middle of its foot has moved by 2 mm."""
+    model = st.DistinctElement3D()
+    block = model.block_for(model.kind(box()), RunOptions())
+    block.load(0, Case(box(), st.Motion(1.0, np.zeros(2))))
+    c, s, edge = math.cos(0.1), math.sin(0.1), np.array([0.5 * SIDE, 0.0, 0.0])
+    turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    place = edge + turn @ (np.array([block.drum[name][1, 0] for name in "xyz"]) - edge)
+    axes = turn @ block.axes(0)[0]
+    for i, name in enumerate("xyz"):
+        block.drum[name][1, 0] = place[i]
+        for a, axis in enumerate("ijk"):
+            block.drum[axis + name][1, 0] = axes[i, a]
+    assert abs(block.foot(0)[0]) > 1e-3
+    opening, slip, twist = block.joints(0)
+    assert np.abs(slip).max() < 1e-6  # the edge had sunk by some micrometres
+    assert opening[0] == pytest.approx(SIDE * s, rel=1e-4)
+    assert twist == pytest.approx(0.0, abs=1e-12)

@@ -1,4 +1,4 @@
-"""A start from a pose instead of rest: the whole column tilted about its rim, and turning."""
+"""A start from a pose instead of rest: the whole column tilted about its rim or edge, and turning."""
 
 from __future__ import annotations
 
@@ -32,7 +32,9 @@ class Start:
     angular_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "tilt", check_range("tilt of a start", self.tilt, 0.0, 0.5 * math.pi, unit="rad"))
+        level = 0.5 * math.pi
+        tilt = check_range("tilt of a start", self.tilt, 0.0, level, unit="rad", open_high=True)
+        object.__setattr__(self, "tilt", tilt)
         turn = 2.0 * math.pi
         object.__setattr__(self, "azimuth", check_range("azimuth of a start", self.azimuth, -turn, turn, unit="rad"))
         spin = tuple(self.angular_velocity)
@@ -42,3 +44,24 @@ class Start:
             )
         spin = tuple(check_range("angular_velocity of a start", one, -1e4, 1e4, unit="rad/s") for one in spin)
         object.__setattr__(self, "angular_velocity", spin)
+
+
+def check_in_plane(start: Start, who: str) -> None:
+    """Refuse a start that the plane of x and z does not hold.
+
+    Parameters
+    ----------
+    start : Start
+    who : str
+        What keeps to the plane, as the beginning of the sentence.
+
+    Raises
+    ------
+    InputError
+    """
+    wx, _, wz = start.angular_velocity
+    if abs(start.tilt * math.sin(start.azimuth)) > 1e-12 or wx != 0.0 or wz != 0.0:
+        raise InputError(
+            f"{who} keeps to the plane of x and z, and the start leaves it (azimuth {start.azimuth:g} rad, angular_velocity "
+            f"{start.angular_velocity}); give azimuth 0 or pi and a velocity about y only, or use dem3d."
+        )

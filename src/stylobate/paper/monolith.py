@@ -128,11 +128,12 @@ def _overturning(r: Reader) -> Statement:
     turn = np.degrees(domain.grid("peak_rotation_rad")[falls])
     return Statement(
         "3.1", "The monolith collapses by simple overturning.",
-        f"in the {int(falls.sum())} collapses of the DEM's domain the block has turned by {turn.min():.0f}° or more, "
-        f"and slipped by {percent(float(np.median(slip)))} of its width in the median, {percent(float(slip.max()))} "
-        "at most",
-        judged(bool(turn.min() > np.degrees(preset(MONOLITH).slenderness) and slip.max() < 0.5)),
-        "Taken as: turned beyond the critical angle of 11.6° while still on its base. tan φ = 0.70 is far above B/H.",
+        f"in the {int(falls.sum())} collapses of the DEM's domain the block has turned by {turn.min():.1f}° or more when "
+        f"its fall begins, and slipped by {percent(float(np.median(slip)))} of its width in the median, "
+        f"{percent(float(slip.max()))} at most",
+        judged(bool(turn.min() > 0.8 * np.degrees(preset(MONOLITH).slenderness) and slip.max() < 0.5)),
+        "Taken as: its fall begins near the critical angle of 11.6°, while it is still on its base. tan φ = 0.70 is far "
+        "above B/H.",
     )  # fmt: skip
 
 

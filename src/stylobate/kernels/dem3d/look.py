@@ -42,7 +42,7 @@ def straighten(u, l):
 
 @law
 def joint_numbers(u, v, l):
-    """Opening of a joint [m], slip in the axes of the drum below [m], twist [rad]."""
+    """Opening of a joint [m], slip in the axes of the drum below [m], twist within half a turn [rad]."""
     nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
     _, _, _, cx, cy, cz = faces(u, v, l)
     zx, zy, zz = v.kx[l], v.ky[l], v.kz[l]
@@ -55,6 +55,26 @@ def joint_numbers(u, v, l):
     p, q, _ = in_body(v, l, u.ix[l], u.iy[l], u.iz[l])
     r, s, _ = in_body(v, l, u.jx[l], u.jy[l], u.jz[l])
     return max(over, 0.0), a, b, math.atan2(q - r, p + s)
+
+
+@law
+def whole_turns(twist, last):
+    """A twist known within half a turn, near the one at the last look [rad]."""
+    return twist + 2.0 * math.pi * math.floor((last - twist) / (2.0 * math.pi) + 0.5)
+
+
+@law
+def keep_peaks(w, l):
+    """Peaks as they are while no part of the column is on its way out of its support."""
+    w.ktop[l], w.ktopx[l], w.ktopy[l] = w.top[l], w.topx[l], w.topy[l]
+    w.kopen[l], w.kspin[l] = w.open[l], w.spin[l]
+    w.kturn[l], w.klean[l] = w.turn[l], w.lean[l]
+
+
+@law
+def is_lying(u, l):
+    """Whether a drum is upside down, or lies with its upper face below the ground."""
+    return (u.kz[l] < 0.0) | (u.z[l] < -u.ht[l])
 
 
 @law
@@ -71,6 +91,9 @@ def observe(drum, joint, lane, feed, watch):
     faces, moves outward, and the moment of its weight about the edge exceeds what the strongest acceleration of the
     motion, the slope of the base and its own spin could ever set against it (for joints between drums, with
     SUPPORT_MARGIN on top); or when two faces no longer overlap.  # Eq. (E9)
+
+    Peaks are kept apart as they were when last no part was beyond its support and moving outward: those of a column that
+    falls are its peaks before it fell.
     """
     drums = drum.shape[0] - 1
     o = lane[0]
@@ -94,7 +117,9 @@ def observe(drum, joint, lane, feed, watch):
             w.py[l] += m * u.vy[l]
             if standing:
                 w.turn[l] = max(w.turn[l], 1.0 - u.kz[l])
-            elif u.kz[l] < 0.0 or u.z[l] < 0.0:
+                along = u.kx[l] * u.ax[l] + u.ky[l] * u.ay[l] + u.kz[l] * u.az[l]
+                w.lean[l] = max(w.lean[l], 1.0 - along)
+            elif is_lying(u, l):
                 w.follow[l] = 0  # flanks touch nothing: what lies on the ground is followed no further
         if standing:
             tx, ty = top_place(drum[drums], l)
@@ -103,11 +128,14 @@ def observe(drum, joint, lane, feed, watch):
             w.topx[l] = max(w.topx[l], abs(tx))
             w.topy[l] = max(w.topy[l], abs(ty))
             w.top[l] = max(w.top[l], math.sqrt(tx * tx + ty * ty))
+        w.going[l] = 0.0
         for j in range(drums):
             u = drum[j + 1]
             v = drum[j]
             e = joint[j]
             opening, a, b, twist = joint_numbers(u, v, l)
+            twist = whole_turns(twist, e.tw[l])
+            e.tw[l] = twist
             if standing:
                 w.open[l] = max(w.open[l], opening)
                 w.spin[l] = max(w.spin[l], abs(twist - e.ot[l]))
@@ -144,8 +172,8 @@ def observe(drum, joint, lane, feed, watch):
             tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
             gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
             lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + gyro)
-            lying = (u.kz[l] < 0.0) | (u.z[l] < 0.0)
-            hit = (lost | parted | lying) & standing
+            w.going[l] = 1.0 if (out > 0.0) & (outward > 0.0) else w.going[l]
+            hit = (lost | parted | is_lying(u, l)) & standing
             if hit and w.when[l] < 0:
                 w.when[l] = f.step[l]
                 w.which[l] = j
@@ -164,10 +192,13 @@ def observe(drum, joint, lane, feed, watch):
             w.z[l] -= m * u.z[l]
             w.px[l] -= m * u.vx[l]
             w.py[l] -= m * u.vy[l]
+        if w.when[l] < 0 and w.going[l] == 0.0:
+            keep_peaks(w, l)
 
 
 @strict
-def joint_state(drum, l, opening, slip, twist):
-    """Opening [m], slip in the axes of the drum below [m] and twist [rad] of every joint of one lane."""
+def joint_state(drum, joint, l, opening, slip, twist):
+    """Opening [m], slip in the axes of the drum below [m] and twist with its full turns [rad] of every joint of a lane."""
     for j in range(drum.shape[0] - 1):
         opening[j], slip[j, 0], slip[j, 1], twist[j] = joint_numbers(drum[j + 1], drum[j], l)
+        twist[j] = whole_turns(twist[j], joint[j].tw[l])

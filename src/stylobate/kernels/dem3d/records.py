@@ -12,6 +12,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                fx fy fz       middle of the lower face from the centroid, in the axes of the body [m]
                nx ny nz       normal of the lower face (up), in the axes of the body [-]
                ht             centroid to the middle of the upper face, along k [m]
+               ax ay az       the axis k at the start [-]
                rb rt          radii of the lower and the upper face [m]; to the farthest corner, if they have corners
                px py pz [4]   corners of the lower face from its middle, in the axes of the body, in order round it [m]
                tx ty          half widths of the upper face along i and j [m] (round drums: unused)
@@ -22,6 +23,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                kf kt          shear and torsion stiffness that (each) s and t were stored with [N/m], [N m]
                en             elastic energy of the normal pressure [J]
                ox oy ot       slip in the axes of the drum below [m] and twist [rad] at the start
+               tw             twist at the last look, full turns counted [rad]
                f[3] up[3] lo[3]  force on the drum above [N], moments on both drums about their centroids [N m]
                d[6]           dashpots: force and moment on the drum above, about the middle of the face below (damped only);
                               with corners the force of each of them, in the axes of the drum below
@@ -42,16 +44,23 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                sx sy          where the middle of the topmost face stood [m]
                top topx topy  largest displacement of the middle of the topmost face in plan, and of each component [m]
                open turn      largest opening of a joint [m], 1 − cos of a drum's tilt [-]
+               lean           1 − cos of the largest turn of a drum's axis since the start [-]
                spin wmax      largest twist of a joint [rad]; largest |input work| [J]
                when which     collapse: step, joint; −1 while there is none
                parted about wide  1 if the faces have parted; the joint that is widest open then, and how wide [m]
                ex ey          direction of the collapse [-]
+               tw             twist of a specimen at the last look, full turns counted [rad]
+               going          1 while some part is beyond its support and moves outward
+               ktop … kspin   the peaks as they were when last no part was on its way out
                m x y z px py  running sums over the drums above a joint
 """
 
 import numpy as np
 
 from ..drums.lanes import LANES
+
+#: Peaks that are kept, see the legend of ``watch``.
+PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")
 
 
 def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
@@ -75,7 +84,7 @@ def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
     return (
         np.dtype(
             fields(
-                f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ht rb rt tx ty",
+                f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty",
                 px=corners,
                 py=corners,
                 pz=corners,
@@ -83,7 +92,7 @@ def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
         ),
         np.dtype(
             fields(
-                "kn ks co mu t kf kt en ox oy ot",
+                "kn ks co mu t kf kt en ox oy ot tw",
                 s=3 * corners,
                 f=3,
                 up=3,
@@ -97,6 +106,7 @@ def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
         np.dtype(counts("x y z last step end") + fields("ratio factor", r=9)),
         np.dtype(
             counts("status follow when which parted about")
-            + fields("amax vmax sx sy top topx topy open turn spin wmax wide ex ey m x y z px py")
+            + fields("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
+            + fields(" ".join(PEAKS) + " k" + " k".join(PEAKS))
         ),
     )

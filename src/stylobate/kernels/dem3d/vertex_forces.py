@@ -24,7 +24,7 @@ from . import move as moving
 from . import records
 from .corner import touch
 from .ground import fill_ground
-from .look import check_finite, straighten
+from .look import check_finite, straighten, whole_turns
 from .move import move
 from .pose import cross, in_space
 
@@ -143,7 +143,8 @@ def observe(drum, joint, lane, feed, watch):
         less = u.ix[l] * v.iy[l] + u.jx[l] * v.jy[l] + u.kx[l] * v.ky[l]
         even = u.ix[l] * v.ix[l] + u.jx[l] * v.jx[l] + u.kx[l] * v.kx[l]
         even += u.iy[l] * v.iy[l] + u.jy[l] * v.jy[l] + u.ky[l] * v.ky[l]
-        w.spin[l] = max(w.spin[l], abs(math.atan2(more - less, even)))
+        w.tw[l] = whole_turns(math.atan2(more - less, even), w.tw[l])
+        w.spin[l] = max(w.spin[l], abs(w.tw[l]))
         tx, ty = u.x[l] + u.ht[l] * hx - w.sx[l], u.y[l] + u.ht[l] * hy - w.sy[l]
         w.topx[l] = max(w.topx[l], abs(tx))
         w.topy[l] = max(w.topy[l], abs(ty))

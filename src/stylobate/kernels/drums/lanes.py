@@ -34,6 +34,8 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                follow         1: go on after a collapse
                amax           largest horizontal acceleration of the motion, and of its vertical part vmax [m/s²]
                top open turn wmax   peaks: |top displacement| [m], joint opening [m], |rotation| [rad], |input work| [J]
+               going          1 while some part is beyond its support and moves outward
+               ktop kopen kturn     the peaks as they were when last no part was on its way out
                when which side      collapse: step, joint, side (±1); −1 while there is none
                stood          where the middle of the topmost face stood [m]
                m x z px       running sums over the drums above a joint
@@ -85,7 +87,7 @@ def block_types(points, damped):
         np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor bc bs")),
         np.dtype(
             [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side", "parted", "about")]
-            + fields("amax vmax stood top open turn wmax wide m x z px")
+            + fields("amax vmax stood top open turn wmax wide going ktop kopen kturn m x z px")
         ),
     )
 
@@ -139,6 +141,9 @@ def observe(drum, joint, lane, feed, watch):
     moves outward, and the moment of its weight about that end exceeds what the strongest acceleration of the motion and
     the slope of the base could ever set against it (for joints between drums, with SUPPORT_MARGIN on top); or when two
     faces no longer overlap.  # Eq. (D6)
+
+    Peaks are kept apart as they were when last no part was beyond its support and moving outward: those of a column that
+    falls are its peaks before it fell.
     """
     drums = drum.shape[0] - 1
     o = lane[0]
@@ -149,6 +154,7 @@ def observe(drum, joint, lane, feed, watch):
         # peaks of a column that stands: they end with its collapse
         _, st = upper_face(top, l)
         w.top[l] = max(w.top[l], abs(top.x[l] - st * top.ht[l] - w.stood[l])) if w.when[l] < 0 else w.top[l]
+        w.going[l] = 0.0
         w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
         w.m[l] = 0.0
         w.x[l] = 0.0
@@ -194,6 +200,7 @@ def observe(drum, joint, lane, feed, watch):
             down = max(o.g[l] - w.vmax[l], 0.0)
             against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
             lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up)
+            w.going[l] = 1.0 if (out > 0.0) & (outward > 0.0) else w.going[l]
             parted = hi <= lo
             hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)
             w.when[l] = f.step[l] if hit else w.when[l]
@@ -211,6 +218,11 @@ def observe(drum, joint, lane, feed, watch):
             w.x[l] -= u.m[l] * u.x[l]
             w.z[l] -= u.m[l] * u.z[l]
             w.px[l] -= u.m[l] * u.vx[l]
+    for l in range(LANES):
+        calm = (w.when[l] < 0) & (w.going[l] == 0.0)
+        w.ktop[l] = w.top[l] if calm else w.ktop[l]
+        w.kopen[l] = w.open[l] if calm else w.kopen[l]
+        w.kturn[l] = w.turn[l] if calm else w.kturn[l]
 
 
 @kernel

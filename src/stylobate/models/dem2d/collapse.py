@@ -260,22 +260,22 @@ class _ColumnRun:
         """Measures of the run; peaks end with a collapse, as in the lanes."""
         watch, engine, column, drum = self.block.watch[0], self.engine, self.column, self.block.drum
         change = last["energy"] - self.start
-        imbalance = ledger_imbalance(change, float(watch["wmax"][0]), float(self.start[3]), column)
+        imbalance = ledger_imbalance(change, float(watch["wmax"][0]), self.block.begun(0, change), column)
         failed = engine.failed or bool(ledger.out_of_balance(imbalance))
-        slip, widths = last["slip"] - self.block.slip[0], column.joint_widths
+        slip, widths = last["slip"], column.joint_widths
         outcome = classify(
             self.collapsed, failed, float(watch["open"][0] / widths.min()), float((np.abs(slip) / widths).max())
         )
-        mechanical = float(change[1] + change[2] + change[3])
+        mechanical = float(change[1] + change[2] + change[3] + self.block.rest[0])
         when = int(watch["when"][0])
         return Measures(
             outcome=outcome,
             decided=self.collapsed or (not failed and stands_for_good(column, drum, 0, slip, mechanical)),
             collapse_time=float(when * engine.dt) if when >= 0 else math.nan,
-            peak_top_displacement=float(watch["top"][0]),
+            peak_top_displacement=self.block.peak(0, "top"),
             residual_top_displacement=float(found.top_displacement[-1]),
-            peak_rotation=float(watch["turn"][0]),
-            peak_joint_opening=float(watch["open"][0]),
+            peak_rotation=self.block.peak(0, "turn"),
+            peak_joint_opening=self.block.peak(0, "open"),
             residual_joint_slip=float(np.abs(slip).max()),
             energy_imbalance=imbalance,
             time_step=engine.dt,

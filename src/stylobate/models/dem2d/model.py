@@ -83,6 +83,7 @@ class DistinctElement2D(SteppedDrums):
     )
     takes_as_found: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
+    takes_start: ClassVar[bool] = True
 
     points: int = 2
     block_modulus: float | None = None

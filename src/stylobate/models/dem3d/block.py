@@ -10,7 +10,6 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import base_axes
-from ...errors import InputError
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
@@ -21,7 +20,8 @@ from ..base import Case
 from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_steps
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
-from .pose import check_in_plane, placed
+from ..start import Start, check_in_plane
+from .pose import placed
 from .toes import toe_energies
 from .touching import slips_where_closest
 from .verdict import stands_for_good
@@ -41,12 +41,11 @@ class SpaceBlock(DrumBlock):
     def __init__(self, *arguments: Any, planar: bool, law: str = "rim") -> None:
         super().__init__(*arguments)
         self.planar, self.law = planar, law
-        self.rest = np.zeros(self.lanes)
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
         self.cases[lane] = case
-        column, motion = case
+        motion = case.motion
         dt, chunks = whole_steps(motion, self.options.tail, self.place(lane, case), self.chunk)
         steps = chunks * self.chunk
         feed, watch = self.feed[0], self.watch[0]
@@ -73,26 +72,9 @@ class SpaceBlock(DrumBlock):
         self.lane["dt"][0, lane] = self.dt[lane] = dt
         watch["sx"][lane], watch["sy"][lane] = self.top_place(lane)
         self.mark_start(lane)
-        self.rest[lane] = 0.0
-        if self.options.start is not None:
-            if column.as_found:
-                raise InputError(
-                    f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
-                )
-            if self.planar:
-                check_in_plane(self.options.start)
-            self.rest[lane] = -self.energies(lane)[2:4].sum()
-            drums, joints, force = placed(column, self.options.start, self.drum, lane)
-            for array, fields in ((self.drum, drums), (self.joint, joints)):
-                for name, values in fields.items():
-                    array[name][..., lane] = values
-            self._sink(lane, force)
-        self._half_a_step_back(lane)
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
-        self.start[lane] = self.energies(lane)
-        if self.options.start is not None:  # what the pose and the velocity hold above the column upright
-            self.rest[lane] += self.start[lane, 1:4].sum()
+        self.begin(lane)
 
     def base(self, case: Case) -> np.ndarray:
         """Axes of the base as columns, in those of the motion [-], shape (3, 3)."""
@@ -108,44 +90,52 @@ class SpaceBlock(DrumBlock):
         return packed.step
 
     def mark_start(self, lane: int) -> None:
-        """Keep where the drums stood on each other."""
+        """Keep where the drums stood, and how on each other."""
+        self.joint["tw"][:, lane] = 0.0
         _, slip, twist = self.joints(lane)
         self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane] = slip.T
-        self.joint["ot"][:-1, lane] = twist
+        self.joint["ot"][:-1, lane] = self.joint["tw"][:-1, lane] = twist
+        for c in "xyz":
+            self.drum["a" + c][..., lane] = self.drum["k" + c][..., lane]
 
-    def _sink(self, lane: int, force: float) -> None:
-        """Lower the whole column until the base carries a force [N]."""
-        joint, state = self.joint.copy(), self.lane.copy()
-        state["dt"][0, lane] = 0.0
-        z = self.drum["z"][1:, lane].copy()
+    def take_pose(self, lane: int, column: Column, start: Start) -> None:
+        """Tilt a column that stands in a lane."""
+        if self.planar:
+            check_in_plane(start, "planar = True")
+        drums, joints, force = placed(column, start, self.drum, lane)
+        for array, fields in ((self.drum, drums), (self.joint, joints)):
+            for name, values in fields.items():
+                array[name][..., lane] = values
+        self.sink(lane, force)
 
-        def carried(depth: float) -> float:
-            self.drum["z"][1:, lane] = z - depth
-            self.kernel.forces(self.drum, joint, state)
-            return float(joint["f"][0, 2, lane])
+    def lift(self, joint: np.ndarray, lane: int) -> float:
+        """What the base carries [N]."""
+        return float(joint["f"][0, 2, lane])
 
-        low, high = 0.0, 1e-12
-        while carried(high) < force:
-            high *= 2.0
-        while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if carried(middle) < force else (low, middle)
-        carried(high)
-
-    def _half_a_step_back(self, lane: int) -> None:
+    def half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
         half, drum = 0.5 * self.dt[lane], self.drum
         kick = np.repeat(self.ground_acceleration(lane, self.time(lane))[None], len(drum) - 1, axis=0)
         if self.options.start is not None:
             force, moment = self.net(lane)
             kick = kick + self.lane["g"][0, :, lane] - force * drum["im"][1:, lane, None]
-            for c, name in enumerate(("lx", "ly", "lz")):
-                drum[name][1:, lane] -= half * moment[:, c]
+            for c, name in enumerate("xyz"):
+                drum["l" + name][1:, lane] -= half * moment[:, c]
+            self.turn_with_momentum(lane)
         for c, name in enumerate(("vx", "vy", "vz")):
             drum[name][1:, lane] += half * kick[:, c]
         if self.planar:
             for name in ("vy", "lx", "lz"):
                 drum[name][1:, lane] = 0.0
+
+    def turn_with_momentum(self, lane: int) -> None:
+        """Angular velocities that go with the angular momenta."""
+        one = {name: self.drum[name][1:, lane, None] for name in ("ia", "ib", "ic")}
+        momentum, i, k = (np.stack([self.drum[a + c][1:, lane] for c in "xyz"], axis=-1) for a in "lik")
+        about_i, about_k = ((momentum * axis).sum(axis=1, keepdims=True) * axis for axis in (i, k))
+        turning = one["ia"] * momentum + one["ib"] * about_i + one["ic"] * about_k
+        for c, name in enumerate("xyz"):
+            self.drum["w" + name][1:, lane] = turning[:, c]
 
     def ground_acceleration(self, lane: int, time: float) -> np.ndarray:
         """Acceleration of the base in its own axes at a time [m/s²], shape (3,)."""
@@ -159,10 +149,13 @@ class SpaceBlock(DrumBlock):
         return self.feed["r"][0, :, lane].reshape(3, 3) @ a
 
     def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Opening of every joint [m], its slip where it is closest [m], and its twist [rad]: (n,), (n, 2), (n,)."""
+        """Opening of every joint [m], its slip where it is closest [m], and its twist, with its full turns [rad].
+
+        Shapes (n,), (n, 2), (n,).
+        """
         n = len(self.drum) - 1
         opening, slip, twist = np.empty(n), np.empty((n, 2)), np.empty(n)
-        self.kernel.joint_state(self.drum, lane, opening, slip, twist)
+        self.kernel.joint_state(self.drum, self.joint, lane, opening, slip, twist)
         return opening, slips_where_closest(self.drum, lane, slip, twist), twist
 
     def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
@@ -224,7 +217,7 @@ class SpaceBlock(DrumBlock):
             "slip": slip,
             "twist": twist,
             "base": np.array([drum[c][1, lane] for c in "xy"]) + (axes[0] @ foot)[:2],
-            "top": self.top_place(lane),
+            "top": self.top_place(lane) - [self.watch[c][0, lane] for c in ("sx", "sy")],
             "energy": self.energies(lane),
         }
 
@@ -234,12 +227,9 @@ class SpaceBlock(DrumBlock):
         assert case is not None
         column, watch = case.column, self.watch[0]
         change = self.energies(lane) - self.start[lane]
-        begun = float(self.start[lane, 3])
-        if self.options.start is not None:  # what the pose and the velocity hold
-            begun = max(begun, float(self.start[lane, 1]), abs(float(change[1])))
-        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), begun, column)
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), column)
         slip, twist = self.since_start(lane)
-        tilt = math.acos(max(-1.0, 1.0 - float(watch["turn"][lane])))
+        tilt, lean = (math.acos(max(-1.0, 1.0 - self.peak(lane, name))) for name in ("turn", "lean"))
         slips = np.hypot(*slip.T)
         collapsed = watch["status"][lane] == self.kernel.COLLAPSED
         failed = watch["status"][lane] == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
@@ -251,10 +241,10 @@ class SpaceBlock(DrumBlock):
             decided=outcome is Outcome.COLLAPSED
             or (not failed and stands_for_good(column, self.drum, lane, slip, mechanical, self.toes(column))),
             collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
-            peak_top_displacement=float(watch["top"][lane]),
+            peak_top_displacement=self.peak(lane, "top"),
             residual_top_displacement=float(np.hypot(*(self.top_place(lane) - (watch["sx"][lane], watch["sy"][lane])))),
-            peak_rotation=tilt,
-            peak_joint_opening=float(watch["open"][lane]),
+            peak_rotation=lean,
+            peak_joint_opening=self.peak(lane, "open"),
             residual_joint_slip=float(slips.max()),
             energy_imbalance=imbalance,
             time_step=float(self.dt[lane]),
@@ -263,10 +253,10 @@ class SpaceBlock(DrumBlock):
             collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
             stepped=self.spans.stepped(lane, int(self.feed["step"][0, lane]), float(self.dt[lane])),
             space=SpaceMeasures(
-                peak_top_x=float(watch["topx"][lane]),
-                peak_top_y=float(watch["topy"][lane]),
+                peak_top_x=self.peak(lane, "topx"),
+                peak_top_y=self.peak(lane, "topy"),
                 peak_tilt=tilt,
-                peak_twist=float(watch["spin"][lane]),
+                peak_twist=self.peak(lane, "spin"),
                 residual_slip_per_joint=tuple(float(one) for one in slips),
                 residual_twist_per_joint=tuple(float(one) for one in twist),
             ),
@@ -306,7 +296,7 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         joint_slip=stack["slip"],
         joint_twist=stack["twist"],
         base_displacement=stack["base"] - stack["base"][0],
-        top_displacement=stack["top"] - stack["top"][0],
+        top_displacement=stack["top"],
         ground_acceleration=acceleration,
         ground_displacement=displacement,
         energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(ledger.TERMS)},

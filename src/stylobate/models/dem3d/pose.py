@@ -8,7 +8,6 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import rotation
-from ...errors import InputError
 from ..start import Start
 from .packing import CORNERS
 
@@ -67,21 +66,6 @@ def placed(
     for corner in (0,) if low is None else low:
         shear[0, 3 * corner : 3 * corner + 2] = force[:2] / (1 if low is None else len(low))
     return fields, {"s": shear}, max(float(force[2]), 0.0)
-
-
-def check_in_plane(start: Start) -> None:
-    """Refuse a start that the plane of x and z does not hold.
-
-    Raises
-    ------
-    InputError
-    """
-    wx, _, wz = start.angular_velocity
-    if abs(start.tilt * math.sin(start.azimuth)) > 1e-12 or wx != 0.0 or wz != 0.0:
-        raise InputError(
-            f"planar is on, and the start leaves the plane of x and z (azimuth {start.azimuth:g} rad, angular_velocity "
-            f"{start.angular_velocity}); give azimuth 0 or pi and a velocity about y only, or leave planar off."
-        )
 
 
 def _lowest_corners(drum: np.ndarray, lane: int, h: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

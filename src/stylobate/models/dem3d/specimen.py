@@ -198,17 +198,26 @@ class SpecimenBlock(SpaceBlock):
         return (place + self.drum["ht"][1, lane] * self.axes(lane)[0] @ self.up(lane))[:2]
 
     def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Height of the highest vertex of the footprint [m], shift of its middle [m], twist [rad]: (1,), (1, 2), (1,)."""
+        """Height of the highest vertex of the footprint [m], its shift where it is lowest [m], and the twist [rad].
+
+        Where it is lowest, so that a body that only leans has not slipped; shapes (1,), (1, 2), (1,).
+        """
         specimen: Any = self.cases[lane].column  # type: ignore[union-attr]
         rows = self.kernel.FIRST + specimen.resting.footprint
         arms = np.stack([self.joint[c][rows, lane] for c in "xyz"], axis=-1)
         axes = self.axes(lane)[0]
-        heights = self.drum["z"][1, lane] + (arms @ axes.T)[:, 2]
+        places = np.array([self.drum[c][1, lane] for c in "xyz"]) + arms @ axes.T
         foot = np.array([self.drum[c][0, lane] for c in "xyz"])
         first = np.stack([[self.drum[a + c][0, lane] for c in "xyz"] for a in "ijk"], axis=-1)
         turn = axes @ first.T
         twist = math.atan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])
-        return np.array([max(heights.max(), 0.0)]), (self.foot(lane) - foot)[None, :2], np.array([twist])
+        last = self.watch["tw"][0, lane]
+        twist += 2.0 * math.pi * math.floor((last - twist) / (2.0 * math.pi) + 0.5)
+        low = int(places[:, 2].argmin())
+        c, s = math.cos(twist), math.sin(twist)
+        x, y, _ = first @ arms[low]  # where that vertex was at rest, from the middle
+        slip = places[low, :2] - foot[:2] - (c * x - s * y, s * x + c * y)
+        return np.array([max(places[:, 2].max(), 0.0)]), slip[None], np.array([twist])
 
     def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Slip [m] and twist [rad] since the start."""
@@ -241,7 +250,7 @@ class SpecimenBlock(SpaceBlock):
             "slip": slip,
             "twist": twist,
             "base": self.foot(lane)[:2],
-            "top": self.top_place(lane),
+            "top": self.top_place(lane) - [self.watch[c][0, lane] for c in ("sx", "sy")],
             "energy": self.energies(lane),
         }
 

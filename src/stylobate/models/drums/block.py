@@ -12,6 +12,7 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import gravity_vector
 from ...constants import DEGREE
+from ...errors import InputError
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
@@ -21,6 +22,8 @@ from ..shared import ledger, quiet
 from ..shared.ground import along_base, ground_histories
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..shared.soft_joints import resolving
+from ..start import Start, check_in_plane
+from .pose import leans_right, placed
 from .standing import lowest_barrier, stands_for_good
 
 #: Half width of the base, wide enough to be a half-plane [m].
@@ -130,6 +133,8 @@ class DrumBlock:
         self.steps = np.zeros(self.lanes, dtype=np.int64)
         self.start = np.zeros((self.lanes, 6))
         self.slip = np.zeros((self.lanes, drums))
+        self.rest = np.zeros(self.lanes)
+        self.stood = np.zeros((self.lanes, 2, drums))
         self.cases: list[Case | None] = [None] * self.lanes
         self.spans = quiet.Spans(self.lanes, options, self.chunk)
         self.chunks_per_call = 1
@@ -166,14 +171,87 @@ class DrumBlock:
         watch["amax"][lane] = motion.pga * math.cos(slope) + peak_z * abs(math.sin(slope))
         watch["vmax"][lane] = motion.pga * abs(math.sin(slope)) + peak_z * math.cos(slope)
         self.slip[lane, : column.n] = self.joint_state(lane)[1]
+        self.stood[lane] = self.drum["x"][1:, lane], self.drum["z"][1:, lane]
         watch["stood"][lane] = self.top(lane)
         self.dt[lane] = dt
-        # velocities half a step before the start, of drums that do not move yet in a base that may
-        ground = self.ground_acceleration(lane, self.time(lane))
-        self.drum["vx"][1:, lane], self.drum["vz"][1:, lane] = 0.5 * dt * ground[0], 0.5 * dt * ground[1]
         self.steps[lane] = steps
         self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
+        self.begin(lane)
+
+    def begin(self, lane: int) -> None:
+        """Take the start's pose, if there is one; velocities half a step before the start, and the energy there.
+
+        Raises
+        ------
+        InputError
+            A pose that this column or this model does not take.
+        """
+        case, start = self.cases[lane], self.options.start
+        assert case is not None
+        self.rest[lane] = 0.0
+        if start is not None:
+            if case.column.as_found:
+                raise InputError(
+                    f"a start from a pose takes a column as built, and {case.column.name!r} is as found; leave one out."
+                )
+            self.rest[lane] = -self.energies(lane)[2:4].sum()
+            self.take_pose(lane, case.column, start)
+        self.half_a_step_back(lane)
         self.start[lane] = self.energies(lane)
+        if start is not None:  # what the pose and the velocity hold above the column upright
+            self.rest[lane] += self.start[lane, 1:4].sum()
+
+    def take_pose(self, lane: int, column: Column, start: Start) -> None:
+        """Tilt a column that stands in a lane."""
+        check_in_plane(start, "a model in the plane")
+        fields, (push, lift) = placed(start, self.drum, lane, column.gravity)
+        for name, values in fields.items():
+            self.drum[name][:, lane] = values
+        self.joint["fs"][0, :, lane] = 0.0
+        self.joint["fs"][0, -1 if leans_right(start) else 0, lane] = push
+        self.sink(lane, lift)
+
+    def lift(self, joint: np.ndarray, lane: int) -> float:
+        """What the base carries [N]."""
+        return float(joint["fz"][0, lane])
+
+    def sink(self, lane: int, force: float) -> None:
+        """Lower the whole column until the base carries a force [N]."""
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = 0.0
+        z = self.drum["z"][1:, lane].copy()
+
+        def carried(depth: float) -> float:
+            self.drum["z"][1:, lane] = z - depth
+            self.kernel.forces(self.drum, joint, state)
+            return self.lift(joint, lane)
+
+        low, high = 0.0, 1e-12
+        while carried(high) < force:
+            high *= 2.0
+        while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if carried(middle) < force else (low, middle)
+        carried(high)
+
+    def half_a_step_back(self, lane: int) -> None:
+        """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
+        half, drum = 0.5 * self.dt[lane], self.drum
+        ground = self.ground_acceleration(lane, self.time(lane))
+        turn: float | np.ndarray = 0.0
+        if self.options.start is not None:
+            joint, state = self.joint.copy(), self.lane.copy()
+            state["dt"][0, lane] = 0.0
+            self.kernel.forces(self.drum, joint, state)
+            net = {name: joint[name][:, lane] for name in ("fx", "fz", "mu_", "ml")}
+            ground = (
+                ground[0] - (net["fx"][:-1] - net["fx"][1:]) * drum["im"][1:, lane],
+                ground[1] + state["g"][0, lane] - (net["fz"][:-1] - net["fz"][1:]) * drum["im"][1:, lane],
+            )
+            turn = (net["mu_"][:-1] - net["ml"][1:]) * drum["ii"][1:, lane]
+        drum["vx"][1:, lane] += half * ground[0]
+        drum["vz"][1:, lane] += half * ground[1]
+        drum["w"][1:, lane] -= half * turn
 
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
@@ -255,15 +333,27 @@ class DrumBlock:
         bottom = drum[1]
         return {
             "time": self.time(lane),
-            "x": drum["x"][1:, lane].copy(),
-            "z": drum["z"][1:, lane].copy(),
+            "x": drum["x"][1:, lane] - self.stood[lane, 0],
+            "z": drum["z"][1:, lane] - self.stood[lane, 1],
             "rotation": drum["th"][1:, lane].copy(),
             "opening": opening,
-            "slip": slip,
+            "slip": slip - self.slip[lane],
             "base": bottom["x"][lane] + bottom["s"][lane] * bottom["hb"][lane],
-            "top": self.top(lane),
+            "top": self.top(lane) - self.watch["stood"][0, lane],
             "energy": self.energies(lane),
         }
+
+    def begun(self, lane: int, change: np.ndarray) -> float:
+        """What a run started with, for its imbalance: its elastic energy, or what the pose and the velocity hold [J]."""
+        begun = float(self.start[lane, 3])
+        if self.options.start is not None:
+            begun = max(begun, float(self.start[lane, 1]), abs(float(change[1])))
+        return begun
+
+    def peak(self, lane: int, name: str) -> float:
+        """A peak of the watch; of a column that has collapsed, as it was when the fall began."""
+        watch = self.watch[0]
+        return float(watch["k" + name if watch["when"][lane] >= 0 else name][lane])
 
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run is over."""
@@ -273,7 +363,7 @@ class DrumBlock:
         status = watch["status"][lane]
         now = self.energies(lane)
         change = now - self.start[lane]
-        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), float(self.start[lane, 3]), case.column)
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), case.column)
         slip = self.joint_state(lane)[1] - self.slip[lane, : case.column.n]
         collapsed = status == self.kernel.COLLAPSED
         failed = status == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
@@ -281,16 +371,16 @@ class DrumBlock:
         outcome = classify(
             collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
         )
-        mechanical = float(change[1] + change[2] + change[3])
+        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane])
         return Measures(
             outcome=outcome,
             decided=outcome is Outcome.COLLAPSED
             or (not failed and stands_for_good(case.column, self.drum, lane, slip, mechanical)),
             collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
-            peak_top_displacement=float(watch["top"][lane]),
+            peak_top_displacement=self.peak(lane, "top"),
             residual_top_displacement=self.top(lane) - float(watch["stood"][lane]),
-            peak_rotation=float(watch["turn"][lane]),
-            peak_joint_opening=float(watch["open"][lane]),
+            peak_rotation=self.peak(lane, "turn"),
+            peak_joint_opening=self.peak(lane, "open"),
             residual_joint_slip=float(np.abs(slip).max()),
             energy_imbalance=imbalance,
             time_step=float(self.dt[lane]),
@@ -351,13 +441,13 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     acceleration, displacement = ground_histories(motion, stack["time"])
     return Histories.of_drums(
         time=stack["time"],
-        drum_x=stack["x"] - stack["x"][0],
-        drum_z=stack["z"] - stack["z"][0],
+        drum_x=stack["x"],
+        drum_z=stack["z"],
         drum_rotation=stack["rotation"],
         joint_opening=stack["opening"],
-        joint_slip=stack["slip"] - stack["slip"][0],
+        joint_slip=stack["slip"],
         base_displacement=stack["base"] - stack["base"][0],
-        top_displacement=stack["top"] - stack["top"][0],
+        top_displacement=stack["top"],
         ground_acceleration=acceleration,
         ground_displacement=displacement,
         energy={

@@ -13,6 +13,9 @@ from ...motion import Motion
 #: Largest sinking of a column under its own weight, as a share of its height [-].
 LARGEST_SINKING = 0.01
 
+#: Largest closure of a joint under the weight above, as a share of the height of the drum on it [-].
+LARGEST_CLOSURE = 0.5
+
 #: A step is no longer than this share of a sample, or than this share of the mean period where there are more samples.
 SHARE_OF_SAMPLE, SHARE_OF_PERIOD = 0.5, 0.01
 
@@ -23,16 +26,24 @@ def check_sinking(column: Column) -> None:
     Raises
     ------
     InputError
-        It sinks by more than a hundredth of its height.
+        It sinks by more than a hundredth of its height, or a drum by half of its own.
     """
     stiffness = np.array([joint.normal_stiffness for joint in column.joints]) * column.joint_areas
-    share = float((column.joint_weights / stiffness).sum()) / column.height
+    closure = column.joint_weights / stiffness
+    share = float(closure.sum()) / column.height
     if share > LARGEST_SINKING:
         softest = min(joint.normal_stiffness for joint in column.joints)
         raise InputError(
             f"column {column.name!r} sinks by {share:.3g} of its height under its own weight; allowed is up to "
             f"{LARGEST_SINKING:g}: its normal_stiffness ({softest:g} N/m³ where it is least) should be "
             f"{share / LARGEST_SINKING:.3g} times as large."
+        )
+    thin = int(np.argmax(closure / column.heights))
+    if closure[thin] > LARGEST_CLOSURE * column.heights[thin]:
+        raise InputError(
+            f"drum {thin + 1} of {column.name!r} is {column.heights[thin]:.3g} m high and sinks by {closure[thin]:.3g} m "
+            f"under the weight on its lower joint; allowed is up to half of its height: make that joint's normal_stiffness "
+            f"({column.joints[thin].normal_stiffness:g} N/m³) larger, or the drum higher."
         )
 
 
