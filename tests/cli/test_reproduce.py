@@ -11,6 +11,7 @@ import numpy as np
 import pandas
 import pytest
 import xarray
+from tiny_study import GRIDS, shorten
 
 import stylobate as st
 from stylobate.analysis import verdicts as v
@@ -21,8 +22,8 @@ from stylobate.cli.main import call
 from stylobate.cli.reproduce import build, describe
 from stylobate.errors import DamagedFileWarning
 from stylobate.own_files import LIST, own_files
-from stylobate.paper import cases, pieces, study
-from stylobate.paper.cases import BEAM, Grids
+from stylobate.paper import pieces, study
+from stylobate.paper.cases import BEAM
 from stylobate.paper.folder import check_folder, claim
 from stylobate.paper.reading import CHOICES, FAILS, HOLDS
 from stylobate.paper.statements import statements
@@ -30,39 +31,12 @@ from stylobate.paper.study import run_study
 from stylobate.report.page import Picture, Rows, Section, write_page
 
 ROOT = Path(__file__).parents[2]
-GRIDS = dataclasses.replace(
-    Grids.of(True),
-    frequencies=np.array([0.66, 2.0]),
-    amplitudes=np.array([0.15, 0.3, 0.5]) * st.g,
-    variant_frequencies=np.array([0.66, 2.0]),
-    variant_amplitudes=np.array([0.2, 0.5]) * st.g,
-    variants=(
-        "beam, as the paper",
-        "beam, true drums",
-        "beam, β = 0.5 ms",
-        "beam with sliding",
-        "beam with sliding, tan φ = 10",
-        "DEM, two points",
-        "DEM, elastic blocks",
-        "DEM, tan φ = 10",
-    ),
-    limit_amplitudes=np.array([0.15, 0.25]) * st.g,
-    tail=1.0,
-    doubt_frequencies=np.array([0.5, 0.8]),
-    doubt_amplitudes=np.array([0.2, 0.3, 0.4]) * st.g,
-    replicates=3,
-    space_frequencies=np.array([0.66]),
-    space_amplitudes=np.array([0.2, 0.5]) * st.g,
-    space_replicates=2,
-)
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(cases, "DURATION", 3.0)
-        patch.setattr(cases, "FREQUENCIES", np.array([0.66, 2.0]))
-        patch.setattr(cases, "AMPLITUDES", np.array([0.2, 0.5]) * st.g)
+        shorten(patch.setattr)
         folder = tmp_path_factory.mktemp("paper")
         yield folder, build(folder, True, 2, GRIDS), patch
 

@@ -1,7 +1,8 @@
 """Commands that keep what is finished, killed at random times: what they go on with is what one without a kill ends with.
 
 A try kills one command once to three times, then lets it end. At most a second of finished runs may be lost at each kill,
-the tables must be those of the command that nobody killed, and other people's files in the folder as they were.
+the tables must be those of the command that nobody killed, and other people's files in the folder as they were. How long
+signals took to end the command is told as a distribution.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import time
 from contextlib import closing
 from pathlib import Path
 
-from .target import Fault, Target
+from .target import Fault, Target, Tried
 
 #: The command line, and a note of each run that it has finished.
 SCRIPT = """
@@ -31,6 +32,9 @@ def noted(self, number, row):
     os.write(notes, f"{time.time()} {number} {os.path.abspath(self.path)}\\n".encode())
 ledger.Ledger.record = noted
 import stylobate.analysis.replicates, stylobate.campaign.runner
+if "reproduce" in sys.argv:
+    import tiny_study
+    tiny_study.play()
 from stylobate.cli.start import main
 main()
 """
@@ -46,6 +50,7 @@ COMMANDS = {
     "critical, records": ["critical", "paper-monolithic", *DEM, *LEVELS, "--motion", "RECORDS"],
     "suite": ["suite", "paper-12-drums", "RECORDS", "--also", "paper-monolithic", *DEM],
     "run, records": ["run", "paper-monolithic", *DEM, "--motion", "RECORDS"],
+    "reproduce": ["reproduce", "--quick"],
     "compare": ["compare", "paper-monolithic", "--models", "dem2d,rigid-block", *GRID],
 }
 
@@ -58,7 +63,7 @@ ANSWER = 4.0
 _whole: dict[str, tuple[float, dict[str, str]]] = {}
 
 
-def one(rng: random.Random, folder: Path) -> str:
+def one(rng: random.Random, folder: Path) -> Tried:
     """Kill one command, let it end, and compare."""
     name = rng.choice(list(COMMANDS))
     if name not in _whole:
@@ -69,9 +74,10 @@ def one(rng: random.Random, folder: Path) -> str:
     length, whole = _whole[name]
     out = folder / "out"
     out.mkdir()
-    for foreign in FOREIGN:
+    others = () if name == "reproduce" else FOREIGN  # it takes a folder of its own only
+    for foreign in others:
         (out / foreign).write_text(f"of somebody else: {foreign}")
-    signals, found = [], 0
+    signals, took = [], []
     for _ in range(rng.randrange(1, 4)):
         process = start(name, folder)
         time.sleep(rng.uniform(0.2, 1.1) * length)
@@ -80,15 +86,17 @@ def one(rng: random.Random, folder: Path) -> str:
         sent, told = time.time(), time.monotonic()
         process.send_signal(number)
         _, said = process.communicate(timeout=60)
+        if process.returncode == 130:
+            took.append(time.monotonic() - told)
         if number != signal.SIGKILL and time.monotonic() - told > ANSWER:
             raise Fault(f"{name}: {number.name} was answered after {time.monotonic() - told:.1f} s")
         if process.returncode not in (0, 130, -number) or "Traceback" in said:
             raise Fault(f"{name}: {number.name} ended with {process.returncode}: {said}")
         if process.returncode == 130 and len(said.splitlines()) != 1:
             raise Fault(f"{name}: not one sentence: {said}")
-        found += lost(folder / "notes", sent)
+        lost(folder / "notes", sent)
     end(start(name, folder))
-    for foreign in FOREIGN:
+    for foreign in others:
         if (out / foreign).read_text() != f"of somebody else: {foreign}":
             raise Fault(f"{name}: {foreign} is not as it was")
     if tables(out) != whole:
@@ -99,7 +107,7 @@ def one(rng: random.Random, folder: Path) -> str:
     left += [path.name for path in out.rglob(".*") if path.name not in (*FOREIGN, ".stylobate-files")]
     if left:
         raise Fault(f"{name}: {left} were left over after {signals}")
-    return f"{len(signals)} kills"
+    return Tried(f"{len(signals)} kills", numbers={"answers to a signal [s]": took})
 
 
 def start(name: str, folder: Path) -> subprocess.Popen:
@@ -112,10 +120,12 @@ def start(name: str, folder: Path) -> subprocess.Popen:
             lines = [f"{t:.2f},{(2.0 + k) * math.sin(2 * math.pi * (1 + 0.3 * k) * t):.6f}" for t in times]
             (records / f"record-{k}.csv").write_text("\n".join(["time_s,ax_m_s2", *lines, ""]))
     arguments = [str(records) if one == "RECORDS" else one for one in COMMANDS[name]]
+    found = os.pathsep.join(filter(None, [str(Path(__file__).parents[1]), os.getenv("PYTHONPATH")]))
     command = [sys.executable, "-c", SCRIPT, str(folder / "notes"), *arguments, "--out", str(folder / "out"), "--json"]
     return subprocess.Popen(
-        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=_hear_everything
-    )
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, preexec_fn=_hear_everything,
+        env=os.environ | {"PYTHONPATH": found},
+    )  # fmt: skip
 
 
 def _hear_everything() -> None:

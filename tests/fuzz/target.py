@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import signal
+import statistics
 import tempfile
 import time
 import traceback
@@ -21,6 +22,24 @@ class Fault(AssertionError):
 
 class Hang(BaseException):
     """A try that took longer than its limit; no handler of exceptions may swallow it."""
+
+
+class Tried(str):
+    """A word for what came of a try, with numbers whose distribution is told at the end.
+
+    Parameters
+    ----------
+    word : str
+    numbers : dict
+        By what they are, with the unit: a list of numbers.
+    """
+
+    numbers: dict[str, list[float]]
+
+    def __new__(cls, word: str, numbers: dict[str, list[float]]):
+        made = super().__new__(cls, word)
+        made.numbers = numbers
+        return made
 
 
 @dataclass(frozen=True)
@@ -58,6 +77,7 @@ class Report:
     seconds: float = 0.0
     results: Counter = field(default_factory=Counter)
     faults: list[str] = field(default_factory=list)
+    numbers: dict[str, list[float]] = field(default_factory=dict)
 
     @property
     def tries(self) -> int:
@@ -67,7 +87,12 @@ class Report:
     def __str__(self) -> str:
         counts = ", ".join(f"{number} {word}" for word, number in sorted(self.results.items()))
         short = "" if self.tries >= self.wanted else f" of {self.wanted}, stopped by the budget"
-        return f"{self.target.name}: {self.tries} tries{short} in {self.seconds:.0f} s: {counts}; {len(self.faults)} faults"
+        said = f"{self.target.name}: {self.tries} tries{short} in {self.seconds:.0f} s: {counts}; {len(self.faults)} faults"
+        for what, values in self.numbers.items():
+            if values:
+                middle = f"median {statistics.median(values):.2f}, largest {max(values):.2f}"
+                said += f"; {len(values)} {what}: {middle}"
+        return said
 
 
 def fuzz(
@@ -93,7 +118,10 @@ def fuzz(
                 _within(target.limit),
             ):
                 warnings.simplefilter("ignore")
-                report.results[target.one(rng, Path(folder))] += 1
+                found = target.one(rng, Path(folder))
+                report.results[str(found)] += 1
+                for what, values in getattr(found, "numbers", {}).items():
+                    report.numbers.setdefault(what, []).extend(values)
         except KeyboardInterrupt:
             raise
         except BaseException as error:

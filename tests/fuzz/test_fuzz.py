@@ -5,7 +5,7 @@ import time
 import pytest
 
 from fuzz import targets
-from fuzz.target import Fault, Target, fuzz
+from fuzz.target import Fault, Target, Tried, fuzz
 
 TARGETS = targets.found()
 
@@ -45,3 +45,12 @@ def test_hangs_and_the_budget_end():
     assert 1 <= len(report.faults) < 50
     assert all("no end after" in text for text in report.faults)
     assert "stopped by the budget" in str(report)
+
+
+def test_numbers_of_the_tries_are_told_as_a_distribution():
+    def one(rng, folder):
+        return Tried("read", {"answers [s]": [0.1, 0.3, 0.2]})
+
+    report = fuzz(Target("sample", 2, 1, one))
+    assert report.results == {"read": 2}
+    assert str(report).endswith("; 0 faults; 6 answers [s]: median 0.20, largest 0.30")
