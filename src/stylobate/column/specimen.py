@@ -45,6 +45,9 @@ class Specimen:
     joint : Joint
         Stiffness per area and friction of the contact. Each vertex has the same stiffness: that of the resting footprint
         over its number of vertices.
+    restitution : float
+        Of a vertex [-]: the square root of the work that its normal force gives back over the work that it took, in every
+        single impact, 1 for an elastic one.
     gravity : float
         g [m/s²].
 
@@ -59,12 +62,14 @@ class Specimen:
     vertices: Any
     name: str = "specimen"
     joint: Joint = field(default_factory=lambda: Joint(5e10, 2.5e10, friction_coefficient=0.7))
+    restitution: float = 1.0
     gravity: float = STANDARD_GRAVITY
 
     def __post_init__(self) -> None:
         object.__setattr__(
             self, "mass", check_range("mass of a specimen", self.mass, 0.0, 1e9, unit="kg", open_low=True)
         )
+        object.__setattr__(self, "restitution", check_range("restitution of a specimen", self.restitution, 0.0, 1.0))
         object.__setattr__(self, "gravity", check_range("gravity", self.gravity, 1e-2, 100.0, unit="m/s²"))
         object.__setattr__(self, "inertia", _inertia(self.inertia))
         object.__setattr__(self, "vertices", _hull_vertices(self.vertices))
@@ -96,6 +101,7 @@ class Specimen:
             "inertia": self.inertia.tolist(),
             "vertices": self.vertices.tolist(),
             "joint": joint,
+            "restitution": self.restitution,
             "gravity": self.gravity,
         }
 

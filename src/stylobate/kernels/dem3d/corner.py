@@ -11,6 +11,9 @@ from ..jit import law
 #: Keeps quotients of nothing by nothing at nothing.
 NOTHING = 1e-300
 
+#: A point that leaves faster than this comes back with the lower stiffness in full [m/s].
+SLOW = 2e-3
+
 
 @law
 def corner(u, w, p, l):
@@ -58,17 +61,19 @@ def within(x, y, z, limit):
 
 
 @law
-def touch(gap, nx, ny, nz, vx, vy, vz, sx, sy, sz, kn, ks, beta, mu, co, dt):
-    """Forces at a point of contact.  # Eq. (E22)
+def touch(gap, nx, ny, nz, vx, vy, vz, sx, sy, sz, kn, ks, beta, lost, mu, co, dt):
+    """Forces at a point of contact.  # Eqs. (E22), (E25)
 
     Parameters: gap [m], normal, velocity of the upper body relative to the lower one, shear force until now [N], stiffnesses
-    [N/m], dashpots over stiffness [s], friction, cohesion [N], step [s]. Returns normal force of the spring, of the dashpot,
-    shear force of the spring (3), of the dashpot (3), and the work of the shear spring on its surroundings.
+    [N/m], dashpots over stiffness [s], share of the normal force that is missing while the point leaves, friction, cohesion
+    [N], step [s]. Returns normal force of the spring, of what dissipates beside it, shear force of the spring (3), of the
+    dashpot (3), and the work of the shear spring on its surroundings.
     """
     normal = max(-kn * gap, 0.0)
     closed = normal > 0.0
     speed = vx * nx + vy * ny + vz * nz
-    push = max(-beta * kn * speed, -normal) if closed else 0.0
+    leaving = min(max(speed * (1.0 / SLOW), 0.0), 1.0)
+    push = max(-beta * kn * speed - lost * leaving * normal, -normal) if closed else 0.0
     limit = mu * (normal + push) + (co if closed else 0.0)
     vx, vy, vz = vx - speed * nx, vy - speed * ny, vz - speed * nz
     out = sx * nx + sy * ny + sz * nz

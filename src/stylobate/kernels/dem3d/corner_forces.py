@@ -78,7 +78,7 @@ def forces(drum, joint, lane):
                 beta = o.beta[l] if damped else 0.0
                 normal, push, sx, sy, sz, gx, gy, gz, work = touch(
                     gap, nx, ny, nz, vx, vy, vz, e.s[3 * p, l], e.s[3 * p + 1, l], e.s[3 * p + 2, l],
-                    kn, ks, beta, e.mu[l], e.co[l] * share, dt,
+                    kn, ks, beta, 0.0, e.mu[l], e.co[l] * share, dt,
                 )  # fmt: skip
                 e.s[3 * p, l], e.s[3 * p + 1, l], e.s[3 * p + 2, l] = sx, sy, sz
                 o.shear[l] -= work

@@ -5,10 +5,15 @@ further row a vertex of the body::
 
     joint[0]   f[3] up[3] lo[3]  force on the body [N], moments on body and base [N m];  en  elastic energy [J]
                st             energy that the shear springs hold [J]; kf kt s t  as in records.py, unused
-    joint[2+]  x y z          vertex from the centroid, in the axes of the body [m];  rest  1 for the resting ones
-               kn ks mu       stiffness [N/m] and friction of a vertex
-               near           1 in lane 0: some lane may bring the vertex to the base within the next steps
+    joint[2+]  x y z          vertex from the centroid, in the axes of the body [m];  rest  1 for the resting ones, which come first
+               kn ks          stiffness [N/m], 0 in rows that no vertex takes
                s[3] d[3]      shear force, dashpot force [N]
+    lane       mu             friction of every vertex [-]
+               lost           share of the normal force that is missing while a vertex leaves, 1 − e² [-]
+               f[3] up[3] en st  sums over the vertices, which then go to joint[0]: in another array than the vertices, so
+                              that the loop over lanes is one of vectors
+               reach above    how high a vertex may be to reach the base within the next steps, and how much higher one is [m]
+               near count     rows of the vertices that some lane may bring to the base within the next steps; how many
     drum[1]    nx ny nz       what was up at rest, in the axes of the body [-]
     drum[0]    x y z          where the point under the centroid stood [m];  i. j. k.  how the body stood
 """
@@ -37,17 +42,24 @@ __all__ = [
 #: Row of the first vertex.
 FIRST = 2
 
+#: Most rows of vertices that a body may have.
+MOST_ROWS = 5120
+
 #: Cosine of the tilt beyond which a body has toppled [-].
 TOPPLED = math.cos(0.25 * math.pi)
 
 
-def block_types(damped: bool) -> tuple[np.dtype, ...]:
-    """Record types (drum, joint, lane, ground, feed, watch)."""
-    types = list(records.block_types(damped, 4))
-    row = (LANES,)
-    single = [(name, np.float64, row) for name in "x y z kn ks mu near rest en st kf kt t".split()]
-    several = {"s": 3, "d": 3 if damped else 1, "f": 3, "up": 3, "lo": 3}
-    types[1] = np.dtype(single + [(name, np.float64, (rows, LANES)) for name, rows in several.items()])
+def block_types() -> tuple[np.dtype, ...]:
+    """Record types (drum, joint, lane, ground, feed, watch); always with what dissipates at a vertex."""
+    types = list(records.block_types(True, 4))
+
+    def fields(single: str, **several: int) -> list[tuple]:
+        return [(name, np.float64, (LANES,)) for name in single.split()] + [
+            (name, np.float64, (rows, LANES)) for name, rows in several.items()
+        ]
+
+    types[1] = np.dtype(fields("x y z kn ks rest en st kf kt t", s=3, d=3, f=3, up=3, lo=3))
+    types[2] = np.dtype(types[2].descr + fields("mu lost reach above en st count", f=3, up=3, near=MOST_ROWS // LANES))
     return tuple(types)
 
 
@@ -56,44 +68,43 @@ def forces(drum, joint, lane):
     """Forces of all vertices at t_n; brings the contact memory from t_{n−1} to t_n."""
     o = lane[0]
     u = drum[1]
-    e = joint[0]
     for l in range(LANES):
-        e.en[l] = e.st[l] = 0.0
+        o.en[l] = o.st[l] = 0.0
         for c in range(3):
-            e.f[c, l] = e.up[c, l] = e.lo[c, l] = 0.0
-    for q in range(FIRST, joint.shape[0]):
-        p = joint[q]
-        if p.near[0] == 0.0:
-            continue
-        damped = p.d.shape[0] > 1
+            o.f[c, l] = o.up[c, l] = 0.0
+    for n in range(int(o.count[0])):
+        p = joint[int(o.near[n // LANES, n % LANES])]
         for l in range(LANES):
             dt = o.dt[l]
             rx, ry, rz = in_space(u, l, p.x[l], p.y[l], p.z[l])
             gap = u.z[l] + rz
             ax, ay, az = cross(u.wx[l], u.wy[l], u.wz[l], rx, ry, rz)
             vx, vy, vz = u.vx[l] + ax, u.vy[l] + ay, u.vz[l] + az
-            beta = o.beta[l] if damped else 0.0
             kn, ks = p.kn[l], p.ks[l]
             normal, push, sx, sy, sz, gx, gy, gz, work = touch(
-                gap, 0.0, 0.0, 1.0, vx, vy, vz, p.s[0, l], p.s[1, l], p.s[2, l], kn, ks, beta, p.mu[l], 0.0, dt
-            )
+                gap, 0.0, 0.0, 1.0, vx, vy, vz, p.s[0, l], p.s[1, l], p.s[2, l],
+                kn, ks, o.beta[l], o.lost[l], o.mu[l], 0.0, dt,
+            )  # fmt: skip
             p.s[0, l], p.s[1, l], p.s[2, l] = sx, sy, sz
             o.shear[l] -= work
-            e.en[l] -= 0.5 * normal * min(gap, 0.0)
-            e.st[l] += 0.5 * (sx * sx + sy * sy + sz * sz) / max(ks, 1e-300)
-            fx, fy, fz = sx, sy, normal + sz
-            if damped:
-                gz += push
-                o.visc[l] -= 0.5 * dt * ((gx + p.d[0, l]) * vx + (gy + p.d[1, l]) * vy + (gz + p.d[2, l]) * vz)
-                p.d[0, l], p.d[1, l], p.d[2, l] = gx, gy, gz
-                fx, fy, fz = fx + gx, fy + gy, fz + gz
-            e.f[0, l] += fx
-            e.f[1, l] += fy
-            e.f[2, l] += fz
+            o.en[l] -= 0.5 * normal * min(gap, 0.0)
+            o.st[l] += 0.5 * (sx * sx + sy * sy + sz * sz) / max(ks, 1e-300)
+            gz += push
+            o.visc[l] -= 0.5 * dt * ((gx + p.d[0, l]) * vx + (gy + p.d[1, l]) * vy + (gz + p.d[2, l]) * vz)
+            p.d[0, l], p.d[1, l], p.d[2, l] = gx, gy, gz
+            fx, fy, fz = sx + gx, sy + gy, normal + sz + gz
+            o.f[0, l] += fx
+            o.f[1, l] += fy
+            o.f[2, l] += fz
             ax, ay, az = cross(rx, ry, rz, fx, fy, fz)
-            e.up[0, l] += ax
-            e.up[1, l] += ay
-            e.up[2, l] += az
+            o.up[0, l] += ax
+            o.up[1, l] += ay
+            o.up[2, l] += az
+    e = joint[0]
+    for l in range(LANES):
+        e.en[l], e.st[l] = o.en[l], o.st[l]
+        for c in range(3):
+            e.f[c, l], e.up[c, l], e.lo[c, l] = o.f[c, l], o.up[c, l], 0.0
 
 
 @strict
@@ -104,23 +115,38 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
     out[4] -= joint[0].st[l]
 
 
+@apart
+def height_above(p, u, reach, out):
+    """Height of a vertex over what it may reach, in every lane [m]."""
+    for l in range(LANES):
+        rz = u.iz[l] * p.x[l] + u.jz[l] * p.y[l] + u.kz[l] * p.z[l]
+        out[l] = u.z[l] + rz - reach[l]
+
+
 @kernel
 def mark_near(drum, joint, lane, watch):
     """Which vertices may reach the base within the next chunk of steps in some lane."""
     u = drum[1]
+    reach, above = lane[0].reach, lane[0].above
+    for l in range(LANES):
+        time = CHUNK * lane[0].dt[l]
+        # three times as fast as anything on the body now, and ten times gravity on top
+        turning = math.sqrt(u.wx[l] * u.wx[l] + u.wy[l] * u.wy[l] + u.wz[l] * u.wz[l])
+        speed = abs(u.vx[l]) + abs(u.vy[l]) + abs(u.vz[l]) + turning * u.rb[l]
+        reach[l] = 3.0 * speed * time + 10.0 * abs(lane[0].g[2, l]) * time * time
+        if watch[0].status[l] != RUNNING:
+            reach[l] = -1e9
+    o = lane[0]
+    count = 0
     for q in range(FIRST, joint.shape[0]):
-        p = joint[q]
-        near = 0.0
-        for l in range(LANES):
-            if watch[0].status[l] == RUNNING:
-                _, _, rz = in_space(u, l, p.x[l], p.y[l], p.z[l])
-                time = CHUNK * lane[0].dt[l]
-                # three times as fast as anything on the body now, and ten times gravity on top
-                turning = math.sqrt(u.wx[l] * u.wx[l] + u.wy[l] * u.wy[l] + u.wz[l] * u.wz[l])
-                speed = abs(u.vx[l]) + abs(u.vy[l]) + abs(u.vz[l]) + turning * u.rb[l]
-                if u.z[l] + rz < 3.0 * speed * time + 10.0 * abs(lane[0].g[2, l]) * time * time:
-                    near = 1.0
-        p.near[0] = near
+        height_above(joint[q], u, reach, above)
+        lowest = above[0]
+        for l in range(1, LANES):
+            lowest = min(lowest, above[l])
+        if lowest < 0.0:
+            o.near[count // LANES, count % LANES] = q
+            count += 1
+    o.count[0] = count
 
 
 @kernel
@@ -151,9 +177,10 @@ def observe(drum, joint, lane, feed, watch):
         w.top[l] = max(w.top[l], math.sqrt(tx * tx + ty * ty))
         for q in range(FIRST, joint.shape[0]):
             p = joint[q]
-            if p.rest[l] > 0.0:
-                _, _, rz = in_space(u, l, p.x[l], p.y[l], p.z[l])
-                w.open[l] = max(w.open[l], u.z[l] + rz)
+            if p.rest[l] == 0.0:
+                break
+            _, _, rz = in_space(u, l, p.x[l], p.y[l], p.z[l])
+            w.open[l] = max(w.open[l], u.z[l] + rz)
         if up < TOPPLED:
             size = max(math.sqrt(hx * hx + hy * hy), 1e-300)
             w.when[l] = feed[0].step[l]

@@ -160,7 +160,7 @@ class DistinctElement3D(SteppedDrums):
         if self.restitution is not None:
             raise InputError(
                 f"restitution is given, and that of a specimen such as {column.name!r} depends on the side it falls to; "
-                "give stiffness_damping."
+                "give it to the specimen (restitution of a vertex), or give stiffness_damping."
             )
         Model.check(self, column, motion)
         chosen_step(self.stable_step(column), self.step_factor, self.time_step, f"{column.name!r}")
@@ -184,7 +184,7 @@ class DistinctElement3D(SteppedDrums):
     def record_types(self, section: str = "circular") -> tuple:
         """Record types of the kernel's arrays."""
         if section == SPECIMEN:
-            return self.kernel(section).block_types(self.damped)
+            return self.kernel(section).block_types()
         return self.kernel(section).block_types(self.damped, 1 if section == "circular" else len(CORNERS))
 
     def pack(self, column: Column) -> PackedColumn:

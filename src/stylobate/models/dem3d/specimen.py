@@ -42,6 +42,12 @@ def vertex_stiffness(specimen: Specimen) -> tuple[float, float]:
     return specimen.joint.normal_stiffness * share, specimen.joint.shear_stiffness * share
 
 
+def resting_first(specimen: Specimen) -> np.ndarray:
+    """Numbers of the vertices in the order of a block's rows: those of the footprint first."""
+    foot = specimen.resting.footprint
+    return np.concatenate((foot, np.setdiff1d(np.arange(len(specimen.vertices)), foot)))
+
+
 @lru_cache(maxsize=256)
 def principal(specimen: Specimen) -> tuple[np.ndarray, np.ndarray]:
     """Principal moments about body axes i, j, k [kg m²], and those axes as columns in the axes of the vertices.
@@ -118,20 +124,22 @@ class SpecimenBlock(SpaceBlock):
             raise InputError(f"the specimen {specimen.name!r} starts at rest; leave start out, or shake a column.")
         first, rest = self.kernel.FIRST, specimen.resting
         moments, axes = principal(specimen)
-        vertices, up = specimen.vertices @ axes, rest.rotation.T[:, 2] @ axes
+        up = rest.rotation.T[:, 2] @ axes
+        vertices = specimen.vertices[resting_first(specimen)] @ axes
         kn, ks = vertex_stiffness(specimen)
         for array in (self.drum, self.joint, self.lane):
             for name in array.dtype.names or ():
                 array[name][..., lane] = 0.0
         joint, drum = self.joint, self.drum
         m = len(vertices)
-        joint["z"][first:, lane] = 1e9  # rows that no vertex takes
-        joint["near"][:] = 1.0
+        every = np.arange(len(self.joint) - first)
+        self.lane["near"][0].reshape(-1)[every] = first + every
+        self.lane["count"][:] = len(every)
         for c, name in enumerate("xyz"):
             joint[name][first : first + m, lane] = vertices[:, c]
         joint["kn"][first : first + m, lane], joint["ks"][first : first + m, lane] = kn, ks
-        joint["mu"][first:, lane] = specimen.joint.tan_phi
-        joint["rest"][first + rest.footprint, lane] = 1.0
+        self.lane["mu"][0, lane], self.lane["lost"][0, lane] = specimen.joint.tan_phi, 1.0 - specimen.restitution**2
+        joint["rest"][first : first + len(rest.footprint), lane] = 1.0
         turn = rest.rotation @ axes
         values = {"m": specimen.mass, "im": 1.0 / specimen.mass, "z": rest.height}
         values |= {
@@ -203,7 +211,7 @@ class SpecimenBlock(SpaceBlock):
         Where it is lowest, so that a body that only leans has not slipped; shapes (1,), (1, 2), (1,).
         """
         specimen: Any = self.cases[lane].column  # type: ignore[union-attr]
-        rows = self.kernel.FIRST + specimen.resting.footprint
+        rows = self.kernel.FIRST + np.arange(len(specimen.resting.footprint))
         arms = np.stack([self.joint[c][rows, lane] for c in "xyz"], axis=-1)
         axes = self.axes(lane)[0]
         places = np.array([self.drum[c][1, lane] for c in "xyz"]) + arms @ axes.T
