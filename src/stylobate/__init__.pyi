@@ -30,6 +30,7 @@ from .models.rigid_beam.model import RigidBeam as RigidBeam
 from .models.rigid_block.model import RigidBlock as RigidBlock
 from .models.rocking.model import HousnerBlock as HousnerBlock
 from .models.start import Start as Start
+from .models.start import Toss as Toss
 from .motion import Motion as Motion
 from .motion import MotionRequest as MotionRequest
 from .motion import harmonic as harmonic

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     import pandas
 
     from .column.assembly import Assembly
-    from .models.start import Start
+    from .models.start import Start, Toss
 
 
 def simulate(
@@ -34,7 +34,7 @@ def simulate(
     output_interval: float = 0.01,
     until_end: bool = False,
     until_rest: bool = False,
-    start: Start | None = None,
+    start: Start | Toss | None = None,
 ) -> Response:
     """Shake one column once and record what happens.
 
@@ -52,9 +52,9 @@ def simulate(
         Go on after the collapse is certain.
     until_rest : bool
         Go on until everything lies still, on the ground if need be (``DistinctElement2D``; others refuse).
-    start : Start, optional
-        Release the column from a pose, with a velocity, instead of rest (``DistinctElement2D`` and
-        ``DistinctElement3D``; others refuse).
+    start : Start or Toss, optional
+        Release the column from a pose (``Start``), with a velocity, instead of rest (``DistinctElement2D`` and
+        ``DistinctElement3D``; others refuse); or a specimen from anywhere over the base (``Toss``; ``DistinctElement3D``).
 
     Returns
     -------

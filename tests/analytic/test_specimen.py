@@ -198,7 +198,7 @@ def test_other_models_and_steps_that_are_too_long_are_refused():
         st.simulate(box(), motion, st.DistinctElement2D())
     with pytest.raises(st.InputError, match="the largest stable step for 'box'"):
         st.simulate(box(), motion, st.DistinctElement3D(time_step=0.1))
-    with pytest.raises(st.InputError, match="starts at rest"):
+    with pytest.raises(st.InputError, match="starts at rest or tossed"):
         st.simulate(box(), motion, st.DistinctElement3D(), start=st.Start(0.1))
     with pytest.raises(st.InputError, match="planar is on"):
         st.simulate(box(), motion, st.DistinctElement3D(planar=True))

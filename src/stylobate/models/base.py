@@ -15,7 +15,7 @@ from ..column.specimen import Specimen
 from ..errors import InputError, LeftOutWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
-from .start import Start
+from .start import Start, Toss
 
 #: Larger accelerations are rejected as non-physical; numbers would overflow [m/s²].
 LARGEST_ACCELERATION = 1e6
@@ -67,7 +67,7 @@ class RunOptions:
         Go on after a collapse is certain.
     until_rest : bool
         Go on after the motion until everything lies still (models that follow a collapse to the ground).
-    start : Start, optional
+    start : Start or Toss, optional
         Pose and velocity at the start, instead of rest (models with ``takes_start``).
     quiet : float
         Share of what opens a joint below which the lead-in and the end of a motion are not stepped (models of drums; see
@@ -78,7 +78,7 @@ class RunOptions:
     output_interval: float = 0.01
     until_end: bool = False
     until_rest: bool = False
-    start: Start | None = None
+    start: Start | Toss | None = None
     quiet: float = 0.0
 
 

@@ -1,4 +1,4 @@
-"""A start from a pose instead of rest: the whole column tilted about its rim or edge, and turning."""
+"""Starts other than rest: a column tilted about its rim or edge, and turning; a body tossed."""
 
 from __future__ import annotations
 
@@ -65,3 +65,47 @@ def check_in_plane(start: Start, who: str) -> None:
             f"{who} keeps to the plane of x and z, and the start leaves it (azimuth {start.azimuth:g} rad, angular_velocity "
             f"{start.angular_velocity}); give azimuth 0 or pi and a velocity about y only, or use dem3d."
         )
+
+
+@dataclass(frozen=True)
+class Toss:
+    """A specimen that is let go somewhere over the base, or on it, with a velocity.
+
+    Parameters
+    ----------
+    position : (float, float, float)
+        Of the centroid [m].
+    orientation : (float, float, float, float)
+        Quaternion that turns the axes of the specimen's vertices into those of space, real part first; brought to length 1.
+    velocity : (float, float, float)
+        Of the centroid [m/s].
+    angular_velocity : (float, float, float)
+        In space axes [rad/s].
+
+    Raises
+    ------
+    InputError
+        A value outside its range, or a vector of another length.
+    """
+
+    position: tuple[float, float, float]
+    orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    angular_velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+    def __post_init__(self) -> None:
+        for name, length, limit, unit in (
+            ("position", 3, 1e4, "m"),
+            ("orientation", 4, 1e6, ""),
+            ("velocity", 3, 1e4, "m/s"),
+            ("angular_velocity", 3, 1e4, "rad/s"),
+        ):
+            given = tuple(getattr(self, name))
+            if len(given) != length:
+                raise InputError(f"{name} of a toss has {len(given)} components; give {length}.")
+            checked = tuple(check_range(f"{name} of a toss", one, -limit, limit, unit=unit) for one in given)
+            object.__setattr__(self, name, checked)
+        size = math.hypot(*self.orientation)
+        if size < 1e-9:
+            raise InputError("orientation of a toss is a quaternion of zeros; give one of length 1, real part first.")
+        object.__setattr__(self, "orientation", tuple(one / size for one in self.orientation))

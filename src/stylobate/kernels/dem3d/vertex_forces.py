@@ -5,14 +5,14 @@ further row a vertex of the body::
 
     joint[0]   f[3] up[3] lo[3]  force on the body [N], moments on body and base [N m];  en  elastic energy [J]
                st             energy that the shear springs hold [J]; kf kt s t  as in records.py, unused
-    joint[2+]  x y z          vertex from the centroid, in the axes of the body [m];  rest  1 for the resting ones, which come first
+    joint[2+]  x y z          vertex from the centroid, in the axes of the body [m];  rest  1 for those at rest, first
                kn ks          stiffness [N/m], 0 in rows that no vertex takes
                s[3] d[3]      shear force, dashpot force [N]
     lane       mu             friction of every vertex [-]
                lost           share of the normal force that is missing while a vertex leaves, 1 − e² [-]
                f[3] up[3] en st  sums over the vertices, which then go to joint[0]: in another array than the vertices, so
                               that the loop over lanes is one of vectors
-               reach above    how high a vertex may be to reach the base within the next steps, and how much higher one is [m]
+               reach above    height from which the base is reached within the next steps; height of a vertex over it [m]
                near count     rows of the vertices that some lane may bring to the base within the next steps; how many
     drum[1]    nx ny nz       what was up at rest, in the axes of the body [-]
     drum[0]    x y z          where the point under the centroid stood [m];  i. j. k.  how the body stood

@@ -20,7 +20,7 @@ from ..base import Case
 from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_steps
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
-from ..start import Start, check_in_plane
+from ..start import check_in_plane
 from .pose import placed
 from .toes import toe_energies
 from .touching import slips_where_closest
@@ -98,7 +98,7 @@ class SpaceBlock(DrumBlock):
         for c in "xyz":
             self.drum["a" + c][..., lane] = self.drum["k" + c][..., lane]
 
-    def take_pose(self, lane: int, column: Column, start: Start) -> None:
+    def take_pose(self, lane: int, column: Any, start: Any) -> None:
         """Tilt a column that stands in a lane."""
         if self.planar:
             check_in_plane(start, "planar = True")

@@ -16,9 +16,11 @@ from ...outcome import Outcome, classify
 from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED
 from ...response.measures import SpaceMeasures
+from ...response.poses import rotation_matrices
 from ..base import Case
 from ..shared import ledger
 from ..shared.stable_step import highest_frequency
+from ..start import Toss
 from .block import SpaceBlock
 
 #: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
@@ -120,8 +122,6 @@ class SpecimenBlock(SpaceBlock):
     def place(self, lane: int, case: Case) -> float:
         """Put a specimen at rest into a lane; its step [s]."""
         specimen: Any = case.column
-        if self.options.start is not None:
-            raise InputError(f"the specimen {specimen.name!r} starts at rest; leave start out, or shake a column.")
         first, rest = self.kernel.FIRST, specimen.resting
         moments, axes = principal(specimen)
         up = rest.rotation.T[:, 2] @ axes
@@ -181,6 +181,25 @@ class SpecimenBlock(SpaceBlock):
             force = np.array([weight - carried[0, 2], -moment[0, 0], -moment[0, 1]])
             if np.abs(force).max() < 1e-12 * weight:
                 break
+
+    def check_start(self, column: Any) -> None:
+        """Refuse a start that is not one for a specimen."""
+        if not isinstance(self.options.start, Toss):
+            raise InputError(f"the specimen {column.name!r} starts at rest or tossed; give a Toss, or leave start out.")
+
+    def take_pose(self, lane: int, column: Any, start: Any) -> None:
+        """Put a specimen where it is tossed from, with its velocities."""
+        toss: Toss = start
+        moments, axes = principal(column)
+        turn = rotation_matrices(np.array(toss.orientation)) @ axes
+        self._turn(lane, turn)
+        drum, spin = self.drum, np.array(toss.angular_velocity)
+        momentum = turn @ (moments * (turn.T @ spin))
+        for c, name in enumerate("xyz"):
+            drum[name][1, lane] = toss.position[c]
+            drum["v" + name][1, lane] = toss.velocity[c]
+            drum["w" + name][1, lane] = spin[c]
+            drum["l" + name][1, lane] = momentum[c]
 
     def mark_start(self, lane: int) -> None:
         """Keep where the body stood."""
@@ -274,7 +293,7 @@ class SpecimenBlock(SpaceBlock):
         imbalance = ledger.imbalance(
             ledger.unaccounted(change),
             work=float(watch["wmax"][lane]),
-            start=float(self.start[lane, 3]),
+            start=self.begun(lane, change),
             barrier=max(lowest, 0.0),
             released=ledger.released(change),
         )
@@ -311,7 +330,7 @@ class SpecimenBlock(SpaceBlock):
     def _stays(self, lane: int, specimen: Specimen, change: np.ndarray, barrier: np.ndarray) -> bool:
         """Whether the energy that is left lifts the body over no ring of tilts between its own and 45°."""
         tilt = math.acos(max(-1.0, min(1.0, float((self.axes(lane)[0] @ self.up(lane))[2]))))
-        energy = float(change[1] + change[2] + change[3])
+        energy = float(change[1] + change[2] + change[3] + self.rest[lane])
         beyond = barrier[np.linspace(0.0, TOPPLED, len(barrier)) > tilt]
         rise = specimen.mass * specimen.gravity * (beyond - specimen.resting.height)
         return len(beyond) > 0 and energy < float(rise.max())

@@ -190,10 +190,7 @@ class DrumBlock:
         assert case is not None
         self.rest[lane] = 0.0
         if start is not None:
-            if case.column.as_found:
-                raise InputError(
-                    f"a start from a pose takes a column as built, and {case.column.name!r} is as found; leave one out."
-                )
+            self.check_start(case.column)
             self.rest[lane] = -self.energies(lane)[2:4].sum()
             self.take_pose(lane, case.column, start)
         self.half_a_step_back(lane)
@@ -201,7 +198,16 @@ class DrumBlock:
         if start is not None:  # what the pose and the velocity hold above the column upright
             self.rest[lane] += self.start[lane, 1:4].sum()
 
-    def take_pose(self, lane: int, column: Column, start: Start) -> None:
+    def check_start(self, column: Any) -> None:
+        """Refuse a start that is not one for this column."""
+        if not isinstance(self.options.start, Start):
+            raise InputError(f"a toss is for a specimen, and {column.name!r} is a column; give a Start.")
+        if column.as_found:
+            raise InputError(
+                f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
+            )
+
+    def take_pose(self, lane: int, column: Any, start: Any) -> None:
         """Tilt a column that stands in a lane."""
         check_in_plane(start, "a model in the plane")
         fields, (push, lift) = placed(start, self.drum, lane, column.gravity)
