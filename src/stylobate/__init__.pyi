@@ -1,5 +1,6 @@
 """The public names of the package: the one list of them, for the lazy loader and for type checkers."""
 
+from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude
 from .analysis.domain import collapse_domain as collapse_domain
@@ -19,6 +20,7 @@ from .column.assembly import Block as Block
 from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
 from .column.imperfections import Imperfection as Imperfection
+from .column.scatter import Scatter as Scatter
 from .column.specimen import Specimen as Specimen
 from .constants import g as g
 from .errors import InputError as InputError

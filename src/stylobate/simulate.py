@@ -35,6 +35,7 @@ def simulate(
     until_end: bool = False,
     until_rest: bool = False,
     start: Start | Toss | None = None,
+    twins: Sequence[Column] = (),
 ) -> Response:
     """Shake one column once and record what happens.
 
@@ -55,6 +56,9 @@ def simulate(
     start : Start or Toss, optional
         Release the column from a pose (``Start``), with a velocity, instead of rest (``DistinctElement2D`` and
         ``DistinctElement3D``; others refuse); or a specimen from anywhere over the base (``Toss``; ``DistinctElement3D``).
+    twins : sequence of Column
+        Columns to be computed beside this one, as many as the model carries along; what they come down to is in
+        ``Response.twins``. :func:`stylobate.certainty` draws them and says what they mean.
 
     Returns
     -------
@@ -65,7 +69,13 @@ def simulate(
     InputError
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
-    options = dataclasses.replace(_options(tail, output_interval, until_end, until_rest), start=start)
+    options = dataclasses.replace(
+        _options(tail, output_interval, until_end, until_rest), start=start, twins=tuple(twins)
+    )
+    if len(options.twins) > model.carries:
+        raise InputError(
+            f"{len(options.twins)} twins are given; {model.name} carries up to {model.carries}: use simulate_many."
+        )
     if start is not None and not model.takes_start:
         raise InputError(
             f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."

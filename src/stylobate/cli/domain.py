@@ -199,13 +199,10 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
 
 def the_population(replicates: str, imperfection: str | None, seed: str | None) -> dict:
     """Arguments of ``collapse_probability`` that the options describe."""
-    for option, text in (("--replicates", replicates), ("--seed", seed)):
-        if text is not None and not text.isdecimal():
-            raise InputError(f"{option} is {text!r}; allowed is a whole number, such as 20.")
     return {
-        "replicates": int(replicates),
+        "replicates": o.whole("--replicates", replicates, 20),
         "imperfection": None if imperfection is None else the_imperfection(imperfection),
-        "seed": int(seed or 0),
+        "seed": 0 if seed is None else o.whole("--seed", seed, 1),
     }
 
 
@@ -216,22 +213,14 @@ def the_imperfection(text: str) -> Imperfection:
     names = Imperfection.__dataclass_fields__
     example = "--imperfection 1% or --imperfection geometry=1%,friction=5%"
     if "=" not in text:
-        return Imperfection.of_size(_share(text, example))
+        return Imperfection.of_size(o.share(text, example))
     sizes = dict.fromkeys(names, 0.0)
     for part in text.split(","):
         name, _, size = part.partition("=")
         if name.strip() not in names:
             raise InputError(f"--imperfection names {name.strip()!r}; names are {', '.join(names)}, e.g. {example}.")
-        sizes[name.strip()] = _share(size, example)
+        sizes[name.strip()] = o.share(size, example)
     return Imperfection(**sizes)
-
-
-def _share(text: str, example: str) -> float:
-    number, percent = text.strip().removesuffix("%"), text.strip().endswith("%")
-    try:
-        return float(number) / (100.0 if percent else 1.0)
-    except ValueError:
-        raise InputError(f"{text!r} is no size of imperfections; write it as {example}.") from None
 
 
 def describe(result: Domain, files: list[Path]) -> None:

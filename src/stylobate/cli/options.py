@@ -10,6 +10,7 @@ import typer
 from ..errors import InputError
 
 if TYPE_CHECKING:
+    from ..column.scatter import Scatter
     from ..models.base import Model
     from ..motion import Motion
     from ..motion.request import MotionRequest
@@ -104,6 +105,21 @@ Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on sta
 Out = Annotated[
     Path | None, typer.Option("--out", metavar="DIR", help="Folder for files and figures; without it none are written.")
 ]
+Replicates = Annotated[
+    str | None,
+    typer.Option("--replicates", metavar="N", help="How sure that is: so many columns like this one, by --scatter."),
+]
+Seed = Annotated[
+    str | None, typer.Option("--seed", metavar="N", help="Of these columns; the same seed, the same ones.")
+]
+ScatterSizes = Annotated[
+    str | None,
+    typer.Option(
+        "--scatter",
+        metavar="NAME=SIZE,…",
+        help="How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%.",
+    ),
+]
 Threads = Annotated[str | None, typer.Option("--threads", metavar="N", help="Threads to use; all cores by default.")]
 
 
@@ -188,3 +204,49 @@ def number(option: str, text: str) -> float:
         return float(text)
     except ValueError:
         raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.5.") from None
+
+
+def whole(option: str, text: str, example: int) -> int:
+    """A whole number as typed after an option."""
+    if not text.isdecimal():
+        raise InputError(f"{option} is {text!r}; allowed is a whole number, such as {example}.")
+    return int(text)
+
+
+def share(text: str, example: str) -> float:
+    """A share as typed: ``1%`` or ``0.01``."""
+    number, percent = text.strip().removesuffix("%"), text.strip().endswith("%")
+    try:
+        return float(number) / (100.0 if percent else 1.0)
+    except ValueError:
+        raise InputError(f"{text!r} is no size of imperfections; write it as {example}.") from None
+
+
+def the_population(replicates: str | None, scatter: str | None, seed: str | None) -> dict[str, Any] | None:
+    """Arguments ``replicates``, ``scatter`` and ``seed`` that the options describe; None if no replicates are asked for."""
+    if replicates is None:
+        for option, value in (("--scatter", scatter), ("--seed", seed)):
+            if value is not None:
+                raise InputError(
+                    f"{option} is for columns like this one; give --replicates as well, e.g. --replicates 30."
+                )
+        return None
+    return {
+        "replicates": whole("--replicates", replicates, 30),
+        "scatter": None if scatter is None else the_scatter(scatter),
+        "seed": 0 if seed is None else whole("--seed", seed, 1),
+    }
+
+
+def the_scatter(text: str) -> Scatter:
+    """Sizes of the scatter as typed, by name; what is not named does not scatter."""
+    from ..column.scatter import LARGEST, Scatter
+
+    example = "--scatter friction=10%,joint_stiffness=20%"
+    sizes = dict.fromkeys(LARGEST, 0.0)
+    for part in text.split(","):
+        name, _, size = part.partition("=")
+        if name.strip() not in sizes:
+            raise InputError(f"--scatter names {name.strip()!r}; names are {', '.join(LARGEST)}, e.g. {example}.")
+        sizes[name.strip()] = share(size, example)
+    return Scatter(**sizes)

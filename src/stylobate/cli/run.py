@@ -14,6 +14,7 @@ from ..outcome import Outcome
 from . import options as o
 
 if TYPE_CHECKING:
+    from ..analysis.certainty import Population
     from ..column import Column
     from ..column.assembly import Assembly
     from ..models.base import Model
@@ -52,65 +53,99 @@ def run(
         str, typer.Option("--output-interval", metavar="TIME", help="Time between recorded states.")
     ] = "0.01s",
     settings: o.Settings = None,
+    replicates: o.Replicates = None,
+    scatter: o.ScatterSizes = None,
+    seed: o.Seed = None,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
     """Shake one column once, or one assembly of blocks (dem2d).
 
-    Prints the outcome; with --out, writes histories and figures. A folder of records is one run after the other.
+    Prints the outcome and, for columns, how sure it is: models that step drums take fifteen columns like this one along at
+    next to no cost; --replicates 0 leaves them out. With --out, writes histories and figures. A folder of records, or
+    several directions, is one run after the other.
     """
     from ..column.assembly_files import load_structure
     from ..motion.specs import parse_time
     from . import console
 
-    o.the_threads(threads)  # a single run has one thread
+    count = o.the_threads(threads)  # a single run has one thread; columns like it have all
     asked = o.the_request(context)
     stone = load_structure(column)
     how = o.the_model(model, settings)
     found = asked.expand(stone.frequency_parameter)
     interval, length = parse_time(output_interval), o.the_tail(tail)
-    follow = partial(
-        run_one, stone, model=how, tail=length, interval=interval, until_end=until_end, until_rest=until_rest
-    )
+    following = {"tail": length, "output_interval": interval, "until_end": until_end, "until_rest": until_rest}
+    twins = the_twins(stone, how, o.the_population(replicates, scatter, seed), until_end or until_rest)
+    strip = twins is not None and replicates is not None
+    follow = partial(run_one, stone, model=how, twins=twins, threads=count, **following)
     if asked.several:
-        following = {"tail": length, "interval": interval, "until_end": until_end, "until_rest": until_rest}
-        summaries = each_record(stone, found.motions, how, follow, out, following, as_json)
+        summaries = each_record(stone, found.motions, how, follow, out, following | {"twins": twins}, as_json, strip)
     else:
-        summaries = [conclude(follow, stone, found.motions[0], how, out, as_json)]
+        summaries = [conclude(follow, stone, found.motions[0], how, out, as_json, strip)]
     if as_json:
         console.emit({"runs": summaries, "refused": found.refused} if asked.several else summaries[0])
     else:
         console.print_refused(found.refused)
 
 
+def the_twins(
+    stone: Column | Assembly, model: Model, asked: dict[str, Any] | None, to_the_ground: bool
+) -> dict[str, Any] | None:
+    """The columns that are computed beside this one: as asked for, or as many as cost nothing; None without any."""
+    from ..analysis.certainty import the_twins
+    from ..column import Column
+    from ..errors import InputError
+
+    if asked is not None:
+        if asked["replicates"] == 0:
+            return None
+        if not isinstance(stone, Column):
+            raise InputError(f"{stone.name!r} is no column, and only columns have twins; leave --replicates out.")
+        the_twins(stone, model, **asked)
+        return asked
+    if not isinstance(stone, Column) or not model.carries or to_the_ground:
+        return None
+    free = {"replicates": model.carries, "scatter": None, "seed": 0}
+    try:
+        the_twins(stone, model, **free)
+    except InputError:  # so close to falling as it was found that no twin of it stands
+        return None
+    return free
+
+
 def run_one(
     stone: Column | Assembly,
     motion: Motion,
     model: Model,
-    tail: float,
-    interval: float,
-    until_end: bool,
-    until_rest: bool,
-) -> Response:
-    """One run; that of an assembly always goes on to its end."""
+    twins: dict[str, Any] | None,
+    threads: int,
+    **following: Any,
+) -> tuple[Response, Population | None]:
+    """One run, and what became of columns like it; that of an assembly always goes on to its end."""
+    from ..analysis.certainty import certainty
     from ..column import Column
     from ..simulate import simulate, simulate_assembly
 
-    following = {"tail": tail, "output_interval": interval, "until_rest": until_rest}
-    if isinstance(stone, Column):
-        return simulate(stone, motion, model, until_end=until_end, **following)
-    return simulate_assembly(stone, motion, model, **following)
+    if not isinstance(stone, Column):
+        following.pop("until_end")
+        return simulate_assembly(stone, motion, model, **following), None
+    if twins is None:
+        return simulate(stone, motion, model, **following), None
+    found = certainty(stone, motion, model, threads=threads, **twins, **following)
+    return found.response, found.population
 
 
 def each_record(
     stone: Column | Assembly,
     motions: Sequence[Motion],
     model: Model,
-    follow: Callable[[Motion], Response],
+    follow: Callable[[Motion], tuple[Response, Population | None]],
     out: Path | None,
     asked: dict[str, Any],
     quiet: bool,
+    strip: bool = False,
 ) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     from ..campaign.ledger import Ledger
@@ -130,7 +165,7 @@ def each_record(
             for number, (one, place) in enumerate(zip(motions, places)):
                 summary = known.get(number)
                 if summary is None or not all(Path(file).is_file() for file in summary["files"]):
-                    summary = conclude(follow, stone, one, model, place, quiet)
+                    summary = conclude(follow, stone, one, model, place, quiet, strip)
                     if book:
                         book.record(number, json.loads(console.as_json(summary)))
                 elif not quiet and place is not None:
@@ -152,12 +187,13 @@ def each_record(
 
 
 def conclude(
-    follow: Callable[[Motion], Response],
+    follow: Callable[[Motion], tuple[Response, Population | None]],
     stone: Column | Assembly,
     motion: Motion,
     model: Model,
     out: Path | None,
     quiet: bool,
+    strip: bool = False,
 ) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..column import Column
@@ -165,16 +201,38 @@ def conclude(
 
     pictures = ["histories", "filmstrip", *(["joints"] if isinstance(stone, Column) else []), "energy", "motion"]
     pictures += SPACE_PICTURES if model.axes == "xyz" else []
-    with console.folder(out, "response.nc", "run.json", *pictures) as folder:
-        response, taken = follow(motion), model.taken(motion)
+    with console.folder(out, "response.nc", "run.json", "replicates.csv", "median", *pictures) as folder:
+        response, population = follow(motion)
+        taken = model.taken(motion)
         summary, files = response.summary() | o.input_facts(taken), []
+        if population is not None:
+            summary |= population.summary()
         if folder is not None:
-            files = [*write(response, taken, folder), folder / "run.json"]
+            files = write(response, taken, folder)
+            if population is not None:
+                files += write_population(population, motion, model, response, folder, strip)
+            files.append(folder / "run.json")
             summary["files"] = [str(file) for file in files]
             console.write_json(files[-1], summary)
     if not quiet:
-        describe(response, taken, files)
+        describe(response, taken, files, population)
     return summary
+
+
+def write_population(
+    population: Population, motion: Motion, model: Model, response: Response, folder: Path, strip: bool
+) -> list[Path]:
+    """The table of the columns like this one and, where it is wanted, the strip of the median run, which is run again."""
+    from .. import plots
+    from ..simulate import simulate
+    from . import console
+
+    files = [console.write_table(population.table, folder / "replicates.csv")]
+    if population.median is None or not strip:
+        return files
+    options = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
+    middle = simulate(population.twins[population.median], motion, model.paced(response.column), **options)
+    return files + plots.save(plots.draw_filmstrip(middle), folder / "median")
 
 
 def safe_name(name: str, taken: Sequence[Path | None]) -> str:
@@ -201,14 +259,33 @@ def write(response: Response, motion: Motion, folder: Path) -> list[Path]:
     return files
 
 
-def describe(response: Response, motion: Motion, files: list[Path]) -> None:
+def describe(response: Response, motion: Motion, files: list[Path], population: Population | None = None) -> None:
     """Print the verdict for people."""
     from . import console
 
     found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
     sentence, what, facts = found
+    if population is not None:
+        sentence, facts = f"{sentence} {population.sentence}", facts | population_facts(population)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
+
+
+def population_facts(population: Population) -> dict[str, str]:
+    """What columns like this one are, and how much they moved."""
+    from . import console
+
+    left_out = f", without {', '.join(population.left_out)}, as the model takes columns as built" * bool(
+        population.left_out
+    )
+    number = len(population.rows)
+    facts = {
+        "columns like this": f"{number} that vary by {population.scatter.describe()}; seed {population.seed}{left_out}"
+    }
+    for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
+        if (spread := population.spread[f"{name}_top_displacement_m"]) is not None:
+            facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)
+    return facts
 
 
 def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str]]:

@@ -83,12 +83,38 @@ def _varied(column: Column, size: Imperfection, stream: np.random.Generator, k: 
     wide, high, rough, stiff = 1.0 + stream.uniform(-1.0, 1.0, (4, column.n)) * np.array(
         [[size.geometry], [size.geometry], [size.friction], [size.stiffness]]
     )
+    return rebuilt(column, wide, high, rough, stiff, f"{column.name}, variation {k + 1}")
+
+
+def rebuilt(
+    column: Column,
+    wide: np.ndarray,
+    high: np.ndarray,
+    rough: np.ndarray,
+    stiff: np.ndarray,
+    name: str,
+    dense: np.ndarray | None = None,
+) -> Column:
+    """The column with every drum and joint multiplied by factors of its own.
+
+    Parameters
+    ----------
+    column : Column
+    wide, high, dense : array
+        Of each drum's two widths, height and density [-], shape (n,).
+    rough, stiff : array
+        Of each joint's friction coefficient, and of its two stiffnesses [-], shape (n,).
+    name : str
+        Of the new column.
+    """
+    weight = np.ones(column.n) if dense is None else dense
     drums = tuple(
         dataclasses.replace(
             drum,
             bottom_width=drum.bottom_width * wide[i],
             top_width=drum.top_width * wide[i],
             height=drum.height * high[i],
+            density=drum.density * weight[i],
         )
         for i, drum in enumerate(column.drums)
     )
@@ -101,4 +127,4 @@ def _varied(column: Column, size: Imperfection, stream: np.random.Generator, k: 
         )
         for i, joint in enumerate(column.joints)
     )
-    return column.replace(drums=drums, joints=joints, name=f"{column.name}, variation {k + 1}")
+    return column.replace(drums=drums, joints=joints, name=name)

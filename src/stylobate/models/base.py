@@ -72,6 +72,8 @@ class RunOptions:
     quiet : float
         Share of what opens a joint below which the lead-in and the end of a motion are not stepped (models of drums; see
         ``models/shared/quiet.py``); 0 steps the whole motion [-].
+    twins : tuple of Column
+        Columns under the same motion in the other lanes of a single run (models with ``carries``, as many at most).
     """
 
     tail: float = 0.0
@@ -80,6 +82,7 @@ class RunOptions:
     until_rest: bool = False
     start: Start | Toss | None = None
     quiet: float = 0.0
+    twins: tuple[Any, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -90,7 +93,8 @@ class Model:
     ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
     everything lies still, ``takes_start`` whether it can start from a pose,
-    ``takes_specimens`` whether it computes single bodies of any shape.
+    ``takes_specimens`` whether it computes single bodies of any shape; ``carries`` how many columns alike it can
+    take along in a single run at next to no cost.
     """
 
     name: ClassVar[str] = ""
@@ -103,6 +107,7 @@ class Model:
     follows_to_rest: ClassVar[bool] = False
     takes_start: ClassVar[bool] = False
     takes_specimens: ClassVar[bool] = False
+    carries: ClassVar[int] = 0
 
     def check(self, column: Any, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
@@ -135,6 +140,10 @@ class Model:
     def taken(self, motion: Motion) -> Motion:
         """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
         return keep_axes(motion, self.axes)
+
+    def paced(self, column: Any) -> Model:
+        """The model that computes columns like this one beside it: in its time step, where that is the model's to choose."""
+        return self
 
     def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:
         """Time step that a run will take, and about what a step costs on one core, both [s]; the cost of a single run."""

@@ -34,6 +34,7 @@ class Recorded(Views):
     wall_time: float = 0.0
     mechanism: Mechanism | None = None
     followed: bool = False
+    twins: tuple[Measures, ...] = ()
 
     @property
     def column(self) -> Column:

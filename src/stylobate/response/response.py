@@ -39,6 +39,8 @@ class Response(Recorded):
         What fell where, of a column that was followed to the ground.
     followed : bool
         Whether any two bodies, and all of them with the ground, may strike each other; of neighbours only otherwise.
+    twins : tuple of Measures
+        Of the columns that were computed beside this one (:func:`stylobate.certainty`); no file keeps them.
     """
 
     @classmethod

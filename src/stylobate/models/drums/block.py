@@ -262,10 +262,24 @@ class DrumBlock:
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
         left = min(self.chunks_per_call, self.piece) if chunks is None else chunks
-        while left > 0:
+        running = self._running()
+        while left > 0 and self._running() == running:
             count = min(left, self.piece)
             self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
             left -= count
+
+    def _running(self) -> int:
+        return int(np.count_nonzero(self.watch["status"][0] == self.kernel.RUNNING))
+
+    def follow(self, chunks: int, between: Callable[[], None]) -> None:
+        """Advance the run in the first lane by some chunks, or to its end, however often others end on the way.
+
+        The kernel stops where any run ends, and goes on moving what is left in its lane: ``between`` collects it at once.
+        """
+        goal = int(self.feed["step"][0, 0]) + chunks * self.chunk
+        while not self.is_over(0) and (left := goal - int(self.feed["step"][0, 0])) > 0:
+            self.advance(left // self.chunk)
+            between()
 
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended; one that still moves after the shaking, or is shaken again, goes on."""

@@ -11,7 +11,7 @@ import math
 import operator
 import queue
 import threading
-from collections.abc import Callable, Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from typing import Any, Protocol, TypeVar
 
 import numpy as np
@@ -186,6 +186,42 @@ def run_lanes(
         stop.set()
         for worker in workers:
             worker.join()
+
+
+class Riders:
+    """Cases in the lanes that a single run leaves free; the run itself is in lane 0.
+
+    Parameters
+    ----------
+    block : LaneBlock
+    cases : sequence of Case
+        Not more than there are lanes besides the first.
+    """
+
+    def __init__(self, block: LaneBlock, cases: Sequence[Case]) -> None:
+        self.block, self.number = block, len(cases)
+        self.found: dict[int, Measures] = {}
+        for lane, case in enumerate(cases, 1):
+            try:
+                block.load(lane, case)
+            except NOT_COMPUTED as error:
+                self.found[lane] = not_computed(error)
+
+    def collect(self) -> None:
+        """Take the measures of those that have ended."""
+        for lane in range(1, 1 + self.number):
+            if lane not in self.found and self.block.is_over(lane):
+                try:
+                    self.found[lane] = self.block.collect(lane)
+                except NOT_COMPUTED as error:
+                    self.found[lane] = not_computed(error)
+
+    def measures(self) -> tuple[Measures, ...]:
+        """Bring all of them to their ends; what each comes down to."""
+        while len(self.found) < self.number:
+            self.block.advance()
+            self.collect()
+        return tuple(self.found[lane] for lane in sorted(self.found))
 
 
 #: What ends one run of a batch and not the batch.

@@ -1,0 +1,265 @@
+"""How sure the verdict of one run is: the same motion for columns that could as well stand there."""
+
+from __future__ import annotations
+
+import dataclasses
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..column import Column
+from ..column.scatter import Scatter, scattered_columns
+from ..errors import InputError
+from ..models.base import Case, Model
+from ..motion import Motion
+from ..response import Response
+from ..simulate import simulate, simulate_iter
+from . import verdicts as v
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Largest number of twins.
+MAX_TWINS = 100_000
+
+#: Displacements whose median and spread are told.
+DISPLACEMENTS = ("peak_top_displacement_m", "residual_top_displacement_m", "peak_rotation_rad", "residual_joint_slip_m")
+
+
+@dataclass(frozen=True, eq=False)
+class Population:
+    """Twins of a column under one motion.
+
+    Parameters
+    ----------
+    twins : tuple of Column
+    rows : tuple of dict
+        One per twin, with the keys of ``Measures.row()``.
+    scatter : Scatter
+        As far as the model takes it.
+    seed : int
+    left_out : tuple of str
+        Parts of the scatter that the model does not take.
+    confidence : float
+        Level of the interval.
+    """
+
+    twins: Sequence[Column]
+    rows: tuple[dict, ...]
+    scatter: Scatter
+    seed: int
+    left_out: tuple[str, ...] = ()
+    confidence: float = 0.95
+
+    @property
+    def verdicts(self) -> list[str]:
+        """Verdict on each twin."""
+        return [v.verdict(row) for row in self.rows]
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many twins have each verdict."""
+        return v.count(self.verdicts)
+
+    @property
+    def probability(self) -> float:
+        """Share of the twins that collapse, NaN without a verdict: :func:`stylobate.analysis.verdicts.share_collapsed`."""
+        return float(v.share_collapsed(*self._counts))
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Confidence limits of the probability of collapse; see :func:`stylobate.analysis.verdicts.collapse_interval`."""
+        low, high = v.collapse_interval(*self._counts, self.confidence)
+        return float(low), float(high)
+
+    @property
+    def spread(self) -> dict[str, list[float] | None]:
+        """Values that 16, 50 and 84 % of the twins do not exceed, by measure; a collapse exceeds everything.
+
+        None where a verdict is missing, or a percentile lies among the collapses.
+        """
+        return {name: self._percentiles(name) for name in DISPLACEMENTS}
+
+    @property
+    def order(self) -> list[int]:
+        """Twins from the least to the most: by peak top displacement, then those that collapse, the last one first."""
+
+        def harm(index: int) -> tuple[bool, float]:
+            row = self.rows[index]
+            fell = bool(row["collapsed"])
+            return fell, -row["collapse_time_s"] if fell else abs(row["peak_top_displacement_m"])
+
+        sound = [i for i, one in enumerate(self.verdicts) if one != v.FAILED]
+        return sorted(sound, key=harm)
+
+    @property
+    def median(self) -> int | None:
+        """Index of the twin in the middle; None if all failed."""
+        return self.order[(len(self.order) - 1) // 2] if self.order else None
+
+    @property
+    def worst(self) -> int | None:
+        """Index of the twin that fares worst; None if all failed."""
+        return self.order[-1] if self.order else None
+
+    @property
+    def sentence(self) -> str:
+        """How sure the verdict is, in a sentence."""
+        counts, number = self.counts, len(self.rows)
+        trials = number - counts[v.FAILED]
+        if trials == 0:
+            return f"None of {number} columns like this could be computed."
+        low, high = (round(100.0 * one) for one in self.interval)
+        said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
+        said += f" ({100.0 * self.confidence:g} %: {low}–{high} %)"
+        if counts[v.UNDECIDED]:
+            said += f"; {counts[v.UNDECIDED]} of them are undecided, go on with --tail 5s"
+        return said + (f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else ".")
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per twin."""
+        import pandas
+
+        named = zip(self.twins, self.verdicts, self.rows, strict=True)
+        return pandas.DataFrame([{"column": twin.name, "verdict": one, **row} for twin, one, row in named])
+
+    def summary(self) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate run``."""
+        low, high = self.interval
+        counts = self.counts
+        middle = self.median
+        return {
+            "collapse_probability": self.probability,
+            "collapse_interval_low": low,
+            "collapse_interval_high": high,
+            "replicates": len(self.rows),
+            "certainty": {
+                "sentence": self.sentence,
+                **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+                "confidence": self.confidence,
+                "scatter": dataclasses.asdict(self.scatter),
+                "left_out": list(self.left_out),
+                "seed": self.seed,
+                "percentiles": [16, 50, 84],
+                **self.spread,
+                "median_twin": None if middle is None else middle + 1,
+                "worst_twin": None if self.worst is None else self.worst + 1,
+            },
+        }
+
+    @property
+    def _counts(self) -> tuple[int, int, int]:
+        counts = self.counts
+        return counts[v.COLLAPSED], counts[v.STANDS], counts[v.UNDECIDED]
+
+    def _percentiles(self, name: str) -> list[float] | None:
+        sound = [row for row, one in zip(self.rows, self.verdicts, strict=True) if one != v.FAILED]
+        values = np.array([np.inf if row["collapsed"] else abs(row[name]) for row in sound])
+        if not len(values):
+            return None
+        found = np.quantile(values, (0.16, 0.5, 0.84), method="higher")
+        return [float(one) for one in found]
+
+
+@dataclass(frozen=True, eq=False)
+class Certainty:
+    """One run, and how sure its verdict is.
+
+    Parameters
+    ----------
+    response : Response
+        Of the column itself.
+    population : Population
+        Of its twins.
+    wall_time : float
+        [s], of everything.
+    """
+
+    response: Response
+    population: Population
+    wall_time: float
+
+    @property
+    def sentence(self) -> str:
+        """What happened, and how sure that is."""
+        return f"{self.response.sentence} {self.population.sentence}"
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate run``."""
+        return self.response.summary() | self.population.summary()
+
+
+def certainty(
+    column: Column,
+    motion: Motion,
+    model: Model,
+    *,
+    replicates: int = 15,
+    scatter: Scatter | None = None,
+    seed: int = 0,
+    threads: int | None = None,
+    **following: Any,
+) -> Certainty:
+    """Shake one column once, and its twins beside it.
+
+    A single run of a model that steps drums fills one of sixteen lanes; fifteen twins in the others cost next to nothing
+    while the column stands as long as they do. More twins are computed as a batch after it. The run of the column itself is
+    the same to the last bit with and without them.
+
+    Parameters
+    ----------
+    column, motion, model
+        As in :func:`stylobate.simulate`.
+    replicates : int
+        Number of twins.
+    scatter : Scatter, optional
+        What differs among them; its defaults otherwise.
+    seed : int
+        The same seed gives the same twins.
+    threads : int, optional
+        For twins beyond the first fifteen; all cores by default.
+    **following
+        ``tail``, ``output_interval``, ``until_end``, ``until_rest``, as in :func:`stylobate.simulate`.
+
+    Raises
+    ------
+    InputError
+        A number that is not allowed, or input that the model refuses.
+    """
+    began = time.perf_counter()
+    twins, size, left_out = the_twins(column, model, replicates, scatter, seed)
+    riding = () if following.get("until_end") or following.get("until_rest") else tuple(twins[: model.carries])
+    response = simulate(column, motion, model, twins=riding, **following)
+    rows = [one.row() for one in response.twins]
+    rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, following.get("tail", 0.0), threads)
+    population = Population(twins, tuple(rows), size, seed, left_out)
+    return Certainty(response, population, time.perf_counter() - began)
+
+
+def the_twins(
+    column: Column, model: Model, replicates: int, scatter: Scatter | None, seed: int
+) -> tuple[Sequence[Column], Scatter, tuple[str, ...]]:
+    """Twins of a column that the model can take, their scatter, and what of the scatter it cannot."""
+    for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+            raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
+    asked = Scatter() if scatter is None else scatter
+    if not asked.given:
+        raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")
+    left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
+    size = dataclasses.replace(asked, offset=0.0) if left_out else asked
+    space = "y" in model.axes and not getattr(model, "planar", False)
+    return scattered_columns(column, size, replicates, seed, space=space), size, left_out
+
+
+def batch(cases: Sequence[Case], column: Column, model: Model, tail: float, threads: int | None) -> list[dict]:
+    """Rows of twins that did not ride along, computed as those that did."""
+    rows: list[dict] = [{}] * len(cases)
+    if cases:
+        for index, measures in simulate_iter(cases, model.paced(column), tail=tail, threads=threads):
+            rows[index] = measures.row()
+    return rows

@@ -1,0 +1,130 @@
+"""Scatter: columns that could as well stand there, by what nobody has measured of this one."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..errors import check_range
+from .as_found import FoundDrum
+from .column import Column
+from .imperfections import rebuilt
+
+#: Draws lie within so many standard deviations.
+WITHIN = 2.5
+
+#: Largest coefficient of variation of each part.
+LARGEST = {
+    "friction": 0.5, "joint_stiffness": 0.5, "density": 0.2, "width": 0.1, "height": 0.1, "offset": 0.1
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Scatter:
+    """Coefficients of variation of what a survey does not know to the last digit; lognormal, cut at 2.5 standard deviations.
+
+    Half of the variance of friction, joint stiffness and density is common to the whole column, because it is one stone and
+    one hand; the other half, and all of width, height and offset, is each joint's or drum's own. The medians are those of
+    the column given.
+
+    Parameters
+    ----------
+    friction : float
+        Of the friction coefficient of each joint [-].
+    joint_stiffness : float
+        Of both stiffnesses of each joint alike [-].
+    density : float
+        Of the density of each drum [-].
+    width, height : float
+        Of each drum; both its widths vary alike, so that it keeps its taper [-].
+    offset : float
+        Standard deviation (normal) of the place of each drum on the one below, relative to the joint's width [-]; along x
+        for models in the plane, in any direction for those in space. Left out where a model takes columns as built only.
+
+    Raises
+    ------
+    InputError
+        A value outside its range.
+    """
+
+    friction: float = 0.10
+    joint_stiffness: float = 0.20
+    density: float = 0.02
+    width: float = 0.005
+    height: float = 0.005
+    offset: float = 0.003
+
+    def __post_init__(self) -> None:
+        for name, high in LARGEST.items():
+            check_range(f"{name} of the scatter", getattr(self, name), 0.0, high, remedy="0.05 is five per cent")
+
+    @property
+    def given(self) -> dict[str, float]:
+        """What scatters, by name."""
+        return {name: value for name, value in dataclasses.asdict(self).items() if value}
+
+    def describe(self) -> str:
+        """The sizes in words."""
+        words = (f"{name.replace('_', ' ')} {100.0 * value:g} %" for name, value in self.given.items())
+        return ", ".join(words) or "nothing"
+
+
+def scattered_columns(
+    column: Column, scatter: Scatter, number: int, seed: int, *, space: bool = False
+) -> Sequence[Column]:
+    """Columns that could as well stand there.
+
+    Column k of a seed is the same for any ``number`` above k; where one part does not scatter, the others stay the same.
+
+    Parameters
+    ----------
+    column : Column
+    scatter : Scatter
+    number, seed : int
+    space : bool
+        Offsets in any direction, for a model in space; along x otherwise.
+    """
+    streams = np.random.default_rng(seed).spawn(number)
+    return [_drawn(column, scatter, stream, k, space) for k, stream in enumerate(streams)]
+
+
+def _drawn(column: Column, size: Scatter, stream: np.random.Generator, k: int, space: bool) -> Column:
+    # The order of the draws is part of what a seed means.
+    common = _normal(stream, 3)[:, None]
+    own = _normal(stream, (5, column.n))
+    aside, across = _normal(stream, (2, column.n))
+    material = math.sqrt(0.5) * (common + own[:3])
+    factors = np.exp(
+        np.vstack((material, own[3:]))
+        * [[_spread(one)] for one in (size.friction, size.joint_stiffness, size.density, size.width, size.height)]
+    )
+    rough, stiff, dense, wide, high = factors
+    varied = rebuilt(column, wide, high, rough, stiff, f"{column.name}, twin {k + 1}", dense)
+    if not size.offset:
+        return varied
+    shifts = size.offset * varied.joint_widths * np.array([aside, across if space else np.zeros(column.n)])
+    found = tuple(_shifted(column.as_found.of(i + 1), *shifts[:, i]) for i in range(column.n))
+    return varied.replace(as_found=dataclasses.replace(column.as_found, drums=found))
+
+
+def _shifted(drum: FoundDrum, x: float, y: float) -> FoundDrum:
+    """The drum as found, moved on by these lengths [m]."""
+    angle = math.radians(drum.offset_azimuth)
+    along, across = drum.offset * math.cos(angle) + x, drum.offset * math.sin(angle) + y
+    if across == 0.0:
+        return dataclasses.replace(drum, offset=along, offset_azimuth=0.0)
+    azimuth = math.degrees(math.atan2(across, along))
+    return dataclasses.replace(drum, offset=math.hypot(along, across), offset_azimuth=azimuth)
+
+
+def _normal(stream: np.random.Generator, shape: int | tuple[int, int]) -> np.ndarray:
+    return np.clip(stream.standard_normal(shape), -WITHIN, WITHIN)
+
+
+def _spread(variation: float) -> float:
+    """Standard deviation of the logarithm that belongs to a coefficient of variation."""
+    return math.sqrt(math.log1p(variation * variation))

@@ -1,0 +1,128 @@
+"""Columns computed beside a single run: they change nothing of it, and are the same as in a batch."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis.certainty import Population, batch, the_twins
+from stylobate.column.scatter import scattered_columns
+from stylobate.models.base import Case
+
+COLUMN = st.Column.tapered(
+    height=2.4, bottom_width=0.5, top_width=0.4, drums=3, density=2600.0, section="circular",
+    joint=st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=0.7),
+)  # fmt: skip
+
+ROW = {"peak_top_displacement_m": 0.1, "residual_top_displacement_m": 0.01, "peak_rotation_rad": 0.1,
+       "residual_joint_slip_m": 0.0, "collapse_time_s": None}  # fmt: skip
+
+
+def row(outcome: str, **changes) -> dict:
+    fell = outcome == "collapsed"
+    return {
+        **ROW,
+        "outcome": outcome,
+        "collapsed": fell,
+        "decided": True,
+        "collapse_time_s": 1.0 if fell else None,
+    } | changes
+
+
+def population(*rows: dict) -> Population:
+    return Population([COLUMN] * len(rows), rows, st.Scatter(), 0)
+
+
+@pytest.mark.parametrize(
+    "model", [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()], ids=lambda one: one.name
+)
+@pytest.mark.parametrize("amplitude", [0.35, 0.9])
+def test_the_column_itself_does_not_change_to_the_bit(model, amplitude):
+    # both a column that stands beside some that fall, and one that falls first
+    motion = st.sine_pulse(frequency=0.9, amplitude=amplitude * st.g, duration=2.5)
+    alone = st.simulate(COLUMN, motion, model)
+    beside = st.certainty(COLUMN, motion, model).response
+    assert alone.measures == beside.measures
+    for one, other in (
+        (alone.time, beside.time),
+        (alone.body_position, beside.body_position),
+        (alone.slip, beside.slip),
+    ):
+        assert np.array_equal(one, other)
+    assert alone.provenance == beside.provenance
+
+
+@pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=lambda one: one.name)
+def test_twins_that_ride_along_are_those_of_a_batch_to_the_bit(model):
+    motion = st.sine_pulse(frequency=0.9, amplitude=0.5 * st.g, duration=2.0)
+    ridden = st.certainty(COLUMN, motion, model, replicates=18, seed=3).population
+    twins, *_ = the_twins(COLUMN, model, 18, None, 3)
+    again = batch([Case(one, motion) for one in twins], COLUMN, model, 0.0, threads=2)
+    assert [str(one) for one in ridden.rows] == [str(one) for one in again]
+    assert len({one["peak_top_displacement_m"] for one in ridden.rows}) == 18
+
+
+def test_the_same_seed_gives_the_same_twins_of_any_number():
+    few, many = (scattered_columns(COLUMN, st.Scatter(), number, seed=5) for number in (3, 9))
+    assert [one.digest for one in few] == [one.digest for one in many[:3]]
+    assert few[0].digest != scattered_columns(COLUMN, st.Scatter(), 1, seed=6)[0].digest
+    still = scattered_columns(COLUMN, dataclasses.replace(st.Scatter(), friction=0.0), 1, seed=5)[0]
+    assert still.joints[0].tan_phi == COLUMN.joints[0].tan_phi
+    assert still.drums == few[0].drums
+
+
+def test_the_scatter_is_that_declared():
+    # 400 columns: standard errors of a coefficient of variation are 1/√(2·400) = 3.5 % of it, bounds at four of these; the
+    # cut at 2.5 standard deviations takes 4 % off the spread
+    twins = scattered_columns(COLUMN, st.Scatter(), 400, seed=0)
+    friction = np.array([[joint.tan_phi for joint in one.joints] for one in twins]) / COLUMN.joints[0].tan_phi
+    assert np.std(friction[:, 0]) == pytest.approx(0.1, rel=0.18)
+    assert np.corrcoef(friction[:, 0], friction[:, 2])[0, 1] == pytest.approx(0.5, abs=0.2)
+    offset = np.array([one.as_found.of(2).offset for one in twins]) / COLUMN.joint_widths[1]
+    assert np.std(offset) == pytest.approx(0.003, rel=0.18)
+    assert all(one.as_found.in_plane for one in twins)
+    assert not all(one.as_found.in_plane for one in scattered_columns(COLUMN, st.Scatter(), 2, seed=0, space=True))
+
+
+def test_undecided_and_failed_twins_are_counted_as_neither():
+    found = population(row("collapsed"), row("rocked"), row("rocked", decided=False), row("failed"))
+    assert found.probability == pytest.approx(1 / 3)
+    low, high = found.interval
+    # Wilson's limits for 1 of 3 and for 2 of 3
+    assert (low, high) == pytest.approx((0.0615, 0.9385), abs=1e-3)
+    assert found.sentence.startswith("Collapses in 1 of 3 columns like this (95 %: 6–94 %); 1 of them are undecided")
+    assert found.sentence.endswith("1 more failed.")
+    assert (found.worst, found.median) == (0, 2)
+    nothing = population(row("failed"))
+    assert np.isnan(nothing.probability)
+    assert nothing.summary()["certainty"]["median_twin"] is None
+
+
+def test_the_interval_of_the_issue():
+    # 15 of 30 collapses: Wilson's 95 % interval is 33 to 67 %
+    found = population(*[row("collapsed")] * 15, *[row("rocked")] * 15)
+    assert "15 of 30 columns like this (95 %: 33–67 %)" in found.sentence
+
+
+def test_a_model_of_columns_as_built_leaves_the_offsets_out_and_says_so():
+    found = st.certainty(
+        COLUMN, st.sine_pulse(frequency=0.9, amplitude=2.0, duration=1.2), st.RigidBlock(), replicates=2
+    )
+    assert found.population.left_out == ("offset",)
+    assert found.population.scatter.offset == 0.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"replicates": 0}, "allowed is a whole number from 1"),
+        ({"seed": -1}, "seed"),
+        ({"scatter": st.Scatter(*[0.0] * 6)}, "scatters"),
+    ],
+)  # fmt: skip
+def test_what_makes_no_population_is_refused(changes, said):
+    with pytest.raises(st.InputError, match=said):
+        st.certainty(
+            COLUMN, st.sine_pulse(frequency=0.9, amplitude=2.0, duration=1.2), st.DistinctElement2D(), **changes
+        )
