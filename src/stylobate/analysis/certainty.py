@@ -6,7 +6,7 @@ import dataclasses
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -27,6 +27,20 @@ MAX_TWINS = 100_000
 
 #: Displacements whose median and spread are told.
 DISPLACEMENTS = ("peak_top_displacement_m", "residual_top_displacement_m", "peak_rotation_rad", "residual_joint_slip_m")
+
+
+class Twins(NamedTuple):
+    """Columns like one that a model can take, their scatter and seed, and what of the scatter the model leaves out."""
+
+    columns: Sequence[Column]
+    scatter: Scatter
+    seed: int
+    left_out: tuple[str, ...]
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What they are decided by, as plain values."""
+        return {"replicates": len(self.columns), "scatter": dataclasses.asdict(self.scatter), "seed": self.seed}
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,6 +140,22 @@ class Population:
 
         named = zip(self.twins, self.verdicts, self.rows, strict=True)
         return pandas.DataFrame([{"column": twin.name, "verdict": one, **row} for twin, one, row in named])
+
+    @property
+    def columns(self) -> dict[str, Any]:
+        """How sure the verdict is, as columns of a table; displacements that a share of the twins does not exceed."""
+        low, high = self.interval
+        found: dict[str, Any] = {
+            "collapse_probability": self.probability,
+            "collapse_interval_low": low,
+            "collapse_interval_high": high,
+            "replicates": len(self.rows),
+        }
+        found |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
+        spread = self.spread["peak_top_displacement_m"]
+        for i, share in enumerate((16, 50, 84)):
+            found[f"peak_top_displacement_{share}_m"] = None if spread is None else spread[i]
+        return found
 
     def summary(self) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate run``."""
@@ -231,19 +261,18 @@ def certainty(
         A number that is not allowed, or input that the model refuses.
     """
     began = time.perf_counter()
-    twins, size, left_out = the_twins(column, model, replicates, scatter, seed)
+    drawn = the_twins(column, model, replicates, scatter, seed)
+    twins = drawn.columns
     riding = () if following.get("until_end") or following.get("until_rest") else tuple(twins[: model.carries])
     response = simulate(column, motion, model, twins=riding, **following)
     rows = [one.row() for one in response.twins]
     rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, following.get("tail", 0.0), threads)
-    population = Population(twins, tuple(rows), size, seed, left_out)
+    population = Population(twins, tuple(rows), drawn.scatter, seed, drawn.left_out)
     return Certainty(response, population, time.perf_counter() - began)
 
 
-def the_twins(
-    column: Column, model: Model, replicates: int, scatter: Scatter | None, seed: int
-) -> tuple[Sequence[Column], Scatter, tuple[str, ...]]:
-    """Twins of a column that the model can take, their scatter, and what of the scatter it cannot."""
+def the_twins(column: Column, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:
+    """Twins of a column that the model can take."""
     for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
             raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
@@ -253,7 +282,7 @@ def the_twins(
     left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
     size = dataclasses.replace(asked, offset=0.0) if left_out else asked
     space = "y" in model.axes and not getattr(model, "planar", False)
-    return scattered_columns(column, size, replicates, seed, space=space), size, left_out
+    return Twins(scattered_columns(column, size, replicates, seed, space=space), size, seed, left_out)
 
 
 def batch(cases: Sequence[Case], column: Column, model: Model, tail: float, threads: int | None) -> list[dict]:

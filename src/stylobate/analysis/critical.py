@@ -14,6 +14,7 @@ import numpy as np
 
 from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
+from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError, check_range
 from ..models.base import Case, Cases, Model
@@ -21,6 +22,8 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..response.rows import Rows
 from . import verdicts as v
+from .certainty import the_twins
+from .critical_population import CriticalPopulation
 
 if TYPE_CHECKING:
     import pandas
@@ -45,6 +48,10 @@ class CriticalAmplitude:
         One per amplitude, with the keys of ``Measures.row()``.
     wall_time : float
         [s]
+    nominal : float, optional
+        Amplitude of the motion as it is [m/s²], of which the amplitudes are factors; None for a formula.
+    population : CriticalPopulation, optional
+        Twins of the column at the same amplitudes.
     """
 
     column: Column
@@ -53,6 +60,8 @@ class CriticalAmplitude:
     amplitudes: np.ndarray
     rows: Rows
     wall_time: float
+    nominal: float | None = None
+    population: CriticalPopulation | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "rows", Rows.of(self.rows))
@@ -69,6 +78,11 @@ class CriticalAmplitude:
         It is an upper bound where a smaller amplitude is undecided or failed; :attr:`counts` says whether any is.
         """
         return v.first_collapse(self.amplitudes, self.verdicts)
+
+    @property
+    def critical_factor(self) -> float | None:
+        """The same as a factor of the record [-]; None for a formula, too."""
+        return None if self.critical is None or not self.nominal else self.critical / self.nominal
 
     @property
     def all_collapse_above(self) -> float | None:
@@ -106,6 +120,7 @@ class CriticalAmplitude:
         return {
             "critical_g": _in_g(self.critical),
             "first_collapse_g": _in_g(self.critical),
+            "critical_factor": self.critical_factor,
             "all_collapse_above_g": _in_g(self.all_collapse_above),
             "runs": len(self.rows),
             "collapsed": counts[v.COLLAPSED],
@@ -115,6 +130,7 @@ class CriticalAmplitude:
             "alternation": self.alternation.to_dict("records"),
             "wall_s": self.wall_time,
             "model": self.model,
+            **({} if self.population is None else self.population.summary()),
         }
 
 
@@ -127,6 +143,9 @@ def critical_amplitude(
     step: float = 0.005 * g,
     *,
     nominal: float | None = None,
+    replicates: int = 0,
+    scatter: Scatter | None = None,
+    seed: int = 0,
     tail: float = 0.0,
     whole: bool = False,
     threads: int | None = None,
@@ -144,7 +163,9 @@ def critical_amplitude(
     start, stop, step : float
         The grid: ``start``, ``start + step`` … up to ``stop`` [m/s²].
     nominal : float, optional
-        Amplitude that ``motion`` stands for as it is [m/s²]; its peak along x by default.
+        Amplitude that ``motion`` stands for as it is [m/s²], of a formula; its peak along x by default.
+    replicates, scatter, seed
+        Twins of the column that go through every amplitude as well, as in :func:`stylobate.certainty`; none by default.
     tail : float
         Time to go on after the motion has ended [s].
     whole : bool
@@ -172,15 +193,25 @@ def critical_amplitude(
     as_is = motion.pga if nominal is None else nominal
     if as_is == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
-    cases = Cases(len(amplitudes), lambda number: Case(column, motion.scaled(amplitudes[number] / as_is)))
+    cases = own = Cases(len(amplitudes), lambda number: Case(column, motion.scaled(amplitudes[number] / as_is)))
     key = {"column": column.digest, "motion": motion.digest, "as_is": as_is, "amplitudes": amplitudes.tolist()}
+    count = len(amplitudes)
+    drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
+    if drawn is not None:
+        columns = [column, *drawn.columns]
+        cases = Cases(len(columns) * count, lambda i: Case(columns[i // count], own[i % count].motion))
+        key |= drawn.key
+        model = model.paced(column)
     quiet = share_of([motion], whole)
     result = run_campaign(
         cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
     )
     if result.interrupted:
         raise Stopped(result.rows.finished, len(cases), ledger)
-    return CriticalAmplitude(column, motion, model.name, amplitudes, result.rows, result.wall_time)
+    record = as_is if nominal is None else None
+    population = None if drawn is None else CriticalPopulation.of(amplitudes, result.rows[count:], drawn, record)
+    rows = result.rows[:count]
+    return CriticalAmplitude(column, motion, model.name, amplitudes, rows, result.wall_time, record, population)
 
 
 def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,13 +12,17 @@ import numpy as np
 
 from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
+from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError
 from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from . import verdicts as v
+from .certainty import the_twins
 from .critical import CriticalAmplitude, amplitude_grid
+from .critical_population import CriticalPopulation
+from .directions import Compass, bearing, direction_of
 
 if TYPE_CHECKING:
     import pandas
@@ -47,6 +52,31 @@ class CriticalSuite:
     def critical(self) -> float | None:
         """Smallest amplitude at which some record collapses the column [m/s²]; None when none does."""
         return min((one.critical for one in self.results if one.critical is not None), default=None)
+
+    @property
+    def critical_factor(self) -> float | None:
+        """Smallest factor by which some motion collapses the column [-]; None when none does."""
+        return min((one.critical_factor for one in self.results if one.critical_factor is not None), default=None)
+
+    @property
+    def worst(self) -> CriticalAmplitude | None:
+        """The motion that collapses the column at the smallest factor; None when none does."""
+        fell = [one for one in self.results if one.critical_factor is not None]
+        return min(fell, key=lambda one: one.critical_factor or math.inf, default=None)
+
+    @property
+    def compass(self) -> Compass:
+        """Critical factor by direction, the smallest of all records."""
+        found: dict[float, float] = {}
+        for one in self.results:
+            at = bearing(direction_of(one.motion))
+            if at is not None:
+                factor = math.inf if one.critical_factor is None else one.critical_factor
+                found[at] = min(factor, found.get(at, math.inf))
+        bearings = sorted(found)
+        return Compass(
+            np.array(bearings), np.array([found[at] for at in bearings]), "critical factor of the record [-]"
+        )
 
     @property
     def all_collapse_above(self) -> float | None:
@@ -92,9 +122,11 @@ class CriticalSuite:
             "all_collapse_above_g": None if above is None else above / g,
             "runs": sum(len(one.rows) for one in self.results),
             **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+            "critical_factor": self.critical_factor,
             "amplitudes_g": (self.amplitudes / g).tolist(),
             "share_collapsed": self.share_collapsed.tolist(),
             "records": [_row(one) for one in self.results],
+            "worst": None if self.worst is None else _row(self.worst),
             "wall_s": self.wall_time,
             "model": self.results[0].model,
         }
@@ -108,6 +140,9 @@ def critical_suite(
     stop: float,
     step: float = 0.005 * g,
     *,
+    replicates: int = 0,
+    scatter: Scatter | None = None,
+    seed: int = 0,
     tail: float = 0.0,
     whole: bool = False,
     threads: int | None = None,
@@ -122,7 +157,7 @@ def critical_suite(
     motions : sequence of Motion
         Each is scaled, all its components alike, so that its peak along x takes the amplitudes of the grid.
     model : Model
-    start, stop, step, tail, whole, threads, progress, ledger
+    start, stop, step, replicates, scatter, seed, tail, whole, threads, progress, ledger
         As for :func:`stylobate.analysis.critical.critical_amplitude`.
 
     Returns
@@ -140,28 +175,37 @@ def critical_suite(
     for motion in motions:
         if motion.pga == 0.0:
             raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
-    count = len(amplitudes)
-    cases = Cases(
-        len(motions) * count, lambda i: Case(column, motions[i // count].scaled_to_pga(float(amplitudes[i % count])))
-    )
+    drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
+    columns = [column] if drawn is None else [column, *drawn.columns]
+    count, each = len(amplitudes), len(amplitudes) * len(columns)
+
+    def case(number: int) -> Case:
+        record, rest = divmod(number, each)
+        return Case(columns[rest // count], motions[record].scaled_to_pga(float(amplitudes[rest % count])))
+
+    cases = Cases(len(motions) * each, case)
     key = {
         "column": column.digest,
         "motions": [motion.digest for motion in motions],
         "amplitudes": amplitudes.tolist(),
     }
+    if drawn is not None:
+        key |= drawn.key
+        model = model.paced(column)
     quiet = share_of(motions, whole)
     campaign = run_campaign(
         cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
     )
     if campaign.interrupted:
         raise Stopped(campaign.rows.finished, len(cases), ledger)
-    return CriticalSuite(
-        tuple(
-            CriticalAmplitude(column, motion, model.name, amplitudes, campaign.rows[i * count : (i + 1) * count], 0.0)
-            for i, motion in enumerate(motions)
-        ),
-        campaign.wall_time,
-    )
+    results = []
+    for i, motion in enumerate(motions):
+        some = campaign.rows[i * each : (i + 1) * each]
+        population = None if drawn is None else CriticalPopulation.of(amplitudes, some[count:], drawn, motion.pga)
+        results.append(
+            CriticalAmplitude(column, motion, model.name, amplitudes, some[:count], 0.0, motion.pga, population)
+        )
+    return CriticalSuite(tuple(results), campaign.wall_time)
 
 
 def _row(one: CriticalAmplitude) -> dict[str, Any]:
@@ -171,6 +215,9 @@ def _row(one: CriticalAmplitude) -> dict[str, Any]:
         "pga_g": one.motion.pga / g,
         "pgv_m_s": one.motion.pgv,
         "critical_g": None if critical is None else critical / g,
+        "critical_factor": one.critical_factor,
         "all_collapse_above_g": None if above is None else above / g,
+        **direction_of(one.motion),
         **{name: counts[name] for name in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+        **({} if one.population is None else one.population.percentiles),
     }

@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column import Column
+from ..column.scatter import Scatter
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
+from .certainty import Population, the_twins
+from .directions import direction_of
 from .verdicts import verdict
 
 if TYPE_CHECKING:
@@ -47,6 +50,9 @@ def suite_table(
     motions: Sequence[Motion],
     model: Model,
     *,
+    replicates: int = 0,
+    scatter: Scatter | None = None,
+    seed: int = 0,
     tail: float = 0.0,
     whole: bool = False,
     threads: int | None = None,
@@ -61,6 +67,8 @@ def suite_table(
     motions : sequence of Motion
         E.g. ``read_suite(folder).motions``. The vertical component acts where a motion has one.
     model : Model
+    replicates, scatter, seed
+        Twins of every column under every record, as in :func:`stylobate.certainty`; none by default.
     tail : float
         Time to go on after each motion [s].
     whole : bool
@@ -78,7 +86,8 @@ def suite_table(
     pandas.DataFrame
         One row per column and record, ``number`` that of the record: outcome and measures as the JSON keys of
         ``stylobate run``, the factor by which the record was multiplied, and its intensity measures along x, with
-        those that relate it to the column (:data:`INTENSITIES`).
+        those that relate it to the column (:data:`INTENSITIES`). With twins, the probability of collapse with its interval,
+        and what 16, 50 and 84 % of them do not exceed.
 
     Raises
     ------
@@ -93,19 +102,28 @@ def suite_table(
     for column in stands:
         for number, (motion, record) in enumerate(zip(motions, records, strict=True), 1):
             relation = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
-            rows.append({"number": number, "record": motion.name, "column": column.name} | record | relation)
+            named = {"number": number, "record": motion.name, "column": column.name} | direction_of(motion)
+            rows.append(named | record | relation)
     cases = [Case(column, motion) for column in stands for motion in motions]
+    own = len(cases)
+    drawn = [the_twins(column, model, replicates, scatter, seed) for column in stands] if replicates else []
+    cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
     key = {"columns": [one.digest for one in stands], "motions": [one.digest for one in motions]}
+    key |= drawn[0].key if drawn else {}
     quiet = share_of(motions, whole)
     found = run_campaign(
         cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
     )
     if found.interrupted:
         raise Stopped(found.rows.finished, len(cases), ledger)
-    for case, row, line in zip(cases, found.rows, rows):
+    for i, (case, row, line) in enumerate(zip(cases[:own], found.rows, rows, strict=False)):
         if row is not None:
             size = row["peak_top_displacement_m"] / case.column.base_width
             line |= row | {"verdict": verdict(row), "peak_top_over_base_width": size, "model": model.name}
+        if drawn:
+            some = drawn[i // len(motions)]
+            of_twins = [one for one in found.rows[own + i * replicates : own + (i + 1) * replicates] if one is not None]
+            line |= Population(some.columns, tuple(of_twins), some.scatter, seed, some.left_out).columns
     return pandas.DataFrame(rows)
 
 

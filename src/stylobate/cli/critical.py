@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -45,13 +46,17 @@ def critical(
     tail: o.Tail = "0s",
     whole: o.Whole = False,
     settings: o.Settings = None,
+    replicates: o.Replicates = None,
+    scatter: o.ScatterSizes = None,
+    seed: o.Seed = None,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
     """Smallest amplitude that collapses a column.
 
-    The amplitude of a record or a simulated motion is its horizontal peak; a folder of records is run on one grid.
+    The amplitude of a record or a simulated motion is its horizontal peak; a folder of records, or several directions, is
+    run on one grid. With --replicates, the probability of collapse over the amplitude, with its interval.
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..column.files import load_column
@@ -64,14 +69,15 @@ def critical(
     stone = load_column(column)
     how = o.the_model(model, settings)
     after, count = o.the_tail(tail), o.the_threads(threads)
+    twins = o.the_population(replicates, scatter, seed) or {}
     if asked.several:
         suite = asked.expand(stone.frequency_parameter, amplitude_open=True)
-        over_suite(stone, suite, how, grid, after, whole, count, out, as_json)
+        over_suite(stone, suite, how, grid, twins, after, whole, count, out, as_json)
         return
     shaking = asked.motion(stone.frequency_parameter, amplitude_open=True)
     # the amplitude of a formula is that of its sine; of a record, or once it is conditioned, the peak that it has along x
     nominal = 1.0 if (harmonic or pulse) and not condition else None
-    with console.folder(out, "critical.csv", "critical.json", "critical") as folder:
+    with console.folder(out, "critical.csv", "critical.json", "probability.csv", "probability", "critical") as folder:
         with console.progress("amplitudes") as progress:
             ledger = console.ledger(folder)
             result = critical_amplitude(
@@ -80,6 +86,7 @@ def critical(
                 how,
                 *grid,
                 nominal=nominal,
+                **twins,
                 tail=after,
                 whole=whole,
                 threads=count,
@@ -102,6 +109,7 @@ def over_suite(
     suite: Suite,
     model: Model,
     grid: list[float],
+    twins: dict[str, Any],
     tail: float,
     whole: bool,
     threads: int,
@@ -112,7 +120,7 @@ def over_suite(
     from ..analysis.critical_suite import critical_suite
     from . import console
 
-    with console.folder(out, "critical.csv", "runs.csv", "critical.json", "critical") as folder:
+    with console.folder(out, "critical.csv", "runs.csv", "critical.json", "directions", "critical") as folder:
         with console.progress("runs") as progress:
             ledger = console.ledger(folder)
             result = critical_suite(
@@ -120,6 +128,7 @@ def over_suite(
                 suite.motions,
                 model,
                 *grid,
+                **twins,
                 tail=tail,
                 whole=whole,
                 threads=threads,
@@ -136,12 +145,18 @@ def over_suite(
                 console.write_json(folder / "critical.json", summary),
                 *plots.save(plots.draw_record_verdicts(result), folder / "critical"),
             ]
+            if len(result.compass.bearings) > 1:
+                title = f"{column.name}, {model.name}"
+                drawn = plots.draw_directions(result.compass, title, worst="smallest")
+                files += plots.save(drawn, folder / "directions")
             summary["files"] = [str(file) for file in files]
             console.done_with(ledger)
     if as_json:
         console.emit(summary)
         return
     console.print_table(result.table)
+    if result.worst is not None and len(result.results) > 1:
+        print(f"Most harm: {result.worst.motion.name}, from {result.worst.critical_factor:.3g} times the record on.")
     console.print_refused(suite.refused)
     if files:
         print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
@@ -152,11 +167,16 @@ def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
     from .. import plots
     from . import console
 
-    return [
+    files = [
         console.write_table(result.table, folder / "critical.csv"),
         console.write_json(folder / "critical.json", summary),
         *plots.save(plots.draw_amplitudes(result), folder / "critical"),
     ]
+    if result.population is not None:
+        files.append(console.write_table(result.population.table, folder / "probability.csv"))
+        drawn = plots.draw_collapse_over_amplitude(result.population, f"{result.column.name}, {result.model}")
+        files += plots.save(drawn, folder / "probability")
+    return files
 
 
 def describe(result: CriticalAmplitude, taken: Motion, files: list[Path]) -> None:
@@ -181,6 +201,15 @@ def describe(result: CriticalAmplitude, taken: Motion, files: list[Path]) -> Non
             )
         else:
             sentence = f"The column collapses from {first:.4g} g on."
+    if result.critical_factor is not None:
+        sentence += f" That is {result.critical_factor:.3g} times the record."
+    if result.population is not None:
+        parts = result.population.percentiles.items()
+        shares = ", ".join(
+            f"{share} % from {one:.3g} g" for share, (_, one) in zip((16, 50, 84), parts) if one < math.inf
+        )
+        sentence += f" Of {len(result.population.verdicts)} columns like this {shares or 'few collapse on this grid'}"
+        sentence += " on." if shares else "."
     for one, meaning in (("undecided", "ended far from rest (try --tail 5s)"), ("failed", "could not be computed")):
         if counts[one]:
             sentence += f" {counts[one]} of {len(result.rows)} runs {meaning} and are not counted as collapse."

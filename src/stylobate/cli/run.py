@@ -66,6 +66,7 @@ def run(
     next to no cost; --replicates 0 leaves them out. With --out, writes histories and figures. A folder of records, or
     several directions, is one run after the other.
     """
+    from ..analysis.directions import worst
     from ..column.assembly_files import load_structure
     from ..motion.specs import parse_time
     from . import console
@@ -84,10 +85,29 @@ def run(
         summaries = each_record(stone, found.motions, how, follow, out, following | {"twins": twins}, as_json, strip)
     else:
         summaries = [conclude(follow, stone, found.motions[0], how, out, as_json, strip)]
+    if len(asked.azimuths) > 1 or asked.signs == "both":
+        directions(summaries, stone.name, how.name, out, as_json)
     if as_json:
-        console.emit({"runs": summaries, "refused": found.refused} if asked.several else summaries[0])
+        several = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
+        console.emit(several if asked.several else summaries[0])
     else:
         console.print_refused(found.refused)
+
+
+def directions(summaries: Sequence[dict], name: str, model: str, out: Path | None, quiet: bool) -> None:
+    """Which direction does most harm: in words, and where a folder is given on a compass."""
+    from ..analysis.directions import compass_of_chances, worst
+    from . import console
+
+    found, chances = worst(summaries), compass_of_chances(summaries)
+    if not quiet and found is not None:
+        print(f"Most harm: {found['motion']}.")
+    if out is not None and len(chances.bearings) > 1:
+        from .. import plots
+
+        with console.folder(out, "directions") as folder:
+            assert folder is not None
+            plots.save(plots.draw_directions(chances, f"{name}, {model}"), folder / "directions")
 
 
 def the_twins(
@@ -196,6 +216,7 @@ def conclude(
     strip: bool = False,
 ) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
+    from ..analysis.directions import direction_of
     from ..column import Column
     from . import console
 
@@ -204,7 +225,7 @@ def conclude(
     with console.folder(out, "response.nc", "run.json", "replicates.csv", "median", *pictures) as folder:
         response, population = follow(motion)
         taken = model.taken(motion)
-        summary, files = response.summary() | o.input_facts(taken), []
+        summary, files = response.summary() | o.input_facts(taken) | direction_of(motion), []
         if population is not None:
             summary |= population.summary()
         if folder is not None:

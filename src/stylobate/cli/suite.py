@@ -20,6 +20,9 @@ SHOWN = (
     "pga_over_g_tan_alpha",
     "verdict",
     "outcome",
+    "collapse_probability",
+    "collapse_interval_low",
+    "collapse_interval_high",
     "peak_top_displacement_m",
 )
 
@@ -48,14 +51,19 @@ def suite(
     tail: o.Tail = "0s",
     whole: o.Whole = False,
     settings: o.Settings = None,
+    replicates: o.Replicates = None,
+    scatter: o.ScatterSizes = None,
+    seed: o.Seed = None,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
     """Shake a column with every record of a folder.
 
-    A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them.
+    A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them. With
+    --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
+    from ..analysis.directions import compass_of_shares, worst
     from ..analysis.suite import INTENSITIES, suite_table
     from ..column.files import load_column
     from ..errors import InputError
@@ -71,12 +79,22 @@ def suite(
         raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
     how = o.the_model(model, settings)
     records = o.the_request(context, motion=sources, separate=True).expand()
-    with console.folder(out, "suite.csv", "suite.json", "suite") as folder:
+    twins = o.the_population(replicates, scatter, seed) or {}
+    with console.folder(out, "suite.csv", "suite.json", "suite", "directions") as folder:
         ledger = console.ledger(folder)
         with console.progress("runs") as progress:
             table = suite_table(
-                stones, records.motions, how, tail=after, whole=whole, threads=workers, progress=progress, ledger=ledger
+                stones,
+                records.motions,
+                how,
+                **twins,
+                tail=after,
+                whole=whole,
+                threads=workers,
+                progress=progress,
+                ledger=ledger,
             )
+        swept = len(table[["azimuth_deg", "reversed"]].drop_duplicates()) > 1
         counts = {name: Counter(rows["verdict"]) for name, rows in table.groupby("column", sort=False)}
         result = {
             "runs": table.astype(object).where(table.notna(), None).to_dict("records"),
@@ -86,6 +104,7 @@ def suite(
             "refused": records.refused,
             "model": how.name,
         }
+        result["worst"] = worst(result["runs"])
         files = []
         if folder is not None:
             from .. import plots
@@ -95,6 +114,9 @@ def suite(
                 console.write_json(folder / "suite.json", result),
                 *plots.save(plots.draw_suite(table, against), folder / "suite"),
             ]
+            if swept:
+                drawn = plots.draw_directions(compass_of_shares(result["runs"]), f"{', '.join(names)}, {how.name}")
+                files += plots.save(drawn, folder / "directions")
             result["files"] = [str(file) for file in files]
             console.done_with(ledger)
     if as_json:
@@ -103,6 +125,8 @@ def suite(
     for name, rows in table.groupby("column", sort=False):
         print(f"{name} under {len(rows)} records: {', '.join(f'{n} {one}' for one, n in counts[name].items())}.")
         console.print_table(rows.filter(list(SHOWN)), digits=3)
+    if swept and result["worst"] is not None:
+        print(f"Most harm: {result['worst']['record']}.")
     for motion in records.motions:
         if left_out := o.input_facts(how.taken(motion))["left_out"]:
             print(f"left out of {motion.name}: {'; '.join(left_out)}")

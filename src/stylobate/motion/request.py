@@ -249,6 +249,8 @@ class MotionRequest:
         for first in _as_x(motion, self.component):
             for azimuth in self.azimuths or (None,):
                 one = first if azimuth is None else self._turned(first, azimuth)
+                if azimuth is not None:
+                    one = one.replace(metadata={**one.metadata, "direction": {"azimuth": azimuth, "reversed": False}})
                 if len(self.azimuths) > 1:
                     one = one.replace(name=f"{one.name} at {azimuth:g}°")
                 found += [self._sized(one), self._sized(_reversed(one))] if self.signs == "both" else [self._sized(one)]
@@ -294,6 +296,7 @@ def _reversed(motion: Motion) -> Motion:
         ax=-motion.samples,
         ay=None if y is None else -y,
         name=f"{motion.name} reversed",
+        metadata={**motion.metadata, "direction": {**motion.metadata.get("direction", {}), "reversed": True}},
         processing=(*motion.processing, "horizontal components reversed"),
     )
 

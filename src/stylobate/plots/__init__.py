@@ -1,6 +1,8 @@
 """Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG."""
 
 from .amplitudes import draw_amplitudes
+from .collapse_over_amplitude import draw_collapse_over_amplitude
+from .directions import draw_directions
 from .domain import draw_boundaries, draw_domain
 from .domain_panels import draw_domain_panels, draw_doubt
 from .energy import draw_energy
@@ -23,7 +25,9 @@ from .uplift import draw_uplift
 __all__ = [
     "draw_amplitudes",
     "draw_boundaries",
+    "draw_collapse_over_amplitude",
     "draw_comparison",
+    "draw_directions",
     "draw_domain",
     "draw_domain_panels",
     "draw_doubt",

@@ -1,0 +1,113 @@
+"""Twins of a column at every amplitude of a grid: the probability of collapse over the amplitude, with its interval."""
+
+from __future__ import annotations
+
+import dataclasses
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..column.scatter import Scatter
+from ..constants import g
+from ..response.rows import Rows
+from . import verdicts as v
+from .certainty import Twins
+
+if TYPE_CHECKING:
+    import pandas
+
+
+@dataclass(frozen=True, eq=False)
+class CriticalPopulation:
+    """Verdicts on twins over a grid of amplitudes.
+
+    Parameters
+    ----------
+    amplitudes : array
+        [m/s²], shape (A,), rising.
+    verdicts : array of str
+        Shape (twins, A).
+    scatter : Scatter
+        As far as the model takes it.
+    seed : int
+    left_out : tuple of str
+        Parts of the scatter that the model does not take.
+    nominal : float, optional
+        Amplitude of the record as it is [m/s²]; None for a formula.
+    confidence : float
+        Level of the interval.
+    """
+
+    amplitudes: np.ndarray
+    verdicts: np.ndarray
+    scatter: Scatter
+    seed: int
+    left_out: tuple[str, ...] = ()
+    nominal: float | None = None
+    confidence: float = 0.95
+
+    @classmethod
+    def of(cls, amplitudes: np.ndarray, rows: Rows, drawn: Twins, nominal: float | None) -> CriticalPopulation:
+        """From the rows of all twins at all amplitudes, those of one twin together."""
+        verdicts = v.verdicts_of(rows).reshape(-1, len(amplitudes))
+        return cls(amplitudes, verdicts, drawn.scatter, drawn.seed, drawn.left_out, nominal)
+
+    @property
+    def probability(self) -> np.ndarray:
+        """Share of the twins that collapse at each amplitude; see :func:`stylobate.analysis.verdicts.share_collapsed`."""
+        return v.share_collapsed(*v.tally(self.verdicts, axis=0))
+
+    @property
+    def interval(self) -> tuple[np.ndarray, np.ndarray]:
+        """Confidence limits of the probability; see :func:`stylobate.analysis.verdicts.collapse_interval`."""
+        return v.collapse_interval(*v.tally(self.verdicts, axis=0), self.confidence)
+
+    @property
+    def critical(self) -> np.ndarray:
+        """Smallest amplitude that collapses each twin [m/s²], shape (twins,); infinite where none of the grid does."""
+        found = [v.first_collapse(self.amplitudes, list(one)) for one in self.verdicts]
+        return np.array([np.inf if one is None else one for one in found])
+
+    @property
+    def factors(self) -> np.ndarray | None:
+        """The amplitudes as factors of the record [-], shape (A,); None for a formula."""
+        return None if self.nominal is None else self.amplitudes / self.nominal
+
+    @property
+    def percentiles(self) -> dict[str, float]:
+        """Amplitudes at which 16, 50 and 84 % of the twins have first collapsed [g]; infinite beyond the grid."""
+        found = np.quantile(self.critical, (0.16, 0.5, 0.84), method="higher") / g
+        return {f"critical_{share}_g": float(one) for share, one in zip((16, 50, 84), found, strict=True)}
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per amplitude: how many twins have which verdict, the probability of collapse and its limits."""
+        import pandas
+
+        low, high = self.interval
+        rows = {"amplitude_g": self.amplitudes / g, "factor": self.factors}
+        rows |= {one: (self.verdicts == one).sum(axis=0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)}
+        rows |= {"collapse_probability": self.probability, "collapse_interval_low": low, "collapse_interval_high": high}
+        return pandas.DataFrame(rows)
+
+    def summary(self) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate critical``; lists are over the amplitudes."""
+        low, high = self.interval
+        counts = v.count(self.verdicts)
+        return {
+            "amplitudes_g": (self.amplitudes / g).tolist(),
+            "factors": None if self.factors is None else self.factors.tolist(),
+            "collapse_probability": self.probability.tolist(),
+            "collapse_interval_low": low.tolist(),
+            "collapse_interval_high": high.tolist(),
+            "replicates": len(self.verdicts),
+            "certainty": {
+                "scatter": dataclasses.asdict(self.scatter),
+                "left_out": list(self.left_out),
+                "seed": self.seed,
+                "confidence": self.confidence,
+                **self.percentiles,
+                **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+            },
+        }

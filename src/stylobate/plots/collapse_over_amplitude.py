@@ -1,0 +1,45 @@
+"""Probability of collapse over the amplitude of one motion, with its interval."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..analysis.critical_population import CriticalPopulation
+from ..constants import g
+from .style import BLACK, BLUE, WIDTH, legend_below, panel, styled
+
+
+@styled
+def draw_collapse_over_amplitude(
+    population: CriticalPopulation, title: str | None = None, *, ax: Axes | None = None
+) -> Figure:
+    """Share of the twins that collapse over the amplitude, with its confidence band; above it the factor of the record.
+
+    Parameters
+    ----------
+    population : CriticalPopulation
+    title : str, optional
+    ax : Axes, optional
+        To draw in; those of a new figure by default.
+    """
+    figure, axes = panel(ax, (WIDTH, 3.4))
+    amplitudes, (low, high) = population.amplitudes / g, population.interval
+    band = f"{100.0 * population.confidence:g} % interval (Wilson; undecided counted both ways)"
+    axes.fill_between(amplitudes, low, high, step="mid", color=BLUE, alpha=0.25, linewidth=0.0, label=band)
+    axes.plot(amplitudes, population.probability, "o-", color=BLACK, markersize=3.0, label="share that collapses")
+    axes.set_ylim(-0.03, 1.03)
+    axes.set_xlim(amplitudes[0], max(amplitudes[-1], amplitudes[0] * 1.0001))
+    axes.grid(axis="y")
+    axes.set_xlabel("amplitude of acceleration [g]")
+    axes.set_ylabel(f"probability of collapse [-]\n{len(population.verdicts)} columns like this one")
+    if population.nominal:
+        scale = population.nominal / g
+        above = axes.secondary_xaxis(
+            "top", functions=(lambda a: np.asarray(a) / scale, lambda f: np.asarray(f) * scale)
+        )
+        above.set_xlabel("factor of the record [-]")
+    axes.set_title(title or "")
+    legend_below(axes, ax is None, ncols=2)
+    return figure

@@ -1,0 +1,57 @@
+"""Values by direction on a compass: where the shaking that does most harm points to."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+from matplotlib.figure import Figure
+from matplotlib.projections.polar import PolarAxes
+
+from ..analysis.directions import Compass
+from .style import BLACK, BLUE, RED, in_lines, styled
+
+
+@styled
+def draw_directions(compass: Compass, title: str | None = None, *, worst: str = "largest") -> Figure:
+    """A value over the direction of the shaking along x: north up, azimuths clockwise as those of records.
+
+    Parameters
+    ----------
+    compass : Compass
+    title : str, optional
+    worst : {"largest", "smallest"}
+        Which value is marked. Values beyond what was looked at stand open at the rim.
+    """
+    figure = Figure(figsize=(4.6, 4.9))
+    axes = cast(PolarAxes, figure.add_subplot(projection="polar"))
+    axes.set_theta_zero_location("N")
+    axes.set_theta_direction(-1)
+    axes.set_thetagrids(np.arange(0, 360, 30), [f"{one}°" for one in range(0, 360, 30)])
+    values = compass.values
+    seen = np.isfinite(values)
+    rim = 1.15 * float(np.nanmax(np.where(seen, values, np.nan))) if seen.any() and values[seen].max() > 0 else 1.0
+    if compass.high is not None:
+        rim = max(rim, 1.0)
+    angle = np.radians(compass.bearings)
+    shown = np.where(np.isposinf(values), rim, values)
+    around = np.append(np.arange(len(angle)), 0)
+    if compass.low is not None and compass.high is not None:
+        axes.vlines(angle, compass.low, compass.high, color=BLUE, linewidth=2.4, alpha=0.45, label="95 % interval")
+    axes.plot(angle[around], shown[around], color=BLACK, linewidth=0.9)
+    axes.plot(angle[seen], values[seen], "o", color=BLACK, markersize=4.0)
+    beyond = np.isposinf(values)
+    if beyond.any():
+        axes.plot(angle[beyond], shown[beyond], "o", color=BLACK, fillstyle="none", markersize=6.0, label="no collapse")
+    if seen.any():
+        pick = np.nanargmax if worst == "largest" else np.nanargmin
+        at = int(pick(np.where(seen, values, np.nan)))
+        label = f"worst: {compass.bearings[at]:g}°, {values[at]:.3g}"
+        axes.plot(
+            angle[at], values[at], "o", color=RED, markersize=8.0, fillstyle="none", markeredgewidth=1.8, label=label
+        )
+    axes.set_ylim(0.0, rim * 1.02)
+    axes.set_rlabel_position(22.5)
+    axes.set_title(in_lines(title or compass.name) if title is None else f"{in_lines(title)}\n{compass.name}", pad=14.0)
+    figure.legend(loc="outside lower center", ncols=3)
+    return figure
