@@ -4,9 +4,14 @@ from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude
 from .analysis.domain import collapse_domain as collapse_domain
+from .analysis.evidence import evidence as evidence
+from .analysis.fragility import fragility as fragility
+from .analysis.hazard import read_hazard as read_hazard
 from .analysis.limit import limit_analysis as limit_analysis
 from .analysis.pushover import pushover as pushover
 from .analysis.replicates import collapse_probability as collapse_probability
+from .analysis.risk import risk as risk
+from .analysis.risk import survival as survival
 from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
 from .analysis.suite import suite_table as suite_table
 from .column import AsFound as AsFound

@@ -103,7 +103,8 @@ def suite_table(
         for number, (motion, record) in enumerate(zip(motions, records, strict=True), 1):
             relation = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
             named = {"number": number, "record": motion.name, "column": column.name} | direction_of(motion)
-            rows.append(named | record | relation)
+            widths = {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
+            rows.append(named | widths | record | relation)
     cases = [Case(column, motion) for column in stands for motion in motions]
     own = len(cases)
     drawn = [the_twins(column, model, replicates, scatter, seed) for column in stands] if replicates else []

@@ -22,14 +22,17 @@ from . import (
     compare,
     critical,
     domain,
+    fragility,
     limit,
     motion,
     pushover,
     reproduce,
+    risk,
     run,
     signals,
     spectrum,
     suite,
+    survival,
 )
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
@@ -72,7 +75,8 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 
 for _room in (
-    run, critical, domain, pushover, limit, compare, suite, motion, spectrum, columns, animate, reproduce, cite, bench
+    run, critical, domain, pushover, limit, compare, suite, fragility, risk, survival, motion,
+    spectrum, columns, animate, reproduce, cite, bench
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name)(_passing_on(getattr(_room, _name)))

@@ -7,6 +7,7 @@ from .domain import draw_boundaries, draw_domain
 from .domain_panels import draw_domain_panels, draw_doubt
 from .energy import draw_energy
 from .filmstrip import draw_filmstrip
+from .fragility import draw_fragility
 from .histories import draw_comparison, draw_histories
 from .joints import draw_joints
 from .motion import draw_motion
@@ -16,6 +17,7 @@ from .probability_panels import draw_probability_panels
 from .pushover import draw_mechanism, draw_pushover
 from .record_verdicts import draw_record_verdicts
 from .residuals import draw_residuals
+from .risk import draw_risk, draw_survival
 from .rocking_spectrum import draw_rocking_spectrum
 from .spectra import draw_spectra
 from .style import save
@@ -33,6 +35,7 @@ __all__ = [
     "draw_doubt",
     "draw_energy",
     "draw_filmstrip",
+    "draw_fragility",
     "draw_histories",
     "draw_joints",
     "draw_mechanism",
@@ -43,9 +46,11 @@ __all__ = [
     "draw_pushover",
     "draw_record_verdicts",
     "draw_residuals",
+    "draw_risk",
     "draw_rocking_spectrum",
     "draw_spectra",
     "draw_suite",
+    "draw_survival",
     "draw_uplift",
     "save",
 ]

@@ -1,0 +1,141 @@
+"""Hazard curves: how often a year the shaking at a site is stronger than so much; our own CSV, and that of OpenQuake."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..errors import InputError
+from ..reading import read_bytes, shown
+
+#: Largest file that is read [bytes].
+MOST = 50_000_000
+
+#: Columns of an intensity, by unit.
+COLUMNS = {"im_g": "g", "im_m_s": "m/s", "im_s": "s", "im": "-"}
+
+_POE = re.compile(r"poe-([0-9.eE+-]+)")
+_HEADED = re.compile(r"investigation_time=([0-9.eE+]+)")
+_IMT = re.compile(r"imt='?\"?([A-Za-z]+)(?:\(([0-9.]+)\))?")
+
+
+@dataclass(frozen=True, eq=False)
+class Hazard:
+    """A hazard curve: straight between its points in logarithms.
+
+    Parameters
+    ----------
+    im : array
+        Intensity, rising, shape (k,).
+    rate : array
+        How often a year it is exceeded, falling [1/y], shape (k,).
+    unit : str
+        Of the intensity.
+    name : str
+    imt : str
+        What the file says the intensity is, such as ``PGA``; empty if it does not.
+    """
+
+    im: np.ndarray
+    rate: np.ndarray
+    unit: str
+    name: str
+    imt: str = ""
+
+    def __post_init__(self) -> None:
+        order = np.argsort(self.im, kind="stable")
+        im, rate = np.asarray(self.im, dtype=float)[order], np.asarray(self.rate, dtype=float)[order]
+        positive = rate > 0.0  # an intensity that is never exceeded is beyond the end of the curve
+        if (rate < 0.0).any() or not np.isfinite(rate).all() or not (np.isfinite(im) & (im > 0.0)).all():
+            raise InputError(
+                f"hazard curve {self.name} has an intensity that is not positive, or a rate below 0; mend the file."
+            )
+        im, rate = im[positive], rate[positive]
+        if len(im) < 2 or (np.diff(im) == 0.0).any():
+            raise InputError(
+                f"hazard curve {self.name} has {len(np.unique(im))} intensities with a rate; it needs at least two that "
+                "differ."
+            )
+        rises = np.flatnonzero(np.diff(rate) > 0.0)
+        if rises.size:
+            k = int(rises[0])
+            raise InputError(
+                f"hazard curve {self.name} rises from {rate[k]:.3g} a year at {im[k]:g} {self.unit} to {rate[k + 1]:.3g} at "
+                f"{im[k + 1]:g}; the rate of exceeding more cannot be larger: check its columns."
+            )
+        object.__setattr__(self, "im", im)
+        object.__setattr__(self, "rate", rate)
+
+
+def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Hazard:
+    """Read a hazard curve.
+
+    Parameters
+    ----------
+    path : path
+        CSV with the columns ``im_g`` or ``im_m_s`` and ``annual_rate``; or the export ``hazard_curve-*.csv`` of OpenQuake,
+        whose probabilities of exceedance become rates −ln(1 − p)/T, and whose PGV in cm/s become m/s.
+    site : (float, float), optional
+        Longitude and latitude [degrees], for a file of several sites: the nearest one.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read, has several sites, or holds no hazard curve.
+    """
+    text = read_bytes(path, MOST).decode("utf-8", "replace")
+    lines = [line.strip() for line in text.replace("\r", "").split("\n") if line.strip()]
+    comments = [line for line in lines if line.startswith("#")]
+    lines = [line for line in lines if not line.startswith("#")]
+    name = shown(Path(path).name)
+    if len(lines) < 2:
+        raise InputError(f"{name} holds no hazard curve; it needs the columns im_g or im_m_s, and annual_rate.")
+    head = [one.strip().strip('"') for one in lines[0].split(",")]
+    if any(_POE.fullmatch(one) for one in head):
+        return _openquake(name, " ".join(comments), head, lines[1:], site)
+    key = next((one for one in COLUMNS if one in head), None)
+    if key is None or "annual_rate" not in head:
+        raise InputError(
+            f"{name} has the columns {', '.join(head)[:200]}; it needs im_g or im_m_s, and annual_rate, or to be a hazard "
+            "curve that OpenQuake has exported."
+        )
+    columns = [head.index(key), head.index("annual_rate")]
+    values = np.array(
+        [[_number(name, line, row.split(","), k) for k in columns] for line, row in enumerate(lines[1:], 2)]
+    )
+    return Hazard(values[:, 0], values[:, 1], COLUMNS[key], name)
+
+
+def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:
+    time, imt = _HEADED.search(said), _IMT.search(said)
+    if time is None or float(time[1]) <= 0.0:
+        raise InputError(f"{name} does not state its investigation_time; export the curve again with its header.")
+    at = [k for k, one in enumerate(head) if _POE.fullmatch(one)]
+    im = np.array([float(head[k].removeprefix("poe-")) for k in at])
+    cells = [row.split(",") for row in rows]
+    chosen = 0
+    if len(cells) > 1:
+        if site is None or "lon" not in head or "lat" not in head:
+            raise InputError(f"{name} holds {len(cells)} sites; choose one with --site LON,LAT.")
+        places = [[_number(name, k, row, head.index(one)) for one in ("lon", "lat")] for k, row in enumerate(cells, 2)]
+        chosen = int(np.argmin([math.dist(one, site) for one in places]))
+    poe = np.array([_number(name, chosen + 2, cells[chosen], k) for k in at])
+    if ((poe < 0.0) | (poe > 1.0)).any():
+        raise InputError(f"{name} has a probability of exceedance outside 0 to 1; mend the file.")
+    kind = "" if imt is None else imt[1] + (f"({imt[2]})" if imt[2] else "")
+    velocity = kind.upper().startswith("PGV")
+    sure = poe < 1.0  # a certain exceedance has no rate
+    rate = -np.log1p(-poe[sure]) / float(time[1])
+    return Hazard(im[sure] * (0.01 if velocity else 1.0), rate, "m/s" if velocity else "g", name, kind)
+
+
+def _number(name: str, line: int, cells: list[str], k: int) -> float:
+    try:
+        return float(cells[k])
+    except (ValueError, IndexError):
+        found = cells[k] if k < len(cells) else "nothing"
+        raise InputError(f"line {line} of {name} has {found!r} where a number is needed; mend the file.") from None

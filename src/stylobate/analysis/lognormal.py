@@ -1,0 +1,137 @@
+"""A lognormal capacity by maximum likelihood from what runs tell about it, each run an interval that holds it.
+
+A run at intensity x that exceeds a state says that the capacity is at most x; one that does not, that it is above; a record
+whose runs bracket its capacity gives both ends. With y = ln x the likelihood of all of them is
+
+    L(a, b) = Π [Φ(a + b y_high) − Φ(a + b y_low)]^w ,    θ = exp(−a/b) ,  β = 1/b ,                               (G1)
+
+for runs alone the probit model of Shinozuka et al. (2000) and Baker (2015). ln L is concave in (a, b), so Newton's steps end
+in its one maximum; all samples of a bootstrap take them together.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.special import log_ndtr
+
+#: Dispersions are kept inside these [-]: where the runs below and above do not overlap the best one is 0.
+BETAS = (0.01, 10.0)
+
+#: Newton's steps at most, and the change of ln θ and ln β after which there are none [-].
+STEPS, CLOSE = 60, 1e-9
+
+_LOG_ROOT = 0.5 * np.log(2.0 * np.pi)
+
+
+class Fit(NamedTuple):
+    """Lognormal capacities, one per sample.
+
+    Parameters
+    ----------
+    log_median, beta : array, shape (S,)
+        ln θ and β; +inf or −inf where no run, or every one, exceeds the state.
+    """
+
+    log_median: np.ndarray
+    beta: np.ndarray
+
+
+def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> Fit:
+    """Fit Eq. (G1).
+
+    Parameters
+    ----------
+    low, high : array
+        Ends of the intervals of ln capacity, −inf and +inf where open, shape (n,), or (S, n) for S samples.
+    weight : array, optional
+        How often each interval counts, shape (n,) or (S, n); once by default.
+
+    Returns
+    -------
+    Fit
+    """
+    low, high = np.asarray(low, dtype=float), np.asarray(high, dtype=float)
+    weight = np.ones(low.shape) if weight is None else np.asarray(weight, dtype=float)
+    if low.ndim == 1:  # equal intervals are one with the sum of their weights
+        pairs, kind = np.unique(np.stack((low, high), axis=1), axis=0, return_inverse=True)
+        low, high = pairs.T
+        member = np.zeros((kind.size, len(pairs)))
+        member[np.arange(kind.size), kind.ravel()] = 1.0
+        weight = np.atleast_2d(weight) @ member
+    low, high, weight = np.broadcast_arrays(np.atleast_2d(low), np.atleast_2d(high), np.atleast_2d(weight))
+    some_above = ((weight > 0.0) & np.isfinite(low)).any(axis=1)
+    some_below = ((weight > 0.0) & np.isfinite(high)).any(axis=1)
+    solvable = some_above & some_below
+    log_median = np.where(some_above, np.inf, -np.inf)
+    beta = np.full(len(low), np.nan)
+    if solvable.any():
+        found = _newton(low[solvable], high[solvable], weight[solvable])
+        log_median[solvable], beta[solvable] = found
+    return Fit(log_median, beta)
+
+
+def _newton(low: np.ndarray, high: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    inside = np.where(np.isfinite(low) & np.isfinite(high), 0.5 * (low + high), np.where(np.isfinite(low), low, high))
+    total = weight.sum(axis=1)
+    centre = (weight * inside).sum(axis=1) / total
+    spread = np.sqrt((weight * (inside - centre[:, None]) ** 2).sum(axis=1) / total)
+    scale = np.clip(spread, 0.05, 2.0)  # the logarithms are counted from their mean, in units of their spread
+    u, v = (low - centre[:, None]) / scale[:, None], (high - centre[:, None]) / scale[:, None]
+    a, b = np.zeros(len(low)), np.ones(len(low))
+    b_low, b_high = scale / BETAS[1], scale / BETAS[0]
+    open_ = np.arange(len(a))  # samples that still move
+    for _ in range(STEPS):
+        a[open_], b[open_], moved = _step(
+            a[open_], b[open_], u[open_], v[open_], weight[open_], b_low[open_], b_high[open_]
+        )
+        open_ = open_[moved > CLOSE]
+        if not open_.size:
+            break
+    return centre - scale * a / b, scale / b
+
+
+def _step(
+    a: np.ndarray, b: np.ndarray, u: np.ndarray, v: np.ndarray, w: np.ndarray, least: np.ndarray, most: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """One of Newton's steps, halved until ln L does not fall: new a and b, and how far they moved."""
+    likelihood, ga, gb, haa, hab, hbb = _terms(a, b, u, v, w)
+    ridge = 1e-12 * (np.abs(haa) + np.abs(hbb)) + 1e-300
+    determinant = (haa - ridge) * (hbb - ridge) - hab * hab
+    da = -((hbb - ridge) * ga - hab * gb) / determinant
+    db = -((haa - ridge) * gb - hab * ga) / determinant
+    held = ((b <= least) & (db < 0.0)) | ((b >= most) & (db > 0.0))  # along the edge, a alone moves
+    da, db = np.where(held, -ga / (haa - ridge), da), np.where(held, 0.0, db)
+    new_a, new_b, todo = a.copy(), b.copy(), np.arange(len(a))
+    step = 1.0
+    for _ in range(30):
+        new_a[todo] = a[todo] + step * da[todo]
+        new_b[todo] = np.clip(b[todo] + step * db[todo], least[todo], most[todo])
+        then = _terms(new_a[todo], new_b[todo], u[todo], v[todo], w[todo])[0]
+        todo = todo[~(then >= likelihood[todo] - 1e-12 * np.abs(likelihood[todo]))]
+        step *= 0.5
+        if not todo.size:
+            break
+    new_a[todo], new_b[todo] = a[todo], b[todo]  # the last digit: no better place is found
+    return new_a, new_b, np.maximum(np.abs(new_a - a), np.abs(new_b - b) / b)
+
+
+def _terms(a: np.ndarray, b: np.ndarray, u: np.ndarray, v: np.ndarray, w: np.ndarray) -> tuple[np.ndarray, ...]:
+    """ln L of every sample, and its first and second derivatives by a and b."""
+    a, b = a[:, None], b[:, None]
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        s, t = a + b * u, a + b * v
+        # Φ(t) − Φ(s) from the tail in which both are small
+        flip = s > 0.0
+        upper, lower = np.where(flip, -s, t), np.where(flip, -t, s)
+        big = log_ndtr(upper)
+        p = big + np.log(-np.expm1(np.minimum(log_ndtr(lower) - big, -1e-300)))
+        rs, rt = (np.where(np.isfinite(z), np.exp(-0.5 * z * z - _LOG_ROOT - p), 0.0) for z in (s, t))
+    u, v, s, t = (np.where(np.isfinite(one), one, 0.0) for one in (u, v, s, t))
+    p = np.where(w > 0.0, np.maximum(p, -1e300), 0.0)
+    ea, eb = rt - rs, v * rt - u * rs
+    haa = -(t * rt - s * rs) - ea * ea
+    hab = -(v * t * rt - u * s * rs) - ea * eb
+    hbb = -(v * v * t * rt - u * u * s * rs) - eb * eb
+    return tuple((w * one).sum(axis=1) for one in (p, ea, eb, haa, hab, hbb))

@@ -1,0 +1,264 @@
+"""Risk: how often a year a column comes to a state, where in the hazard this comes from, and what its age says to that."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.special import ndtr
+
+from ..errors import InputError, check_range
+from .fragility import Fragility, curve
+from .hazard import Hazard
+
+#: Share of the rate beyond the ends of a hazard curve above which it is said [-].
+BEYOND = 0.05
+
+#: Parts of a decade of the intensity by which a rate is deaggregated.
+PARTS = 10
+
+
+@dataclass(frozen=True, eq=False)
+class Risk:
+    """Mean annual rate of a state.
+
+    Parameters
+    ----------
+    fragility : Fragility
+    hazard : Hazard
+    rate : float
+        [1/y], of shaking from the first intensity of the hazard curve on; beyond its last one all counts with the
+        probability that it has there.
+    low, high : float
+        Interval by the bootstrap of the fragility [1/y].
+    beyond : float
+        What stronger shaking than the last intensity could add at most [1/y].
+    below : float
+        Probability of the state at the first intensity: what is weaker is not in the hazard curve.
+    edges, parts : array
+        Intensities, shape (k + 1,), and the rate that comes from between them [1/y], shape (k,); the last part is that of
+        the shaking beyond the curve.
+    extremes : (float, float)
+        Rates if all undecided and failed runs exceed the state, and if none does [1/y].
+    """
+
+    fragility: Fragility
+    hazard: Hazard
+    rate: float
+    low: float
+    high: float
+    beyond: float
+    below: float
+    edges: np.ndarray
+    parts: np.ndarray
+    extremes: tuple[float, float]
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the hazard curve does not cover, in sentences."""
+        found = []
+        if self.beyond > BEYOND * self.rate:
+            found.append(
+                f"{self.hazard.name} ends at {self.hazard.im[-1]:g} {self.hazard.unit}; stronger shaking could add up to "
+                f"{100 * self.beyond / max(self.rate, 1e-300):.0f} % to the rate."
+            )
+        if self.below > BEYOND:
+            found.append(
+                f"{self.hazard.name} begins at {self.hazard.im[0]:g} {self.hazard.unit}, where the probability is "
+                f"{self.below:.2g} already; weaker shaking is not counted."
+            )
+        return found
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate risk``."""
+        f = self.fragility
+        return {
+            "annual_rate": self.rate,
+            "annual_rate_low": self.low,
+            "annual_rate_high": self.high,
+            "return_period_y": 1.0 / self.rate if self.rate > 0.0 else None,
+            "return_period_low_y": 1.0 / self.high if self.high > 0.0 else None,
+            "return_period_high_y": 1.0 / self.low if self.low > 0.0 else None,
+            "annual_rate_if_open_exceed": self.extremes[0],
+            "annual_rate_if_open_do_not": self.extremes[1],
+            "beyond_hazard_at_most": self.beyond,
+            "state": f.evidence.state,
+            "im": f.evidence.measure,
+            "unit": f.evidence.unit,
+            "median": f.median,
+            "beta": f.beta,
+            "hazard": self.hazard.name,
+            "name": f.evidence.name,
+            "deaggregation": [
+                {"from": a, "to": b, "annual_rate": p}
+                for a, b, p in zip(self.edges[:-1].tolist(), self.edges[1:].tolist(), self.parts.tolist())
+            ],
+            "warnings": self.warnings,
+        }
+
+
+@dataclass(frozen=True, eq=False)
+class Survival:
+    """What the age of a column that still stands says about hazard curves.
+
+    Parameters
+    ----------
+    risks : tuple of Risk
+        One per hazard curve.
+    age : float
+        [y]
+    """
+
+    risks: tuple[Risk, ...]
+    age: float
+
+    @property
+    def probability(self) -> np.ndarray:
+        """Probability that the column would still stand, by hazard curve, shape (k,): exp(−λ t)."""
+        return np.exp(-self.age * np.array([one.rate for one in self.risks]))
+
+    @property
+    def interval(self) -> tuple[np.ndarray, np.ndarray]:
+        """Its limits, by the interval of the rate."""
+        low, high = (np.array([getattr(one, name) for one in self.risks]) for name in ("high", "low"))
+        return np.exp(-self.age * low), np.exp(-self.age * high)
+
+    @property
+    def likelihood(self) -> np.ndarray:
+        """Likelihood of each hazard curve given that the column stands, over the largest one, shape (k,)."""
+        exponent = -self.age * np.array([one.rate for one in self.risks])
+        return np.exp(exponent - exponent.max())
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate survival``."""
+        low, high = self.interval
+        likelihood = self.likelihood
+        return {
+            "age_y": self.age,
+            "survival_probability": {
+                one.hazard.name: float(p) for one, p in zip(self.risks, self.probability, strict=True)
+            },
+            "hazards": [
+                {
+                    "hazard": one.hazard.name,
+                    "annual_rate": one.rate,
+                    "return_period_y": 1.0 / one.rate if one.rate > 0.0 else None,
+                    "survival_probability": float(self.probability[k]),
+                    "survival_probability_low": float(low[k]),
+                    "survival_probability_high": float(high[k]),
+                    "relative_likelihood": float(likelihood[k]),
+                    "weight": float(likelihood[k] / likelihood.sum()),
+                }
+                for k, one in enumerate(self.risks)
+            ],
+            "state": self.risks[0].fragility.evidence.state,
+            "warnings": [text for one in self.risks for text in one.warnings],
+        }
+
+
+def risk(fragility: Fragility, hazard: Hazard) -> Risk:
+    """Mean annual rate of a state, Eq. (G4).
+
+    Raises
+    ------
+    InputError
+        Fragility and hazard are of different intensities.
+    """
+    measure, unit = fragility.evidence.measure, fragility.evidence.unit
+    if hazard.unit not in ("-", unit) and unit != "-":
+        raise InputError(
+            f"the fragility is over {measure} in {unit} and {hazard.name} is in {hazard.unit}; give a hazard curve of "
+            f"{measure}, or another --im."
+        )
+    said = hazard.imt.upper()
+    if said and measure != "im" and not _same(said, measure):
+        raise InputError(
+            f"the fragility is over {measure} and {hazard.name} is of {hazard.imt}; give one of {measure}."
+        )
+    rate, edges, parts = _rate(hazard, fragility.log_median, fragility.beta)
+    rates = np.array([_rate(hazard, float(m), math.exp(s), split=False)[0] for m, s in fragility.samples])
+    low, high = fragility.limits(math.log(max(rate, 1e-300)), np.log(np.maximum(rates, 1e-300)))
+    last = float(curve(hazard.im[-1:], fragility.log_median, fragility.beta)[0])
+    return Risk(
+        fragility,
+        hazard,
+        rate,
+        math.exp(low),
+        math.exp(high),
+        float(hazard.rate[-1]) * (1.0 - last),
+        float(curve(hazard.im[:1], fragility.log_median, fragility.beta)[0]),
+        edges,
+        parts,
+        tuple(_rate(hazard, *one, split=False)[0] for one in fragility.extremes),  # type: ignore[arg-type]
+    )
+
+
+def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Survival:
+    """What an age says about hazard curves.
+
+    Parameters
+    ----------
+    fragility : Fragility
+    age : float
+        Years that the column has stood as it is.
+    hazards : sequence of Hazard
+    """
+    years = check_range("age", age, 0.0, 1e6, unit="years", open_low=True)
+    if not hazards:
+        raise InputError("no hazard curve is given; give at least one with --hazard FILE.csv.")
+    return Survival(tuple(risk(fragility, one) for one in hazards), years)
+
+
+def parse_age(text: str) -> float:
+    """An age as typed, ``2400y`` [y]."""
+    found = re.fullmatch(r"\s*([0-9.eE+]+)\s*(y|yr|a|years?)\s*", text)
+    try:
+        value = float(found[1]) if found else math.nan
+    except ValueError:
+        value = math.nan
+    if not 0.0 < value <= 1e6:
+        raise InputError(f"age {text!r} cannot be read; write it in years, such as 2400y.")
+    return value
+
+
+def _rate(hazard: Hazard, log_median: float, beta: float, split: bool = True) -> tuple[float, np.ndarray, np.ndarray]:
+    """Rate, edges and parts: the closed solution on every straight stretch of the hazard curve.  # Eq. (G5)"""
+    y = np.log(hazard.im)
+    bins = y[[0, -1]]
+    if split:
+        step = math.log(10.0) / PARTS
+        inner = step * np.arange(math.floor(y[0] / step) + 1, math.ceil(y[-1] / step))
+        bins = np.concatenate((y[:1], inner, y[-1:]))
+        y = np.unique(np.concatenate((y, inner)))
+    log_rate = np.interp(y, np.log(hazard.im), np.log(hazard.rate))
+    slope = -np.diff(log_rate) / np.diff(y)
+    if math.isinf(log_median):
+        ends = curve(np.exp(y), log_median, beta)
+        parts = -np.diff(np.exp(log_rate)) * ends[1:]
+    else:
+        z = (y - log_median) / beta
+        own = np.exp(log_rate[:-1]) * ndtr(z[:-1]) - np.exp(log_rate[1:]) * ndtr(z[1:])
+        shift = slope * beta
+        # k₀ exp(−k ln θ + k²β²/2) with k₀ from the left end, in one exponent
+        exponent = log_rate[:-1] + slope * (y[:-1] - log_median) + 0.5 * shift**2
+        u, v = z[:-1] + shift, z[1:] + shift
+        flip = u > 0.0
+        between = np.where(flip, ndtr(-u) - ndtr(-v), ndtr(v) - ndtr(u))
+        with np.errstate(over="ignore", invalid="ignore"):
+            gain = np.where(between > 0.0, np.exp(exponent + np.log(np.maximum(between, 1e-300))), 0.0)
+        parts = np.maximum(own + gain, 0.0)
+    last = float(np.exp(log_rate[-1]) * curve(np.exp(y[-1:]), log_median, beta)[0])
+    rate = float(parts.sum()) + last
+    parts = np.add.reduceat(parts, np.searchsorted(y, bins[:-1] - 1e-12))
+    return rate, np.append(np.exp(bins), np.inf), np.append(parts, last)
+
+
+def _same(imt: str, measure: str) -> bool:
+    kind = measure.partition("@")[0]
+    if kind.startswith("sa:"):
+        return imt.startswith("SA(") and math.isclose(float(imt[3:-1]), float(kind[3:-1]), rel_tol=1e-3)
+    return imt == kind.upper()

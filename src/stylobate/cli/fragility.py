@@ -1,0 +1,164 @@
+"""``stylobate fragility``: the probability of a state over the intensity of the shaking, from runs that are there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from ..errors import InputError
+from . import options as o
+
+if TYPE_CHECKING:
+    from ..analysis.fragility import Fragility
+
+Sources = Annotated[
+    list[Path],
+    typer.Argument(
+        metavar="SOURCE...",
+        help="Folder of a study, an IDA or a suite, or a CSV file with the columns record, im, collapsed.",
+    ),
+]
+Im = Annotated[
+    str | None, typer.Option("--im", metavar="IM", help="Intensity measure, such as pga, pgv, sa:1.0s, avgsa.")
+]
+State = Annotated[
+    str, typer.Option("--state", metavar="STATE", help="collapse, or a level such as top:0.35d or drums:0.01d.")
+]
+Of = Annotated[
+    list[str] | None, typer.Option("--of", metavar="COLUMN", help="Only the runs of this column; may be repeated.")
+]
+RecordsAreOne = Annotated[
+    bool, typer.Option("--records-are-one", help="Take every run for a record of its own, where there are few records.")
+]
+Seed = Annotated[int, typer.Option("--seed", metavar="N", help="Of the bootstrap.")]
+
+
+def fragility(
+    sources: Sources,
+    im: Im = None,
+    state: State = "collapse",
+    of: Of = None,
+    method: Annotated[
+        str | None,
+        typer.Option("--method", metavar="M", help="runs: every run counts; records: the capacity under each record."),
+    ] = None,
+    records_are_one: RecordsAreOne = False,
+    seed: Seed = 0,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Fragility: how probable a state is, over the intensity of the shaking.
+
+    A lognormal curve by maximum likelihood with intervals over records; several sources or columns in one picture.
+    """
+    from . import console
+
+    o.the_threads(threads)
+    found = curves(sources, im, state, of, method, records_are_one, seed)
+    summaries = [one.summary() for one in found]
+    result = summaries[0] | ({"curves": summaries} if len(found) > 1 else {})
+    files: list[Path] = []
+    with console.folder(out, "fragility.csv", "fragility.json", "fragility") as folder:
+        if folder is not None:
+            import pandas
+
+            from .. import plots
+
+            rows = [
+                {key: value for key, value in one.items() if not isinstance(value, (list, dict))} for one in summaries
+            ]
+            files = [
+                console.write_table(pandas.DataFrame(rows), folder / "fragility.csv"),
+                *plots.save(plots.draw_fragility(found), folder / "fragility"),
+                folder / "fragility.json",
+            ]
+            result["files"] = [str(file) for file in files]
+            console.write_json(files[-1], result)
+    if as_json:
+        console.emit(result)
+        return
+    for one in found:
+        describe(one)
+    if files:
+        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+
+
+def curves(
+    sources: Sequence[Path],
+    im: str | None,
+    state: str,
+    of: Sequence[str] | None,
+    method: str | None,
+    records_are_one: bool,
+    seed: int,
+) -> list[Fragility]:
+    """The fragilities that are asked for, one per source and column."""
+    from ..analysis.evidence import evidence, read_table
+    from ..analysis.fragility import fragility as fit
+    from ..analysis.limit_states import parse_state
+    from ..motion.intensity_specs import parse_measure
+
+    if method not in (None, "runs", "records"):
+        raise InputError(f"--method is {method!r}; allowed is runs or records.")
+    if not 0 <= seed < 2**63:
+        raise InputError(f"--seed is {seed}; allowed is a whole number from 0.")
+    asked, level = None if im is None else parse_measure(im), parse_state(state)
+    found = []
+    for source in sources:
+        table = read_table(source)
+        measure = asked
+        if measure is None and "im_name" in table:
+            measure = parse_measure(str(table["im_name"].iloc[0]))
+        names = list(dict.fromkeys(table["column"].astype(str))) if "column" in table else [Path(source).stem]
+        if of:
+            missing = [one for one in of if one not in names]
+            if missing:
+                raise InputError(f"{source} has no runs of a column {missing[0]!r}; it has {', '.join(names)}.")
+            names = [one for one in names if one in of]
+        for name in names:
+            rows = table[table["column"].astype(str) == name] if "column" in table else table
+            shown = name if len(sources) == 1 else f"{name}, {Path(source).stem}" if "column" in table else name
+            found.append(
+                fit(evidence(rows, measure, level, shown), method=method, seed=seed, records_are_one=records_are_one)
+            )
+    if len({one.evidence.unit for one in found}) > 1:
+        raise InputError("the sources are over different intensities; choose one with --im.")
+    return found
+
+
+def one_curve(sources: Path, im: str | None, state: str, of: Sequence[str] | None, alone: bool, seed: int) -> Fragility:
+    """The one fragility of a source, for commands that go on from it."""
+    found = curves([sources], im, state, of, None, alone, seed)
+    if len(found) > 1:
+        raise InputError(
+            f"{sources} holds runs of {len(found)} columns ({', '.join(one.evidence.name for one in found)}); choose one "
+            "with --of."
+        )
+    return found[0]
+
+
+def describe(found: Fragility) -> None:
+    """A curve in words."""
+    from . import console
+
+    s = found.summary()
+    counts = [f"{s[one]} {one}" for one in ("undecided", "failed") if s[one]]
+    open_ = ""
+    if counts:
+        low, high = sorted(s[one]["median"] for one in ("if_open_exceed", "if_open_do_not"))
+        open_ = f"; with the {' and '.join(counts)} all the one or all the other, {low:.3g} to {high:.3g}"
+    fit = "the points lie as a lognormal curve lets expect" if s["p_value"] >= 0.05 else "a lognormal curve fits badly"
+    unit = "" if s["unit"] == "-" else f" {s['unit']}"
+    console.say(
+        f"{s['name']}: half of the records bring {s['state']} at {s['im']} = {s['median']:.3g}{unit}.",
+        {
+            "median": f"{s['median']:.4g}{unit} (95 %: {s['median_low']:.4g} to {s['median_high']:.4g}){open_}",
+            "dispersion": f"{s['beta']:.3f} (95 %: {s['beta_low']:.3f} to {s['beta_high']:.3f})",
+            "from": f"{s['runs']} runs of {s['records']} records, {s['exceeded']} exceed; by {s['method']}",
+            "fit": f"{fit} (largest distance {s['largest_distance']:.2f}, p = {s['p_value']:.2f})",
+        },
+    )

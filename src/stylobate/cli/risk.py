@@ -1,0 +1,89 @@
+"""``stylobate risk``: how often a year a column comes to a state at a site, and from which shaking."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import options as o
+from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
+
+Source = Annotated[
+    Path,
+    typer.Argument(
+        metavar="SOURCE", help="Folder of a study, an IDA or a suite, or a CSV file: record, im, collapsed."
+    ),
+]
+Site = Annotated[
+    str | None, typer.Option("--site", metavar="LON,LAT", help="Of a hazard file of several sites, the nearest one.")
+]
+
+
+def risk(
+    source: Source,
+    hazard: Annotated[
+        Path,
+        typer.Option("--hazard", metavar="FILE", help="Hazard curve: im_g or im_m_s, annual_rate; or OpenQuake's."),
+    ],
+    im: Im = None,
+    state: State = "collapse",
+    of: Of = None,
+    site: Site = None,
+    records_are_one: RecordsAreOne = False,
+    seed: Seed = 0,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""
+    from ..analysis.hazard import read_hazard
+    from ..analysis.risk import risk as rate_of
+    from . import console
+
+    o.the_threads(threads)
+    curve = read_hazard(hazard, the_site(site))
+    found = rate_of(one_curve(source, im, state, of, records_are_one, seed), curve)
+    result, files = found.summary(), []
+    with console.folder(out, "risk.csv", "risk.json", "risk") as folder:
+        if folder is not None:
+            import pandas
+
+            from .. import plots
+
+            files = [
+                console.write_table(pandas.DataFrame(result["deaggregation"]), folder / "risk.csv"),
+                *plots.save(plots.draw_risk(found), folder / "risk"),
+                folder / "risk.json",
+            ]
+            result["files"] = [str(file) for file in files]
+            console.write_json(files[-1], result)
+    if as_json:
+        console.emit(result)
+        return
+    period = "never" if found.rate == 0.0 else f"once in {1.0 / found.rate:.3g} years"
+    most = max(result["deaggregation"], key=lambda one: one["annual_rate"])
+    console.say(
+        f"{result['name']}: {result['state']} {period}.",
+        {
+            "annual rate": f"{found.rate:.3g} (95 %: {found.low:.3g} to {found.high:.3g})",
+            "mostly from": f"{most['from']:.3g} to {most['to']:.3g} {result['unit']} ({result['im']})",
+            "hazard": curve.name,
+            **{f"note {k}": text for k, text in enumerate(found.warnings, 1)},
+        },
+        files,
+    )
+
+
+def the_site(text: str | None) -> tuple[float, float] | None:
+    """Longitude and latitude as typed."""
+    from ..errors import InputError
+
+    if text is None:
+        return None
+    try:
+        lon, lat = (float(one) for one in text.split(","))
+    except ValueError:
+        raise InputError(f"--site is {text!r}; write it as longitude,latitude, such as 21.9,37.4.") from None
+    return lon, lat

@@ -1,0 +1,73 @@
+"""``stylobate survival``: what the age of a column that still stands says about hazard curves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from . import options as o
+from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
+from .risk import Site, Source, the_site
+
+
+def survival(
+    source: Source,
+    age: Annotated[str, typer.Option("--age", metavar="AGE", help="Years that it has stood as it is, such as 2400y.")],
+    hazard: Annotated[
+        list[Path], typer.Option("--hazard", metavar="FILE", help="Hazard curve; repeat it to compare several.")
+    ],
+    im: Im = None,
+    state: State = "collapse",
+    of: Of = None,
+    site: Site = None,
+    records_are_one: RecordsAreOne = False,
+    seed: Seed = 0,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Survival: the probability that a column would still stand after its age, for each of several hazard curves."""
+    from ..analysis.hazard import read_hazard
+    from ..analysis.risk import parse_age
+    from ..analysis.risk import survival as survive
+    from ..errors import InputError
+    from . import console
+
+    o.the_threads(threads)
+    years = parse_age(age)
+    hazards = [read_hazard(one, the_site(site)) for one in hazard]
+    names = [one.name for one in hazards]
+    if len(set(names)) < len(names):
+        raise InputError(
+            f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own."
+        )
+    found = survive(one_curve(source, im, state, of, records_are_one, seed), years, hazards)
+    result, files = found.summary(), []
+    with console.folder(out, "survival.csv", "survival.json", "survival") as folder:
+        if folder is not None:
+            import pandas
+
+            from .. import plots
+
+            files = [
+                console.write_table(pandas.DataFrame(result["hazards"]), folder / "survival.csv"),
+                *plots.save(plots.draw_survival(found), folder / "survival"),
+                folder / "survival.json",
+            ]
+            result["files"] = [str(file) for file in files]
+            console.write_json(files[-1], result)
+    if as_json:
+        console.emit(result)
+        return
+    for one in result["hazards"]:
+        low, high = one["survival_probability_low"], one["survival_probability_high"]
+        print(
+            f"{one['hazard']}: would still stand after {years:g} years with a probability of "
+            f"{one['survival_probability']:.2g} (95 %: {low:.2g} to {high:.2g}); weight {one['weight']:.2f}."
+        )
+    for text in result["warnings"]:
+        print(text)
+    if files:
+        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")

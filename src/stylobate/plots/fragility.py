@@ -1,0 +1,82 @@
+"""Fragility curves: the curve, how sure it is, what undecided runs could make of it, and the shares behind it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import LogLocator, NullFormatter
+
+from ..analysis.fragility import Fragility, curve
+from ..motion.intensity_specs import parse_measure
+from .style import BLACK, BLUE, RED, panel, styled
+
+#: Width and height of a picture for one column of a printed page, where its text is still legible [inch].
+NARROW = (4.4, 3.5)
+
+_LOOKS: tuple[dict[str, Any], ...] = (
+    {"color": RED, "linestyle": "-", "marker": "o"},
+    {"color": BLUE, "linestyle": (0, (5, 2)), "marker": "s"},
+    {"color": BLACK, "linestyle": (0, (1.5, 1.2)), "marker": "^"},
+    {"color": "#5aae61", "linestyle": "-.", "marker": "D"},
+)
+
+
+@styled
+def draw_fragility(
+    curves: Fragility | Sequence[Fragility], title: str | None = None, *, ax: Axes | None = None
+) -> Figure:
+    """Probability of a state over the intensity.
+
+    Parameters
+    ----------
+    curves : Fragility or sequence of Fragility
+        Of one intensity measure; two columns, or one with and without a measure.
+    title : str, optional
+        The state by default.
+    ax : Axes, optional
+        To draw in; those of a new figure by default.
+    """
+    found = [curves] if isinstance(curves, Fragility) else list(curves)
+    figure, axes = panel(ax, NARROW)
+    values = np.concatenate([one.evidence.im for one in found])
+    low, high = values.min(), max(values.max(), max(one.median for one in found))
+    x = np.geomspace(low / 1.1, high * 1.2, 300)
+    for one, look in zip(found, _LOOKS * len(found)):
+        colour = look["color"]
+        below, above = one.interval(x)
+        axes.fill_between(x, below, above, color=colour, alpha=0.18, linewidth=0.0)
+        if one.evidence.count(-1) + one.evidence.count(-2):
+            for extreme in one.extremes:
+                axes.plot(x, curve(x, *extreme), color=colour, linewidth=0.7, linestyle=(0, (1, 1.5)))
+        name = one.evidence.name if len(found) > 1 else "lognormal"
+        label = f"{name}: {one.median:.3g} {one.evidence.unit}, β {one.beta:.2f}"
+        axes.plot(x, one.probability(x), color=colour, linestyle=look["linestyle"], linewidth=1.6, label=label)
+        p = one.points
+        bars = np.clip(np.stack((p.share - p.low, p.high - p.share)), 0.0, None)
+        axes.errorbar(
+            p.im, p.share, bars, color=colour, linestyle="none", marker=look["marker"], markersize=3.4, linewidth=0.8,
+            markerfacecolor="white",
+        )  # fmt: skip
+    axes.set(ylim=(-0.03, 1.03), xlim=(x[0], x[-1]))
+    logarithmic(axes)
+    measure, state = found[0].evidence.measure, found[0].evidence.state
+    axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
+    axes.set_ylabel(f"probability of {state}")
+    axes.grid(True)
+    records = ", ".join(str(one.records) for one in found)
+    axes.set_title(title or f"{state}: {records} records, {100 * found[0].confidence:g} % band", fontsize=9)
+    axes.legend(loc="upper left", handlelength=2.4)
+    return figure
+
+
+def logarithmic(axes: Axes) -> None:
+    """Plain numbers on a logarithmic intensity."""
+    axes.set_xscale("log")
+    low, high = axes.get_xlim()
+    axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if high < 100.0 * low else (1.0,)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.xaxis.set_minor_formatter(NullFormatter())

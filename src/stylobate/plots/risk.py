@@ -1,0 +1,87 @@
+"""Risk: which shaking brings a column down, deaggregated by intensity; and what its age says about hazard curves."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..analysis.risk import Risk, Survival
+from ..motion.intensity_specs import parse_measure
+from .fragility import NARROW, logarithmic
+from .style import BLACK, BLUE, GREY, RED, page, panel, styled
+
+
+@styled
+def draw_risk(result: Risk, title: str | None = None) -> Figure:
+    """Hazard curve and fragility, and below them how much of the rate comes from which intensity.
+
+    Parameters
+    ----------
+    result : Risk
+    title : str, optional
+        The return period by default.
+    """
+    figure = page(None, (NARROW[0], 4.6))
+    upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.2, 1.0))
+    hazard, f = result.hazard, result.fragility
+    (line,) = upper.plot(hazard.im, hazard.rate, color=BLACK, linewidth=1.4, label="hazard")
+    upper.set_yscale("log")
+    upper.set_ylabel("annual rate of\nexceedance [1/y]")
+    right = upper.twinx()
+    x = np.geomspace(hazard.im[0], hazard.im[-1], 300)
+    (own,) = right.plot(x, f.probability(x), color=RED, linestyle=(0, (5, 2)), linewidth=1.4, label=f.evidence.state)
+    right.set_ylim(0.0, 1.03)
+    right.spines["right"].set_visible(True)
+    right.set_ylabel(f"probability of {f.evidence.state}")
+    upper.legend(handles=[line, own], loc="center left")
+    share = result.parts[:-1] / max(result.rate, 1e-300)
+    lower.stairs(100.0 * share, result.edges[:-1], fill=True, color=BLUE, alpha=0.6)
+    lower.stairs(100.0 * share, result.edges[:-1], color=BLUE, linewidth=0.8)
+    rest = 100.0 * result.parts[-1] / max(result.rate, 1e-300)
+    if rest >= 0.5:
+        lower.annotate(f"{rest:.0f} % beyond", (0.98, 0.9), xycoords="axes fraction", ha="right", fontsize=8)
+    lower.set_ylabel("share of the rate [%]")
+    lower.set_xlim(hazard.im[0], hazard.im[-1])
+    lower.grid(True, axis="y")
+    logarithmic(lower)
+    measure = f.evidence.measure
+    lower.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
+    period = "never" if result.rate == 0.0 else f"once in {years(1.0 / result.rate)}"
+    upper.set_title(title or f"{f.evidence.state}: {period}", fontsize=9)
+    return figure
+
+
+@styled
+def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None = None) -> Figure:
+    """Probability that the column would still stand, by hazard curve, with the interval of its fragility.
+
+    Parameters
+    ----------
+    result : Survival
+    title : str, optional
+        The age by default.
+    ax : Axes, optional
+        To draw in; those of a new figure by default.
+    """
+    figure, axes = panel(ax, (NARROW[0], 1.2 + 0.62 * len(result.risks)))
+    low, high = result.interval
+    at = np.arange(len(result.risks))
+    axes.barh(at, result.probability, height=0.36, color=BLUE, alpha=0.6)
+    axes.hlines(at, low, high, color=BLACK, linewidth=1.4)
+    weight = result.likelihood / result.likelihood.sum()
+    for k, one in enumerate(result.risks):
+        text = f"{one.hazard.name}: {result.probability[k]:.2g}, weight {weight[k]:.2f}"
+        axes.annotate(text, (0.0, k), xytext=(2, 15), textcoords="offset points", va="center", fontsize=8)
+    axes.set_yticks([])
+    axes.spines["left"].set_color(GREY)
+    axes.set(xlim=(0.0, 1.02), ylim=(len(at) - 0.6, -0.8))
+    axes.set_xlabel("probability that it would still stand [-]")
+    axes.grid(True, axis="x")
+    axes.set_title(title or f"{years(result.age)} without {result.risks[0].fragility.evidence.state}", fontsize=9)
+    return figure
+
+
+def years(value: float) -> str:
+    """A time for people."""
+    return f"{float(f'{value:.2g}'):,.0f} years" if value >= 10.0 else f"{value:.2g} years"

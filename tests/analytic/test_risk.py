@@ -1,0 +1,125 @@
+"""Risk against its closed form, hazard curves of others, and what an age says."""
+
+import itertools
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.stats import norm
+
+from stylobate.analysis.evidence import Evidence
+from stylobate.analysis.fragility import fragility
+from stylobate.analysis.hazard import Hazard, read_hazard
+from stylobate.analysis.risk import parse_age, risk, survival
+from stylobate.errors import InputError
+
+
+@pytest.fixture(scope="module")
+def curve():
+    rng = np.random.default_rng(3)
+    levels = np.geomspace(0.2, 3.0, 8)
+    codes = (np.log(levels) >= rng.normal(0.0, 0.5, (15, 1))).astype(np.int8)
+    names = np.repeat(np.array([f"r{i}" for i in range(15)], dtype=object), 8)
+    return fragility(Evidence(names, np.tile(levels, 15), codes.ravel(), "pgv", "m/s", "collapse", "a"), samples=200)
+
+
+@pytest.mark.parametrize("points", [2, 7, 60])
+def test_a_power_law_has_a_closed_form(curve, points):
+    # k₀ θ^−k exp(k²β²/2) (Cornell et al. 2002); the curve is straight in logarithms, so that its points do not matter.
+    k0, k = 1e-3, 2.5
+    x = np.geomspace(1e-4, 1e4, points)
+    found = risk(curve, Hazard(x, k0 * x**-k, "m/s", "power law"))
+    exact = k0 * math.exp(-k * curve.log_median + 0.5 * (k * curve.beta) ** 2)
+    assert found.rate == pytest.approx(exact, rel=1e-10)
+    assert found.parts.sum() == pytest.approx(found.rate, rel=1e-12)
+    assert found.low < found.rate < found.high
+    assert found.warnings == []
+
+
+def test_any_curve_is_the_integral(curve):
+    # ∫ λ(x) dP(x) by quadrature, straight between the points in logarithms; beyond the last one the probability stays.
+    x, rate = np.array([0.05, 0.2, 0.6, 1.5]), np.array([0.2, 0.03, 0.002, 0.0001])
+    found = risk(curve, Hazard(x, rate, "m/s", "four points"))
+    y = np.log(x)
+
+    def integrand(z):
+        return math.exp(np.interp(z, y, np.log(rate))) * norm.pdf((z - curve.log_median) / curve.beta) / curve.beta
+
+    inside = sum(quad(integrand, a, b, epsabs=1e-14)[0] for a, b in itertools.pairwise(y))
+    first, last = (norm.cdf((one - curve.log_median) / curve.beta) for one in (y[0], y[-1]))
+    assert found.rate == pytest.approx(inside + rate[0] * first, rel=1e-9)
+    assert found.beyond == pytest.approx(rate[-1] * (1.0 - last), rel=1e-9)
+    assert len(found.edges) == len(found.parts) + 1
+
+
+def test_the_ends_of_a_hazard_curve_are_said(curve):
+    short = risk(curve, Hazard(np.array([0.1, 0.2]), np.array([0.1, 0.05]), "m/s", "short"))
+    assert "ends at 0.2 m/s" in short.warnings[0]
+    late = risk(curve, Hazard(np.array([1.0, 9.0]), np.array([0.1, 1e-9]), "m/s", "late"))
+    assert "begins at 1 m/s" in late.warnings[0]
+
+
+def test_survival(curve):
+    x = np.geomspace(0.01, 10.0, 9)
+    hazards = [Hazard(x, k0 * x**-2.0, "m/s", name) for name, k0 in (("a", 1e-4), ("b", 1e-3))]
+    found = survival(curve, 2400.0, hazards)
+    rates = np.array([one.rate for one in found.risks])
+    assert found.probability == pytest.approx(np.exp(-2400.0 * rates))
+    s = found.summary()
+    assert s["survival_probability"] == pytest.approx(dict(zip("ab", np.exp(-2400.0 * rates))))
+    assert s["hazards"][1]["relative_likelihood"] == pytest.approx(math.exp(-2400.0 * (rates[1] - rates[0])))
+    assert sum(one["weight"] for one in s["hazards"]) == pytest.approx(1.0)
+    for text in ("2400", "-1y", "0y", "ages"):
+        with pytest.raises(InputError, match="age"):
+            parse_age(text)
+    assert parse_age("2400y") == parse_age("2.4e3 years") == 2400.0
+
+
+def test_our_own_hazard_files(tmp_path):
+    path = tmp_path / "h.csv"
+    path.write_text("# Somewhere, 2013\nim_m_s,annual_rate\n0.5,0.001\n0.1,0.02\n2.0,0\n")
+    found = read_hazard(path)
+    assert (found.unit, found.im.tolist(), found.rate.tolist()) == ("m/s", [0.1, 0.5], [0.02, 0.001])
+    for text, why in (
+        ("im_g,annual_rate\n0.1,0.01\n0.2,0.02\n", "rises"),
+        ("im_g,annual_rate\n0.1,0.01\n", "at least two"),
+        ("im_g,annual_rate\n-0.1,0.01\n0.2,0.001\n", "not positive"),
+        ("im_g,annual_rate\n0.1,often\n0.2,0.001\n", "'often'"),
+        ("pga,rate\n0.1,0.01\n", "needs im_g or im_m_s"),
+        ("", "no hazard curve"),
+    ):
+        path.write_text(text)
+        with pytest.raises(InputError, match=why):
+            read_hazard(path)
+
+
+OPENQUAKE = """#,,,,,"generated_by='OpenQuake engine 3.16.0', kind='mean', investigation_time=50.0, imt='{imt}'"
+lon,lat,depth,poe-0.1000000,poe-0.2000000,poe-0.4000000
+21.90000,37.43000,0.00000,{first},2.0E-01,5.0E-02
+23.70000,38.00000,0.00000,9.0E-01,5.0E-01,1.0E-01
+"""
+
+
+def test_hazard_curves_that_openquake_exports(tmp_path):
+    path = tmp_path / "hazard_curve-mean-PGA_12.csv"
+    path.write_text(OPENQUAKE.format(imt="PGA", first="1.0"))
+    with pytest.raises(InputError, match="2 sites"):
+        read_hazard(path)
+    found = read_hazard(path, (22.0, 37.4))  # a certain exceedance has no rate
+    assert (found.unit, found.imt) == ("g", "PGA")
+    assert found.im.tolist() == [0.2, 0.4]
+    assert found.rate == pytest.approx(-np.log(1.0 - np.array([0.2, 0.05])) / 50.0)
+    path.write_text(OPENQUAKE.format(imt="PGV", first="4.0E-01"))
+    assert read_hazard(path, (22.0, 37.4)).im.tolist() == pytest.approx([0.001, 0.002, 0.004])
+    path.write_text(OPENQUAKE.format(imt="SA(1.0)", first="4.0E-01").replace("investigation_time", "time"))
+    with pytest.raises(InputError, match="investigation_time"):
+        read_hazard(path, (22.0, 37.4))
+
+
+def test_fragility_and_hazard_are_of_one_intensity(curve):
+    x = np.array([0.1, 1.0])
+    with pytest.raises(InputError, match="in m/s and other is in g"):
+        risk(curve, Hazard(x, 1e-3 / x, "g", "other"))
+    with pytest.raises(InputError, match="is of SA"):
+        risk(curve, Hazard(x, 1e-3 / x, "m/s", "other", "SA(1.0)"))
