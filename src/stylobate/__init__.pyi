@@ -7,6 +7,7 @@ from .analysis.domain import collapse_domain as collapse_domain
 from .analysis.evidence import evidence as evidence
 from .analysis.fragility import fragility as fragility
 from .analysis.hazard import read_hazard as read_hazard
+from .analysis.ida import ida as ida
 from .analysis.limit import limit_analysis as limit_analysis
 from .analysis.pushover import pushover as pushover
 from .analysis.replicates import collapse_probability as collapse_probability

@@ -56,6 +56,16 @@ def test_maximum_likelihood_is_that_of_a_general_search():
         assert found.beta[0] == pytest.approx(math.exp(best.x[1]), rel=1e-6)
 
 
+def test_stripes_are_the_probit_of_statsmodels():
+    # Probit of statsmodels 0.15.0 on ln x: constant 1.1164252499469702, slope 2.3684844355790733, so that the median is
+    # 0.6241485142019395 and the dispersion 0.4222109231448291; its own tolerance is 1e-14.
+    x, fell = np.array([0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.3]), np.array([0, 1, 3, 6, 9, 14, 18, 19])
+    y, hit = np.repeat(np.log(x), 20), np.concatenate([np.arange(20) < k for k in fell])
+    found = lognormal.fit(np.where(hit, -np.inf, y), np.where(hit, y, np.inf))
+    assert math.exp(found.log_median[0]) == pytest.approx(0.6241485142019395, rel=1e-9)
+    assert found.beta[0] == pytest.approx(0.4222109231448291, rel=1e-9)
+
+
 def test_weights_are_repetitions_and_samples_are_fitted_one_by_one():
     e = stripes(np.random.default_rng(5), records=12)
     y, hit = np.log(e.im), e.codes == EXCEEDED

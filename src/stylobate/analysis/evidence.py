@@ -160,7 +160,7 @@ def evidence(
         unit if measure is None else measure.unit,
         state.name,
         name,
-        "level" in table,
+        "hunted" in table and bool(table["hunted"].iloc[0]),
     )
 
 

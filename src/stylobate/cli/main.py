@@ -23,6 +23,7 @@ from . import (
     critical,
     domain,
     fragility,
+    ida,
     limit,
     motion,
     pushover,
@@ -75,7 +76,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 
 for _room in (
-    run, critical, domain, pushover, limit, compare, suite, fragility, risk, survival, motion,
+    run, critical, domain, pushover, limit, compare, suite, ida, fragility, risk, survival, motion,
     spectrum, columns, animate, reproduce, cite, bench
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]

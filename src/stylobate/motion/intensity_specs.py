@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,7 +13,8 @@ from ..constants import g
 from ..errors import InputError, suggest
 from .intensity import arias_intensity, cumulative_absolute_velocity, rocking_measures, significant_duration
 from .motion import Motion
-from .specs import parse_time
+from .ranges import values_of as _values
+from .specs import ACCELERATION_UNITS, parse_time
 from .spectra import pseudo_acceleration
 
 #: Periods of an average spectral acceleration by default [s], and how many of them, evenly spaced in their logarithm: a
@@ -213,3 +214,34 @@ def parse_measure(text: str) -> IntensityMeasure:
         example = {"sa": "sa:1.0s", "avgsa": "avgsa:0.5s-3s"}.get(kind, kind)
         raise InputError(f"intensity measure {text!r} has the wrong periods; write it as {example}.")
     return IntensityMeasure(kind, periods, component)
+
+
+#: Units in which a level may be typed, by the unit of the measure.
+LEVEL_UNITS: dict[str, dict[str, float]] = {
+    "g": {unit: size / g for unit, size in ACCELERATION_UNITS.items()},
+    "m/s": {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001},
+    "s": {"s": 1.0},
+    "-": {"": 1.0},
+}
+
+_LEVEL = re.compile(r"\s*([0-9.]+(?:[eE][+-]?\d+)?)\s*(\S*)\s*")
+
+
+def parse_levels(texts: str | Sequence[str], measure: IntensityMeasure) -> np.ndarray:
+    """Levels of a measure as typed: ``0.1m/s:1.0m/s:10`` (first, last, number), ``0.1m/s,0.2m/s``, or a list of such.
+
+    Raises
+    ------
+    InputError
+        A level without the unit of the measure, or one that is not positive.
+    """
+
+    def one(text: str) -> float:
+        found, units = _LEVEL.fullmatch(text), LEVEL_UNITS[measure.unit]
+        if found is None or found[2].lower() not in units or not float(found[1]) > 0.0:
+            example = {"g": "0.3g", "m/s": "0.2m/s", "s": "1s", "-": "1.5"}[measure.unit]
+            raise InputError(f"level {text.strip()!r} of {measure.name} cannot be read; write it such as {example}.")
+        return float(found[1]) * units[found[2].lower()]
+
+    parts = [texts] if isinstance(texts, str) else list(texts)
+    return np.unique(np.concatenate([_values("levels", text, one, "0.1m/s:1.0m/s:10") for text in parts]))

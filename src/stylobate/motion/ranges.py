@@ -22,12 +22,12 @@ def frequency_range(text: str) -> np.ndarray:
         except ValueError:
             return parse_frequency(part)
 
-    return _values("frequencies", text, parse, "0.33:4:24")
+    return values_of("frequencies", text, parse, "0.33:4:24")
 
 
 def amplitude_range(text: str) -> np.ndarray:
     """Amplitudes as typed, ``0.05g:0.6g:32`` (first, last, number) or ``0.1g,0.2g`` [m/s²]."""
-    return _values("amplitudes", text, parse_acceleration, "0.05g:0.6g:32")
+    return values_of("amplitudes", text, parse_acceleration, "0.05g:0.6g:32")
 
 
 def azimuth_range(text: str) -> np.ndarray:
@@ -39,10 +39,11 @@ def azimuth_range(text: str) -> np.ndarray:
         except ValueError:
             return parse_angle(part)
 
-    return _values("azimuths", text, parse, "0:330:12")
+    return values_of("azimuths", text, parse, "0:330:12")
 
 
-def _values(name: str, text: str, parse: Callable[[str], float], example: str) -> np.ndarray:
+def values_of(name: str, text: str, parse: Callable[[str], float], example: str) -> np.ndarray:
+    """Values as typed: first, last and number, or one after the other; ``parse`` reads one of them."""
     parts = text.split(":")
     if len(parts) == 1:
         return np.array([parse(part.strip()) for part in text.split(",")])

@@ -9,6 +9,7 @@ from .energy import draw_energy
 from .filmstrip import draw_filmstrip
 from .fragility import draw_fragility
 from .histories import draw_comparison, draw_histories
+from .ida import draw_efficiency, draw_ida
 from .joints import draw_joints
 from .motion import draw_motion
 from .orbit import draw_orbit
@@ -33,10 +34,12 @@ __all__ = [
     "draw_domain",
     "draw_domain_panels",
     "draw_doubt",
+    "draw_efficiency",
     "draw_energy",
     "draw_filmstrip",
     "draw_fragility",
     "draw_histories",
+    "draw_ida",
     "draw_joints",
     "draw_mechanism",
     "draw_motion",

@@ -1,0 +1,127 @@
+"""Which intensity measure tells most: how much the capacities of records scatter given it, and what else matters then."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..motion.intensity_specs import KINDS, IntensityMeasure, parse_measure
+from . import lognormal
+from . import verdicts as v
+from .evidence import evidence
+from .fragility import bootstrap, intervals
+from .limit_states import LimitState, parse_state
+
+if TYPE_CHECKING:
+    import pandas
+
+#: What else may matter about a record: column of the table, and whether it counts by its logarithm.
+OTHERS = {"magnitude": False, "distance_km": True, "pgv_over_pga_s": True, "d5_95_s": True}
+
+#: Fewest records from which a straight line says something.
+FEWEST = 5
+
+#: Responses below this share of the largest that stands are no rocking [-].
+ROCKS = 0.01
+
+
+def which_tells_most(
+    runs: pandas.DataFrame, state: LimitState | str = "collapse", edp: str = "peak_top_displacement_m", seed: int = 0
+) -> pandas.DataFrame:
+    """How well each intensity measure of a table of runs predicts a state.
+
+    Parameters
+    ----------
+    runs : pandas.DataFrame
+        Of an IDA.
+    state : LimitState or str
+    edp : str
+        Measure of the response.
+    seed : int
+        Of the bootstrap.
+
+    Returns
+    -------
+    pandas.DataFrame
+        The most efficient measure first: median and dispersion of the capacities in it with 95 % limits, the dispersion of
+        ln EDP given it, and p-values of what else may matter; small ones say that the measure alone does not suffice.
+
+    References
+    ----------
+    Luco and Cornell (2007).
+    """
+    import pandas
+
+    rng = np.random.default_rng(seed)
+    asked = parse_state(state) if isinstance(state, str) else state
+    rows = []
+    for measure in _measures(runs):
+        told = evidence(runs, measure, asked)
+        low, high, owner = intervals(told, told.codes, "records")
+        if not len(low):
+            continue
+        best = lognormal.fit(low, high)
+        if math.isinf(best.log_median[0]):
+            continue
+        samples = np.sort(bootstrap(low, high, owner, 500, rng)[:, 1])
+        middle = math.log(best.beta[0])
+        limits = [math.exp(2.0 * middle - float(np.quantile(samples, q))) for q in (0.975, 0.025)]
+        row: dict[str, Any] = {
+            "measure": measure.name,
+            "unit": measure.unit,
+            "median": math.exp(best.log_median[0]),
+            "beta": float(best.beta[0]),
+            "beta_low": limits[0],
+            "beta_high": limits[1],
+            "sigma_ln_edp": _given(runs, measure, edp),
+            "records": len(low),
+        }
+        names = np.unique(told.records)[owner]
+        both = np.isfinite(low) & np.isfinite(high)
+        for other, logarithm in OTHERS.items():
+            row[f"p_{other}"] = _p_value(runs, other, logarithm, names[both], 0.5 * (low + high)[both])
+        rows.append(row)
+    table = pandas.DataFrame(rows)
+    return table.sort_values("beta", ignore_index=True) if len(table) else table
+
+
+def _measures(runs: pandas.DataFrame) -> list[IntensityMeasure]:
+    found = []
+    names = [*KINDS, "sa:0.5s", "sa:1s", "sa:2s", "pga@geomean", "pgv@geomean"]
+    if "im_name" in runs:
+        names.append(str(runs["im_name"].iloc[0]))
+    for name in dict.fromkeys(names):
+        if name != "sa" and (one := parse_measure(name)).power and one.key in runs and runs[one.key].notna().all():
+            found.append(one)
+    return list({one.key: one for one in found}.values())
+
+
+def _given(runs: pandas.DataFrame, measure: IntensityMeasure, edp: str) -> float:
+    """Dispersion of ln EDP about a straight line over ln IM, of the runs that stand and rock."""
+    stands = (runs["verdict"] == v.STANDS).to_numpy(copy=True)
+    y = np.abs(runs[edp].to_numpy(dtype=float))
+    stands &= np.isfinite(y) & (y > ROCKS * np.max(y[stands], initial=0.0))
+    x = runs[measure.key].to_numpy(dtype=float)
+    stands &= x > 0.0
+    if np.count_nonzero(stands) < FEWEST:
+        return math.nan
+    line = np.polyfit(np.log(x[stands]), np.log(y[stands]), 1)
+    rest = np.log(y[stands]) - np.polyval(line, np.log(x[stands]))
+    return float(np.sqrt((rest**2).sum() / max(1, len(rest) - 2)))
+
+
+def _p_value(runs: pandas.DataFrame, other: str, logarithm: bool, names: np.ndarray, capacity: np.ndarray) -> float:
+    """Of a straight line through ln capacity over another property of the records."""
+    from scipy.stats import linregress
+
+    if other not in runs:
+        return math.nan
+    of_record = runs.groupby("record")[other].first()
+    x = np.array([float(of_record.get(one, math.nan)) for one in names])
+    x = np.log(np.where(x > 0.0, x, math.nan)) if logarithm else x
+    known = np.isfinite(x)
+    if np.count_nonzero(known) < FEWEST or np.ptp(x[known]) == 0.0:
+        return math.nan
+    return float(linregress(x[known], capacity[known]).pvalue)

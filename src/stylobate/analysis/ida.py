@@ -1,0 +1,230 @@
+"""Incremental dynamic analysis: every record scaled over levels that are hunted and filled, all records at a time."""
+
+from __future__ import annotations
+
+import math
+import time
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..campaign.runner import Stopped, run_campaign
+from ..column import Column
+from ..column.scatter import Scatter
+from ..errors import InputError, OutOfRangeWarning, check_range
+from ..models.base import Case, Model
+from ..models.shared.quiet import level, share_of
+from ..motion import Motion
+from ..motion.intensity_specs import IntensityMeasure, parse_measure
+from . import verdicts as v
+from .certainty import the_twins
+from .hunt import next_levels
+from .ida_curves import Ida
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Measures of every run's motion that a table holds besides the one that is scaled.
+MEASURES = (
+    *("pga", "pgv", "pgv_over_pga", "sa:0.5s", "sa:1s", "sa:2s", "avgsa", "cav", "arias", "d5_95"),
+    *("pga_over_g_tan_alpha", "pgv_p_over_g_tan_alpha", "omega_g_over_p"),
+)
+
+#: A record that has to be multiplied by more is no longer that of an earthquake: a warning, and the end of the hunt.
+WARNED, LARGEST = 10.0, 20.0
+
+#: Runs of a record.
+RUNS = 14
+
+#: Called with (finished runs, most that there will be).
+Progress = Callable[[int, int], None]
+
+
+@dataclass
+class Trace:
+    """What has been found under one record with one column."""
+
+    motion: Motion
+    column: Column
+    number: int
+    value: float
+    first: float
+    levels: list[float]
+    rows: list[dict]
+
+
+def ida(
+    column: Column,
+    motions: Sequence[Motion],
+    model: Model,
+    im: IntensityMeasure | str = "pgv",
+    *,
+    levels: Sequence[float] | np.ndarray | None = None,
+    runs: int = RUNS,
+    replicates: int = 0,
+    scatter: Scatter | None = None,
+    seed: int = 1,
+    largest_factor: float = LARGEST,
+    about: Mapping[str, Mapping[str, float]] | None = None,
+    tail: float = 0.0,
+    whole: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    ledger: Callable[[int], str | Path | None] | None = None,
+) -> Ida:
+    """Scale every record over levels of an intensity, and run the column.
+
+    Parameters
+    ----------
+    column : Column
+    motions : sequence of Motion
+    model : Model
+    im : IntensityMeasure or str
+        That the records are scaled to, such as ``pgv`` or ``sa:1.0s``.
+    levels : sequence of float, optional
+        Stripes: every record is run at each of these, in the unit of the measure, and nothing is hunted.
+    runs : int
+        Of each record, with each column.
+    replicates : int
+        Columns like this one that are run instead of it; 0 for the column itself.
+    scatter : Scatter, optional
+        Of the replicates.
+    seed : int
+    largest_factor : float
+        By which a record is multiplied at most.
+    about : mapping, optional
+        By name of a record, ``magnitude`` and ``distance_km``.
+    tail, whole, threads
+        As for :func:`stylobate.suite_table`.
+    progress : callable, optional
+        Called with (finished, most that there will be).
+    ledger : callable, optional
+        The file that keeps the finished runs of a round, by its number; a call that was stopped goes on from there.
+
+    Returns
+    -------
+    Ida
+
+    Raises
+    ------
+    InputError
+        No record, an intensity that scaling does not change, or one that a record does not have.
+    Stopped
+        Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
+    """
+    started = time.perf_counter()
+    measure = parse_measure(im) if isinstance(im, str) else im
+    check_range("runs of a record", runs, 4, 1000)
+    check_range("largest factor", largest_factor, 0.0, 1e4, open_low=True)
+    if levels is not None and not (len(levels) and all(one > 0.0 for one in levels)):
+        raise InputError("the levels are none, or not positive; give at least one positive level.")
+    if not motions:
+        raise InputError("no record is given; give files or a folder of records.")
+    if measure.power == 0:
+        raise InputError(f"multiplying a record does not change {measure.name}; scale to another measure, such as pgv.")
+    if len({one.name for one in motions}) < len(motions):
+        raise InputError("two records have the same name; rename one of the files.")
+    for motion in motions:
+        if motion.pga == 0.0:
+            raise InputError(
+                f"{motion.name!r} is zero along x and cannot be scaled; leave a record without shaking out."
+            )
+    taken = [model.taken(motion) for motion in motions]
+    relation = (math.tan(column.slenderness), column.frequency_parameter)
+    facts = [_facts(motion, measure, relation, (about or {}).get(motion.name, {})) for motion in motions]
+    columns = list(the_twins(column, model, replicates, scatter, seed).columns) if replicates else [column]
+    traces = []
+    for motion, fact in zip(taken, facts):
+        value, peak = fact[measure.key], float(level(motion, column).max())
+        start = value * (1.0 / peak) ** measure.power
+        traces += [Trace(motion, one, k, value, start, [], []) for k, one in enumerate(columns)]
+    key = {"column": column.digest, "motions": [one.digest for one in taken], "im": measure.name}
+    key |= {"runs": runs, "largest": largest_factor, "replicates": replicates, "seed": seed, "scatter": str(scatter)}
+    stripes = None if levels is None else sorted({float(one) for one in levels})
+    done, number, total = 0, 0, (runs if stripes is None else len(stripes)) * len(traces)
+
+    def wanted(one: Trace) -> list[float]:
+        if stripes is not None:
+            return [] if one.levels else stripes
+        return _asked(one, runs, largest_factor, measure.power)
+
+    while asked := [(one, new) for one in traces for new in wanted(one)]:
+        cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
+        found = run_campaign(
+            cases, model, tail=tail, quiet=share_of(taken, whole), threads=threads,
+            progress=None if progress is None else lambda n, _, done=done: progress(done + n, total),
+            ledger=None if ledger is None else ledger(number),
+            key=key | {"levels": [new for _, new in asked]},
+        )  # fmt: skip
+        rows = list(found.rows)
+        if found.interrupted:
+            places = [] if ledger is None else [ledger(k) for k in range(number + 1)]
+            raise Stopped(done + sum(row is not None for row in rows), total, *places)
+        for (one, new), row in zip(asked, rows):
+            one.levels.append(new)
+            one.rows.append(dict(row or {}))
+        done, number = done + len(cases), number + 1
+    _warn_of_factors(traces, measure.power)
+    table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
+    table["hunted"] = stripes is None
+    return Ida(table, measure, column, model.name, time.perf_counter() - started)
+
+
+def _asked(one: Trace, runs: int, largest: float, power: int) -> list[float]:
+    verdicts = [v.verdict(row) for row in one.rows]
+    return next_levels(one.levels, verdicts, one.first, one.value * largest**power, runs - len(one.levels))
+
+
+def _scaled(one: Trace, level: float, power: int) -> Motion:
+    return one.motion.scaled((level / one.value) ** (1.0 / power))
+
+
+def _facts(
+    motion: Motion, measure: IntensityMeasure, relation: tuple[float, float], about: Mapping[str, float]
+) -> dict[str, float]:
+    found = {one.key: one.of(motion, relation) for one in (parse_measure(name) for name in MEASURES)}
+    if motion.lateral is not None:
+        found |= {one.key: one.of(motion) for one in map(parse_measure, ("pga@geomean", "pgv@geomean"))}
+    return found | {measure.key: measure.of(motion, relation)} | dict(about)
+
+
+def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
+    factors = {one.motion.name: (max(one.levels) / one.value) ** (1.0 / power) for one in traces}
+    beyond = {name: factor for name, factor in factors.items() if factor > WARNED}
+    if beyond:
+        name = max(beyond, key=beyond.__getitem__)
+        warnings.warn(
+            f"{len(beyond)} of {len(factors)} records are multiplied by more than {WARNED:g}, {name!r} by "
+            f"{beyond[name]:.3g}: scaled so far, they are no longer those of earthquakes; leave out the weak ones.",
+            OutOfRangeWarning,
+            stacklevel=3,
+        )
+
+
+def _table(
+    traces: Sequence[Trace],
+    facts: Mapping[str, Mapping[str, float]],
+    column: Column,
+    measure: IntensityMeasure,
+    model: Model,
+) -> pandas.DataFrame:
+    import pandas
+
+    powers = {one.key: one.power for one in [*map(parse_measure, (*MEASURES, "pga@geomean", "pgv@geomean")), measure]}
+    rows = []
+    for one in traces:
+        fact = facts[one.motion.name]
+        for k in np.argsort(one.levels, kind="stable"):
+            factor = (one.levels[k] / one.value) ** (1.0 / measure.power)
+            scaled = {key: value * factor ** powers.get(key, 0) for key, value in fact.items()}
+            who = {"record": one.motion.name, "realisation": one.number, "column": column.name, "model": model.name}
+            widths = {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
+            found: dict[str, Any] = {"verdict": v.verdict(one.rows[k]), **one.rows[k]}
+            rows.append(
+                {**who, "im_name": measure.name, "level": one.levels[k], "factor": factor, **widths, **scaled, **found}
+            )
+    return pandas.DataFrame(rows)

@@ -1,0 +1,187 @@
+"""Curves of an incremental dynamic analysis: each record's, with its collapse as a plateau, and those of all records."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..column import Column
+from ..errors import InputError
+from ..motion.intensity_specs import IntensityMeasure
+from . import verdicts as v
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Shares of the records below the curves of all.
+SHARES = (0.16, 0.5, 0.84)
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One record with one column.
+
+    Parameters
+    ----------
+    record : str
+    realisation : int
+    im, edp : array
+        Intensity, rising, and the measure of the response of the runs that stand, shape (k,).
+    stands, collapses : float
+        The largest intensity below the first collapse at which it stands, and that of the first collapse; 0 and +inf
+        where there is none.
+    resurrections : array
+        Intensities above the first collapse at which it stands.
+    largest : float
+        Largest intensity that was run.
+    open_runs : int
+        Runs that are undecided or failed.
+    """
+
+    record: str
+    realisation: int
+    im: np.ndarray
+    edp: np.ndarray
+    stands: float
+    collapses: float
+    resurrections: np.ndarray
+    largest: float
+    open_runs: int
+
+    def at(self, im: np.ndarray) -> np.ndarray:
+        """Response at given intensities: straight between runs, +inf from half way to the first collapse on.
+
+        NaN above the largest intensity that was run, where it did not collapse.
+        """
+        below = self.im < self.collapses
+        x, y = np.concatenate(([0.0], self.im[below])), np.concatenate(([0.0], self.edp[below]))
+        found = np.interp(im, x, y)
+        if math.isinf(self.collapses):
+            return np.where(im > self.largest, np.nan, found)
+        edge = math.sqrt(self.stands * self.collapses) if self.stands else 0.5 * self.collapses
+        return np.where(im > edge, np.inf, found)
+
+
+@dataclass(frozen=True, eq=False)
+class Ida:
+    """An incremental dynamic analysis.
+
+    Parameters
+    ----------
+    runs : pandas.DataFrame
+        One row per run: record, realisation, level, factor, verdict, measures of the response and of the scaled motion.
+    measure : IntensityMeasure
+        That the records were scaled to.
+    column : Column
+    model : str
+    wall_time : float
+        [s]
+    """
+
+    runs: pandas.DataFrame
+    measure: IntensityMeasure
+    column: Column
+    model: str
+    wall_time: float
+
+    def curves(self, edp: str = "peak_top_displacement_m") -> list[Curve]:
+        """One curve per record and realisation.
+
+        Parameters
+        ----------
+        edp : str
+            A measure of the response, as a column of the table of runs.
+        """
+        if edp not in self.runs:
+            numbers = [one for one in self.runs.columns if one.startswith(("peak_", "residual_"))]
+            raise InputError(f"the runs have no measure {edp!r}; measures are {', '.join(numbers)}.")
+        found = []
+        for (record, realisation), rows in self.runs.groupby(["record", "realisation"], sort=False):
+            x = rows["level"].to_numpy(dtype=float)
+            verdict = rows["verdict"].to_numpy(dtype=object)
+            stands, fell = verdict == v.STANDS, x[verdict == v.COLLAPSED]
+            first = float(fell.min()) if fell.size else math.inf
+            below = x[stands & (x < first)]
+            found.append(
+                Curve(
+                    str(record),
+                    int(realisation),
+                    x[stands],
+                    np.abs(rows[edp].to_numpy(dtype=float)[stands]),
+                    float(below.max()) if below.size else 0.0,
+                    first,
+                    x[stands & (x > first)],
+                    float(x.max()),
+                    int(np.count_nonzero((verdict == v.UNDECIDED) | (verdict == v.FAILED))),
+                )
+            )
+        return found
+
+    def fractiles(self, edp: str = "peak_top_displacement_m", points: int = 100) -> pandas.DataFrame:
+        """Response that 16, 50 and 84 % of the curves do not exceed, over the intensity.
+
+        A collapse exceeds every response: +inf. A curve that ends below counts no further; where fewer than half of
+        all curves are left there is none.
+        """
+        import pandas
+
+        curves = self.curves(edp)
+        im = np.geomspace(self.runs["level"].min(), self.runs["level"].max(), points)
+        values = np.array([one.at(im) for one in curves])
+        table = {"im": im, "curves": np.count_nonzero(~np.isnan(values), axis=0)}
+        for share in SHARES:
+            column = []
+            for row in values.T:
+                known = row[~np.isnan(row)]
+                enough = 2 * len(known) >= len(curves)
+                column.append(float(np.quantile(known, share, method="inverted_cdf")) if enough else math.nan)
+            table[f"edp_{100 * share:.0f}"] = np.array(column)
+        return pandas.DataFrame(table)
+
+    @property
+    def capacities(self) -> pandas.DataFrame:
+        """One row per curve: between which levels its first collapse lies, and how often it stands again above."""
+        import pandas
+
+        runs = self.runs.groupby(["record", "realisation"], sort=False).size().tolist()
+        return pandas.DataFrame(
+            [
+                {
+                    "record": one.record,
+                    "realisation": one.realisation,
+                    "stands_until": one.stands,
+                    "collapses_from": None if math.isinf(one.collapses) else one.collapses,
+                    "resurrections": len(one.resurrections),
+                    "runs": count,
+                    "open": one.open_runs,
+                }
+                for one, count in zip(self.curves(), runs)
+            ]
+        )
+
+    def summary(self) -> dict[str, Any]:
+        """The JSON object of ``stylobate ida``."""
+        table = self.capacities
+        counts = v.count(self.runs["verdict"].to_numpy(dtype=object))
+        fell = np.sort(table["collapses_from"].astype(float).fillna(math.inf).to_numpy())
+        quantiles = {
+            f"capacity_{100 * share:.0f}": float(np.quantile(fell, share, method="inverted_cdf")) for share in SHARES
+        }
+        return {
+            "im": self.measure.name,
+            "unit": self.measure.unit,
+            "records": int(self.runs["record"].nunique()),
+            "curves": len(table),
+            "runs": len(self.runs),
+            **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+            "resurrections": int(table["resurrections"].sum()),
+            "curves_with_resurrections": int((table["resurrections"] > 0).sum()),
+            **quantiles,
+            "largest_factor": float(self.runs["factor"].max()),
+            "capacities": table.astype(object).where(table.notna(), None).to_dict("records"),
+            "wall_s": self.wall_time,
+            "model": self.model,
+        }

@@ -1,0 +1,172 @@
+"""Incremental dynamic analysis: levels that tell something, curves with plateaus, and which intensity tells most."""
+
+import math
+import warnings
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis import verdicts as v
+from stylobate.analysis.efficiency import which_tells_most
+from stylobate.analysis.evidence import evidence
+from stylobate.analysis.hunt import CLOSE, next_levels
+from stylobate.analysis.ida import ida
+from stylobate.analysis.rocking_spectrum import rocking_block
+from stylobate.errors import InputError, OutOfRangeWarning
+from stylobate.motion import half_sine_pulse
+from stylobate.motion.intensity_specs import parse_levels, parse_measure
+
+BLOCK = rocking_block(2.0, 0.2)
+
+
+def hunted(capacity, runs=14, first=0.3, largest=20.0, stands=lambda _: False, open_=lambda _: False):
+    """Levels and verdicts of a hunt under a record that collapses the column from ``capacity`` on."""
+    levels, verdicts = [], []
+    while new := next_levels(levels, verdicts, first, largest, runs - len(levels)):
+        assert not set(new) & set(levels)
+        levels += new
+        verdicts += [
+            v.UNDECIDED if open_(x) else v.COLLAPSED if x >= capacity and not stands(x) else v.STANDS for x in new
+        ]
+    return np.array(levels), np.array(verdicts)
+
+
+@pytest.mark.parametrize("capacity", [0.31, 0.5, 1.0, 3.7, 11.0, 19.9])
+def test_the_hunt_brackets_the_capacity(capacity):
+    levels, verdicts = hunted(capacity)
+    assert len(levels) == 14
+    low, high = levels[verdicts == v.STANDS].max(), levels[verdicts == v.COLLAPSED].min()
+    assert low < capacity <= high
+    assert high / low < 1.1
+    assert levels.min() >= 0.29 * min(1.0, capacity / 0.31)
+
+
+def test_the_hunt_ends():
+    levels, verdicts = hunted(math.inf, runs=30)
+    assert (verdicts == v.STANDS).all()
+    assert levels.max() == pytest.approx(20.0)
+    assert len(levels) == 30
+    assert np.diff(np.sort(levels)).min() > 0.0
+    levels, _ = hunted(1.0, runs=500)  # nothing tells more at last
+    assert len(levels) < 500
+    assert np.exp(np.diff(np.log(np.sort(levels)))).min() > 1.0 + 0.2 * (CLOSE - 1.0)
+    levels, verdicts = hunted(1.0, open_=lambda _: True)
+    assert len(levels) <= 14
+    assert len(hunted(0.001)[0]) <= 14  # it collapses where the hunt begins
+
+
+def test_resurrections_are_looked_for_above_the_first_collapse():
+    levels, verdicts = hunted(1.0, runs=20, stands=lambda x: 1.3 < x < 1.6)
+    assert ((levels > 1.3) & (levels < 1.6) & (verdicts == v.STANDS)).any()
+
+
+@pytest.fixture(scope="module")
+def pulses():
+    return [
+        half_sine_pulse(f, 0.3 * st.g, 12.0).replace(name=f"{f} Hz", metadata={"format": "made for this test"})
+        for f in (0.5, 0.8, 1.2, 1.8, 2.5)
+    ]
+
+
+@pytest.fixture(scope="module")
+def found(pulses):
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)
+        return ida(BLOCK, pulses, st.HousnerBlock(), "pga", runs=12, about={"0.5 Hz": {"magnitude": 6.0}}, threads=1)
+
+
+def test_capacities_are_those_of_a_fine_grid(found, pulses):
+    # Every capacity lies in its bracket: just above its upper end, of a run at the ends themselves, by the model.
+    table = found.capacities
+    assert len(table) == 5
+    assert (table["runs"] == 12).all()
+    for row, pulse in zip(table.to_dict("records"), pulses):
+        ends = np.array([row["stands_until"], row["collapses_from"]])
+        runs = st.simulate_many(BLOCK, [pulse.scaled_to_pga(a * st.g) for a in ends], st.HousnerBlock(), threads=1)
+        assert runs["collapsed"].tolist() == [False, True]
+        assert ends[1] / ends[0] < 1.1
+    assert (np.diff(table["collapses_from"].astype(float)) > 0.0).all()  # the shorter a pulse, the more it takes
+
+
+def test_fractiles_count_a_collapse_as_larger_than_anything(found):
+    table = found.fractiles()
+    for share, left in ((16, 0.5), (50, 0.5), (84, 0.5)):
+        edp = table[f"edp_{share}"].to_numpy()
+        known = edp[~np.isnan(edp)]
+        assert np.isinf(known[-1]) or left
+        assert (np.diff(np.where(np.isinf(known), 1e9, known)) > -1e-3).all()
+    # where three of five have collapsed, the median is a collapse
+    fell = np.sort(found.capacities["collapses_from"].astype(float))
+    beyond = table["im"] > fell[2]
+    assert np.isinf(table.loc[beyond, "edp_50"].dropna()).all()
+    assert found.summary()["capacity_50"] == pytest.approx(fell[2])
+
+
+def test_scaled_measures_follow_the_factor(found):
+    rows = found.runs[found.runs["record"] == "0.5 Hz"]
+    for name in ("pga", "pgv", "arias", "d5_95", "pga_over_g_tan_alpha"):
+        measure = parse_measure(name)
+        values = rows[measure.key] / rows["factor"] ** measure.power
+        assert np.ptp(values) == pytest.approx(0.0, abs=1e-9 * values.max())
+    assert rows["pga_g"].to_numpy() == pytest.approx(rows["level"])
+
+
+def test_the_velocity_tells_more_than_the_acceleration_of_pulses(found):
+    # Overturning by short pulses hangs on their velocity: β of PGV must be the smaller one.
+    table = which_tells_most(found.runs).set_index("measure")
+    assert table.loc["pgv", "beta"] < 0.5 * table.loc["pga", "beta"]
+    assert table.loc["pga", "beta"] == pytest.approx(table.loc["pga_over_g_tan_alpha", "beta"], rel=1e-6)
+    assert table.loc["pga", "p_d5_95_s"] < 0.05  # given PGA, the length of the pulse still matters
+    assert math.isnan(table.loc["pga", "p_magnitude"])  # of one record it is known
+
+
+def test_an_ida_is_evidence_in_any_of_its_measures(found):
+    told = evidence(found.runs, "pgv")
+    assert told.brackets
+    assert len(told.im) == len(found.runs)
+
+
+def test_stripes(pulses):
+    levels = parse_levels("0.2g:0.6g:3", parse_measure("pga"))
+    assert levels == pytest.approx([0.2, 0.4, 0.6])
+    some = ida(BLOCK, pulses[:2], st.HousnerBlock(), "pga", levels=levels, threads=1)
+    assert sorted(some.runs["level"].unique()) == pytest.approx([0.2, 0.4, 0.6])
+    assert len(some.runs) == 6
+    assert not evidence(some.runs, "pga").brackets
+
+
+def test_what_cannot_be_scaled_or_is_not_there(pulses):
+    for im, why in (("pgv_over_pga", "does not change"), ("pgv@y", "second horizontal"), ("nonsense", "not known")):
+        with pytest.raises(InputError, match=why):
+            ida(BLOCK, pulses, st.HousnerBlock(), im)
+    with pytest.raises(InputError, match="no record"):
+        ida(BLOCK, [], st.HousnerBlock())
+    with pytest.raises(InputError, match="same name"):
+        ida(BLOCK, [pulses[0], pulses[0]], st.HousnerBlock())
+    with pytest.raises(InputError, match="without shaking"):
+        ida(BLOCK, [st.Motion(0.01, np.zeros(100))], st.HousnerBlock())
+    with pytest.warns(OutOfRangeWarning, match="multiplied by more than 10"):
+        ida(BLOCK, [pulses[0].scaled(0.02)], st.HousnerBlock(), "pga", levels=[0.3], threads=1)
+
+
+def test_measures_by_name():
+    motion = st.Motion(0.01, np.sin(np.arange(500) * 0.05), 0.5 * np.cos(np.arange(500) * 0.05))
+    x, y = (parse_measure(f"pga@{one}").of(motion) for one in "xy")
+    assert parse_measure("pga@geomean").of(motion) == pytest.approx(math.sqrt(x * y))
+    assert parse_measure("pga@larger").of(motion) == max(x, y)
+    assert parse_measure("pga@rotd100").of(motion) == pytest.approx(x, rel=1e-3)
+    assert parse_measure("pga@rotd50").of(motion) < x
+    assert parse_measure("avgsa").of(motion) > 0.0
+    # the average over nearly one period is Sa there
+    assert parse_measure("avgsa:1s-1.0001s").of(motion) == pytest.approx(parse_measure("sa:1s").of(motion), rel=1e-3)
+    for name in ("pgv", "sa:1s", "avgsa:0.5s-3s", "pga@geomean", "arias@larger"):
+        assert parse_measure(name).name == name
+    for wrong in ("sa", "sa:1s-2s", "pgv:1s", "pga@north", "cav@rotd50", "avgsa:3s-1s", "sa:0s", ""):
+        with pytest.raises(InputError, match=r"intensity measure|rotd50"):
+            parse_measure(wrong)
+    with pytest.raises(InputError, match="a column"):
+        parse_measure("omega_g_over_p").of(motion)
+    for wrong in ("0.3", "0.3m/s", "-1g", "x"):
+        with pytest.raises(InputError, match="level"):
+            parse_levels(wrong, parse_measure("pga"))
