@@ -5,6 +5,7 @@ Records, names and what is looked at between chunks of steps: ``drums/lanes.py``
 
 from ..drums import contact as ct
 from ..drums.body import kinetic_and_gravitational, move
+from ..drums.frame import run_chunks
 from ..drums.lanes import (
     CHUNK,
     COLLAPSED,
@@ -14,10 +15,10 @@ from ..drums.lanes import (
     LANES,
     RUNNING,
     block_types,
-    close_chunk,
+    check_finite,
     fill_ground,
     joint_state,
-    running_lanes,
+    observe,
     upper_face,
 )
 from ..jit import apart, kernel, strict
@@ -122,13 +123,6 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
 
 @kernel
 def advance(drum, joint, lane, ground, feed, watch, chunks):
-    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
-    before = running_lanes(watch)
-    for _ in range(chunks):
-        if before == 0 or running_lanes(watch) < before:
-            break
-        fill_ground(ground, feed, watch)
-        for k in range(CHUNK):
-            forces(drum, joint, lane)
-            move(drum, joint, lane, ground, k)
-        close_chunk(drum, joint, lane, feed, watch)
+    """Advance all lanes: see :func:`run_chunks`."""
+    state = drum, joint, lane, ground, feed, watch
+    run_chunks(fill_ground, None, forces, move, check_finite, observe, state, chunks)

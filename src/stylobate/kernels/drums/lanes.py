@@ -260,14 +260,3 @@ def running_lanes(watch):
     for l in range(LANES):
         count += watch[0].status[l] == RUNNING
     return count
-
-
-@kernel
-def close_chunk(drum, joint, lane, feed, watch):
-    """What follows every chunk of steps: running lanes are that much further on, and all are looked at."""
-    for l in range(LANES):
-        if watch[0].status[l] == RUNNING:
-            feed[0].step[l] += CHUNK
-    check_finite(drum, watch)
-    observe(drum, joint, lane, feed, watch)
-    end_runs(lane, feed, watch)

@@ -20,7 +20,8 @@ import numpy as np
 from ..drums import contact as ct
 from ..drums import lanes
 from ..drums.body import kinetic_and_gravitational, move
-from ..drums.lanes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING, joint_state
+from ..drums.frame import run_chunks
+from ..drums.lanes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING, check_finite, fill_ground, joint_state
 from ..jit import apart, kernel, strict
 from .interface_law import compression, compression_with_strength, shear
 
@@ -157,8 +158,9 @@ def ledger(drum, joint, lane, ground, k, dt, l, out):
 
 
 @kernel
-def peak_opening(joint, watch):
-    """Largest opening of each lane's joints so far: without the elastic gap at an edge that the law keeps closed."""
+def observe(drum, joint, lane, feed, watch):
+    """Look at all lanes; the peak of openings without the elastic gap at an edge that the law keeps closed."""
+    lanes.observe(drum, joint, lane, feed, watch)
     w = watch[0]
     for l in range(LANES):
         w.open[l] = 0.0
@@ -170,14 +172,6 @@ def peak_opening(joint, watch):
 
 @kernel
 def advance(drum, joint, lane, ground, feed, watch, chunks):
-    """Advance all lanes by up to ``chunks`` × CHUNK steps; returns as soon as the run in some lane is over."""
-    before = lanes.running_lanes(watch)
-    for _ in range(chunks):
-        if before == 0 or lanes.running_lanes(watch) < before:
-            break
-        lanes.fill_ground(ground, feed, watch)
-        for k in range(CHUNK):
-            forces(drum, joint, lane)
-            move(drum, joint, lane, ground, k)
-        lanes.close_chunk(drum, joint, lane, feed, watch)
-        peak_opening(joint, watch)
+    """Advance all lanes: see :func:`run_chunks`."""
+    state = drum, joint, lane, ground, feed, watch
+    run_chunks(fill_ground, None, forces, move, check_finite, observe, state, chunks)
