@@ -7,7 +7,7 @@ import pytest
 
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.constants import g
-from stylobate.kernels.dem2d.step import CHUNK
+from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import Motion
 from stylobate.simulate import simulate_many

@@ -8,6 +8,7 @@ import pytest
 
 from stylobate.column import Column, Drum, Joint
 from stylobate.constants import g
+from stylobate.kernels.run_codes import RUNNING
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -166,7 +167,7 @@ def free(column, omega, duration, step):
     kinetic, axes, times = [], [block.axes(0)[0]], [0.0]
     while block.feed["step"][0, 0] < block.steps[0]:
         # a body that turns over in the air has not collapsed
-        block.watch["status"][0, 0], block.lane["dt"][0, 0] = block.kernel.RUNNING, block.dt[0]
+        block.watch["status"][0, 0], block.lane["dt"][0, 0] = RUNNING, block.dt[0]
         block.advance(1)
         times.append(block.time(0))
         axes.append(block.axes(0)[0])

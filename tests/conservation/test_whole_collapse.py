@@ -7,6 +7,7 @@ from stylobate.column import Joint, preset
 from stylobate.column.assembly import Assembly, Block, of_column
 from stylobate.constants import g
 from stylobate.kernels.assembly import narrow_phase as near
+from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.assembly.engine import RESTITUTION_TO_REST, Engine, stable_step
 from stylobate.models.assembly.run import follow
 from stylobate.models.base import RunOptions
@@ -81,7 +82,7 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     assert rests
     lying, forces = contacts(engine), []
     for _ in range(50):
-        engine.advance(max(1, round(0.02 / (engine.kernel.CHUNK * engine.dt))))
+        engine.advance(max(1, round(0.02 / (CHUNK * engine.dt))))
         forces.append({pair: force for pair, (*_, force) in contacts(engine).items()})
     before = engine.body.copy()
     engine.now["local"] = 0.8

@@ -8,7 +8,7 @@ import numpy as np
 
 from stylobate.column import Column
 from stylobate.kernels.rigid_beam import moment_law
-from stylobate.kernels.rigid_beam.step import SUPPORT_MARGIN
+from stylobate.kernels.run_codes import SUPPORT_MARGIN
 from stylobate.models.base import RunOptions
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_beam.state import PackedBeam, given, histories_of, measures_of

@@ -10,7 +10,7 @@ import pytest
 
 from stylobate import kernels
 from stylobate.column import preset
-from stylobate.kernels import jit
+from stylobate.kernels import jit, run_codes
 from stylobate.kernels.assembly import narrow_phase
 from stylobate.kernels.assembly import step as assembly_2d
 from stylobate.kernels.dem2d import step as distinct_element_2d
@@ -51,11 +51,11 @@ def test_every_compiled_function_states_its_own_mode():
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
 def test_drums_without_finite_positions_have_failed(bad):
     drum, *_, watch = (np.zeros(3, kind) for kind in distinct_element_2d.block_types(2, False))
-    watch["status"] = drum_lanes.RUNNING
+    watch["status"] = run_codes.RUNNING
     for lane, name in enumerate(("x", "z", "th")):
         drum[name][1 + lane % 2, lane] = bad
     compiled(drum_lanes.check_finite)(drum, watch)
-    failed, running = drum_lanes.FAILED, drum_lanes.RUNNING
+    failed, running = run_codes.FAILED, run_codes.RUNNING
     assert watch["status"][0, :4].tolist() == [failed] * 3 + [running]
 
 
@@ -76,14 +76,14 @@ def test_bodies_without_finite_positions_are_reported(bad):
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
 def test_beams_without_finite_states_have_failed(bad):
     drum, lane, watch = np.zeros(4, rigid_beam.DRUM), np.zeros(1, rigid_beam.LANE), np.zeros(1, rigid_beam.WATCH)
-    watch["status"], watch["end"], watch["when"] = rigid_beam.RUNNING, 9, -1
+    watch["status"], watch["end"], watch["when"] = run_codes.RUNNING, 9, -1
     for name in ("ih", "half", "fl", "fu", "ks"):
         drum[name] = 1.0
     for place, name in enumerate(("th", "w", "x", "v")):
         drum[name][1 + place % 2, place] = bad
     lane["work"][0, 4] = bad
     compiled(rigid_beam.observe)(drum, lane, watch)
-    assert watch["status"][0, :6].tolist() == [rigid_beam.FAILED] * 5 + [rigid_beam.RUNNING]
+    assert watch["status"][0, :6].tolist() == [run_codes.FAILED] * 5 + [run_codes.RUNNING]
 
 
 @pytest.mark.parametrize("module", [distinct_element_2d, rigid_block])

@@ -18,6 +18,7 @@ import numpy as np
 from ..column import Column, preset
 from ..constants import g
 from ..errors import StylobateError
+from ..kernels.run_codes import CHUNK
 from ..models.base import Case, RunOptions
 from ..models.dem2d.model import DistinctElement2D
 from ..models.dem3d.model import DistinctElement3D
@@ -126,21 +127,20 @@ def _kernel(model: SteppedDrums, column: Column, motion: Motion, source: str, po
         steps = chunks * block.chunk * column.n * points * block.lanes
         return (time.thread_time() - started) / steps * 1e9, float(block.drum["x"][-1, 0])
 
-    chunk = model.kernel().CHUNK
     with tempfile.TemporaryDirectory() as folder:
         program = native_reference(source, folder)
 
         def beside(chunks: int) -> tuple[float, float]:
-            arguments = [str(program), str(chunks * chunk), repr(dt)]
+            arguments = [str(program), str(chunks * CHUNK), repr(dt)]
             text = subprocess.run(arguments, capture_output=True, text=True, check=True).stdout.split()
             return float(text[0]), float(text[1])
 
         early = timed(EARLY)[1]  # compiles as well
         apart = None if program is None else abs(early - beside(EARLY)[1])
         for _ in range(ROUNDS):
-            ours.append(timed(STEPS // chunk - 1)[0])
+            ours.append(timed(STEPS // CHUNK - 1)[0])
             if program is not None:
-                native.append(beside(STEPS // chunk - 1)[0])
+                native.append(beside(STEPS // CHUNK - 1)[0])
     best = min(native) if native else None
     return {
         "ns_per_contact_step": min(ours),

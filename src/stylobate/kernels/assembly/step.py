@@ -45,12 +45,11 @@ from ..drums import lanes
 from ..drums.body import damped_velocity
 from ..ground import MEAN, sample
 from ..jit import kernel, strict
+from ..run_codes import CHUNK
 from . import narrow_phase as near
 from .bed import bed_forces, place
 from .broad_phase import make_boxes, sweep
 from .joints import face, handover, joint_forces
-
-CHUNK = lanes.CHUNK
 
 MOST = near.MOST
 

@@ -6,25 +6,12 @@ Records, names and what is looked at between chunks of steps: ``drums/lanes.py``
 from ..drums import contact as ct
 from ..drums.body import kinetic_and_gravitational, move
 from ..drums.frame import run_chunks
-from ..drums.lanes import (
-    CHUNK,
-    COLLAPSED,
-    ENDED,
-    FAILED,
-    FREE,
-    LANES,
-    RUNNING,
-    block_types,
-    check_finite,
-    fill_ground,
-    joint_state,
-    observe,
-    upper_face,
-)
+from ..drums.lanes import block_types, check_finite, fill_ground, joint_state, observe, upper_face
 from ..jit import apart, kernel, strict
+from ..run_codes import LANES
 
 #: The models read these here.
-__all__ = ["CHUNK", "COLLAPSED", "ENDED", "FAILED", "FREE", "LANES", "RUNNING", "block_types", "joint_state"]
+__all__ = ["advance", "block_types", "forces", "joint_state", "ledger"]
 
 
 @apart

@@ -3,8 +3,8 @@
 import math
 
 from ..drums.frame import run_chunks
-from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING
 from ..jit import apart, kernel, law
+from ..run_codes import LANES
 from .bed import settle, settle_askew
 from .friction import NOTHING
 from .ground import fill_ground
@@ -16,10 +16,7 @@ from .rim import overlap
 from .rubbing import carry
 
 #: The models read these here.
-__all__ = [
-    "CHUNK", "COLLAPSED", "ENDED", "FAILED", "FREE", "LANES", "RUNNING", "advance", "block_types", "forces", "joint_state",
-    "ledger",
-]  # fmt: skip
+__all__ = ["advance", "block_types", "forces", "joint_state", "ledger"]
 
 
 #: Torsion over shear stiffness and ρ², limit of torsion over that of shear and ρ: a disc under even pressure has 1, 2R/3.

@@ -8,8 +8,8 @@ Legend of the joint's scratch ``w``, in the axes of the drum below::
 """
 
 from ..drums.frame import run_chunks
-from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING
 from ..jit import apart, kernel
+from ..run_codes import LANES
 from .corner import clamped, contact, corner, touch
 from .ground import fill_ground
 from .look import check_finite, joint_state, observe
@@ -18,10 +18,7 @@ from .pose import cross, faces, in_body, in_space
 from .records import block_types
 
 #: The models read these here.
-__all__ = [
-    "CHUNK", "COLLAPSED", "ENDED", "FAILED", "FREE", "LANES", "RUNNING", "advance", "block_types", "forces", "joint_state",
-    "ledger",
-]  # fmt: skip
+__all__ = ["advance", "block_types", "forces", "joint_state", "ledger"]
 
 
 @apart

@@ -1,8 +1,8 @@
 """Acceleration of the base in space for a block of lanes."""
 
-from ..drums.lanes import CHUNK, LANES, RUNNING
 from ..ground import sample
 from ..jit import kernel
+from ..run_codes import CHUNK, LANES, RUNNING
 
 
 @kernel

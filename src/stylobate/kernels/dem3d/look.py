@@ -2,8 +2,9 @@
 
 import math
 
-from ..drums.lanes import FAILED, FAR, LANES, RUNNING, SUPPORT_MARGIN
+from ..drums.lanes import FAR
 from ..jit import kernel, law, strict
+from ..run_codes import FAILED, LANES, RUNNING, SUPPORT_MARGIN
 from .pose import cross, faces, in_body, in_space, lean
 from .support import end_of_corners, end_of_discs, middle_of_corners, middle_of_discs, opening_of_corners
 

@@ -2,8 +2,8 @@
 
 import math
 
-from ..drums.lanes import LANES
 from ..jit import apart, law, strict
+from ..run_codes import LANES
 from .pose import cross
 from .turning import spun, turned
 

@@ -57,7 +57,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
 
 import numpy as np
 
-from ..drums.lanes import LANES
+from ..run_codes import LANES
 
 #: Peaks that are kept, see the legend of ``watch``.
 PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")

@@ -3,8 +3,8 @@
 import math
 
 from ..drums.frame import run_chunks
-from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING
 from ..jit import apart, kernel, law
+from ..run_codes import LANES
 from .friction import NOTHING
 from .ground import fill_ground
 from .look import check_finite, joint_state, observe
@@ -15,10 +15,7 @@ from .rim import angle_to, overlap, press, press_askew
 from .rubbing import carry
 
 #: The models read these here.
-__all__ = [
-    "CHUNK", "COLLAPSED", "ENDED", "FAILED", "FREE", "LANES", "RUNNING", "advance", "block_types", "forces", "joint_state",
-    "ledger",
-]  # fmt: skip
+__all__ = ["advance", "block_types", "forces", "joint_state", "ledger"]
 
 
 #: Torsion over shear stiffness and ρ², limit of torsion over that of shear and ρ: a closed disc has K_s R²/2 and 2R/3.

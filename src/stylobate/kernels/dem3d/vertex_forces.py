@@ -23,8 +23,8 @@ import math
 import numpy as np
 
 from ..drums.frame import run_chunks
-from ..drums.lanes import CHUNK, COLLAPSED, ENDED, FAILED, FREE, LANES, RUNNING
 from ..jit import apart, kernel, strict
+from ..run_codes import CHUNK, LANES, RUNNING
 from . import move as moving
 from . import records
 from .corner import touch
@@ -34,10 +34,7 @@ from .move import move
 from .pose import cross, in_space
 
 #: The models read these here.
-__all__ = [
-    "CHUNK", "COLLAPSED", "ENDED", "FAILED", "FIRST", "FREE", "LANES", "RUNNING", "advance", "block_types", "forces",
-    "ledger",
-]  # fmt: skip
+__all__ = ["FIRST", "advance", "block_types", "forces", "ledger"]
 
 #: Row of the first vertex.
 FIRST = 2

@@ -6,8 +6,8 @@ Legend in ``lanes.py``.
 import numpy as np
 
 from ..jit import apart, law, strict
+from ..run_codes import LANES
 from .contact import turn
-from .lanes import LANES
 
 
 @law

@@ -5,7 +5,8 @@ and is kept on disk as every other.
 """
 
 from ..jit import law
-from .lanes import CHUNK, LANES, RUNNING, end_runs, running_lanes
+from ..run_codes import CHUNK, LANES, RUNNING
+from .lanes import end_runs, running_lanes
 
 
 @law

@@ -45,19 +45,8 @@ import numpy as np
 
 from ..ground import MEAN, sample
 from ..jit import apart, kernel, law, strict
+from ..run_codes import CHUNK, COLLAPSED, ENDED, FAILED, LANES, RUNNING, SUPPORT_MARGIN
 from . import contact as ct
-
-#: Lanes of a block. The same for a single run, so that it has the bits of the batch.
-LANES = 16
-
-#: Steps between two looks at the lanes: peaks, ends and collapses are found on this grid.
-CHUNK = 32
-
-RUNNING, ENDED, COLLAPSED, FAILED, FREE = range(5)
-
-#: A part above a joint between drums counts as lost only against this much more restoring acceleration [m/s²]:
-#: unlike the base, its support can be carried back under it.
-SUPPORT_MARGIN = 9.81
 
 #: A lane whose positions are larger has failed [m].
 FAR = 1.0e6

@@ -41,18 +41,8 @@ import numpy as np
 
 from ..ground import fill_ground
 from ..jit import apart, kernel, law, strict
+from ..run_codes import COLLAPSED, ENDED, FAILED, LANES, RUNNING, SUPPORT_MARGIN
 from .moment_law import bed_moment, three_lines
-
-#: Lanes of a block; the same for a single run.
-LANES = 16
-
-#: Most steps between two looks at the lanes: peaks, ends and collapses are found on this grid.
-MOST_STEPS = 32
-
-RUNNING, ENDED, COLLAPSED, FAILED, FREE = range(5)
-
-#: Restoring acceleration in reserve against which a part above a joint between drums is lost: its support can move [m/s²].
-SUPPORT_MARGIN = 9.81
 
 _ROW = (LANES,)
 

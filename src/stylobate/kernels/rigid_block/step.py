@@ -21,12 +21,13 @@ from ..drums import contact as ct
 from ..drums import lanes
 from ..drums.body import kinetic_and_gravitational, move
 from ..drums.frame import run_chunks
-from ..drums.lanes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING, check_finite, fill_ground, joint_state
+from ..drums.lanes import check_finite, fill_ground, joint_state
 from ..jit import apart, kernel, strict
+from ..run_codes import LANES
 from .interface_law import compression, compression_with_strength, shear
 
-__all__ = ["CHUNK", "COLLAPSED", "FAILED", "FREE", "LANES", "RUNNING"]
-__all__ += ["advance", "block_types", "forces", "joint_state", "ledger"]
+#: The models read these here.
+__all__ = ["advance", "block_types", "forces", "joint_state", "ledger"]
 
 
 def block_types(crushing, damped):

@@ -11,6 +11,7 @@ import numpy as np
 from ...column.assembly import Assembly, Block, smallest_turn
 from ...column.joint import Joint
 from ...errors import OutOfRangeWarning
+from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ..drums.block import whole_steps
 from ..drums.joints import contact_points
@@ -123,7 +124,7 @@ class Engine:
         self.memory = np.zeros((len(bodies), len(bodies), 3))
         self.real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         self.whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
-        self.ground = np.zeros((kernel.CHUNK + 1, 2))
+        self.ground = np.zeros((CHUNK + 1, 2))
         self.stack: tuple[np.ndarray, ...] = _no_column()
         self.dt = 0.0
         self.stood_at, self.stood_since = np.full((3, len(bodies)), np.inf), 0.0
@@ -134,8 +135,7 @@ class Engine:
 
     def start(self, step: float) -> None:
         """Set the step and the velocities half a step before the start, of bodies that do not move yet."""
-        chunk = self.kernel.CHUNK
-        self.dt, self.chunks = whole_steps(self.motion, self.duration - self.motion.duration, step, chunk)
+        self.dt, self.chunks = whole_steps(self.motion, self.duration - self.motion.duration, step)
         self.now["dt"] = self.now["last"] = self.dt
         x, z = self.motion.samples, self.motion.z_samples
         self.addresses = np.array([x.ctypes.data, 0 if z is None else z.ctypes.data, len(x) - 1])
@@ -168,7 +168,7 @@ class Engine:
 
     def advance(self, chunks: int) -> None:
         """Advance by some chunks of steps."""
-        piece = longest_piece(self.cost, self.kernel.CHUNK)
+        piece = longest_piece(self.cost, CHUNK)
         for left in range(chunks, 0, -piece):
             self.kernel.advance(
                 self.body, self.corner, self.joint, self.now, self.box, self.order, self.pairs, self.link, self.law,
@@ -244,7 +244,7 @@ class Engine:
         still = self.addresses
         self.addresses = np.zeros_like(still)
         rests = settled(
-            self.advance, self.residual_acceleration, SETTLED, SETTLE_STEPS // self.kernel.CHUNK,
+            self.advance, self.residual_acceleration, SETTLED, SETTLE_STEPS // CHUNK,
             lost=lambda: self._farthest_from(drawn[0]) > AS_DRAWN or self.failed,
         )  # fmt: skip
         self.addresses = still

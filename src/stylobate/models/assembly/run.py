@@ -10,6 +10,7 @@ import numpy as np
 
 from ...column.assembly import Assembly
 from ...errors import InputError, OutOfRangeWarning
+from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import Response
 from ...response.assembly_measures import first_touch, recorded_blocks
@@ -74,7 +75,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     engine = Engine(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
     step = chosen_step(stable_step(engine), numbers.step_factor, numbers.time_step, repr(assembly.name))
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
-    step = min(step, motion.duration / engine.kernel.CHUNK)
+    step = min(step, motion.duration / CHUNK)
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
     refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
@@ -124,10 +125,10 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
 
 def follow(engine: Engine, options: RunOptions) -> tuple[list[dict[str, Any]], bool]:
     """Go on to the end of the motion and its tail, or until rest; the states on the way, and whether all lies still."""
-    every = max(1, min(engine.chunks, round(options.output_interval / (engine.kernel.CHUNK * engine.dt))))
+    every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     states, still = [engine.state()], False
     while not engine.failed:
-        left = engine.chunks - int(engine.now["step"][0]) // engine.kernel.CHUNK
+        left = engine.chunks - int(engine.now["step"][0]) // CHUNK
         still = engine.at_rest()
         if left <= 0:
             engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0

@@ -12,6 +12,7 @@ import numpy as np
 from ...column import Column
 from ...column.assembly import of_column
 from ...column.found_geometry import drum_outline
+from ...kernels.run_codes import CHUNK, ENDED, RUNNING
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures, Response
@@ -80,7 +81,7 @@ def follow(
     """
     run = _ColumnRun(column, motion, numbers, options, steps)
     engine = run.engine
-    every = max(1, min(engine.chunks, round(options.output_interval / (engine.kernel.CHUNK * engine.dt))))
+    every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     residual = engine.residual_acceleration()
     states = [run.state()]
     while not run.is_over():
@@ -168,7 +169,6 @@ class _ColumnRun:
 
     def watch_on(self) -> None:
         """Look for collapses after the motion too; nothing of it is left to set against them."""
-        from ...kernels.drums.lanes import ENDED, RUNNING
 
         watch = self.block.watch[0]
         if watch["status"][0] == ENDED:
@@ -188,7 +188,7 @@ class _ColumnRun:
     def chunks_left(self) -> int:
         """Chunks until the end of the motion and its tail."""
         step = self.engine.now["step"][0] if self.loose else self.block.feed["step"][0, 0]
-        return self.engine.chunks - int(step) // self.engine.kernel.CHUNK
+        return self.engine.chunks - int(step) // CHUNK
 
     @property
     def collapsed(self) -> bool:

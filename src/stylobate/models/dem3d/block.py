@@ -10,6 +10,7 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import base_axes
+from ...kernels.run_codes import COLLAPSED, FAILED, RUNNING
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
@@ -46,7 +47,7 @@ class SpaceBlock(DrumBlock):
         """Start a case in a lane."""
         self.cases[lane] = case
         motion = case.motion
-        dt, chunks = whole_steps(motion, self.options.tail, self.place(lane, case), self.chunk)
+        dt, chunks = whole_steps(motion, self.options.tail, self.place(lane, case))
         steps = chunks * self.chunk
         feed, watch = self.feed[0], self.watch[0]
         for name, samples in (("x", motion.samples), ("y", motion.y_samples), ("z", motion.z_samples)):
@@ -59,7 +60,7 @@ class SpaceBlock(DrumBlock):
         feed["r"][:, lane] = base.T.ravel()
         for name in watch.dtype.names:
             watch[name][lane] = 0
-        watch["status"][lane] = self.kernel.RUNNING
+        watch["status"][lane] = RUNNING
         watch["follow"][lane] = self.options.until_end
         watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
         sides = np.zeros(2) if motion.y_samples is None else motion.y_samples
@@ -231,8 +232,8 @@ class SpaceBlock(DrumBlock):
         slip, twist = self.since_start(lane)
         tilt, lean = (math.acos(max(-1.0, 1.0 - self.peak(lane, name))) for name in ("turn", "lean"))
         slips = np.hypot(*slip.T)
-        collapsed = watch["status"][lane] == self.kernel.COLLAPSED
-        failed = watch["status"][lane] == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
+        collapsed = watch["status"][lane] == COLLAPSED
+        failed = watch["status"][lane] == FAILED or bool(ledger.out_of_balance(imbalance))
         widths = column.joint_widths
         outcome = classify(collapsed, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max()))
         mechanical = float(change[1] + change[2] + change[3] + self.rest[lane])

@@ -12,6 +12,7 @@ import numpy as np
 from ...column.found_in_space import rotation
 from ...column.specimen import Specimen
 from ...errors import InputError
+from ...kernels.run_codes import COLLAPSED, FAILED
 from ...outcome import Outcome, classify
 from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED
@@ -299,8 +300,8 @@ class SpecimenBlock(SpaceBlock):
         )
         _, slip, twist = self.joints(lane)
         shift, width = float(np.hypot(*slip[0])), math.sqrt(specimen.resting.area)
-        collapsed = watch["status"][lane] == self.kernel.COLLAPSED
-        failed = watch["status"][lane] == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
+        collapsed = watch["status"][lane] == COLLAPSED
+        failed = watch["status"][lane] == FAILED or bool(ledger.out_of_balance(imbalance))
         outcome = classify(collapsed, failed, float(watch["open"][lane]) / width, shift / width)
         top = self.top_place(lane) - (watch["sx"][lane], watch["sy"][lane])
         return Measures(

@@ -13,6 +13,7 @@ from ...column import Column
 from ...column.found_geometry import gravity_vector
 from ...constants import DEGREE
 from ...errors import InputError
+from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures
@@ -69,15 +70,15 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     }
 
 
-def whole_steps(motion: Motion, tail: float, step: float, chunk: int) -> tuple[float, int]:
+def whole_steps(motion: Motion, tail: float, step: float) -> tuple[float, int]:
     """Largest step up to ``step`` that resolves the motion and of which whole chunks fill it [s], and how many chunks
     there are with the tail.
 
     The tail has no say in the step: what happens before it does not depend on it.
     """
     step = resolving(step, motion)
-    dt = motion.duration / (chunk * max(1, math.ceil(motion.duration / (chunk * step))))
-    return dt, math.ceil((motion.duration + tail) / (chunk * dt) * (1.0 - 1e-12))
+    dt = motion.duration / (CHUNK * max(1, math.ceil(motion.duration / (CHUNK * step))))
+    return dt, math.ceil((motion.duration + tail) / (CHUNK * dt) * (1.0 - 1e-12))
 
 
 def lane_fields(column: Column, stiffness_damping: float, mass_damping: float) -> dict[str, Any]:
@@ -120,15 +121,15 @@ class DrumBlock:
         cost: float,
     ) -> None:
         self.kernel, self.pack, self.options = kernel, pack, options
-        self.lanes = kernel.LANES
-        self.chunk = kernel.CHUNK
+        self.lanes = LANES
+        self.chunk = CHUNK
         self.drum = aligned_zeros(drums + 1, types[0])
         self.joint = aligned_zeros(drums + 1, types[1])
         self.lane = aligned_zeros(1, types[2])
-        self.ground = aligned_zeros(kernel.CHUNK + 1, types[3])
+        self.ground = aligned_zeros(CHUNK + 1, types[3])
         self.feed = aligned_zeros(1, types[4])
         self.watch = aligned_zeros(1, types[5])
-        self.watch["status"] = kernel.FREE
+        self.watch["status"] = FREE
         self.dt = np.zeros(self.lanes)
         self.steps = np.zeros(self.lanes, dtype=np.int64)
         self.start = np.zeros((self.lanes, 6))
@@ -149,7 +150,7 @@ class DrumBlock:
             for name, values in fields.items():
                 array[name][..., lane] = values
         self.joint["dn"][..., lane] = self.joint["ds"][..., lane] = 0.0
-        dt, chunks = whole_steps(motion, self.options.tail, packed.step, self.chunk)
+        dt, chunks = whole_steps(motion, self.options.tail, packed.step)
         steps = chunks * self.chunk
         self.lane["dt"][0, lane] = dt
         x, z = motion.samples, motion.z_samples
@@ -164,7 +165,7 @@ class DrumBlock:
         feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
         for name in watch.dtype.names:
             watch[name][lane] = 0
-        watch["status"][lane] = self.kernel.RUNNING
+        watch["status"][lane] = RUNNING
         watch["follow"][lane] = self.options.until_end
         watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
         peak_z = 0.0 if z is None else _peak(z) * abs(motion.factor)
@@ -284,15 +285,15 @@ class DrumBlock:
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended; one that still moves after the shaking, or is shaken again, goes on."""
         feed, watch = self.feed[0], self.watch[0]
-        others = (self.kernel.RUNNING, self.kernel.COLLAPSED, self.kernel.FAILED)
+        others = (RUNNING, COLLAPSED, FAILED)
         if watch["status"][lane] not in others and feed["end"][lane] < self.steps[lane]:
             now = int(feed["step"][lane])
             first, end = self.spans.onward(lane, now, int(self.steps[lane]), self.at_rest(lane))
             if end > now:
                 feed["step"][lane], feed["end"][lane] = first, end
-                watch["status"][lane] = self.kernel.RUNNING
+                watch["status"][lane] = RUNNING
                 self.lane["dt"][0, lane] = self.dt[lane]
-        return watch["status"][lane] != self.kernel.RUNNING
+        return watch["status"][lane] != RUNNING
 
     def at_rest(self, lane: int) -> bool:
         """Whether a lane's column has next to no energy above that at its start."""
@@ -385,8 +386,8 @@ class DrumBlock:
         change = now - self.start[lane]
         imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), case.column)
         slip = self.joint_state(lane)[1] - self.slip[lane, : case.column.n]
-        collapsed = status == self.kernel.COLLAPSED
-        failed = status == self.kernel.FAILED or bool(ledger.out_of_balance(imbalance))
+        collapsed = status == COLLAPSED
+        failed = status == FAILED or bool(ledger.out_of_balance(imbalance))
         widths = case.column.joint_widths
         outcome = classify(
             collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
@@ -422,7 +423,7 @@ class DrumBlock:
         """Why a run failed, or what happened in a collapse; empty for a column that stands."""
         watch = self.watch[0]
         if outcome is Outcome.FAILED:
-            if watch["status"][lane] == self.kernel.FAILED:
+            if watch["status"][lane] == FAILED:
                 return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
             return ledger.out_of_balance(imbalance)
         if outcome is not Outcome.COLLAPSED:

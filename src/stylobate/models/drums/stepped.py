@@ -118,8 +118,7 @@ class SteppedDrums(Model):
 
     def expected_step(self, column: Column, motion: Motion) -> tuple[float, float]:
         """Time step and its cost [s]; whole chunks of steps fill the motion."""
-        chunk = self.kernel().CHUNK
-        return whole_steps(motion, 0.0, self.step_for(column), chunk)[0], self.cost(column.n)
+        return whole_steps(motion, 0.0, self.step_for(column))[0], self.cost(column.n)
 
     def paced(self, column: Column) -> SteppedDrums:
         """The model in the column's own time step, far enough below the largest stable one of columns like it."""

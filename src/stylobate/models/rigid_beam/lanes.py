@@ -11,6 +11,7 @@ import numpy as np
 
 from ...column import Column
 from ...kernels.rigid_beam import step as kernel
+from ...kernels.run_codes import CHUNK, FAILED, FREE, LANES, RUNNING
 from ...motion import Motion
 from ...response import Histories, Measures
 from ..base import Case, RunOptions
@@ -43,7 +44,7 @@ class Loop(NamedTuple):
 def loop_for(beam: PackedBeam, motion: Motion) -> Loop:
     """The loop that a beam under a motion needs."""
     step = beam.step_for(motion)
-    steps = 2 ** max(0, min(round(math.log2(kernel.MOST_STEPS)), math.floor(math.log2(LOOK / step))))
+    steps = 2 ** max(0, min(round(math.log2(CHUNK)), math.floor(math.log2(LOOK / step))))
     vertical = motion.z_samples is not None
     return Loop(beam.seen.n, steps, beam.sliding, beam.bed, vertical, beam.stiffness_damping > 0.0)
 
@@ -59,7 +60,7 @@ class BeamLanes:
     options : RunOptions
     """
 
-    lanes = kernel.LANES
+    lanes = LANES
 
     def __init__(self, pack: Callable[[Column], PackedBeam], loop: Loop, options: RunOptions) -> None:
         self.pack, self.loop, self.options = pack, loop, options
@@ -67,7 +68,7 @@ class BeamLanes:
         self.values = self.drum.view(np.float64).reshape(loop.drums + 2, -1, self.lanes)
         self.lane = np.zeros(1, kernel.LANE)
         self.watch = np.zeros(1, kernel.WATCH)
-        self.watch["status"] = kernel.FREE
+        self.watch["status"] = FREE
         self.a = np.zeros((2 * loop.steps + 1) * self.lanes)
         self.g = np.ones((2 * loop.steps + 1) * self.lanes)
         self.dt = np.zeros(self.lanes)
@@ -106,7 +107,7 @@ class BeamLanes:
         for name in kernel.WATCH.names or ():
             watch[name][lane] = 0
         z = motion.z_samples
-        watch["status"][lane] = kernel.RUNNING
+        watch["status"][lane] = RUNNING
         watch["follow"][lane] = self.options.until_end
         watch["x"][lane], watch["z"][lane] = motion.samples.ctypes.data, 0 if z is None else z.ctypes.data
         watch["last"][lane], watch["end"][lane] = motion.steps - 1, steps
@@ -131,7 +132,7 @@ class BeamLanes:
 
     def is_over(self, lane: int) -> bool:
         """Whether the lane's run has ended."""
-        return self.watch["status"][0, lane] != kernel.RUNNING
+        return self.watch["status"][0, lane] != RUNNING
 
     def time(self, lane: int) -> float:
         """Time of the lane's present state [s]."""
@@ -179,7 +180,7 @@ class BeamLanes:
         watch = {name: self.watch[name][0, lane] for name in kernel.WATCH.names or ()}
         theta, omega, slip, _, _ = self.state(lane)
         energies = self._energies(lane)
-        failed = watch["status"] == kernel.FAILED
+        failed = watch["status"] == FAILED
         row, largest = self._ledger(lane, energies), float(watch["wmax"])
         time = float(watch["when"]) * self.dt[lane]
         failure = f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else ""
