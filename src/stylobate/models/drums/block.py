@@ -270,7 +270,7 @@ class DrumBlock:
             left -= count
 
     def _running(self) -> int:
-        return int(np.count_nonzero(self.watch["status"][0] == self.kernel.RUNNING))
+        return int(np.count_nonzero(self.watch["status"][0] == RUNNING))
 
     def follow(self, chunks: int, between: Callable[[], None]) -> None:
         """Advance the run in the first lane by some chunks, or to its end, however often others end on the way.
