@@ -54,7 +54,6 @@ def which_tells_most(
     """
     import pandas
 
-    rng = np.random.default_rng(seed)
     asked = parse_state(state) if isinstance(state, str) else state
     rows = []
     for measure in _measures(runs):
@@ -65,7 +64,7 @@ def which_tells_most(
         best = lognormal.fit(low, high)
         if math.isinf(best.log_median[0]):
             continue
-        samples = np.sort(bootstrap(low, high, owner, 500, rng)[:, 1])
+        samples = np.sort(bootstrap(low, high, owner, 500, np.random.default_rng(seed))[:, 1])
         middle = math.log(best.beta[0])
         limits = [math.exp(2.0 * middle - float(np.quantile(samples, q))) for q in (0.975, 0.025)]
         row: dict[str, Any] = {

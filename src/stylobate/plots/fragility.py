@@ -17,6 +17,12 @@ from .style import BLACK, BLUE, RED, panel, styled
 #: Width and height of a picture for one column of a printed page, where its text is still legible [inch].
 NARROW = (4.4, 3.5)
 
+#: Dispersions on either side of the median that are shown, where there are runs.
+WIDE = 3.5
+
+#: A curve whose fit has a smaller p is told to fit badly.
+BADLY = 0.05
+
 _LOOKS: tuple[dict[str, Any], ...] = (
     {"color": RED, "linestyle": "-", "marker": "o"},
     {"color": BLUE, "linestyle": (0, (5, 2)), "marker": "s"},
@@ -43,7 +49,9 @@ def draw_fragility(
     found = [curves] if isinstance(curves, Fragility) else list(curves)
     figure, axes = panel(ax, NARROW)
     values = np.concatenate([one.evidence.im for one in found])
-    low, high = values.min(), max(values.max(), max(one.median for one in found))
+    steep = [(one.median * np.exp(-WIDE * one.beta), one.median * np.exp(WIDE * one.beta)) for one in found]
+    low = max(values.min(), min(below for below, _ in steep))
+    high = min(values.max(), max([above for _, above in steep] + [one.points.im.max() for one in found]))
     x = np.geomspace(low / 1.1, high * 1.2, 300)
     for one, look in zip(found, _LOOKS * len(found)):
         colour = look["color"]
@@ -68,8 +76,11 @@ def draw_fragility(
     axes.set_ylabel(f"probability of {state}")
     axes.grid(True)
     records = ", ".join(str(one.records) for one in found)
-    axes.set_title(title or f"{state}: {records} records, {100 * found[0].confidence:g} % band", fontsize=9)
-    axes.legend(loc="upper left", handlelength=2.4)
+    said = f"{state}: {records} records, {100 * found[0].confidence:g} % band"
+    if any(one.p_value < BADLY for one in found):
+        said += "; a lognormal curve fits badly"
+    axes.set_title(title or said, fontsize=9)
+    axes.legend(loc="best", handlelength=2.4)
     return figure
 
 

@@ -19,6 +19,9 @@ if TYPE_CHECKING:
 #: Width of the picture over the largest response that stands.
 ROOM = 1.25
 
+#: A picture ends at so many times the median capacity; what lies above is said.
+FAR = 3.0
+
 
 @styled
 def draw_ida(
@@ -57,14 +60,21 @@ def draw_ida(
     for share, look in zip(SHARES, ((0, (1.2, 1.2)), "-", (0, (5, 2)))):
         edp_values = table[f"edp_{100 * share:.0f}"].to_numpy() / size
         known = ~np.isnan(edp_values)
+        known &= np.cumsum(np.isinf(edp_values)) <= 1  # up to the plateau
         x = np.minimum(edp_values[known], right)
         (handles[f"{100 * share:.0f} % of the records"],) = axes.plot(
             x, table["im"].to_numpy()[known], color=RED if share == 0.5 else BLACK, linestyle=look, linewidth=1.6
         )
-    axes.set(xlim=(0.0, right), ylim=(0.0, None))
+    fell = [one.collapses for one in curves if math.isfinite(one.collapses)]
+    high = max((float(one.im.max(initial=0.0)) for one in curves), default=1.0)
+    if fell and max(fell) > FAR * float(np.median(fell)):
+        high = min(high, FAR * float(np.median(fell)))
+        hidden = sum(one.collapses > high for one in curves)
+        title = title or f"{result.column.name}, {result.model}; {hidden} of {len(curves)} plateaus lie above"
+    axes.set(xlim=(0.0, right), ylim=(0.0, 1.05 * max([high, *(one for one in fell if one <= high)])))
     words = edp.removesuffix("_m").removesuffix("_rad").replace("_", " ")
     unit = "base widths" if size != 1.0 or edp.endswith("displacement_m") else "rad" if edp.endswith("_rad") else "m"
-    axes.set_xlabel(f"{words} [{unit}]; collapse at the right edge")
+    axes.set_xlabel(f"{words} [{unit}], collapse →")
     axes.set_ylabel(result.measure.words)
     axes.grid(True)
     axes.set_title(title or f"{result.column.name}, {result.model}", fontsize=9)
@@ -93,7 +103,7 @@ def draw_efficiency(table: pandas.DataFrame, title: str | None = None, *, ax: Ax
     axes.set(
         ylim=(len(at) - 0.5, -0.5), xlim=(0.0, 1.05 * min(float(table["beta_high"].max()), 3.0 * float(beta.max())))
     )
-    axes.set_xlabel("dispersion of the capacities β [-]; less is better")
+    axes.set_xlabel("dispersion of the capacities, β [-]")
     axes.grid(True, axis="x")
     axes.set_title(title or "Which intensity measure tells most", fontsize=9)
     return figure
