@@ -1,5 +1,6 @@
 """Distinct elements in space: what stands for good, with soft joints and from a pose; slip of a drum that leans."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -7,10 +8,13 @@ import pytest
 from validation.space import round_column
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
+from stylobate.column.found_geometry import geometry
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.dem3d.verdict import flat_barrier
+from stylobate.models.drums.standing import flat_barrier as in_the_plane
 from stylobate.models.start import Start
 from stylobate.motion import Motion
 from stylobate.outcome import Outcome
@@ -49,6 +53,38 @@ def test_soft_joints_overturn_with_less_energy(column, law):
     taken = flat_barrier(column, np.zeros((1, 2)), toes=block.toes(column))
     assert taken <= max(energies) < rigid
     assert taken > 0.98 * max(energies)
+
+
+@pytest.mark.parametrize(("points", "stiffness"), [(2, 1e9), (2, 1e8), (5, 1e9)])
+def test_soft_joints_overturn_with_less_energy_in_the_plane_too(points, stiffness):
+    """As above; undamped runs that stopped near their highest point were called decided, and went over."""
+    column, model = square_column(stiffness), DistinctElement2D(points=points)
+    alpha = math.atan(0.5 * column.drums[0].bottom_width / column.drums[0].centroid_height)
+    energies = []
+    for tilt in np.linspace(0.8, 1.0, 21) * alpha:
+        block = model.make_block(1, RunOptions(start=Start(float(tilt))))
+        block.load(0, Case(column, Motion(1.0, np.zeros(2))))
+        energies.append(block.rest[0])
+    flat = geometry(column)
+    rigid = in_the_plane(column, flat, np.zeros(1))
+    taken = in_the_plane(column, flat, block.toes(column))
+    assert taken <= max(energies) < rigid
+    assert taken > 0.93 * max(energies)
+
+
+def test_a_drum_on_another_one_has_a_margin_to_walk():
+    """Wobbling it walks at no cost, and comes nearer to its edge: the barrier of joints between drums is of a narrower
+    support, in space; a column of one drum has its whole support."""
+    one, two = round_column(1), round_column(2)
+    still = np.zeros((2, 2))
+    assert flat_barrier(one, still[:1], walks=True) == flat_barrier(one, still[:1])
+    # on a foot so wide that the upper joint governs
+    wide = two.replace(drums=(dataclasses.replace(two.drums[0], bottom_width=3.0), two.drums[1]))
+    mass, half = wide.drums[1].mass, 0.5 * wide.drums[1].bottom_width
+    height = wide.drums[1].centroid_height
+    for walks, share in ((False, 1.0), (True, 0.6)):
+        rise = math.hypot(share * half, height) - height
+        assert flat_barrier(wide, still, walks=walks) == pytest.approx(mass * wide.gravity * rise, rel=1e-12)
 
 
 def test_a_start_on_its_way_over_is_not_decided():

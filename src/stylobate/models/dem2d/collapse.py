@@ -270,7 +270,8 @@ class _ColumnRun:
         when = int(watch["when"][0])
         return Measures(
             outcome=outcome,
-            decided=self.collapsed or (not failed and stands_for_good(column, drum, 0, slip, mechanical)),
+            decided=self.collapsed
+            or (not failed and stands_for_good(column, drum, 0, slip, mechanical, self.block.toes(column))),
             collapse_time=float(when * engine.dt) if when >= 0 else math.nan,
             peak_top_displacement=self.block.peak(0, "top"),
             residual_top_displacement=float(found.top_displacement[-1]),

@@ -19,6 +19,7 @@ from ..drums.joints import contact_points, joint_stiffnesses
 from ..drums.stepped import SteppedDrums
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled
+from ..shared.toes import point_toes
 from .found_start import found_start
 
 if TYPE_CHECKING:
@@ -194,7 +195,8 @@ def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
         found, joint_fields["fs"] = found_start(column, kn * area / width, xi, share)
         drums |= found
     lanes = lane_fields(column, model.stiffness_damping, model.mass_damping) | {"xi": xi, "sh": share}
-    return PackedColumn((drums, joint_fields, lanes), model.step_for(column))
+    toes = point_toes(column, kn, float(share[-1]))
+    return PackedColumn((drums, joint_fields, lanes), model.step_for(column), toes)
 
 
 #: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.

@@ -23,7 +23,6 @@ from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
 from ..start import check_in_plane
 from .pose import placed
-from .toes import toe_energies
 from .touching import slips_where_closest
 from .verdict import stands_for_good
 
@@ -35,13 +34,11 @@ class SpaceBlock(DrumBlock):
     ----------
     planar : bool
         Hold the motion in the plane of x and z.
-    law : {"rim", "bed", "corners"}
-        Where a joint carries.
     """
 
-    def __init__(self, *arguments: Any, planar: bool, law: str = "rim") -> None:
+    def __init__(self, *arguments: Any, planar: bool) -> None:
         super().__init__(*arguments)
-        self.planar, self.law = planar, law
+        self.planar = planar
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
@@ -239,8 +236,7 @@ class SpaceBlock(DrumBlock):
         mechanical = float(change[1] + change[2] + change[3] + self.rest[lane])
         return Measures(
             outcome=outcome,
-            decided=outcome is Outcome.COLLAPSED
-            or (not failed and stands_for_good(column, self.drum, lane, slip, mechanical, self.toes(column))),
+            decided=outcome is Outcome.COLLAPSED or (not failed and self.stays(column, lane, slip, mechanical)),
             collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
             peak_top_displacement=self.peak(lane, "top"),
             residual_top_displacement=float(np.hypot(*(self.top_place(lane) - (watch["sx"][lane], watch["sy"][lane])))),
@@ -263,9 +259,10 @@ class SpaceBlock(DrumBlock):
             ),
         )
 
-    def toes(self, column: Column) -> np.ndarray:
-        """See :func:`toe_energies`."""
-        return toe_energies(column, self.pack(column).fields[1]["kn"][:-1], self.law)
+    def stays(self, column: Column, lane: int, slip: np.ndarray, energy: float) -> bool:
+        """Whether the column in a lane stands for good; in the plane no drum walks."""
+        toes, walks = self.toes(column), not self.planar
+        return stands_for_good(column, self.drum, lane, slip, energy, toes, walks=walks)
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane, with its direction in plan."""

@@ -19,6 +19,7 @@ from ..drums.joints import joint_stiffnesses
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
+from ..shared.toes import bed_toes, point_toes, rim_toes
 from .block import SpaceBlock, histories
 from .found_start import found_start
 from .packing import CORNERS, drum_fields, joint_fields, lane_fields
@@ -28,6 +29,9 @@ from .stability import highest_frequency
 
 #: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
 LAWS = {"rim": ("rim_forces", 1.0), "bed": ("bed_forces", 0.0)}
+
+#: What a joint of each law gives with its load on its edge.
+TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
 
 #: In place of a section: one body that stands on its vertices.
 SPECIMEN = "specimen"
@@ -206,8 +210,7 @@ class DistinctElement3D(SteppedDrums):
                 drums, damping, self.step_for, kernel, types, self.pack, 1, options, cost, planar=self.planar
             )
         cost = self.cost(drums)
-        law = self.law if section == "circular" else "corners"
-        return SpaceBlock(kernel, types, self.pack, drums, options, cost, planar=self.planar, law=law)
+        return SpaceBlock(kernel, types, self.pack, drums, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
@@ -228,7 +231,8 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
         kernel, types = model.kernel(column.section), model.record_types(column.section)
         found, friction = found_start(column, kernel, types, (drums, joints, lane), closure)
         drums, joints = drums | found, joints | friction
-    return PackedColumn((drums, joints, lane), model.step_for(column))
+    toes = TOES[model.law if column.section == "circular" else "corners"](column, kn)
+    return PackedColumn((drums, joints, lane), model.step_for(column), toes)
 
 
 @lru_cache(maxsize=4096)

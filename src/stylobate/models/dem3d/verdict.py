@@ -9,12 +9,21 @@ import numpy as np
 from ...column import Column
 from ...column.found_in_space import SpaceGeometry, inside_overlap, space_geometry, space_load, upward
 from ...constants import DEGREE
+from ..shared.toes import given_by_toes
 from .packing import CORNERS
-from .toes import given_by_toes
+
+#: Share of its margin that a drum on another one may walk off while it wobbles [-].
+WALK = 0.4
 
 
 def stands_for_good(
-    column: Column, drum: np.ndarray, lane: int, slip: np.ndarray, energy: float, toes: np.ndarray
+    column: Column,
+    drum: np.ndarray,
+    lane: int,
+    slip: np.ndarray,
+    energy: float,
+    toes: np.ndarray,
+    walks: bool = True,
 ) -> bool:
     """Whether a column that no input shakes any more can neither overturn nor slide apart. Eq. (V1), in space.
 
@@ -29,7 +38,11 @@ def stands_for_good(
     energy : float
         Kinetic, gravitational and elastic energy above that of the column at rest [J].
     toes : array
-        What each joint gives with its load on its edge, see :func:`~.toes.toe_energies` [J], shape (n,).
+        What each joint gives with its load on its edge (:mod:`stylobate.models.shared.toes`) [J], shape (n,).
+    walks : bool
+        A drum that wobbles on another one may walk: joints between drums have their support narrowed by :data:`WALK`.
+        Walking without slip costs nothing, so that no bound by energy is a proof; the margin is measured, see the theory
+        page.
     """
     if column.as_found:
         inside = _centroids_inside if column.section == "circular" else _centroids_above_corners
@@ -40,15 +53,19 @@ def stands_for_good(
         flat = space_geometry(column, slip=slip, twist=twist)
         # what sliding down a slope has set free is not there any more to fall back on
         lower = float(column.masses @ ((space_geometry(column).centroid - flat.centroid) @ upward(column)))
-        return energy + max(lower * column.gravity, 0.0) < found_barrier(column, flat, toes)
+        return energy + max(lower * column.gravity, 0.0) < found_barrier(column, flat, toes, walks)
     if column.section == "circular":
-        return _centroids_inside(column, drum, lane) and energy < flat_barrier(column, slip, toes=toes)
+        return _centroids_inside(column, drum, lane) and energy < flat_barrier(column, slip, toes=toes, walks=walks)
     turns = np.arctan2(drum["iy"][:, lane], drum["ix"][:, lane])
-    return _centroids_above_corners(column, drum, lane) and energy < flat_barrier(column, slip, turns, toes)
+    return _centroids_above_corners(column, drum, lane) and energy < flat_barrier(column, slip, turns, toes, walks)
 
 
 def flat_barrier(
-    column: Column, slip: np.ndarray, turns: np.ndarray | None = None, toes: np.ndarray | None = None
+    column: Column,
+    slip: np.ndarray,
+    turns: np.ndarray | None = None,
+    toes: np.ndarray | None = None,
+    walks: bool = False,
 ) -> float:
     """Lowest energy that overturns, or slides and lifts, some part of the column with its drums put down flat [J].
 
@@ -65,6 +82,8 @@ def flat_barrier(
         Azimuth of each body's first axis, the base's first [rad], shape (n + 1,); for rectangular sections.
     toes : array, optional
         See :func:`stands_for_good`; rigid joints without.
+    walks : bool
+        See :func:`stands_for_good`.
     """
     cornered = column.section != "circular"
     if cornered and turns is None:
@@ -94,6 +113,7 @@ def flat_barrier(
             half = min(own - math.dist(middle, place[j]), lower - math.dist(middle, below))
         if half <= 0.0:
             return 0.0
+        half *= 1.0 - WALK if walks and j else 1.0
         radius = math.hypot(half, height)
         loose = friction[max(j, 1) :].min(initial=math.inf)
         slides = loose < half / radius
@@ -105,7 +125,7 @@ def flat_barrier(
     return lowest
 
 
-def found_barrier(column: Column, flat: SpaceGeometry, toes: np.ndarray) -> float:
+def found_barrier(column: Column, flat: SpaceGeometry, toes: np.ndarray, walks: bool = False) -> float:
     """As :func:`flat_barrier` for a column as found, with its drums put down flat where they are; a lower bound [J].
 
     On a joint that slopes by γ the nearest edge is b cos γ away across gravity, and may lie b sin γ lower; friction is what
@@ -124,6 +144,7 @@ def found_barrier(column: Column, flat: SpaceGeometry, toes: np.ndarray) -> floa
         inside = inside_overlap(column, flat, j, load.place) if load.normal > 0.0 else 0.0
         if inside <= 0.0:
             return 0.0
+        inside *= 1.0 - WALK if walks and j else 1.0
         place = flat.origin[j] + flat.frame[j, :, :2] @ load.place
         half = inside * level[j]
         height = float((mass @ flat.centroid[j:] / mass.sum() - place) @ up) + inside * math.sin(slope[j])

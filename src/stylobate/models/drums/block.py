@@ -36,10 +36,11 @@ CALLS_PER_RUN = 100
 
 @dataclass(frozen=True)
 class PackedColumn:
-    """A column as the kernel wants it."""
+    """A column as the kernel wants it; ``toes`` is what its joints give with their load on their edge [J], shape (n,)."""
 
     fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
     step: float
+    toes: np.ndarray
 
 
 def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
@@ -364,6 +365,10 @@ class DrumBlock:
             "energy": self.energies(lane),
         }
 
+    def toes(self, column: Column) -> np.ndarray:
+        """What a column's joints give with their load on their edge [J], shape (n,)."""
+        return self.pack(column).toes
+
     def begun(self, lane: int, change: np.ndarray) -> float:
         """What a run started with, for its imbalance: its elastic energy, or what the pose and the velocity hold [J]."""
         begun = float(self.start[lane, 3])
@@ -396,7 +401,7 @@ class DrumBlock:
         return Measures(
             outcome=outcome,
             decided=outcome is Outcome.COLLAPSED
-            or (not failed and stands_for_good(case.column, self.drum, lane, slip, mechanical)),
+            or (not failed and stands_for_good(case.column, self.drum, lane, slip, mechanical, self.toes(case.column))),
             collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
             peak_top_displacement=self.peak(lane, "top"),
             residual_top_displacement=self.top(lane) - float(watch["stood"][lane]),

@@ -9,6 +9,7 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import Geometry, geometry, gravity_vector
 from ...constants import DEGREE
+from ..shared.toes import given_by_toes
 
 
 def lowest_barrier(column: Column) -> float:
@@ -21,7 +22,9 @@ def lowest_barrier(column: Column) -> float:
     )
 
 
-def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarray, energy: float) -> bool:
+def stands_for_good(
+    column: Column, drum: np.ndarray, lane: int, slip: np.ndarray, energy: float, toes: np.ndarray
+) -> bool:
     """Whether a column that no input shakes any more can neither overturn nor slide apart.
 
     Parameters
@@ -34,6 +37,8 @@ def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarra
         Along each joint since the start [m], shape (n,).
     energy : float
         Kinetic, gravitational and elastic energy above that of the column at rest [J].
+    toes : array
+        What each joint gives with its load on its edge (:mod:`stylobate.models.shared.toes`) [J], shape (n,).
 
     Notes
     -----
@@ -42,7 +47,7 @@ def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarra
     present offsets: overturning as one body about the nearer end of the contact, m g (R − H); where some joint above
     is so slippery that it slides first, tan φ below the sine of the critical angle, sliding and lifting together: m g
     [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
-    the slope of the joint leaves of it.
+    the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that.
     """
     if not _centroids_inside(column, drum, lane):
         return False
@@ -50,7 +55,7 @@ def stands_for_good(column: Column, drum: np.ndarray, lane: int, slip: np.ndarra
     flat = geometry(column, offsets)
     # what sliding down a slope has set free is not there any more to fall back on
     lower = float(column.masses @ ((flat.centroid - geometry(column).centroid) @ gravity_vector(column)))
-    return energy + max(lower, 0.0) < _flat_barrier(column, flat)
+    return energy + max(lower, 0.0) < flat_barrier(column, flat, toes)
 
 
 def _part(column: Column, j: int) -> tuple[float, float]:
@@ -81,7 +86,7 @@ def _centroids_inside(column: Column, drum: np.ndarray, lane: int) -> bool:
     return True
 
 
-def _flat_barrier(column: Column, flat: Geometry) -> float:
+def flat_barrier(column: Column, flat: Geometry, toes: np.ndarray) -> float:
     """Lowest barrier of the column with its drums flat on one another, each with its offset [J]; 0 if none is left."""
     down = gravity_vector(column)
     up = -down / column.gravity
@@ -108,5 +113,6 @@ def _flat_barrier(column: Column, flat: Geometry) -> float:
         loose = friction[max(j, 1) :].min(initial=math.inf)
         slides = loose < half / radius
         rise = loose * half - height * (1.0 - math.sqrt(1.0 - loose * loose)) if slides else radius - height
-        lowest = min(lowest, column.gravity * float(mass.sum()) * rise)
+        barrier = column.gravity * float(mass.sum()) * rise - given_by_toes(column, toes, j, half, height)
+        lowest = min(lowest, barrier)
     return lowest

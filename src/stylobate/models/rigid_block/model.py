@@ -15,6 +15,7 @@ from ...motion import Motion
 from ..drums.block import PackedColumn, drum_fields, lane_fields
 from ..drums.stepped import SteppedDrums
 from ..shared import stable_step as shared
+from ..shared.toes import centroids_above, point_toes
 from .block_stack import BlockStack
 
 
@@ -137,7 +138,18 @@ def _pack(column: Column, model: RigidBlock) -> PackedColumn:
     }
     drums = drum_fields(column, column.joint_weights / kn)
     lane = lane_fields(column, model.stiffness_damping, model.mass_damping)
-    return PackedColumn((drums, joint_fields, lane), model.step_for(column))
+    return PackedColumn((drums, joint_fields, lane), model.step_for(column), _toes(column, strength))
+
+
+def _toes(column: Column, strength: float | None) -> np.ndarray:
+    """What joints give with their load on their edge [J], shape (n,); a joint that crushes carries it further in."""
+    kn, km, _ = joint_stiffness(column)
+    half = 0.5 * column.joint_widths
+    toes = point_toes(column, kn / column.joint_areas, 1.0 / (1.0 + half**2 * kn / km))
+    if strength is None:
+        return toes
+    inset = half * column.joint_weights / (strength * column.joint_areas)
+    return toes + column.joint_weights * inset * half / np.hypot(half, centroids_above(column))
 
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

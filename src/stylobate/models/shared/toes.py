@@ -1,4 +1,4 @@
-"""What joints in space give when their load stands on their edge: soft joints overturn with less energy than rigid ones."""
+"""What joints give when their load stands on their edge: soft joints overturn with less energy than rigid ones."""
 
 from __future__ import annotations
 
@@ -10,30 +10,38 @@ from ...column import Column
 SHORT_ARC = 1.05
 
 
-def toe_energies(column: Column, kn: np.ndarray, law: str) -> np.ndarray:
+def rim_toes(column: Column, kn: np.ndarray) -> np.ndarray:
     """By how much gravitational and elastic energy are less with the weight on the edge of each joint than rigidly [J].
 
     Beyond what the closed joint gives under the same weight, shape (n,). A toe on a spring of N ∝ eᵖ that is pressed by e
-    lowers the energy by N e p/(p + 1).
+    lowers the energy by N e p/(p + 1). Here of joints that carry on their rim.
 
     Parameters
     ----------
     column : Column
     kn : array
         Normal stiffness per area [N/m³], shape (n,).
-    law : {"rim", "bed", "corners"}
     """
-    weight, area, radius = column.joint_weights, column.joint_areas, 0.5 * column.joint_widths
-    closed = weight**2 / (2.0 * kn * area)
-    if law == "corners":  # on a single one of the four
-        return SHORT_ARC * 2.0 * weight**2 / (kn * area) - closed
+    weight, radius = column.joint_weights, 0.5 * column.joint_widths
     height = centroids_above(column)
-    if law == "rim":  # N = 4/3 k_n (R/2) R √2 e^1.5 / √(R sin α)
-        stiffness = (2.0 * np.sqrt(2.0) / 3.0) * kn * radius**2 / np.sqrt(radius * radius / np.hypot(radius, height))
-        return SHORT_ARC * 0.6 * weight * (weight / stiffness) ** (2.0 / 3.0) - closed
+    # N = 4/3 k_n (R/2) R √2 e^1.5 / √(R sin α)
+    stiffness = (2.0 * np.sqrt(2.0) / 3.0) * kn * radius**2 / np.sqrt(radius * radius / np.hypot(radius, height))
+    return SHORT_ARC * 0.6 * weight * (weight / stiffness) ** (2.0 / 3.0) - _closed(column, kn)
+
+
+def bed_toes(column: Column, kn: np.ndarray) -> np.ndarray:
+    """As :func:`rim_toes`, of joints on an elastic bed."""
+    weight, radius = column.joint_weights, 0.5 * column.joint_widths
     # N = 8 √2/15 k_n √R e^2.5 / (tan α)^1.5
-    stiffness = (8.0 * np.sqrt(2.0) / 15.0) * kn * np.sqrt(radius) * (height / radius) ** 1.5
-    return SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - closed
+    steepness = (centroids_above(column) / radius) ** 1.5
+    stiffness = (8.0 * np.sqrt(2.0) / 15.0) * kn * np.sqrt(radius) * steepness
+    return SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - _closed(column, kn)
+
+
+def point_toes(column: Column, kn: np.ndarray, share: float | np.ndarray) -> np.ndarray:
+    """As :func:`rim_toes`, of joints whose edge has a share of the joint's stiffness: a corner, the last of some points."""
+    closed = _closed(column, kn)
+    return SHORT_ARC * closed / share - closed
 
 
 def given_by_toes(column: Column, toes: np.ndarray, j: int, half: float, height: float) -> float:
@@ -56,3 +64,7 @@ def centroids_above(column: Column) -> np.ndarray:
     mass = np.cumsum(column.masses[::-1])[::-1]
     arms = np.cumsum((column.masses * column.centroid_heights)[::-1])[::-1]
     return arms / mass - column.joint_heights
+
+
+def _closed(column: Column, kn: np.ndarray) -> np.ndarray:
+    return column.joint_weights**2 / (2.0 * kn * column.joint_areas)
