@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 
 import stylobate as st
-from stylobate.paper import cases
+from stylobate.paper import cases, literature
 from stylobate.paper.cases import Grids
 
 GRIDS = dataclasses.replace(
@@ -40,6 +40,7 @@ def shorten(setattr=setattr):
     setattr(cases, "DURATION", 3.0)
     setattr(cases, "FREQUENCIES", np.array([0.66, 2.0]))
     setattr(cases, "AMPLITUDES", np.array([0.2, 0.5]) * st.g)
+    setattr(literature, "SHAKING", (1.0, 0.3 * st.g, 2.0, 0.5))
 
 
 def play():

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from .conclusions import conclusions
 from .drums import drum_statements
 from .monolith import monolith_statements
+from .others import others_statements
 from .reading import MEANINGS, Reader, Statement
 from .space import space_statements
 from .statics import static_statements
@@ -23,6 +24,7 @@ def statements(results: PaperResults) -> list[Statement]:
         *drum_statements(r),
         *conclusions(r),
         *space_statements(results),
+        *others_statements(results),
     ]
     return sorted(rows, key=lambda row: (not row.section[0].isdigit(), row.section[:3]))
 
@@ -39,7 +41,8 @@ def statements_markdown(rows: Sequence[Statement], quick: bool) -> str:
         "# The paper, sentence by sentence",
         "",
         "Every checkable sentence of Baraldi, Sarhosis and Milani, in our words, beside what this package computes. "
-        f"Written by `stylobate reproduce{' --quick' if quick else ''}`; nothing in it is edited by hand.",
+        f"Written by `stylobate reproduce{' --quick' if quick else ''}`; nothing in it is edited by hand. "
+        "Rows with another source than the paper's sections are what others found of columns in space.",
         "",
         *(f"- **{one}** ({count[one]}): {meaning}." for one, meaning in MEANINGS.items()),
         "",

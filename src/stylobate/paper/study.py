@@ -25,6 +25,7 @@ from ..own_files import own_files
 from ..simulate import thread_count
 from . import cases as c
 from .folder import check_folder, claim
+from .literature import literature_piece
 from .pieces import cost_piece, domain_piece, histories_piece, population_piece, slug
 
 if TYPE_CHECKING:
@@ -62,6 +63,8 @@ class PaperResults:
         By (column, population of :data:`stylobate.paper.cases.POPULATIONS`): round columns in the plane and in space.
     rivals : dict
         By (column, model, section): plane domains on the grid of ``space``.
+    literature : dict
+        By population of round columns as others have tested them: peaks, residuals and verdicts of each column.
     cost : dict
         By model: computing time of two seconds of a column of drums [s].
     """
@@ -78,6 +81,7 @@ class PaperResults:
     spots: dict[str, CollapseProbability] = field(default_factory=dict)
     space: dict[tuple[str, str], CollapseProbability] = field(default_factory=dict)
     rivals: dict[tuple[str, str, str], Domain] = field(default_factory=dict)
+    literature: dict[str, dict[str, list[float]]] = field(default_factory=dict)
     cost: dict[str, float] = field(default_factory=dict)
 
     @property
@@ -87,7 +91,8 @@ class PaperResults:
         single += [*self.shaken.values(), *self.rivals.values()]
         single += [one for doubt in self.doubts.values() for one in (doubt.steps.domain, doubt.steps.halved)]
         many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
-        cases = sum(one["verdict"].size for one in self.histories.values())
+        tested = sum(len(one["peak"]) for one in self.literature.values())
+        cases = tested + sum(one["verdict"].size for one in self.histories.values())
         return sum(len(one.rows) for one in single) + sum(one.codes.size for one in many) + cases
 
 
@@ -185,6 +190,7 @@ def _pieces(folder: Path, quick: bool, grids: c.Grids, threads: int | None, repo
                 data / slug("rival", name, label, section), c.paper_column(name, section), c.MODELS[label], grid,
                 grids.tail, count, None,
             )  # fmt: skip
+    found.literature = literature_piece(data)
     found.cost = cost_piece(data)
     for name, section in product(PRESETS, ("rectangular", "circular")):
         found.paths[name, section] = pushover(c.paper_column(name, section))
