@@ -44,17 +44,6 @@ def test_a_stiffer_joint_comes_nearer_to_the_rigid_quarter_period():
     assert all(0.0 < errors[i + 1] < 0.5 * errors[i] < 4e-4 for i in range(2))
 
 
-@pytest.mark.parametrize(("stiffness", "limit"), [(5e10, 2e-4), (5e12, 2e-5)])
-def test_transient_wobbling(stiffness, limit):
-    """The axis after 3 s of wobbling without pivot friction; half as much again on the way, where the tilt is smallest."""
-    column = round_column(stiffness=stiffness)
-    times, axes = released(column, wobble(0.1, 1.0), 3.0, pivot_friction=0.0)
-    exact = rolling(round_column(), 0.1, 1.0, 0.0, 3.0).sol(times)
-    error = [np.abs(axes[i, :, 2] - axis_of(*exact[:2, i])).max() for i in range(len(times))]
-    assert error[-1] < limit
-    assert max(error) < 1.5 * limit
-
-
 def test_on_an_elastic_bed_the_quarter_period_falls_behind():
     """The pivot moves in from the rim as k_n^−0.4: 9.2e-3, 3.6e-3 and 1.4e-3 longer at 5e10, 5e11 and 5e12."""
     errors = [

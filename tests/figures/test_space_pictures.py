@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from validation.space import round_column
 
 import stylobate as st
 from stylobate import plots
@@ -20,6 +21,7 @@ from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.plots.animation import draw_frame, film_of, write_gif
 from stylobate.plots.player import write_player
 from stylobate.plots.residuals import round_factor
+from stylobate.plots.scene import scene_of
 from stylobate.plots.solids import FLUTE, MARK, STONE, Solid, painted, painting_order, surface_of
 from stylobate.plots.uplift import rim_radius, rim_uplift
 from stylobate.plots.view import ALONG_X, ALONG_Y, OBLIQUE, View, parse_view
@@ -305,3 +307,20 @@ def test_the_page_magnifies_and_orders_as_films_do(shaken, tmp_path):
     np.testing.assert_allclose(np.array(found["larger"])[:, 3:], wanted.orientation, atol=2e-4)
     assert found["order"] == list(range(12))  # from the base upward, as seen from above
     assert painting_order(film_of(shaken, OBLIQUE).solids(state), OBLIQUE) == found["order"]
+
+
+def test_a_base_out_of_level_is_drawn_as_it_leans(tmp_path):
+    """Towards 90° it rises: seen against x the ground rises to the right, its plate with it, and the column leans back."""
+    column = round_column(2).replace(as_found=st.AsFound((), 5.0, 90.0))
+    response = st.simulate(column, st.Motion(0.02, np.zeros(3)), st.DistinctElement3D())
+    beside, along = (scene_of(response, view) for view in (ALONG_Y, ALONG_X))
+    assert beside.slope == pytest.approx(np.tan(np.radians(5.0)))
+    assert along.slope == pytest.approx(0.0, abs=1e-12)
+    rise = np.ptp(beside.plate[:, 2]) / np.ptp(beside.plate[:, 1])
+    assert rise == pytest.approx(np.tan(np.radians(5.0)), rel=1e-3)
+    middles = np.array([solid.vertices.mean(axis=0) for solid in beside.solids(0)])
+    lean = np.arctan2(middles[1, 1] - middles[0, 1], middles[1, 2] - middles[0, 2])
+    assert lean == pytest.approx(np.radians(-5.0), abs=1e-3)
+    page = write_player(response, tmp_path / "page.html").read_text(encoding="utf-8")
+    plate = np.array(json.loads(re.search(r'"plate": (\[\[.*?\]\])', page)[1]))
+    assert np.ptp(plate[:, 2]) > 0.05

@@ -8,6 +8,7 @@ from . import (
     paper,
     rocking,
     round_columns,
+    round_contact,
     sliding,
     statics,
 )
@@ -18,7 +19,7 @@ CASES: list[Case] = [
     one
     for kind in KINDS
     for module in (
-        *(rocking, overturning, round_columns, sliding, statics),
+        *(rocking, overturning, round_columns, round_contact, sliding, statics),
         *(conservation, convergence, agreement, paper, tapered),
     )
     for one in module.CASES

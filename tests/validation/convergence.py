@@ -12,12 +12,14 @@ from stylobate.kernels.rigid_beam import moment_law
 from stylobate.models.base import Case as Run
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rocking.model import HousnerBlock
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate, simulate_many
 
 from .case import AtMost, Case, Near, collected
+from .space import round_column
 
 CASES: list[Case] = []
 case = collected("convergence", CASES)
@@ -242,3 +244,26 @@ def refined_verdicts() -> list[np.ndarray]:
     ]
     assert min(one.sum() for one in fell) > 30
     return fell
+
+
+@case(
+    "dem3d",
+    "share of 160 round monoliths in space that collapse: change as the step is halved, twice",
+    AtMost(0.05),
+    source="verdicts of a population settle, single ones at the boundary do not",
+    reason="a few cells at the boundary of 160",
+)
+def population_in_space():
+    time = np.arange(2001) * 5e-3
+    motions = [
+        Motion(5e-3, a * g * np.sin(2.0 * np.pi * f * time), 0.1 * a * g * np.cos(2.0 * np.pi * f * time))
+        for f in np.linspace(0.5, 1.4, 10)
+        for a in np.linspace(0.15, 0.55, 16)
+    ]
+    column = round_column()
+    shares = [
+        simulate_many(column, motions, DistinctElement3D(step_factor=factor))["collapsed"].mean()
+        for factor in (0.4, 0.2, 0.1)
+    ]
+    assert 0.2 < shares[0] < 0.8
+    return np.abs(np.diff(shares))

@@ -10,6 +10,7 @@ from markupsafe import Markup
 
 from ..atomic import replacing
 from ..response import Response
+from ..response.poses import quaternions, rotation_matrices
 from .animation import SHAPE, film_of, frame_indices
 from .scene import Scene, scale_bar
 from .solids import COLOURS, DIFFUSE, LIGHT
@@ -47,7 +48,7 @@ def write_player(
     indices = np.unique(frame_indices(scene.time, frames_per_second, speed, window))
     view = scene.view(indices, SHAPE)
     shown, space = list(scene.shown), response.dims == "xyz"
-    poses = np.concatenate((response.body_position, response.body_orientation), axis=2)[indices][:, shown]
+    poses = _upright(scene, response.body_position, response.body_orientation)[indices][:, shown]
     data = {
         "time": scene.time[indices].round(4).tolist(),
         "shapes": [one.round(5).tolist() for one in _vertices(scene)],
@@ -61,7 +62,7 @@ def write_player(
         "peak": float(np.abs(scene.ground).max()),
     }
     if scene.ground_across is not None:
-        start = np.concatenate((response.body_position[0], response.body_orientation[0]), axis=1)[shown]
+        start = _upright(scene, response.body_position[0], response.body_orientation[0])[shown]
         data |= {
             "across": scene.ground_across[indices].round(5).tolist(),
             "peak": max(data["peak"], float(np.abs(scene.ground_across).max())),
@@ -78,6 +79,14 @@ def write_player(
     return target
 
 
+def _upright(scene: Scene, position: np.ndarray, orientation: np.ndarray) -> np.ndarray:
+    """Poses with z upward, as the page wants them, shape (…, 7): position [m] and quaternion."""
+    if not np.array_equal(scene.upright, np.eye(3)):
+        position = position @ scene.upright.T
+        orientation = quaternions(scene.upright @ rotation_matrices(orientation))
+    return np.concatenate((position, orientation), axis=-1)
+
+
 def _vertices(scene: Scene) -> list[np.ndarray]:
     """Vertices of every body in its own axes [m], each of shape (m, 3)."""
     if scene.seen_from is not None:
@@ -91,6 +100,7 @@ def _in_space(scene: Scene, view: View, start: np.ndarray) -> dict:
         "faces": [[(tone, *face) for tone, face in zip(one.tones, one.faces, strict=True)] for one in scene.surfaces],
         "start": start.round(5).tolist(),
         "plate": scene.plate.round(4).tolist(),
+        "directions": scene.directions.round(4).tolist(),
         "view": (view.azimuth, view.elevation),
         "colours": COLOURS.tolist(),
         "light": LIGHT.tolist(),

@@ -79,11 +79,10 @@ function drawSpace(k) {
   c.lineJoin = "round"; c.lineWidth = 1; c.fillStyle = "#f4f4f4"; c.strokeStyle = "#767676";
   path(space.plate.map(screen)); c.fill(); c.stroke();
   c.fillStyle = c.strokeStyle = "#1a1a1a"; c.font = "13px sans-serif"; c.textAlign = "center"; c.textBaseline = "middle";
-  const [reach, , level] = space.plate[0];
-  for (const [name, x, y] of [["x", 1, 0], ["y", 0, 1]]) {
-    const [from, to, beyond] = [0.72, 1, 1.08].map(s => screen([s * reach * x, s * reach * y, level]));
-    c.beginPath(); c.moveTo(...from); c.lineTo(...to); c.stroke(); c.fillText(name, ...beyond);
-  }
+  space.directions.forEach(([start, end], i) => {
+    const [from, to, beyond] = [0, 1, 1.3].map(s => screen(start.map((p, k) => p + s * (end[k] - p))));
+    c.beginPath(); c.moveTo(...from); c.lineTo(...to); c.stroke(); c.fillText("xy"[i], ...beyond);
+  });
   const axes = [rightward, upward, toward];
   const bodies = data.poses[k].map((pose, i) => formed(i, magnified(pose, space.start[i], +larger.value), axes));
   for (const { seen, edge, faces } of ordered(bodies)) {

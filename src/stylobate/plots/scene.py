@@ -9,6 +9,8 @@ from functools import cached_property
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..column import Column
+from ..column.found_in_space import base_axes
 from ..constants import g
 from ..errors import InputError
 from ..response import Response
@@ -74,8 +76,22 @@ class Scene:
 
     @property
     def slope(self) -> float:
-        """Rise of the ground to the right [-]."""
-        return math.tan(self.response.bodies.reference.slope) if self.seen_from is None else 0.0
+        """Rise of the ground to the right [-]; in space, where its plane cuts that of the picture."""
+        if self.seen_from is None:
+            return math.tan(self.response.bodies.reference.slope)
+        normal = self.base[:, 2]
+        return float(-(normal @ self.seen_from.right) / (normal @ self.seen_from.up))
+
+    @cached_property
+    def base(self) -> np.ndarray:
+        """Axes of the base as columns, z upward [-], shape (3, 3): a base out of level leans."""
+        column = self.response.structure
+        return base_axes(column) if isinstance(column, Column) else np.eye(3)
+
+    @property
+    def upright(self) -> np.ndarray:
+        """What turns poses into those of a picture whose z is upward [-], shape (3, 3): in space they are in the base's axes."""
+        return self.base if self.response.dims == "xyz" else np.eye(3)
 
     @property
     def ground(self) -> np.ndarray:
@@ -96,10 +112,9 @@ class Scene:
     def solids(self, index: int, factor: float = 1.0) -> list[Solid]:
         """Every body in space at a recorded state, displacements and turns times a factor."""
         poses = exaggerated(self.response.poses, index, factor)
-        turns = rotation_matrices(poses.orientation)
-        return [
-            Solid(surface, poses.position[i], turns[i]) for i, surface in zip(self.shown, self.surfaces, strict=True)
-        ]
+        turns = self.upright @ rotation_matrices(poses.orientation)
+        places = poses.position @ self.upright.T
+        return [Solid(surface, places[i], turns[i]) for i, surface in zip(self.shown, self.surfaces, strict=True)]
 
     @cached_property
     def surfaces(self) -> tuple[Surface, ...]:
@@ -161,7 +176,17 @@ class Scene:
         low = stood[stood[:, 2] < stood[:, 2].min() + 0.05 * np.ptp(stood[:, 2])]
         angle = np.arange(72) * (2.0 * np.pi / 72)
         radius = PLATE * float(np.hypot(*low[:, :2].T).max())
-        return np.stack((radius * np.cos(angle), radius * np.sin(angle), np.full(72, self.level or 0.0)), axis=1)
+        flat = np.stack((radius * np.cos(angle), radius * np.sin(angle), np.full(72, self.level or 0.0)), axis=1)
+        return flat @ self.base.T
+
+    @property
+    def directions(self) -> np.ndarray:
+        """Arrows along x and y on the ground, from and to, in space [m], shape (2, 2, 3)."""
+        radius = float(np.linalg.norm(self.plate[0] - self.plate.mean(axis=0)))
+        arrows = self.plate.mean(axis=0) + np.zeros((2, 2, 3))
+        for number in range(2):
+            arrows[number] += np.outer((0.72, 1.0), radius * self.base[:, number])
+        return arrows
 
     def _moving(self, index: int) -> list[np.ndarray]:
         return [shape for shape, fixed in zip(self.outlines(index), self.fixed, strict=True) if not fixed]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 
@@ -16,11 +15,7 @@ def draw_solids(axes: Axes, scene: Scene, index: int) -> None:
     view = scene.seen_from
     assert view is not None
     axes.fill(*view.across(scene.plate).T, facecolor="#f4f4f4", edgecolor=GREY, linewidth=0.7, zorder=1)
-    radius = float(np.hypot(*scene.plate[0, :2]))
-    for number, name in enumerate("xy"):
-        start, end = np.zeros((2, 3))
-        start[number], end[number] = 0.72 * radius, 1.0 * radius
-        start[2] = end[2] = scene.plate[0, 2]
+    for name, (start, end) in zip("xy", scene.directions, strict=True):
         axes.annotate(
             "",
             tuple(view.across(end)),
