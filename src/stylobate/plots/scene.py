@@ -90,7 +90,7 @@ class Scene:
 
     @property
     def upright(self) -> np.ndarray:
-        """What turns poses into those of a picture whose z is upward [-], shape (3, 3): in space they are in the base's axes."""
+        """What turns poses, in space those in the base's axes, into a picture's whose z is upward [-], shape (3, 3)."""
         return self.base if self.response.dims == "xyz" else np.eye(3)
 
     @property

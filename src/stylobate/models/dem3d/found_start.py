@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import SpaceGeometry, space_geometry, space_load
+from ...column.found_in_space import SpaceGeometry, SpaceLoad, space_geometry, space_load
 from ...errors import InputError
 from .packing import CORNERS
 
@@ -65,84 +66,147 @@ def found_start(
     InputError
         A joint cannot carry its load.
     """
-    n, cornered = column.n, column.section != "circular"
-    drum: Any
-    joint: Any
-    lane: Any
-    drum, joint, lane = (np.zeros(rows, one) for rows, one in zip((n + 1, n + 1, 1), types[:3], strict=True))
-    for array, values in zip((drum, joint, lane), fields, strict=True):
-        for name, value in values.items():
-            array[name][...] = np.asarray(value)[..., None]
-    lane["beta"] = lane["dt"] = 0.0
-    half = np.array([0.5 * one.bottom_width for one in column.drums])
-    scale = closure[:, None] / np.stack((np.ones(n), half, half), axis=1)
-    now = np.zeros((n, 3))
-    now[:, 0] = -closure
-    best, rest, moves, share = now.copy(), np.full(n, np.inf), np.zeros((n, 3)), np.ones(n)
-    at = space_geometry(column)
-    shear = np.array([(*(-space_load(column, at, j).shear), 0.0) for j in range(n)])
-    turning, pivots = np.zeros(n), not cornered and float(lane["pivot"][0, 0]) > 0.0
-    bears = np.full((n, len(CORNERS)), 1.0 / len(CORNERS))
+    contact = _Contact(column, kernel, types, fields)
+    half = contact.half
+    unknowns = _Unknowns.closed(closure)
+    scale = closure[:, None] / np.stack((np.ones(column.n), half, half), axis=1)
+    friction = _Friction.of_statics(column)
     found: tuple[dict[str, np.ndarray], dict[str, np.ndarray]] | None = None
     left = np.inf
     for count in range(ROUNDS):
         step = DIFFERENCES[count > 0] * scale
-        poses = [space_geometry(column, now + step * (np.arange(3) == c - 1)) for c in range(4)]
-        at = poses[0]
-        for k, pose in enumerate(poses + [at] * (len(CORNERS) if cornered else 0)):
-            for name, values in found_fields(column, pose).items():
-                drum[name][..., k] = values
-        loads = [space_load(column, at, j) for j in range(n)]
-        lower = np.concatenate((np.eye(3)[None], at.axes[:-1]))
-        own = np.einsum("nba,nbc,nc->na", lower, at.frame, shear)
-        memory = joint.copy()
-        stored = np.zeros((n + 1, *memory["s"].shape[1:2]))
-        stored[:n] = (bears[:, :, None] * own[:, None, :]).reshape(n, -1) if cornered else own
-        memory["s"][..., :4] = stored[..., None]
-        memory["t"][:n] = turning[:, None]
-        for p in range(len(CORNERS) if cornered else 0):  # in lanes of their own: what each corner bears
-            memory["mu"][:, 4 + p], memory["co"][:, 4 + p] = 1.0, 0.0
-            memory["s"][:, 3 * p, 4 + p] = PROBE
-        kernel.forces(drum, memory, lane)
-        held = np.empty((4, n, 6))
-        for k, pose in enumerate(poses):
-            force = memory["f"][:n, :, k]
-            moment = memory["up"][:n, :, k] + np.cross(pose.centroid - pose.origin, force)
-            force, moment = (np.einsum("nba,nb->na", pose.frame, one) for one in (force, moment))
-            held[k] = np.column_stack((force[:, 2], moment, force[:, :2]))
+        poses = [space_geometry(column, unknowns.now + step * (np.arange(3) == c - 1)) for c in range(4)]
+        held, stored = contact.ask(poses, friction)
+        loads = [space_load(column, poses[0], j) for j in range(column.n)]
+        missing, size, slid, twisting = contact.unbalanced(held[0], loads)
         pressing = np.array([load.normal for load in loads])
-        weights = np.array(
-            [(-load.normal, -load.place[1] * load.normal, load.place[0] * load.normal) for load in loads]
-        )
-        missing = held[0, :, :3] + weights
-        size = np.linalg.norm(missing / (pressing[:, None] * np.stack((np.ones(n), half, half), axis=1)), axis=1)
-        if cornered:
-            each = np.einsum("nb,nbp->np", lower[:n, :, 0], memory["f"][:n, :, 4 : 4 + len(CORNERS)])
-            bears = np.maximum(each, 0.0) / np.maximum(np.maximum(each, 0.0).sum(axis=1, keepdims=True), 1e-300)
-        about = [load.place[0] * load.shear[1] - load.place[1] * load.shear[0] for load in loads]
-        twisting = (held[0, :, 3] + about) * pivots
-        slid = held[0, :, 4:] + np.array([load.shear for load in loads])
         worst = max(float((np.abs(one).T / pressing).max()) for one in (slid, twisting / half))
         worst = max(worst, float(size.max()))
         if worst > 0.5 * left:  # no better than rounding lets it be
             break
         if worst < ALLOWED:
-            places = {name: drum[name][..., 0].copy() for name in found_fields(column, at)}
-            found, left = (places, {"s": stored, "t": np.concatenate((turning, [0.0]))}), worst
-        near = size < NEAR
-        shear[near, :2] -= slid[near]
-        turning[near] -= twisting[near]  # of pressure on two rims that lean to one another
-        for j in range(n):
-            if size[j] <= rest[j] or size[j] < NEAR:
-                slopes = (held[1:, j, :3] - held[0, j, :3]).T / step[j]
-                rest[j], best[j], share[j] = size[j], now[j], 1.0
-                moves[j] = -np.linalg.lstsq(slopes, missing[j], rcond=None)[0]
-            else:
-                share[j] *= 0.5
-            now[j] = best[j] + share[j] * moves[j]
+            places = {name: contact.drum[name][..., 0].copy() for name in found_fields(column, poses[0])}
+            found, left = (places, {"s": stored, "t": np.concatenate((friction.turning, [0.0]))}), worst
+        friction.take(size < NEAR, slid, twisting)
+        unknowns.go_on(size, missing, held, step)
     if found is None:
         raise InputError(
-            f"joint {int(np.argmax(rest)) + 1} of {column.name!r} as found carries its load at the very edge; "
+            f"joint {int(np.argmax(unknowns.rest)) + 1} of {column.name!r} as found carries its load at the very edge; "
             "make its offset or tilt, or base_tilt, smaller."
         )
     return found
+
+
+@dataclass
+class _Friction:
+    """What friction holds in every joint: shear in space [N], shape (n, 3), torsion moment [N m], each corner's share."""
+
+    shear: np.ndarray
+    turning: np.ndarray
+    bears: np.ndarray
+
+    @classmethod
+    def of_statics(cls, column: Column) -> _Friction:
+        """The shear that statics asks for, evenly on the corners."""
+        at, n = space_geometry(column), column.n
+        shear = np.array([(*(-space_load(column, at, j).shear), 0.0) for j in range(n)])
+        return cls(shear, np.zeros(n), np.full((n, len(CORNERS)), 1.0 / len(CORNERS)))
+
+    def take(self, near: np.ndarray, slid: np.ndarray, twisting: np.ndarray) -> None:
+        """Take over what the joints near equilibrium lack."""
+        self.shear[near, :2] -= slid[near]
+        self.turning[near] -= twisting[near]  # of pressure on two rims that lean to one another
+
+
+@dataclass
+class _Unknowns:
+    """Closure [m] and two rotations of every joint: now, at their best, and on the way from there; each of shape (n, 3)."""
+
+    now: np.ndarray
+    best: np.ndarray
+    moves: np.ndarray
+    rest: np.ndarray
+    share: np.ndarray
+
+    @classmethod
+    def closed(cls, closure: np.ndarray) -> _Unknowns:
+        """All joints closed evenly."""
+        now = np.zeros((len(closure), 3))
+        now[:, 0] = -closure
+        return cls(now, now.copy(), np.zeros_like(now), np.full(len(now), np.inf), np.ones(len(now)))
+
+    def go_on(self, size: np.ndarray, missing: np.ndarray, held: np.ndarray, step: np.ndarray) -> None:
+        """Newton's step of every joint that has come nearer; half of the last one from its best place for the others."""
+        for j in range(len(self.now)):
+            if size[j] <= self.rest[j] or size[j] < NEAR:
+                slopes = (held[1:, j, :3] - held[0, j, :3]).T / step[j]
+                self.rest[j], self.best[j], self.share[j] = size[j], self.now[j], 1.0
+                self.moves[j] = -np.linalg.lstsq(slopes, missing[j], rcond=None)[0]
+            else:
+                self.share[j] *= 0.5
+            self.now[j] = self.best[j] + self.share[j] * self.moves[j]
+
+
+class _Contact:
+    """The law of contact with the column's drums in lanes: as they stand, and with each unknown of the joints changed."""
+
+    def __init__(self, column: Column, kernel: Any, types: tuple, fields: tuple[dict[str, Any], ...]) -> None:
+        n = column.n
+        self.column, self.kernel, self.cornered = column, kernel, column.section != "circular"
+        self.drum: Any
+        self.joint: Any
+        self.lane: Any
+        arrays = [np.zeros(rows, one) for rows, one in zip((n + 1, n + 1, 1), types[:3], strict=True)]
+        self.drum, self.joint, self.lane = arrays
+        for array, values in zip(arrays, fields, strict=True):
+            for name, value in values.items():
+                array[name][...] = np.asarray(value)[..., None]
+        self.lane["beta"] = self.lane["dt"] = 0.0
+        self.half = np.array([0.5 * one.bottom_width for one in column.drums])
+        self.pivots = not self.cornered and float(self.lane["pivot"][0, 0]) > 0.0
+
+    def ask(self, poses: list[SpaceGeometry], friction: _Friction) -> tuple[np.ndarray, np.ndarray]:
+        """What the joints hold in their own frames at every pose: normal force, moments and shear, shape (poses, n, 6); and
+        the shear as the kernel stores it. Notes what each corner bears."""
+        column, at, n = self.column, poses[0], self.column.n
+        for k, pose in enumerate(poses + [at] * (len(CORNERS) if self.cornered else 0)):
+            for name, values in found_fields(column, pose).items():
+                self.drum[name][..., k] = values
+        lower = np.concatenate((np.eye(3)[None], at.axes[:-1]))
+        own = np.einsum("nba,nbc,nc->na", lower, at.frame, friction.shear)
+        memory = self.joint.copy()
+        stored = np.zeros((n + 1, *memory["s"].shape[1:2]))
+        stored[:n] = (friction.bears[:, :, None] * own[:, None, :]).reshape(n, -1) if self.cornered else own
+        memory["s"][..., :4] = stored[..., None]
+        memory["t"][:n] = friction.turning[:, None]
+        for p in range(len(CORNERS) if self.cornered else 0):  # in lanes of their own: what each corner bears
+            memory["mu"][:, 4 + p], memory["co"][:, 4 + p] = 1.0, 0.0
+            memory["s"][:, 3 * p, 4 + p] = PROBE
+        self.kernel.forces(self.drum, memory, self.lane)
+        held = np.empty((len(poses), n, 6))
+        for k, pose in enumerate(poses):
+            force = memory["f"][:n, :, k]
+            moment = memory["up"][:n, :, k] + np.cross(pose.centroid - pose.origin, force)
+            force, moment = (np.einsum("nba,nb->na", pose.frame, one) for one in (force, moment))
+            held[k] = np.column_stack((force[:, 2], moment, force[:, :2]))
+        if self.cornered:
+            each = np.einsum("nb,nbp->np", lower[:n, :, 0], memory["f"][:n, :, 4 : 4 + len(CORNERS)])
+            each = np.maximum(each, 0.0)
+            friction.bears = each / np.maximum(each.sum(axis=1, keepdims=True), 1e-300)
+        return held, stored
+
+    def unbalanced(
+        self, held: np.ndarray, loads: list[SpaceLoad]
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Normal force and moments that a joint holds too much, shape (n, 3), their size over the load and its lever; shear
+        [N], shape (n, 2), and torsion moment [N m] too much."""
+        pressing = np.array([load.normal for load in loads])
+        weights = np.array(
+            [(-load.normal, -load.place[1] * load.normal, load.place[0] * load.normal) for load in loads]
+        )
+        missing = held[:, :3] + weights
+        levers = np.stack((np.ones(len(loads)), self.half, self.half), axis=1)
+        size = np.linalg.norm(missing / (pressing[:, None] * levers), axis=1)
+        about = [load.place[0] * load.shear[1] - load.place[1] * load.shear[0] for load in loads]
+        slid = held[:, 4:] + np.array([load.shear for load in loads])
+        return missing, size, slid, (held[:, 3] + about) * self.pivots
