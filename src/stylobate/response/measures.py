@@ -82,9 +82,10 @@ class Measures:
         Time at which the collapse became certain [s]; NaN without collapse.
     peak_top_displacement, residual_top_displacement : float
         Of the middle of the top face, relative to the base, largest absolute value and value at the end [m]; in space the
-        lengths in plan. NaN for an assembly. Residuals of a column that collapsed are those of the debris.
+        lengths in plan. NaN for an assembly. Residuals of a column that collapsed are those of the debris; its peaks, these
+        and the others, end with the collapse, of columns of drums with the last look before they fell.
     peak_rotation : float
-        Largest absolute rotation of any drum [rad].
+        Largest absolute rotation of any drum since the start [rad].
     peak_joint_opening : float
         Largest opening of any joint, at the edge that opens most [m].
     residual_joint_slip : float
