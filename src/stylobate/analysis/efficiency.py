@@ -82,8 +82,7 @@ def which_tells_most(
         for other, logarithm in OTHERS.items():
             row[f"p_{other}"] = _p_value(runs, other, logarithm, names[both], 0.5 * (low + high)[both])
         rows.append(row)
-    table = pandas.DataFrame(rows)
-    return table.sort_values("beta", ignore_index=True) if len(table) else table
+    return pandas.DataFrame(sorted(rows, key=lambda one: one["beta"]))
 
 
 def _measures(runs: pandas.DataFrame) -> list[IntensityMeasure]:
@@ -92,7 +91,13 @@ def _measures(runs: pandas.DataFrame) -> list[IntensityMeasure]:
     if "im_name" in runs:
         names.append(str(runs["im_name"].iloc[0]))
     for name in dict.fromkeys(names):
-        if name != "sa" and (one := parse_measure(name)).power and one.key in runs and runs[one.key].notna().all():
+        one = None if name == "sa" else parse_measure(name)
+        if (
+            one is not None
+            and one.power
+            and one.key in runs
+            and bool(np.isfinite(runs[one.key].to_numpy(dtype=float)).all())
+        ):
             found.append(one)
     return list({one.key: one for one in found}.values())
 
@@ -117,10 +122,11 @@ def _p_value(runs: pandas.DataFrame, other: str, logarithm: bool, names: np.ndar
 
     if other not in runs:
         return math.nan
-    of_record = runs.groupby("record")[other].first()
-    x = np.array([float(of_record.get(one, math.nan)) for one in names])
+    of_record = dict(zip(runs["record"].astype(str), runs[other].to_numpy(dtype=float)))
+    x = np.array([of_record.get(str(one), math.nan) for one in names])
     x = np.log(np.where(x > 0.0, x, math.nan)) if logarithm else x
     known = np.isfinite(x)
     if np.count_nonzero(known) < FEWEST or np.ptp(x[known]) == 0.0:
         return math.nan
-    return float(linregress(x[known], capacity[known]).pvalue)
+    line: Any = linregress(x[known], capacity[known])
+    return float(line.pvalue)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -139,7 +139,8 @@ def evidence(
         )
     import pandas
 
-    im = pandas.to_numeric(table[key], errors="coerce").to_numpy(dtype=float)
+    numbers: Any = pandas.to_numeric(table[key], errors="coerce")
+    im = np.asarray(numbers, dtype=float)
     bad = np.flatnonzero(~(np.isfinite(im) & (im >= 0.0)))
     if bad.size:
         raise InputError(
@@ -153,7 +154,7 @@ def evidence(
         codes = _plain_codes(table, state, name)
     zero = im == 0.0  # of no intensity: nothing is exceeded, and the logarithm does not exist
     return Evidence(
-        table["record"].astype(str).to_numpy(dtype=object)[~zero],
+        np.array([str(one) for one in table["record"]], dtype=object)[~zero],
         im[~zero],
         codes[~zero],
         "im" if measure is None else measure.name,

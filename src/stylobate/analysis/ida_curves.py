@@ -99,7 +99,8 @@ class Ida:
             numbers = [one for one in self.runs.columns if one.startswith(("peak_", "residual_"))]
             raise InputError(f"the runs have no measure {edp!r}; measures are {', '.join(numbers)}.")
         found = []
-        for (record, realisation), rows in self.runs.groupby(["record", "realisation"], sort=False):
+        groups: Any = self.runs.groupby(["record", "realisation"], sort=False)
+        for (record, realisation), rows in groups:
             x = rows["level"].to_numpy(dtype=float)
             verdict = rows["verdict"].to_numpy(dtype=object)
             stands, fell = verdict == v.STANDS, x[verdict == v.COLLAPSED]
@@ -164,7 +165,8 @@ class Ida:
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate ida``."""
-        table = self.capacities
+        table: Any = self.capacities
+        runs: Any = self.runs
         counts = v.count(self.runs["verdict"].to_numpy(dtype=object))
         fell = np.sort(table["collapses_from"].astype(float).fillna(math.inf).to_numpy())
         quantiles = {
@@ -173,14 +175,14 @@ class Ida:
         return {
             "im": self.measure.name,
             "unit": self.measure.unit,
-            "records": int(self.runs["record"].nunique()),
+            "records": int(runs["record"].nunique()),
             "curves": len(table),
             "runs": len(self.runs),
             **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
             "resurrections": int(table["resurrections"].sum()),
             "curves_with_resurrections": int((table["resurrections"] > 0).sum()),
             **quantiles,
-            "largest_factor": float(self.runs["factor"].max()),
+            "largest_factor": float(runs["factor"].max()),
             "capacities": table.astype(object).where(table.notna(), None).to_dict("records"),
             "wall_s": self.wall_time,
             "model": self.model,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -120,7 +120,7 @@ def curves(
                 raise InputError(f"{source} has no runs of a column {missing[0]!r}; it has {', '.join(names)}.")
             names = [one for one in names if one in of]
         for name in names:
-            rows = table[table["column"].astype(str) == name] if "column" in table else table
+            rows: Any = table[table["column"].astype(str) == name] if "column" in table else table
             shown = name if len(sources) == 1 else f"{name}, {Path(source).stem}" if "column" in table else name
             found.append(
                 fit(evidence(rows, measure, level, shown), method=method, seed=seed, records_are_one=records_are_one)

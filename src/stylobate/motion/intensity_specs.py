@@ -57,7 +57,7 @@ def _rocking(key: str) -> Callable[[Motion, tuple[float, ...], tuple[float, floa
 
 
 def _average(motion: Motion, periods: tuple[float, ...], _: object) -> float:
-    t = np.geomspace(*periods, PERIODS)
+    t = np.geomspace(periods[0], periods[1], PERIODS)
     return float(np.exp(np.log(pseudo_acceleration(motion, t)).mean())) / g
 
 

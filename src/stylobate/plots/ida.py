@@ -101,7 +101,8 @@ def draw_efficiency(table: pandas.DataFrame, title: str | None = None, *, ax: Ax
     axes.plot(beta, at, "o", color=RED, markersize=4.5)
     axes.set_yticks(at, list(table["measure"]), fontsize=8)
     axes.set(
-        ylim=(len(at) - 0.5, -0.5), xlim=(0.0, 1.05 * min(float(table["beta_high"].max()), 3.0 * float(beta.max())))
+        ylim=(len(at) - 0.5, -0.5),
+        xlim=(0.0, 1.05 * min(float(np.max(table["beta_high"].to_numpy())), 3.0 * float(beta.max()))),
     )
     axes.set_xlabel("dispersion of the capacities, β [-]")
     axes.grid(True, axis="x")
