@@ -281,6 +281,7 @@ def _points(evidence: Evidence, codes: np.ndarray, method: str) -> Points:
         return _with_wilson(np.exp(at), passed, trials)
     told = codes >= 0
     y, hit, owner = evidence.im[told], codes[told] == EXCEEDED, evidence.records[told]
+    y = np.exp(np.round(np.log(y), 6))  # stripes that differ in their last digits are one
     levels = np.unique(y)
     if len(levels) > MOST_POINTS:
         edges = np.quantile(y, np.linspace(0.0, 1.0, 1 + min(8, max(3, len(np.unique(owner)) // 5))))

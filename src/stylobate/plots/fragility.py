@@ -12,10 +12,10 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..analysis.fragility import Fragility, curve
 from ..motion.intensity_specs import parse_measure
-from .style import BLACK, BLUE, RED, panel, styled
+from .style import BLACK, BLUE, RED, legend_below, panel, styled
 
 #: Width and height of a picture for one column of a printed page, where its text is still legible [inch].
-NARROW = (4.4, 3.5)
+NARROW = (4.4, 3.7)
 
 #: Dispersions on either side of the median that are shown, where there are runs.
 WIDE = 3.5
@@ -61,7 +61,8 @@ def draw_fragility(
             for extreme in one.extremes:
                 axes.plot(x, curve(x, *extreme), color=colour, linewidth=0.7, linestyle=(0, (1, 1.5)))
         name = one.evidence.name if len(found) > 1 else "lognormal"
-        label = f"{name}: {one.median:.3g} {one.evidence.unit}, β {one.beta:.2f}"
+        badly = ", fits badly" if one.p_value < BADLY else ""
+        label = f"{name}: {one.median:.3g} {one.evidence.unit}, β {one.beta:.2f}, {one.records} records{badly}"
         axes.plot(x, one.probability(x), color=colour, linestyle=look["linestyle"], linewidth=1.6, label=label)
         p = one.points
         bars = np.clip(np.stack((p.share - p.low, p.high - p.share)), 0.0, None)
@@ -75,12 +76,8 @@ def draw_fragility(
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
     axes.set_ylabel(f"probability of {state}")
     axes.grid(True)
-    records = ", ".join(str(one.records) for one in found)
-    said = f"{state}: {records} records, {100 * found[0].confidence:g} % band"
-    if any(one.p_value < BADLY for one in found):
-        said += "; a lognormal curve fits badly"
-    axes.set_title(title or said, fontsize=9)
-    axes.legend(loc="best", handlelength=2.4)
+    axes.set_title(title or f"{state}, {100 * found[0].confidence:g} % bands over records", fontsize=9)
+    legend_below(axes, ax is None, handlelength=2.4, ncols=1, fontsize=8)
     return figure
 
 

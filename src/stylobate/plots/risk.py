@@ -40,7 +40,7 @@ def draw_risk(result: Risk, title: str | None = None) -> Figure:
     lower.stairs(100.0 * share, result.edges[:-1], color=BLUE, linewidth=0.8)
     rest = 100.0 * result.parts[-1] / max(result.rate, 1e-300)
     if rest >= 0.5:
-        lower.annotate(f"{rest:.0f} % beyond", (0.98, 0.9), xycoords="axes fraction", ha="right", fontsize=8)
+        lower.annotate(f"{rest:.0f} % beyond", (0.02, 0.9), xycoords="axes fraction", ha="left", fontsize=8)
     lower.set_ylabel("share of the rate [%]")
     lower.set_xlim(hazard.im[0], hazard.im[-1])
     lower.grid(True, axis="y")
