@@ -156,7 +156,7 @@ class _Contact:
         self.drum: Any
         self.joint: Any
         self.lane: Any
-        arrays = [np.zeros(rows, one) for rows, one in zip((n + 1, n + 1, 1), types[:3], strict=True)]
+        arrays: list[Any] = [np.zeros(rows, one) for rows, one in zip((n + 1, n + 1, 1), types[:3], strict=True)]
         self.drum, self.joint, self.lane = arrays
         for array, values in zip(arrays, fields, strict=True):
             for name, value in values.items():
