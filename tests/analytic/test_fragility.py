@@ -233,6 +233,13 @@ def test_tables_of_others(tmp_path):
         read_table(tmp_path / "..")
 
 
+def test_what_a_study_was_scaled_to_is_not_taken_for_another_measure():
+    table = pandas.DataFrame({"record": ["a"], "im": [0.3], "measure": ["pgv"], **{k: [v] for k, v in row().items()}})
+    assert evidence(table, "pgv").im.tolist() == [0.3]
+    with pytest.raises(InputError, match="no intensity 'sa:1s'"):
+        evidence(table, "sa:1s")
+
+
 def test_too_few_records_and_runs_that_are_all_alike():
     e = stripes(np.random.default_rng(12), records=4)
     with pytest.raises(InputError, match="--records-are-one"):

@@ -132,7 +132,8 @@ def evidence(
     key = "im" if measure is None else next(
         (one for one in (measure.key, *ALSO.get(measure.key, ())) if one in table), "im"
     )  # fmt: skip
-    if key not in table:
+    said = scaled_to(table)
+    if key not in table or (key == "im" and measure is not None and said not in (None, measure.name)):
         raise InputError(
             f"the runs of {name} have no intensity {measure.name if measure else 'im'!r}; "
             f"columns are {', '.join(map(str, list(table.columns)[:40]))}."
@@ -163,6 +164,14 @@ def evidence(
         name,
         "hunted" in table and bool(table["hunted"].iloc[0]),
     )
+
+
+def scaled_to(table: pandas.DataFrame) -> str | None:
+    """The intensity measure that the runs of a study or an IDA were scaled to; None where a table does not say."""
+    for key in ("im_name", "measure"):
+        if key in table:
+            return str(table[key].iloc[0])
+    return None
 
 
 def _plain_codes(table: pandas.DataFrame, state: LimitState, name: str) -> np.ndarray:

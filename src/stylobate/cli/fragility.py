@@ -97,7 +97,7 @@ def curves(
     seed: int,
 ) -> list[Fragility]:
     """The fragilities that are asked for, one per source and column."""
-    from ..analysis.evidence import evidence, read_table
+    from ..analysis.evidence import evidence, read_table, scaled_to
     from ..analysis.fragility import fragility as fit
     from ..analysis.limit_states import parse_state
     from ..motion.intensity_specs import parse_measure
@@ -111,17 +111,22 @@ def curves(
     for source in sources:
         table = read_table(source)
         measure = asked
-        if measure is None and "im_name" in table:
-            measure = parse_measure(str(table["im_name"].iloc[0]))
-        names = list(dict.fromkeys(table["column"].astype(str))) if "column" in table else [Path(source).stem]
+        said = scaled_to(table)
+        if measure is None and said not in (None, "factor"):
+            measure = parse_measure(str(said))
+        who = [one for one in ("column", "model") if one in table and (one == "column" or table[one].nunique() > 1)]
+        labels = (
+            [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else [Path(source).stem] * len(table)
+        )
+        names = list(dict.fromkeys(labels))
         if of:
             missing = [one for one in of if one not in names]
             if missing:
                 raise InputError(f"{source} has no runs of a column {missing[0]!r}; it has {', '.join(names)}.")
             names = [one for one in names if one in of]
         for name in names:
-            rows: Any = table[table["column"].astype(str) == name] if "column" in table else table
-            shown = name if len(sources) == 1 else f"{name}, {Path(source).stem}" if "column" in table else name
+            rows: Any = table[[one == name for one in labels]]
+            shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
             found.append(
                 fit(evidence(rows, measure, level, shown), method=method, seed=seed, records_are_one=records_are_one)
             )
