@@ -1,9 +1,10 @@
-# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | docs | lock | clean
+# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
 STAMP := .venv/.installed
 DOCS_STAMP := .venv/.installed-docs
+PEERS_STAMP := .venv-peers/.installed
 PIP := $(BIN)/python -m pip --disable-pip-version-check -qq
 UV_VERSION := 0.13.8
 LOCK := .venv-lock/bin/uv pip compile -q --universal --python-version 3.11 --generate-hashes \
@@ -14,7 +15,7 @@ ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
 .PHONY: $(STAMP)
 endif
 
-.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench docs lock clean
+.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers docs lock clean
 
 install: $(STAMP)
 	@:
@@ -75,6 +76,16 @@ $(DOCS_STAMP): requirements/docs.lock $(STAMP)
 	@$(PIP) install --require-hashes -r requirements/docs.lock
 	@touch $@
 
+$(PEERS_STAMP): requirements/peers.lock
+	@echo "Installing other engines into .venv-peers"
+	@[ -x .venv-peers/bin/python ] || $(PYTHON) -m venv .venv-peers
+	@.venv-peers/bin/python -m pip --disable-pip-version-check -qq install --no-deps --require-hashes -r requirements/peers.lock
+	@touch $@
+
+# The same cases with MuJoCo, PyBullet and LMGC90; renews the table that the page on other codes is written from.
+peers: install $(PEERS_STAMP)
+	@$(BIN)/python peers/gather.py
+
 docs: $(DOCS_STAMP)
 	@echo "Running the examples and the validation cases, then writing the pages (two minutes)"
 	@$(BIN)/python -m sphinx -q -W --keep-going -b html docs docs/_build/html
@@ -91,9 +102,10 @@ lock:
 	.venv-lock/bin/uv pip compile -q --python-version 3.11 --resolution lowest-direct --generate-hashes \
 	    --no-emit-index-url --no-emit-find-links --custom-compile-command "make lock" \
 	    --extra test --extra seismology --extra video requirements/build.in pyproject.toml -o requirements/oldest.lock > /dev/null
+	$(LOCK) --no-deps requirements/peers.in -o requirements/peers.lock > /dev/null
 	@! grep -n -e '://' -e '^ *--\(extra-\)\?index' -e '--find-links' requirements/*.lock || \
 	    { echo "a lock file names an index address: see the lines above" >&2; exit 1; }
 
 clean:
-	rm -rf .venv .venv-lock .venv-pythons build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
+	rm -rf .venv .venv-lock .venv-pythons .venv-peers build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
 	find src tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

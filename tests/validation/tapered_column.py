@@ -76,8 +76,8 @@ def published(length: float) -> list[float]:
 
 
 def amplitudes(length: float, step: float) -> np.ndarray:
-    """Amplitudes [g] from half of the smallest published threshold (at least 0.18) to 15 % above the largest (0.45)."""
-    low = max(0.18, step * round(0.5 * min(published(length)) / step))
+    """Amplitudes [g] from 25 % below the smallest published threshold (or 0.18) to 15 % above the largest (or 0.45)."""
+    low = max(0.18, step * round(0.75 * min(published(length)) / step))
     top = max(0.45, 1.15 * max(published(length)))
     return low + step * np.arange(round((top - low) / step) + 1)
 

@@ -1,0 +1,83 @@
+"""All engines on all cases, two processes at a time, into ``results.json``, from which the page on other codes is written.
+
+Called by ``make peers`` with the Python of stylobate; the other engines run with the one of ``.venv-peers``.
+"""
+
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+from concurrent.futures import ThreadPoolExecutor
+from datetime import date
+from pathlib import Path
+
+HERE = Path(__file__).parent
+RESULTS = HERE / "results.json"
+OTHERS = HERE.parent / ".venv-peers" / "bin" / "python"
+
+#: Parts of each variant: plane cases, round drums, and facets of a round column (0: truly round).
+PARTS = {
+    ("stylobate", "stylobate"): ("plane", "drums", "0"),
+    ("stylobate", "stylobate, β = 10⁻⁴ s"): ("plane", "drums", "0"),
+    ("mujoco", "MuJoCo, stiff contact"): ("plane", "drums", "0", "12", "16", "24", "48"),
+    ("mujoco", "MuJoCo, default contact"): ("plane", "drums", "0"),
+    ("pybullet", "PyBullet"): ("plane", "drums", "0", "24"),
+    ("lmgc90", "LMGC90"): ("plane", "12", "16", "24", "48"),
+}
+
+#: Longest time of a part [s].
+LIMIT = 1500
+
+
+def one(job: tuple[str, str, str]) -> tuple[tuple[str, str, str], dict]:
+    """Run a part; what went wrong is a result."""
+    name, variant, part = job
+    began = time.perf_counter()
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder, "found.json")
+        python = sys.executable if name == "stylobate" else str(OTHERS)
+        settings = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(HERE)}
+        try:
+            done = subprocess.run(
+                [python, str(HERE / "run.py"), name, variant, part, str(file)],
+                capture_output=True, cwd=folder, env=settings, timeout=LIMIT, check=False,
+            )  # fmt: skip
+            ended = (done.stderr + done.stdout).decode(errors="replace").split("\n")
+        except subprocess.TimeoutExpired:
+            ended = [f"not ready within {LIMIT} s"]
+        seen = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {"failed": reason(ended)}
+    print(f"{variant}, {part}: {seen.get('failed', 'done')} ({time.perf_counter() - began:.0f} s)", flush=True)
+    return job, seen
+
+
+def reason(lines: list[str]) -> str:
+    """The line that says best why a process ended."""
+    plain = [" ".join(line.replace("\0", " ").split()) for line in lines]
+    told = [line for line in plain if "rror" in line or "ready" in line or "reach" in line or "rich" in line]
+    return (told or [line for line in plain if line] or ["ended without a word"])[-1][:160]
+
+
+def main() -> None:
+    jobs = [(name, variant, part) for (name, variant), parts in PARTS.items() for part in parts]
+    jobs.sort(key=lambda job: (job[0] != "lmgc90", job[2] != "plane"))  # the longest first
+    table: dict = {variant: {"engine": name, "parts": {}} for name, variant in PARTS}
+    with ThreadPoolExecutor(2) as pool:
+        for (_, variant, part), seen in pool.map(one, jobs):
+            entry = table[variant]
+            if "found" in seen:
+                entry |= {"version": seen["version"], "settings": seen["settings"]}
+                entry["parts"][part] = seen["found"]
+            else:
+                entry["parts"][part] = {"failed": seen["failed"]}
+    machine = f"{platform.machine()}, {platform.system()}, Python {platform.python_version()}"
+    result = {"date": date.today().isoformat(), "machine": machine, "engines": table}
+    fresh = RESULTS.with_suffix(".new")
+    fresh.write_text(json.dumps(result, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    fresh.replace(RESULTS)
+
+
+if __name__ == "__main__":
+    main()

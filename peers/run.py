@@ -1,0 +1,44 @@
+"""One part of the cases with one variant of one engine: ``run.py ENGINE VARIANT PART FILE``.
+
+PART is plane, drums or a number of facets.
+Every part is a process of its own: an engine that ends the process takes nothing else with it.
+"""
+
+import importlib
+import json
+import math
+import sys
+from pathlib import Path
+
+import measures
+
+
+def rounded(value):
+    """Numbers with six digits; what is not finite as text."""
+    if isinstance(value, dict):
+        return {key: rounded(one) for key, one in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [rounded(one) for one in value]
+    if isinstance(value, bool):
+        return value
+    value = float(value)
+    return float(f"{value:.6g}") if math.isfinite(value) else str(value)
+
+
+def main(name: str, variant: str, part: str, file: str) -> None:
+    module = importlib.import_module(f"engine_{name}")
+    run = module.engine(variant)
+    if part == "plane":
+        found = measures.plane(run, few=name in ("lmgc90", "pybullet"))
+    elif part == "drums":
+        found = measures.round_stack(run)
+    else:
+        facets = int(part)
+        found = measures.space(run, facets, whole=facets == 0 or (name == "lmgc90" and facets == 12))
+    Path(file).write_text(
+        json.dumps({"version": module.VERSION, "settings": module.SETTINGS, "found": rounded(found)}), encoding="utf-8"
+    )
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

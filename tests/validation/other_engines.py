@@ -1,0 +1,196 @@
+"""Tables and the picture of what other engines find for the same cases, from the stored results of ``make peers``."""
+
+import json
+import math
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from stylobate.plots.style import BLACK, BLUE, GREY, RED, WIDTH, styled, zero_line
+
+FILE = Path(__file__).parents[2] / "peers" / "results.json"
+
+LINES = {
+    "stylobate": {"color": RED, "marker": "s"},
+    "stylobate, β = 10⁻⁴ s": {"color": "#e08214", "marker": "D"},
+    "MuJoCo, stiff contact": {"color": BLUE, "marker": "o"},
+    "MuJoCo, default contact": {"color": "#92c5de", "marker": "o"},
+    "PyBullet": {"color": "#5aae61", "marker": "^"},
+    "LMGC90": {"color": BLACK, "marker": "x"},
+}
+
+#: A swing that is smaller is none: drums rattle [m].
+SMALLEST_SWING = 0.02
+
+#: What a rigid impact without bouncing leaves of the energy of the paper's monolith (Housner 1963).
+HOUSNER = 0.886
+
+
+@cache
+def results() -> dict:
+    """The stored results."""
+    return json.loads(FILE.read_text(encoding="utf-8"))
+
+
+def parts(variant: str) -> dict:
+    """What a variant found, by part."""
+    return results()["engines"][variant]["parts"]
+
+
+def round_part(variant: str) -> dict:
+    """What a variant found for a round column, or for the polygon in its place."""
+    seen = parts(variant)
+    return seen.get("0") or seen.get("12", {})
+
+
+def swings(variant: str, column: str) -> list[float]:
+    """Largest displacements between changes of side [m]."""
+    out: list[float] = []
+    for value in parts(variant)["plane"][column]["swings"]:
+        if abs(value) < SMALLEST_SWING:
+            continue
+        if out and value * out[-1] > 0.0:
+            out[-1] = max(out[-1], value, key=abs)
+        else:
+            out.append(value)
+    return out
+
+
+def markdown(head: list[str], rows: list[list[str]]) -> str:
+    """A table."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "".join(f"| {' | '.join(line)} |\n" for line in lines)
+
+
+def number(value, form: str = "{:.3f}") -> str:
+    """A stored number; a dash for what is none."""
+    value = float(value)
+    return form.format(value) if math.isfinite(value) else "–"
+
+
+def settings() -> str:
+    """Engines, versions and settings."""
+    engines: dict[str, tuple[str, str]] = {}
+    for variant, one in results()["engines"].items():
+        engines.setdefault(variant.split(",")[0], (str(one.get("version", "–")), str(one.get("settings", "–"))))
+    return markdown(["engine", "version", "settings"], [[name, *both] for name, both in engines.items()])
+
+
+def plane_table() -> str:
+    """Statics, free rocking, swings and seconds of the plane cases."""
+    head = ["engine", "static threshold", "time to upright", "energy after an impact"]
+    head += ["monolith: swings [m]", "12 drums: swings [m]", "seconds per run: monolith, drums"]
+    rows = []
+    for variant in LINES:
+        seen = parts(variant).get("plane", {})
+        if "failed" in seen or not seen:
+            rows.append([variant, seen.get("failed", "–"), *["–"] * 5])
+            continue
+        both = [", ".join(f"{one:.3f}" for one in swings(variant, name)[:5]) for name in ("monolith", "drums")]
+        seconds = " / ".join(f"{seen[name]['wall']:.2g}" for name in ("monolith", "drums"))
+        rows.append([variant, *(number(seen[key]) for key in ("static", "quarter", "kept")), *both, seconds])
+    return markdown(head, rows)
+
+
+def agreeing(variant: str, part: str, column: str | None = None) -> str:
+    """Cells with the same verdict as the first engine's, and how many each collapses."""
+    mine, other = (verdicts(one, part, column) for one in ("stylobate", variant))
+    cells = [cell for cell in mine if cell in other]
+    if not cells:
+        return "–"
+    same = sum(mine[cell] == other[cell] for cell in cells)
+    return (
+        f"{same} of {len(cells)} ({sum(other[cell] for cell in cells)} fall, {sum(mine[cell] for cell in cells)} here)"
+    )
+
+
+def verdicts(variant: str, part: str, column: str | None) -> dict[str, bool]:
+    """Whether the column collapses, by cell."""
+    seen = round_part(variant) if part == "round" else parts(variant).get(part, {})
+    return (seen.get(column, {}) if column else seen).get("verdicts", {})
+
+
+def verdict_table() -> str:
+    """Cells in which an engine says the same as the models here."""
+    head = ["engine", "monolith, plane", "12 drums, plane", "round column", "12 round drums"]
+    rows = [
+        [
+            variant, agreeing(variant, "plane", "monolith"), agreeing(variant, "plane", "drums"),
+            agreeing(variant, "round"), agreeing(variant, "drums"),
+        ]
+        for variant in list(LINES)[1:]
+    ]  # fmt: skip
+    return markdown(head, rows)
+
+
+def round_table() -> str:
+    """Statics, rolling and depth of a round column and of polygons."""
+    head = ["engine", "facets", "static threshold: corner, edge", "tilt after 2 s [rad]", "azimuth, less exact [rad]"]
+    head += ["energy lost", "depth of the rim at 17°, 30° [mm]"]
+    rows = []
+    for variant in LINES:
+        for part in ("0", "12", "16", "24", "48"):
+            seen = parts(variant).get(part)
+            if seen is None:
+                continue
+            name = [variant, "round" if part == "0" else part]
+            if "failed" in seen:
+                rows.append([*name, f"process ended: {seen['failed']}", *["–"] * 4])
+                continue
+            rolling = seen["rolling"]
+            turning = (
+                ["falls through the ground", "–", "–"]
+                if "fell" in rolling
+                else [
+                    number(rolling["tilt"], "{:.4f}"),
+                    number(rolling["azimuth"]),
+                    number(100.0 * float(rolling["lost"]), "{:.2f} %"),
+                ]
+            )
+            depth = ", ".join(number(1e3 * float(one), "{:.2f}") for one in seen["sinking"])
+            rows.append([*name, ", ".join(number(one, "{:.4f}") for one in seen["static"]), *turning, depth])
+    return markdown(head, rows)
+
+
+@styled
+def engines_compared() -> Figure:
+    """Swings of both columns in the plane, peaks of a round one over its imperfection, and what facets do to rolling."""
+    figure = Figure(figsize=(WIDTH, 6.4))
+    grid = figure.subplots(2, 2)
+    for axes, name, title in ((grid[0, 0], "monolith", "monolith"), (grid[0, 1], "drums", "12 drums")):
+        for variant, line in LINES.items():
+            if name in parts(variant).get("plane", {}):
+                row = swings(variant, name)
+                axes.plot(range(1, len(row) + 1), row, markersize=4, label=variant, **line)
+        axes.set(xlabel="swing", ylabel="largest displacement of the top [m]", title=f"Plane, 1 Hz, 0.3 g: {title}")
+        zero_line(axes)
+    left, right = grid[1]
+    for variant, line in LINES.items():
+        peaks = [float(one) for one in round_part(variant).get("peaks", [])]
+        if peaks:
+            left.plot(range(len(peaks)), np.clip(np.nan_to_num(peaks, posinf=1.2), None, 1.2), markersize=4, **line)
+    left.set_xticks(range(6), ("0", "10⁻⁶", "10⁻⁵", "10⁻⁴", "10⁻³", "10⁻²"))
+    left.set_yticks((0.4, 0.6, 0.8, 1.0, 1.2), ("0.4", "0.6", "0.8", "1.0", "falls"))
+    left.set(xlabel="share of the motion across", ylabel="largest displacement of the top [m]")
+    left.set_title("Round column, 1 Hz, 0.3 g, in space")
+    facets = [12, 16, 24, 48]
+    seen = parts("MuJoCo, stiff contact")
+    losses = [100.0 * float(seen[str(n)]["rolling"].get("lost", math.nan)) for n in facets]
+    right.plot(facets, losses, markersize=4, **LINES["MuJoCo, stiff contact"])
+    for variant in ("stylobate", "MuJoCo, stiff contact", "PyBullet"):
+        exact = 100.0 * float(parts(variant)["0"]["rolling"].get("lost", math.nan))
+        right.axhline(exact, linestyle="--", color=LINES[variant]["color"], linewidth=0.9)
+    right.annotate("dashed: round primitives", (48, 0.0), ha="right", va="bottom", fontsize=8, color=GREY)
+    right.set_xticks(facets, [str(n) for n in facets])
+    right.set(xlabel="facets (MuJoCo, stiff contact)", ylabel="energy lost in 2 s of rolling [%]")
+    right.set_title("What facets do to rolling")
+    handles, labels = grid[0, 0].get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    return figure
+
+
+def dated() -> str:
+    """When and where the table was made."""
+    return f"Made on {results()['date']} ({results()['machine']})."
