@@ -50,12 +50,12 @@ REPLICATES = 8
 
 @cache
 def column(*, square: bool = False) -> Column:
-    """Seven blocks of 0.82 m and one of 0.21 m on top, cut from one taper; 1 m deep, or about as deep as wide."""
+    """Seven blocks of 0.82 m and one of 0.21 m on top, cut from one taper; 1 m deep, or square."""
     high = (HEIGHT - CAP) / 7
     levels = [high * i for i in range(8)] + [HEIGHT]
     widths = [BOTTOM + (TOP - BOTTOM) * z / HEIGHT for z in levels]
     blocks = [
-        Drum(levels[i + 1] - levels[i], low, up, 2620.0, depth=0.5 * (low + up) if square else 1.0)
+        Drum(levels[i + 1] - levels[i], low, up, 2620.0, **({"depth": low, "top_depth": up} if square else {}))
         for i, (low, up) in enumerate(pairwise(widths))
     ]
     joint = Joint(1e10, 1e10, friction_coefficient=0.7)
@@ -158,7 +158,7 @@ def plane_thresholds():
 @case(
     "column",
     "the same column: static uplift of its base joint, plane and square [g]",
-    Near((0.1932860, 0.2003297), rel=1e-6),
+    Near((0.1932860, 0.2004669), rel=1e-6),
     source="half the base over the height of the centroid; limit analysis there gives 0.19",
     reason="digits as stated",
 )
