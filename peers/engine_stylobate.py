@@ -38,7 +38,9 @@ def engine(variant: str):
             column, motion, model, output_interval=scene.output, start=start, until_end=start is not None
         )
         wall = time.process_time() - began
-        return Run(seen.histories.time, seen.body_position, matrices(seen.body_orientation), wall)
+        return Run(
+            seen.histories.time, seen.body_position, matrices(seen.body_orientation), wall, seen.measures.collapsed
+        )
 
     return run
 

@@ -1,8 +1,9 @@
-"""All engines on all cases, two processes at a time, into ``results.json``, from which the page on other codes is written.
+"""All engines on all cases, a few processes at a time, into ``results.json``, from which the page on other codes is written.
 
 Called by ``make peers`` with the Python of stylobate; the other engines run with the one of ``.venv-peers``.
 """
 
+import hashlib
 import json
 import os
 import platform
@@ -28,27 +29,41 @@ PARTS = {
     ("lmgc90", "LMGC90"): ("plane", "12", "16", "24", "48"),
 }
 
+#: Processes at a time.
+WORKERS = 4
+
 #: Longest time of a part [s].
 LIMIT = 1500
 
 
+def parts_folder() -> Path:
+    """Where finished parts are kept, so that a call that was stopped goes on; another one for other code or engines."""
+    sources = [*sorted(set(HERE.glob("*.py")) - {Path(__file__)}), HERE.parent / "requirements" / "peers.lock"]
+    digest = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()[:12]
+    folder = HERE.parent / "build" / "peers" / digest
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
 def one(job: tuple[str, str, str]) -> tuple[tuple[str, str, str], dict]:
-    """Run a part; what went wrong is a result."""
+    """Run a part, or take it if it is there; what went wrong is a result."""
     name, variant, part = job
     began = time.perf_counter()
-    with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder, "found.json")
+    file = parts_folder() / f"{name}-{list(PARTS).index((name, variant))}-{part}.json"
+    ended = [""]
+    if not file.exists():
         python = sys.executable if name == "stylobate" else str(OTHERS)
         settings = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "PYTHONPATH": str(HERE)}
-        try:
-            done = subprocess.run(
-                [python, str(HERE / "run.py"), name, variant, part, str(file)],
-                capture_output=True, cwd=folder, env=settings, timeout=LIMIT, check=False,
-            )  # fmt: skip
-            ended = (done.stderr + done.stdout).decode(errors="replace").split("\n")
-        except subprocess.TimeoutExpired:
-            ended = [f"not ready within {LIMIT} s"]
-        seen = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {"failed": reason(ended)}
+        with tempfile.TemporaryDirectory() as folder:
+            try:
+                done = subprocess.run(
+                    [python, str(HERE / "run.py"), name, variant, part, str(file)],
+                    capture_output=True, cwd=folder, env=settings, timeout=LIMIT, check=False,
+                )  # fmt: skip
+                ended = (done.stderr + done.stdout).decode(errors="replace").split("\n")
+            except subprocess.TimeoutExpired:
+                ended = [f"not ready within {LIMIT} s"]
+    seen = json.loads(file.read_text(encoding="utf-8")) if file.exists() else {"failed": reason(ended)}
     print(f"{variant}, {part}: {seen.get('failed', 'done')} ({time.perf_counter() - began:.0f} s)", flush=True)
     return job, seen
 
@@ -64,7 +79,7 @@ def main() -> None:
     jobs = [(name, variant, part) for (name, variant), parts in PARTS.items() for part in parts]
     jobs.sort(key=lambda job: (job[0] != "lmgc90", job[2] != "plane"))  # the longest first
     table: dict = {variant: {"engine": name, "parts": {}} for name, variant in PARTS}
-    with ThreadPoolExecutor(2) as pool:
+    with ThreadPoolExecutor(WORKERS) as pool:
         for (_, variant, part), seen in pool.map(one, jobs):
             entry = table[variant]
             if "found" in seen:

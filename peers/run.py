@@ -29,15 +29,16 @@ def main(name: str, variant: str, part: str, file: str) -> None:
     module = importlib.import_module(f"engine_{name}")
     run = module.engine(variant)
     if part == "plane":
-        found = measures.plane(run, few=name in ("lmgc90", "pybullet"))
+        found = measures.plane(run, few=name != "stylobate")
     elif part == "drums":
         found = measures.round_stack(run)
     else:
         facets = int(part)
         found = measures.space(run, facets, whole=facets == 0 or (name == "lmgc90" and facets == 12))
-    Path(file).write_text(
-        json.dumps({"version": module.VERSION, "settings": module.SETTINGS, "found": rounded(found)}), encoding="utf-8"
-    )
+    told = {"version": module.VERSION, "settings": module.SETTINGS, "found": rounded(found)}
+    fresh = Path(file).with_suffix(".new")
+    fresh.write_text(json.dumps(told, ensure_ascii=False), encoding="utf-8")
+    fresh.replace(file)
 
 
 if __name__ == "__main__":

@@ -135,12 +135,16 @@ class Scene:
 
 @dataclass(frozen=True)
 class Run:
-    """What an engine returns: times (T,), centroids (T, n, 3), rotation matrices (T, n, 3, 3), and the seconds it took."""
+    """What an engine returns: times (T,), centroids (T, n, 3), rotation matrices (T, n, 3, 3), and the seconds it took.
+
+    ``lost`` says that it ended because the collapse was certain, before the column had come down.
+    """
 
     time: np.ndarray
     position: np.ndarray
     rotation: np.ndarray
     wall: float
+    lost: bool = False
 
     @property
     def axis(self) -> np.ndarray:

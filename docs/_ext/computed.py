@@ -25,7 +25,8 @@ def compute(app):
     docs = Path(app.srcdir)
     out = docs / "_build" / "computed"
     out.mkdir(parents=True, exist_ok=True)
-    for text in api_pages.texts(docs / "api" / "generated") + command_pages.texts(out) + model_pages.texts(out):
+    generated = api_pages.texts(docs / "api" / "generated")
+    for text in generated + command_pages.texts(out) + model_pages.texts(out) + other_codes_pages.texts(out):
         write(*text)
     stamp = out / "computed"
     if stamp.exists() and stamp.stat().st_mtime > newest(

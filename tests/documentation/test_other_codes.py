@@ -1,0 +1,106 @@
+"""The page on other codes: its stored table, what the page says of it, and the scenes that every engine is given."""
+
+import math
+import re
+from datetime import date
+from pathlib import Path
+
+import numpy as np
+import pytest
+from validation import other_engines as engines
+
+from stylobate.column import Drum
+
+REPOSITORY = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def peers(monkeypatch):
+    monkeypatch.syspath_prepend(str(REPOSITORY / "peers"))
+    import measures
+    import scenes
+
+    return scenes, measures
+
+
+def test_the_stored_table_has_date_versions_and_every_part():
+    stored = engines.results()
+    assert date.fromisoformat(stored["date"]) > date(2026, 1, 1)
+    assert set(stored["engines"]) == set(engines.LINES)
+    for one in stored["engines"].values():
+        assert one["version"]
+        assert one["settings"]
+        assert {"plane"} < set(one["parts"])
+    assert not re.search(r"://|/home/|/tmp/|/work/", engines.FILE.read_text(encoding="utf-8"))
+
+
+def test_what_the_page_says_of_statics_and_of_free_rocking():
+    for variant in engines.LINES:
+        seen = engines.parts(variant)["plane"]
+        assert abs(seen["static"] - 1.0) < 0.01
+        assert abs(seen["quarter"] - 1.0) < 0.01
+        assert abs(seen["kept"] - engines.HOUSNER) < 0.05
+
+
+def test_tables_name_every_engine_and_a_failed_part():
+    for table in (engines.plane_table(), engines.round_table(), engines.settings(), engines.verdict_table()):
+        lines = table.strip().split("\n")
+        assert len({line.count("|") for line in lines}) == 1
+        assert "LMGC90" in table
+        assert "MuJoCo" in table
+    assert "process ended" in engines.round_table()
+
+
+def test_verdicts_are_counted_over_the_cells_that_both_have(monkeypatch):
+    cells = {
+        "stylobate": {"a": True, "b": False, "c": True},
+        "LMGC90": {"a": True, "b": True},
+    }
+    monkeypatch.setattr(engines, "verdicts", lambda variant, part, column: cells[variant])
+    assert engines.agreeing("LMGC90", "plane") == "1 of 2 (2 fall, 1 here)"
+
+
+def test_swings_are_between_changes_of_side_and_leave_rattling_out(monkeypatch):
+    row = {"plane": {"drums": {"swings": [0.01, -0.1, 0.015, -0.2, 0.3]}}}
+    monkeypatch.setattr(engines, "parts", lambda variant: row)
+    assert engines.swings("any", "drums") == [-0.2, 0.3]
+
+
+def test_bodies_of_the_scenes_have_the_masses_of_drums(peers):
+    scenes, _ = peers
+    (body,) = scenes.column(1)
+    drum = Drum(5.0, 0.96, 0.66, 1600.0, depth=1.0)
+    mass, moments = body.inertia
+    assert mass == pytest.approx(drum.mass, rel=1e-12)
+    assert body.below == pytest.approx(drum.centroid_height, rel=1e-12)
+    assert moments == pytest.approx([drum.cross_inertia, drum.inertia, drum.axial_inertia], rel=1e-12)
+    cylinder = Drum(4.0, 1.0, 1.0, 1600.0, section="circular")
+    mass, moments = scenes.round_body().inertia
+    assert (mass, *moments) == pytest.approx(
+        (cylinder.mass, cylinder.inertia, cylinder.inertia, cylinder.axial_inertia), rel=1e-12
+    )
+    many, near = scenes.round_body(360).inertia
+    assert (many, *near) == pytest.approx((mass, *moments), rel=1e-3)
+
+
+def test_a_stack_starts_tilted_about_its_rim(peers):
+    scenes, _ = peers
+    scene = scenes.Scene(scenes.column(12), 1.0, tilt=0.1, omega=(0.0, 0.5, 0.0))
+    pivot = np.array([0.48, 0.0, 0.0])
+    for place, quaternion, velocity in scene.starts():
+        assert np.dot(velocity, place - pivot) == pytest.approx(0.0, abs=1e-12)
+        assert quaternion == pytest.approx([math.cos(0.05), 0.0, math.sin(0.05), 0.0])
+    assert scene.starts()[0][0][2] > 0.2
+
+
+def test_what_is_measured_of_a_run(peers):
+    scenes, measures = peers
+    t = np.linspace(0.0, 1.0, 101)
+    assert measures.swings(0.1 * np.sin(4.0 * np.pi * t)) == pytest.approx([0.1, -0.1, 0.1, -0.1], rel=1e-2)
+    # small tilts of a slender block: Housner's p T/4 = arccosh(1/(1 − θ₀/α)), 1 % off at this slenderness
+    assert measures.quarter_exact() * math.sqrt(measures.P_SQUARED) == pytest.approx(math.acosh(2.0), rel=2e-2)
+    upright = np.broadcast_to(np.eye(3), (2, 1, 3, 3))
+    fallen = scenes.Run(t[:2], np.array([[[0.0, 0.0, 2.5]], [[0.0, 0.0, 1.0]]]), upright, 0.0)
+    assert measures.collapsed(fallen, scenes.column(1))
+    stands = scenes.Run(t[:2], np.full((2, 1, 3), (0.0, 0.0, scenes.column(1)[0].below)), upright, 0.0)
+    assert not measures.collapsed(stands, scenes.column(1))
