@@ -2,12 +2,13 @@
 
 import math
 import time
+from importlib.metadata import version
 
 import numpy as np
 import pybullet as bullet
 from scenes import FRICTION, GRAVITY, Run, Scene
 
-VERSION = str(bullet.getAPIVersion())
+VERSION = version("pybullet")
 VARIANTS = {"PyBullet": 1e-3}
 SETTINGS = "steps of 1 ms, 50 iterations, cone friction, restitution and damping 0, no rolling or spinning friction"
 

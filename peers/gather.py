@@ -22,7 +22,7 @@ OTHERS = HERE.parent / ".venv-peers" / "bin" / "python"
 #: Parts of each variant: plane cases, round drums, and facets of a round column (0: truly round).
 PARTS = {
     ("stylobate", "stylobate"): ("plane", "drums", "0"),
-    ("stylobate", "stylobate, β = 10⁻⁴ s"): ("plane", "drums", "0"),
+    ("stylobate", "stylobate, β = 10⁻⁴ s"): ("plane", "0"),
     ("mujoco", "MuJoCo, stiff contact"): ("plane", "drums", "0", "12", "16", "24", "48"),
     ("mujoco", "MuJoCo, default contact"): ("plane", "drums", "0"),
     ("pybullet", "PyBullet"): ("plane", "drums", "0", "24"),
