@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.analysis.certainty import Population, batch, the_twins
+from stylobate.analysis.certainty import Population, batch
+from stylobate.campaign.twins import the_twins
 from stylobate.column.scatter import scattered_columns
 from stylobate.models.base import Case
 

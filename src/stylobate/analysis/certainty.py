@@ -6,13 +6,13 @@ import dataclasses
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..campaign.twins import the_twins
 from ..column import Column
-from ..column.scatter import Scatter, scattered_columns
-from ..errors import InputError
+from ..column.scatter import Scatter
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..response import Response
@@ -22,25 +22,8 @@ from . import verdicts as v
 if TYPE_CHECKING:
     import pandas
 
-#: Largest number of twins.
-MAX_TWINS = 100_000
-
 #: Displacements whose median and spread are told.
 DISPLACEMENTS = ("peak_top_displacement_m", "residual_top_displacement_m", "peak_rotation_rad", "residual_joint_slip_m")
-
-
-class Twins(NamedTuple):
-    """Columns like one that a model can take, their scatter and seed, and what of the scatter the model leaves out."""
-
-    columns: Sequence[Column]
-    scatter: Scatter
-    seed: int
-    left_out: tuple[str, ...]
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What they are decided by, as plain values."""
-        return {"replicates": len(self.columns), "scatter": dataclasses.asdict(self.scatter), "seed": self.seed}
 
 
 @dataclass(frozen=True, eq=False)
@@ -269,20 +252,6 @@ def certainty(
     rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, following.get("tail", 0.0), threads)
     population = Population(twins, tuple(rows), drawn.scatter, seed, drawn.left_out)
     return Certainty(response, population, time.perf_counter() - began)
-
-
-def the_twins(column: Column, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:
-    """Twins of a column that the model can take."""
-    for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
-            raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
-    asked = Scatter() if scatter is None else scatter
-    if not asked.given:
-        raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")
-    left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
-    size = dataclasses.replace(asked, offset=0.0) if left_out else asked
-    space = "y" in model.axes and not getattr(model, "planar", False)
-    return Twins(scattered_columns(column, size, replicates, seed, space=space), size, seed, left_out)
 
 
 def batch(cases: Sequence[Case], column: Column, model: Model, tail: float, threads: int | None) -> list[dict]:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..campaign.runner import Progress, Stopped, run_campaign
+from ..campaign.twins import the_twins
 from ..column import Column
 from ..column.scatter import Scatter
 from ..constants import g
@@ -22,7 +23,6 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..response.rows import Rows
 from . import verdicts as v
-from .certainty import the_twins
 from .critical_population import CriticalPopulation
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..campaign.twins import Twins
 from ..column.scatter import Scatter
 from ..constants import g
 from ..response.rows import Rows
 from . import verdicts as v
-from .certainty import Twins
 
 if TYPE_CHECKING:
     import pandas

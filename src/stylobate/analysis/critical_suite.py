@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..campaign.runner import Progress, Stopped, run_campaign
+from ..campaign.twins import the_twins
 from ..column import Column
 from ..column.scatter import Scatter
 from ..constants import g
@@ -19,7 +20,6 @@ from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from . import verdicts as v
-from .certainty import the_twins
 from .critical import CriticalAmplitude, amplitude_grid
 from .critical_population import CriticalPopulation
 from .directions import Compass, bearing, direction_of

@@ -8,13 +8,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..campaign.runner import Progress, Stopped, run_campaign
+from ..campaign.twins import the_twins
 from ..column import Column
 from ..column.scatter import Scatter
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
-from .certainty import Population, the_twins
+from .certainty import Population
 from .directions import direction_of
 from .verdicts import verdict
 

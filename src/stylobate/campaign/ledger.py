@@ -15,7 +15,7 @@ import threading
 import warnings
 import weakref
 from collections.abc import Iterator, Mapping
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
@@ -266,6 +266,24 @@ def create(path: Path, key: str, lines: list[tuple[int, str]]) -> None:
 
 def _cannot(path: Path, why: str) -> StylobateError:
     return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another --out.")
+
+
+def rows_in(path: str | Path, key: Mapping[str, Any]) -> Iterator[tuple[int, dict]]:
+    """(number, row) of the finished runs of a campaign in a ledger that another process may be at work on.
+
+    Rows without a valid checksum are left out; a file that is missing, or no ledger, holds none.
+    """
+    campaign = hashlib.sha256(json.dumps(key, sort_keys=True, default=str).encode()).hexdigest()
+    if not Path(path).is_file():
+        return
+    place = Path(path).absolute().as_uri()
+    for access in ("mode=ro", "mode=ro&immutable=1"):  # the second where the folder cannot be written to either
+        with suppress(sqlite3.Error), closing(sqlite3.connect(f"{place}?{access}", uri=True)) as file:
+            file.text_factory = salvage.text
+            for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
+                if (found := salvage.read_line(line, campaign)) is not None:
+                    yield found
+            return
 
 
 def finished_runs_in(path: str | Path) -> int:

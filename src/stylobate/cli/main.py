@@ -32,6 +32,7 @@ from . import (
     run,
     signals,
     spectrum,
+    study,
     suite,
     survival,
 )
@@ -81,6 +82,12 @@ for _room in (
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name)(_passing_on(getattr(_room, _name)))
+
+
+_studies = typer.Typer(help="Many runs from one file: columns, records, levels, models, realisations.")
+for _part in (study.run, study.status, study.export):
+    _studies.command(_part.__name__)(_passing_on(_part))
+app.add_typer(_studies, name="study")
 
 
 def main() -> None:

@@ -114,7 +114,7 @@ def the_twins(
     stone: Column | Assembly, model: Model, asked: dict[str, Any] | None, to_the_ground: bool
 ) -> dict[str, Any] | None:
     """The columns that are computed beside this one: as asked for, or as many as cost nothing; None without any."""
-    from ..analysis.certainty import the_twins
+    from ..campaign.twins import the_twins
     from ..column import Column
     from ..errors import InputError
 

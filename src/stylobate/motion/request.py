@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -250,10 +251,15 @@ class MotionRequest:
             for azimuth in self.azimuths or (None,):
                 one = first if azimuth is None else self._turned(first, azimuth)
                 if azimuth is not None:
-                    one = one.replace(metadata={**one.metadata, "direction": {"azimuth": azimuth, "reversed": False}})
+                    turned_to = {**_direction(one, motion.name), "azimuth": azimuth}
+                    one = one.replace(metadata={**one.metadata, "direction": turned_to})
                 if len(self.azimuths) > 1:
                     one = one.replace(name=f"{one.name} at {azimuth:g}°")
-                found += [self._sized(one), self._sized(_reversed(one))] if self.signs == "both" else [self._sized(one)]
+                found += (
+                    [self._sized(one), self._sized(_reversed(one, motion.name))]
+                    if self.signs == "both"
+                    else [self._sized(one)]
+                )
         return found
 
     def _turned(self, motion: Motion, azimuth: float) -> Motion:
@@ -284,19 +290,25 @@ def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:
         return
     second = turned(motion, 90.0)
     if component == "all":
-        yield motion.replace(name=f"{motion.name} first component")
-        yield second.replace(name=f"{motion.name} second component")
+        said = {"direction": _direction(motion, motion.name)}
+        yield motion.replace(name=f"{motion.name} first component", metadata={**motion.metadata, **said})
+        yield second.replace(name=f"{motion.name} second component", metadata={**second.metadata, **said})
     else:
         yield motion if motion.pga >= second.pga else second
 
 
-def _reversed(motion: Motion) -> Motion:
+def _direction(motion: Motion, record: str) -> dict[str, Any]:
+    """What is known of where a motion has been turned to, and of which record it is."""
+    return {"record": record, "reversed": False, **motion.metadata.get("direction", {})}
+
+
+def _reversed(motion: Motion, record: str) -> Motion:
     y = motion.y_samples
     return motion.replace(
         ax=-motion.samples,
         ay=None if y is None else -y,
         name=f"{motion.name} reversed",
-        metadata={**motion.metadata, "direction": {**motion.metadata.get("direction", {}), "reversed": True}},
+        metadata={**motion.metadata, "direction": {**_direction(motion, record), "reversed": True}},
         processing=(*motion.processing, "horizontal components reversed"),
     )
 

@@ -62,6 +62,8 @@ _SPELLINGS = {
 TIME_UNITS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "min": 60.0}
 FREQUENCY_UNITS = {"hz": 1.0, "khz": 1e3}
 ANGLE_UNITS = {"deg": 1.0, "°": 1.0, "degrees": 1.0, "rad": 180.0 / math.pi}
+#: Units of velocity in m/s.
+VELOCITY_UNITS = {"m/s": 1.0, "cm/s": 0.01, "mm/s": 0.001}
 #: Units of pressure in Pa.
 PRESSURE_UNITS = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9, "n/m2": 1.0, "n/mm2": 1e6, "bar": 1e5}
 
@@ -98,6 +100,17 @@ def acceleration_unit(text: str) -> tuple[str, float]:
 def parse_acceleration(text: str) -> float:
     """An acceleration such as ``0.3g``, ``2.9m/s2`` or ``300gal`` in m/s²."""
     return _quantity(text, "acceleration", "0.3g")
+
+
+def parse_velocity(text: str) -> float:
+    """A velocity such as ``0.2m/s`` or ``20cm/s`` in m/s."""
+    match = _QUANTITY.fullmatch(text)
+    size = None if match is None or match.group(1) == "?" else VELOCITY_UNITS.get((match.group(2) or "").lower())
+    if match is None or size is None:
+        raise InputError(
+            f"velocity {text!r} is not understood; write it with its unit, as in '0.2m/s' (m/s, cm/s, mm/s)."
+        )
+    return _number(match.group(1), f"velocity {text!r}") * size
 
 
 def parse_time(text: str) -> float:

@@ -1,0 +1,191 @@
+"""What a study came to: its table, its counts, and the runs that are worth their histories."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..atomic import replacing
+from ..campaign.cases import Study
+from ..campaign.engine import run_cases
+from ..campaign.plan import RUNS_FILE, Plan
+from ..campaign.runner import Progress
+from ..errors import InputError
+from ..response import Response
+from ..response.rows import Rows
+from ..simulate import simulate
+from . import verdicts as v
+from .directions import harm
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Endings of tables.
+TABLES = (".parquet", ".csv")
+
+
+@dataclass(frozen=True, eq=False)
+class StudyResult:
+    """A study as far as it has been run.
+
+    Parameters
+    ----------
+    plan : Plan
+    rows : Rows
+        One per case, with the keys of ``Measures.row()``.
+    wall_time : float
+        [s], of this call.
+    computed : int
+        Runs made in this call.
+    """
+
+    plan: Plan
+    rows: Rows
+    wall_time: float = 0.0
+    computed: int = 0
+
+    @property
+    def verdicts(self) -> np.ndarray:
+        """Verdict of each case."""
+        return v.verdicts_of(self.rows)
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per finished case: what it is, its verdict (``collapsed`` is empty where there is none), its measures."""
+        labels = self.plan.labels()[self.rows.made].reset_index(drop=True)
+        measures, verdicts = self.rows.table(), self.verdicts[self.rows.made]
+        labels["verdict"] = verdicts
+        return labels.join(measures)
+
+    def summary(self) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate study``."""
+        counts = v.count(self.verdicts)
+        return {
+            "cases": len(self.plan),
+            "finished": self.rows.finished,
+            "failed": counts[v.FAILED],
+            "undecided": counts[v.UNDECIDED],
+            "collapsed": counts[v.COLLAPSED],
+            "stands": counts[v.STANDS],
+            "computed": self.computed,
+            "wall_s": self.wall_time,
+        }
+
+    def ranked(self) -> list[int]:
+        """Cases with a verdict from the least harm to the most (:func:`stylobate.analysis.directions.harm`)."""
+        sound: list[int] = np.flatnonzero(self.rows.made & (self.verdicts != v.FAILED)).tolist()
+        return sorted(sound, key=lambda number: harm(_there(self.rows[number])))
+
+    @classmethod
+    def in_folder(cls, folder: str | Path) -> StudyResult:
+        """What the folder of a study holds now; a study may be at work there.
+
+        Raises
+        ------
+        InputError
+            It is not the folder of a study.
+        """
+        plan = Plan.load(folder)
+        return cls(plan, plan.known(Path(folder) / RUNS_FILE))
+
+
+def run_study(
+    study: Study,
+    out: str | Path | None = None,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+) -> StudyResult:
+    """Run a study; what its folder holds already is not computed again.
+
+    Parameters
+    ----------
+    study : Study
+    out : path, optional
+        Folder that keeps every finished run within half a second, for good: a study that was stopped goes on, one that has
+        grown computes only what is new. Without it nothing is kept.
+    threads : int, optional
+        All cores by default.
+    progress : callable, optional
+        Called with (finished, all).
+
+    Raises
+    ------
+    InputError
+        Input that a model refuses, or a folder that cannot be used.
+    Stopped
+        Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
+    """
+    folder = None if out is None else Path(out)
+    if folder is not None and not folder.is_dir():
+        raise InputError(f"folder {folder} does not exist; create it first.")
+    found = run_cases(study, folder, threads=threads, progress=progress)
+    return StudyResult(found.plan, found.rows, found.wall_time, found.computed)
+
+
+def histories_of(study: Study, number: int) -> Response:
+    """A case of a study once more, with its histories."""
+    column, motion = study.case(number)
+    return simulate(column, motion, study.model_of(number), tail=study.tail)
+
+
+def keep_histories(
+    study: Study, result: StudyResult, folder: Path, told: Callable[[int, int], None] | None
+) -> list[Path]:
+    """Files of the histories of the worst and of the median run, and of all of them where the study asks for that.
+
+    A file that is there already is not computed again: it is called after the digest of its case.
+    """
+    ranked = result.ranked()
+    if not ranked:
+        return []
+    wanted = {"median": ranked[(len(ranked) - 1) // 2], "worst": ranked[-1]}
+    files = []
+    place = folder / "histories"
+    numbers: list[int] = sorted({*wanted.values(), *(ranked if study.keep == "histories" else [])})
+    place.mkdir(exist_ok=True)
+    for done, number in enumerate(numbers):
+        target = place / f"{result.plan.digest(number)}.nc"
+        if not target.is_file():
+            histories_of(study, number).save(target)
+        files.append(target)
+        if told:
+            told(done + 1, len(numbers))
+    return files
+
+
+def write_table(table: pandas.DataFrame, path: str | Path) -> Path:
+    """Write a table as Parquet or CSV, whole or not at all.
+
+    Raises
+    ------
+    InputError
+        Another ending, or Parquet without the library for it.
+    """
+    target = Path(path)
+    if target.suffix not in TABLES:
+        raise InputError(f"{target} ends in {target.suffix!r}; a table is written as {' or '.join(TABLES)}.")
+    if not target.parent.is_dir():
+        raise InputError(f"folder {target.parent} does not exist; create it first.")
+    with replacing(target) as partial:
+        if target.suffix == ".csv":
+            table.to_csv(partial, index=False)
+            return target
+        try:
+            import pyarrow  # noqa: F401
+        except ImportError:
+            raise InputError(
+                f"{target} is Parquet, which takes pyarrow; install stylobate[parquet], or write a .csv file."
+            ) from None
+        plain = table.apply(lambda column: column.map(str) if column.map(type).isin([list, dict]).any() else column)
+        plain.to_parquet(partial, index=False, engine="pyarrow")
+    return target
+
+
+def _there(row: Mapping[str, Any] | None) -> Mapping[str, Any]:
+    assert row is not None
+    return row

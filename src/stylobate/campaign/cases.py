@@ -1,0 +1,199 @@
+"""A study as data: columns × motions × levels × models × realisations; every case has a digest of what decides it."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from ..column import Column
+from ..column.scatter import Scatter
+from ..constants import g
+from ..errors import InputError, check_range
+from ..kernels.jit import source_digest
+from ..models.base import Case, Model
+from ..models.shared.quiet import share_of
+from ..motion import Motion
+from ..motion.conditioning import warn_of_scaling
+from ..motion.intensity_specs import IntensityMeasure
+from ..version import __version__
+from .plan import Plan
+from .twins import the_twins
+
+#: Most cases of a study.
+MAX_CASES = 20_000_000
+
+#: What is kept besides the table, the worst and the median run.
+KEEP = ("rows", "histories")
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """Columns × motions × levels × models × realisations.
+
+    Parameters
+    ----------
+    columns : sequence of Column
+    motions : sequence of Motion
+        Already turned and reversed as they are to act (:meth:`stylobate.MotionRequest.expand`).
+    models : sequence of Model
+    levels : sequence of float
+        Of ``im`` in its unit, to each of which every motion is scaled; factors of the motions without ``im``.
+    im : IntensityMeasure, optional
+        See :func:`stylobate.motion.intensity_specs.parse_measure`.
+    realisations : int
+        Twins of each column, as of :func:`stylobate.certainty`, instead of the column itself; 0 for the column alone.
+    scatter : Scatter, optional
+    seed : int
+    tail : float
+        Time to go on after each motion [s].
+    whole : bool
+        Step all of a record, its quiet too.
+    keep : {"rows", "histories"}
+        ``histories`` keeps a file of histories per case, not only of the worst and the median one.
+
+    Raises
+    ------
+    InputError
+        Nothing to run, too much of it, a level that a motion cannot be scaled to.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        A level that takes a factor above 10 of a record.
+    """
+
+    columns: Sequence[Column]
+    motions: Sequence[Motion]
+    models: Sequence[Model]
+    levels: Sequence[float] = (1.0,)
+    im: IntensityMeasure | None = None
+    realisations: int = 0
+    scatter: Scatter | None = None
+    seed: int = 0
+    tail: float = 0.0
+    whole: bool = False
+    keep: str = "rows"
+    factors: np.ndarray = field(init=False, repr=False)
+
+    def __post_init__(self) -> None:
+        for name, what in (("columns", "column"), ("motions", "record"), ("models", "model"), ("levels", "level")):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+            if not getattr(self, name):
+                raise InputError(f"the study names no {what}; give at least one.")
+        names = [column.name for column in self.columns]
+        if len(set(names)) < len(names):
+            raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
+        if self.keep not in KEEP:
+            raise InputError(f"keep is {self.keep!r}; allowed is {' or '.join(KEEP)}.")
+        check_range("tail", self.tail, 0.0, 1e4, unit="s")
+        for level in self.levels:
+            check_range("one of the levels", level, 0.0, 1e6, open_low=True)
+        if self.size > MAX_CASES:
+            raise InputError(f"the study has {self.size} cases; allowed is up to {MAX_CASES}: give fewer.")
+        object.__setattr__(self, "factors", np.array([self._factors(motion) for motion in self.motions]))
+
+    @property
+    def shape(self) -> tuple[int, int, int, int, int]:
+        """Numbers of models, columns, motions, levels and realisations (1 without scatter)."""
+        axes = (self.models, self.columns, self.motions, self.levels)
+        models, columns, motions, levels = map(len, axes)
+        return models, columns, motions, levels, max(1, self.realisations)
+
+    @property
+    def size(self) -> int:
+        """Number of cases."""
+        return int(np.prod([float(one) for one in self.shape]))
+
+    def case(self, number: int) -> Case:
+        """A case by its number; its model is ``models[number // (size // len(models))]``."""
+        model, column, motion, level, realisation = (int(one) for one in np.unravel_index(number, self.shape))
+        stands = self.stands[model][column][realisation]
+        return Case(stands, self.motions[motion].scaled(float(self.factors[motion, level])))
+
+    def model_of(self, number: int) -> Model:
+        """The model of a case."""
+        return self.models[number // (self.size // len(self.models))]
+
+    @cached_property
+    def stands(self) -> list[list[Sequence[Column]]]:
+        """The columns as they stand: by model, column and realisation."""
+        if not self.realisations:
+            return [[[column] for column in self.columns] for _ in self.models]
+        drawn = (self.realisations, self.scatter, self.seed)
+        return [[the_twins(column, model, *drawn).columns for column in self.columns] for model in self.models]
+
+    @cached_property
+    def quiet(self) -> np.ndarray:
+        """Share below which each motion counts as quiet [-], shape (motions,)."""
+        return np.array([share_of([motion], self.whole) for motion in self.motions])
+
+    def plan(self) -> Plan:
+        """What is run, as plain data with the digest of every case."""
+        samples = [motion.replace(factor=1.0).digest for motion in self.motions]
+        sizes = self.factors * np.array([[motion.factor] for motion in self.motions])
+        tails = [
+            [f"{digest} {quiet!r} {size!r}" for size in some]
+            for digest, quiet, some in zip(samples, self.quiet.tolist(), sizes.tolist(), strict=True)
+        ]
+        digests = np.empty((self.size, 16), dtype=np.uint8)
+        number = 0
+        for model, columns in zip(self.models, self.stands, strict=True):
+            law = [model.name, model.parameters(), self.tail, __version__, source_digest()]
+            head = json.dumps(law, sort_keys=True, default=str)
+            for some in columns:
+                heads = [hashlib.sha256(f"{head} {one.digest} ".encode()) for one in some]
+                for motion in tails:
+                    for end in motion:
+                        for start in heads:
+                            found = start.copy()
+                            found.update(end.encode())
+                            digests[number] = np.frombuffer(found.digest()[:16], np.uint8)
+                            number += 1
+        return Plan(self._axes(), digests)
+
+    def _axes(self) -> dict[str, Any]:
+        def one(motion: Motion) -> dict[str, Any]:
+            direction = motion.metadata.get("direction") or {}
+            known = (motion.metadata.get("azimuths") or {}).get("x")
+            return {
+                "record": direction.get("record", motion.name),
+                "motion": motion.name,
+                "pga_g": motion.pga / g,
+                "pgv_m_s": motion.pgv,
+                "azimuth_deg": direction.get("azimuth", known),
+                "reversed": bool(direction.get("reversed", False)),
+            }
+
+        scatter = None if not self.realisations else (self.scatter or Scatter()).given
+        return {
+            "models": [{"model": model.name, "parameters": model.parameters()} for model in self.models],
+            "columns": [{"column": column.name, "base_width_m": column.base_width} for column in self.columns],
+            "motions": [one(motion) for motion in self.motions],
+            "measure": "factor" if self.im is None else self.im.name,
+            "unit": "-" if self.im is None else self.im.unit,
+            "levels": list(self.levels),
+            "factors": self.factors.tolist(),
+            "realisations": self.realisations,
+            "scatter": scatter,
+            "seed": self.seed,
+            "tail_s": self.tail,
+            "version": __version__,
+        }
+
+    def _factors(self, motion: Motion) -> list[float]:
+        if self.im is None:
+            return [float(level) for level in self.levels]
+        if self.im.power == 0:
+            raise InputError(f"{self.im.name} does not change with the size of a motion; scale by another measure.")
+        value = self.im.of(motion)
+        if not value > 0.0:
+            raise InputError(f"{self.im.name} of {motion.name!r} is {value:g}, and cannot be scaled to a level.")
+        found = [float((level / value) ** (1.0 / self.im.power)) for level in self.levels]
+        warn_of_scaling(motion.scaled(max(found)))
+        return found

@@ -1,0 +1,116 @@
+"""The engine of studies: runs what the ledger does not hold yet, and keeps each run as it finishes."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Generator
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ..models.base import Cases, Model
+from ..response import Measures
+from ..response.rows import Rows
+from ..simulate import simulate_iter
+from .cases import Study
+from .ledger import Ledger
+from .plan import KEY, RUNS_FILE, Plan
+from .runner import Progress, Stopped
+
+
+@dataclass(frozen=True, eq=False)
+class StudyRows:
+    """What a study came to.
+
+    Parameters
+    ----------
+    plan : Plan
+    rows : Rows
+        One per case, with the keys of ``Measures.row()``.
+    computed : int
+        Runs that were made now; the others were in the ledger.
+    wall_time : float
+        [s], of this call.
+    """
+
+    plan: Plan
+    rows: Rows
+    computed: int
+    wall_time: float
+
+
+def run_cases(
+    study: Study, folder: Path | None = None, *, threads: int | None = None, progress: Progress | None = None
+) -> StudyRows:
+    """Run all cases that the ledger of a folder does not hold yet.
+
+    Parameters
+    ----------
+    study : Study
+    folder : path, optional
+        Keeps the plan and the finished runs, of this study and of those before it; without it nothing is kept.
+    threads : int, optional
+        All cores by default.
+    progress : callable, optional
+        Called with (finished, all).
+
+    Raises
+    ------
+    Stopped
+        Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
+    """
+    started = time.perf_counter()
+    plan = study.plan()
+    book = None if folder is None else Ledger(folder / RUNS_FILE, KEY, len(plan))
+    done = first = 0
+    try:
+        if folder is not None:
+            plan.save(folder)
+        rows = Rows(len(plan)) if folder is None else plan.known(folder / RUNS_FILE)
+        done = first = rows.finished
+        if progress:
+            progress(done, len(plan))
+        with closing(_runs(study, plan, rows, threads)) as finished:
+            for number, measures in finished:
+                row, key = measures.row(), int(plan.keys[number])
+                if book:
+                    book.record(key, {"case": plan.digest(number), **row})
+                for same in plan.numbers(key):
+                    rows[same] = row
+                    done += 1
+                if progress:
+                    progress(done, len(plan))
+    except KeyboardInterrupt:
+        if book:
+            book.close()
+        raise Stopped(done, len(plan), None if folder is None else folder / RUNS_FILE) from None
+    finally:
+        if book:
+            book.close()
+    return StudyRows(plan, rows, done - first, time.perf_counter() - started)
+
+
+def _runs(study: Study, plan: Plan, rows: Rows, threads: int | None) -> Generator[tuple[int, Measures], None, None]:
+    """(number of the case, measures) of what is not there yet; cases of one model and one share of quiet together."""
+    todo = ~rows.made
+    for key in np.unique(plan.keys[todo]) if len(np.unique(plan.keys)) < len(plan) else ():
+        todo[plan.numbers(int(key))[1:]] = False  # the same case twice is run once
+    each = len(plan) // len(study.models)
+    motion = np.arange(len(plan)) // (study.shape[3] * study.shape[4]) % study.shape[2]
+    for place, model in enumerate(study.models):
+        for quiet in sorted(set(study.quiet.tolist())):
+            those = np.flatnonzero(todo & (study.quiet[motion] == quiet))
+            those = those[those // each == place]
+            if len(those):
+                yield from _some(study, those, model, quiet, threads)
+
+
+def _some(
+    study: Study, numbers: np.ndarray, model: Model, quiet: float, threads: int | None
+) -> Generator[tuple[int, Measures], None, None]:
+    cases = Cases(len(numbers), lambda index: study.case(int(numbers[index])))
+    with closing(simulate_iter(cases, model, tail=study.tail, quiet=quiet, threads=threads)) as finished:
+        for index, measures in finished:
+            yield int(numbers[index]), measures

@@ -1,0 +1,225 @@
+"""Study files (TOML) of columns × records × levels × models × realisations, as of ``stylobate study``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..column.files import load_column
+from ..column.scatter import LARGEST, Scatter
+from ..column.toml import Table, parse_toml, read_table
+from ..constants import g
+from ..errors import InputError
+from ..models.registry import make_model
+from ..motion import harmonic
+from ..motion.intensity_specs import IntensityMeasure, parse_measure
+from ..motion.ranges import azimuth_range
+from ..motion.readers.samples import PREFIX
+from ..motion.request import MotionRequest
+from ..motion.specs import parse_acceleration, parse_time, parse_velocity
+from ..reading import shown
+from .cases import Study
+from .study import read_study
+
+
+class MotionsTable(Table):
+    """``[motions]``: records and the directions in which they act."""
+
+    files: list[str]
+    unit: str | None = None
+    components: str | None = None
+    azimuths: Any = None
+    signs: str = "+"
+    condition: list[str] | None = None
+    vertical: bool = True
+
+
+class ScaleTable(Table):
+    """``[scale]``: the sizes of every motion."""
+
+    im: str = "factor"
+    levels: Any
+
+
+class ScatterTable(Table):
+    """``[scatter]``: realisations of each column and how they differ."""
+
+    realisations: int
+    seed: int = 0
+    friction: float | None = None
+    joint_stiffness: float | None = None
+    density: float | None = None
+    width: float | None = None
+    height: float | None = None
+    offset: float | None = None
+
+
+class StudyFile(Table):
+    """A study file."""
+
+    name: str = ""
+    column: str | None = None
+    columns: list[str] | None = None
+    model: str | None = None
+    models: list[str] | None = None
+    set: dict[str, Any] | None = None
+    tail: Any = 0.0
+    whole: bool = False
+    keep: str = "rows"
+    motions: MotionsTable
+    scale: ScaleTable | None = None
+    scatter: ScatterTable | None = None
+
+
+def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
+    """Read a study file; paths in it start from its folder.
+
+    A file with a harmonic grid (of ``stylobate domain``) is a study of harmonic motions.
+
+    Returns
+    -------
+    study : Study
+    refused : dict
+        Records that could not be used, with the reason.
+
+    Raises
+    ------
+    InputError
+        The file cannot be read or describes no study; the message names the file and the remedy.
+    """
+    found = parse_toml(path)
+    if "frequencies" in found or "amplitudes" in found:
+        return _of_grid(path), {}
+    if "motions" not in found:
+        raise InputError(f"{shown(path)} names no record; add [motions] with files = [...].")
+    table = read_table(path, StudyFile)
+    try:
+        return _study(table, Path(path).parent)
+    except InputError as error:
+        raise InputError(f"{shown(path)}: {error}") from None
+
+
+def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
+    names = [*([table.column] if table.column else []), *(table.columns or [])]
+    models = [*([table.model] if table.model else []), *(table.models or [])]
+    settings = {key: str(value) for key, value in (table.set or {}).items()}
+    if settings and len(models) > 1:
+        raise InputError("[set] is for one model, and several are named; give each a study of its own.")
+    request = MotionRequest(
+        files=tuple(_listed(table.motions.files, folder)),
+        separate=True,
+        unit=table.motions.unit,
+        component=_component(table.motions.components),
+        azimuths=_azimuths(table.motions.azimuths),
+        signs=table.motions.signs,
+        condition=tuple(table.motions.condition or ()),
+        vertical=table.motions.vertical,
+    )
+    suite = request.expand()
+    im, levels = (None, [1.0]) if table.scale is None else _levels(table.scale.im, table.scale.levels)
+    scatter = table.scatter
+    study = Study(
+        [load_column(folder / one if (folder / one).is_file() else one) for one in names],
+        suite.motions,
+        [make_model(one, settings) for one in models],
+        levels,
+        im,
+        realisations=0 if scatter is None else _whole("realisations", scatter.realisations, 1),
+        scatter=None if scatter is None else _scatter(scatter),
+        seed=0 if scatter is None else _whole("seed", scatter.seed, 0),
+        tail=parse_time(table.tail) if isinstance(table.tail, str) else _seconds(table.tail),
+        whole=table.whole,
+        keep=table.keep,
+    )
+    return study, suite.refused
+
+
+def _of_grid(path: str | Path) -> Study:
+    grid = read_study(path)
+    motions = []
+    for frequency, amplitude in product(grid.frequencies, grid.amplitudes):
+        unit = harmonic(float(frequency), 1.0, grid.duration)
+        motions.append(unit.scaled(float(amplitude)).replace(name=f"{frequency:.4g} Hz, {amplitude / g:.4g} g"))
+    return Study([grid.column], motions, [grid.model], tail=grid.tail)
+
+
+def _listed(patterns: Sequence[str], folder: Path) -> list[str | Path]:
+    found: list[str | Path] = []
+    for one in patterns:
+        if one.startswith(PREFIX):
+            found.append(one)
+            continue
+        if any(mark in one for mark in "*?["):
+            matches: list[Path] = sorted(folder.glob(one)) if not Path(one).is_absolute() else [Path(one)]
+            if not matches:
+                raise InputError(
+                    f"no file matches {one!r} in [motions]; paths start from the folder of the study file."
+                )
+            found += matches
+        else:
+            found.append(folder / one)
+    if not found:
+        raise InputError("the study names no record; give files = [...] in [motions].")
+    return found
+
+
+def _component(asked: str | None) -> str | None:
+    return None if asked in (None, "x") else asked
+
+
+def _azimuths(asked: Any) -> tuple[float, ...]:
+    if asked is None:
+        return ()
+    text = asked if isinstance(asked, str) else ",".join(map(str, asked)) if isinstance(asked, list) else str(asked)
+    return tuple(azimuth_range(text).tolist())
+
+
+def _levels(im: str, given: Any) -> tuple[IntensityMeasure | None, list[float]]:
+    measure = None if im == "factor" else parse_measure(im)
+    unit = "-" if measure is None else measure.unit
+    if isinstance(given, str) and given.count(":") == 2:
+        low, high, number = given.split(":")
+        first, last = _level(low.strip(), unit), _level(high.strip(), unit)
+        if not number.strip().isdecimal() or not 1 <= int(number) <= 10_000:
+            raise InputError(f"levels are {given!r}; write them as first:last:number, such as 0.1m/s:1.0m/s:10.")
+        return measure, np.linspace(first, last, int(number)).tolist()
+    return measure, [_level(one, unit) for one in (given if isinstance(given, list) else [given])]
+
+
+def _level(value: Any, unit: str) -> float:
+    """A level with its unit as typed; in the unit of the measure."""
+    if isinstance(value, str):
+        if unit == "g":
+            return parse_acceleration(value) / g
+        if unit == "m/s":
+            return parse_velocity(value)
+        try:
+            return float(value)
+        except ValueError:
+            raise InputError(f"level {value!r} is no number; write it as 1.5.") from None
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise InputError(f"level {value!r} is no number; write it as '0.2 {unit}'.")
+    if unit in ("g", "m/s"):
+        raise InputError(f"level {value:g} has no unit; write it as a text such as '{value:g}{unit}'.")
+    return float(value)
+
+
+def _scatter(table: ScatterTable) -> Scatter | None:
+    sizes = {name: getattr(table, name) for name in LARGEST if getattr(table, name) is not None}
+    return Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
+
+
+def _whole(name: str, value: int, low: int) -> int:
+    if value < low:
+        raise InputError(f"{name} in [scatter] is {value}; allowed is a whole number from {low}.")
+    return value
+
+
+def _seconds(value: Any) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise InputError(f"tail is {value!r}; write it with its unit, such as '5s'.")
+    return float(value)

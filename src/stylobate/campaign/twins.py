@@ -1,0 +1,45 @@
+"""Columns that could as well stand there, as far as a model can take them: twins of a column."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..column import Column
+from ..column.scatter import Scatter, scattered_columns
+from ..errors import InputError
+from ..models.base import Model
+
+#: Largest number of twins.
+MAX_TWINS = 100_000
+
+
+class Twins(NamedTuple):
+    """Columns like one that a model can take, their scatter and seed, and what of the scatter the model leaves out."""
+
+    columns: Sequence[Column]
+    scatter: Scatter
+    seed: int
+    left_out: tuple[str, ...]
+
+    @property
+    def key(self) -> dict[str, Any]:
+        """What they are decided by, as plain values."""
+        return {"replicates": len(self.columns), "scatter": dataclasses.asdict(self.scatter), "seed": self.seed}
+
+
+def the_twins(column: Column, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:
+    """Twins of a column that the model can take."""
+    for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
+        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
+            raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
+    asked = Scatter() if scatter is None else scatter
+    if not asked.given:
+        raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")
+    left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
+    size = dataclasses.replace(asked, offset=0.0) if left_out else asked
+    space = "y" in model.axes and not getattr(model, "planar", False)
+    return Twins(scattered_columns(column, size, replicates, seed, space=space), size, seed, left_out)

@@ -1,0 +1,114 @@
+"""``stylobate study``: columns × records × levels × models × realisations, from one file."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import options as o
+
+if TYPE_CHECKING:
+    from ..analysis.studies import StudyResult
+
+StudyName = Annotated[Path, typer.Argument(metavar="FILE", help="A study file (TOML).")]
+StudyFolder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of a study.")]
+
+
+def run(
+    file: StudyName,
+    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder that keeps the runs, for good.")],
+    threads: o.Threads = None,
+    as_json: o.Json = False,
+) -> None:
+    """Run a study, or what is missing of it.
+
+    Finished runs are kept in the folder: a study that was stopped goes on, one that has grown computes only what is new.
+    """
+    from ..analysis.studies import TABLES, keep_histories, run_study, write_table
+    from ..campaign.study_files import read_plan
+    from . import console
+
+    count = o.the_threads(threads)
+    study, refused = read_plan(file)
+    with console.folder(out, "study.parquet", "study.csv", "study.json") as folder:
+        assert folder is not None
+        console.ledger(folder)
+        with console.progress("runs") as progress:
+            result = run_study(study, folder, threads=count, progress=progress)
+        with console.progress("histories") as progress:
+            files = keep_histories(study, result, folder, progress)
+        files.append(write_table(result.table, folder / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
+        files.append(folder / "study.json")
+        summary = result.summary() | {"refused": refused, "files": [str(one) for one in files]}
+        console.write_json(files[-1], summary)
+    if as_json:
+        console.emit(summary)
+        return
+    print(sentence(result))
+    console.print_refused(refused)
+    print(
+        f"{len(files)} files in {out}: {', '.join(one.name for one in files[-2:])}, histories of {len(files) - 2} runs"
+    )
+
+
+def status(directory: StudyFolder, as_json: o.Json = False) -> None:
+    """How far a study is; it may be running."""
+    from ..analysis.studies import StudyResult
+    from ..campaign.plan import PLAN_FILE, RUNS_FILE
+    from . import console
+
+    result = StudyResult.in_folder(directory)
+    if as_json:
+        written = directory / "study.json"
+        last = json.loads(written.read_text()).get("wall_s") if written.is_file() else None
+        names = (*(one.name for one in sorted(directory.glob("study.*"))), PLAN_FILE, RUNS_FILE)
+        summary = result.summary() | {"wall_s": last, "files": [str(directory / one) for one in names]}
+        summary.pop("computed")
+        console.emit(summary)
+    else:
+        print(sentence(result))
+
+
+def export(
+    directory: StudyFolder,
+    to: Annotated[Path, typer.Option("--to", metavar="FILE", help="Table to write: .parquet or .csv.")],
+    as_json: o.Json = False,
+) -> None:
+    """Write the table of a study, one row per finished case; of one that is not finished as well."""
+    from ..analysis.studies import StudyResult, write_table
+    from . import console
+
+    result = StudyResult.in_folder(directory)
+    if to.exists():
+        from ..errors import InputError
+
+        raise InputError(f"{to} is there already; choose another name.")
+    written = write_table(result.table, to)
+    if as_json:
+        console.emit(result.summary() | {"files": [str(written)]})
+    else:
+        print(f"{result.rows.finished} of {len(result.plan)} cases in {written}")
+
+
+def sentence(result: StudyResult) -> str:
+    """How far a study is and what it came to."""
+    found = result.summary()
+    said = f"{found['finished']} of {found['cases']} cases are finished: "
+    said += f"{found['collapsed']} collapse, {found['stands']} stand"
+    for one in ("undecided", "failed"):
+        if found[one]:
+            said += f", {found[one]} {'are ' if one == 'undecided' else ''}{one}"
+    said += "."
+    if found["computed"]:
+        said += f" {found['computed']} were computed now, in {found['wall_s']:.1f} s."
+    return said
+
+
+def has_parquet() -> bool:
+    """Whether Parquet files can be written here."""
+    from importlib.util import find_spec
+
+    return find_spec("pyarrow") is not None

@@ -1,0 +1,216 @@
+"""Studies: nothing is computed twice or mixed, whatever kills the process; the table is the same to the bit."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pandas
+import pytest
+
+import stylobate as st
+from stylobate.analysis.studies import StudyResult, write_table
+from stylobate.campaign import cases as study_cases
+from stylobate.campaign.study_files import read_plan
+from stylobate.cli.main import call
+from stylobate.motion.intensity_specs import parse_measure
+
+COLUMN = st.Column.tapered(
+    height=2.4, bottom_width=0.5, top_width=0.4, drums=1, density=2600.0, name="one",
+    joint=st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=0.7),
+)  # fmt: skip
+PULSE = st.sine_pulse(frequency=0.9, amplitude=1.0, duration=3.0)
+FILE = """
+column = "three.toml"
+model = "dem2d"
+[motions]
+files = ["wave.csv"]
+signs = "both"
+[scale]
+im = "pga"
+levels = ["0.3g", "0.5g", "0.9g"]
+[scatter]
+realisations = 40
+friction = 0.1
+width = 0.01
+"""
+THREE = """name = "three"
+section = "circular"
+density = 2600.0
+[tapered]
+height = 2.4
+bottom_width = 0.5
+top_width = 0.4
+drums = 3
+[joint]
+normal_stiffness = 2.0e9
+shear_stiffness = 1.0e9
+friction_coefficient = 0.7
+"""
+
+
+def study(*levels, **changes):
+    return st.Study([COLUMN], [PULSE], [st.HousnerBlock()], levels or (1.0, 2.0, 3.0, 6.0), **changes)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    time_s = np.arange(0.0, 3.005, 0.01)
+    lines = [f"{t:.2f},{x:.6f}" for t, x in zip(time_s, 0.4 * np.sin(2 * np.pi * time_s))]
+    (tmp_path / "wave.csv").write_text("\n".join(["time_s,ax_g", *lines]))
+    (tmp_path / "three.toml").write_text(THREE)
+    (tmp_path / "study.toml").write_text(FILE)
+    return tmp_path
+
+
+def test_a_study_that_grows_computes_only_what_is_new(tmp_path):
+    first = st.run_study(study(1.0, 2.0, realisations=3), tmp_path)
+    assert (first.computed, len(first.plan)) == (6, 6)
+    grown = st.run_study(study(1.0, 2.0, 4.0, realisations=5), tmp_path)
+    assert (grown.computed, len(grown.plan)) == (9, 15)
+    alone = st.run_study(study(1.0, 2.0, 4.0, realisations=5))
+    assert grown.table.equals(alone.table)
+    assert st.run_study(study(1.0, 2.0, 4.0, realisations=5), tmp_path).computed == 0
+
+
+def test_a_case_is_what_simulate_many_computes():
+    table = st.run_study(study()).table
+    again = st.simulate_many(COLUMN, [PULSE.scaled(level) for level in (1.0, 2.0, 3.0, 6.0)], st.HousnerBlock())
+    assert table["peak_top_displacement_m"].tolist() == again["peak_top_displacement_m"].tolist()
+    assert table["outcome"].tolist() == again["outcome"].tolist()
+
+
+def test_runs_of_another_law_are_never_mixed_in(tmp_path, monkeypatch):
+    st.run_study(study(), tmp_path)
+    assert st.run_study(study(tail=1.0), tmp_path).computed == 4
+    monkeypatch.setattr(study_cases, "source_digest", lambda: "another law")
+    assert st.run_study(study(), tmp_path).computed == 4
+
+
+def test_the_same_case_twice_is_run_once():
+    found = st.run_study(st.Study([COLUMN], [PULSE, PULSE], [st.HousnerBlock()], (1.0, 1.0)))
+    assert found.rows.finished == 4
+    assert len({str(row) for row in found.rows}) == 1
+
+
+def test_levels_of_an_intensity_are_met():
+    motion = st.sample_motion("el-centro-1940")
+    some = st.Study([COLUMN], [motion], [st.HousnerBlock()], (0.1, 0.4), parse_measure("pgv"))
+    assert [some.case(i).motion.pgv for i in range(2)] == pytest.approx([0.1, 0.4], rel=1e-9)
+    arias = st.Study([COLUMN], [motion], [st.HousnerBlock()], (0.5,), parse_measure("arias"))
+    assert parse_measure("arias").of(arias.case(0).motion) == pytest.approx(0.5, rel=1e-9)
+    with pytest.warns(st.OutOfRangeWarning, match="more than 10 times"):
+        st.Study([COLUMN], [motion], [st.HousnerBlock()], (20.0,), parse_measure("pgv"))
+
+
+def test_killed_at_any_time_a_study_ends_with_the_same_table_to_the_bit(folder):
+    whole = st.run_study(read_plan(folder / "study.toml")[0])
+    assert len(whole.plan) == 240
+    out = folder / "out"
+    command = [
+        sys.executable,
+        "-c",
+        "from stylobate.cli.main import main; main()",
+        "study",
+        "run",
+        folder / "study.toml",
+        "--out",
+        out,
+        "--threads",
+        "1",
+    ]
+    kept = []
+    for number, kill in enumerate((signal.SIGKILL, signal.SIGTERM)):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        before = kept[-1] if kept else 0
+        for _ in range(1200):  # until the ledger has grown, or the study is over
+            time.sleep(0.05)
+            if process.poll() is not None or ((out / "plan.npz").exists() and finished(out) > before + 20 * number):
+                break
+        if process.poll() is None:
+            os.kill(process.pid, kill)
+        process.wait(30)
+        kept.append(finished(out))
+    assert kept == sorted(kept)
+    end = st.run_study(read_plan(folder / "study.toml")[0], out)
+    assert end.computed == 240 - kept[-1]
+    assert end.table.equals(whole.table)
+
+
+def finished(folder):
+    return StudyResult.in_folder(folder).rows.finished
+
+
+def test_run_status_and_export_under_their_promised_names(folder, capsys):
+    (folder / "study.toml").write_text(FILE.replace("realisations = 40", "realisations = 2"))
+    out = folder / "out"
+
+    def answer(*arguments):
+        assert call([*map(str, arguments), "--json"]) == 0, capsys.readouterr().err
+        return json.loads(capsys.readouterr().out)
+
+    found = answer("study", "run", folder / "study.toml", "--out", out)
+    promised = {"cases", "finished", "failed", "undecided", "collapsed", "wall_s", "files"}
+    assert promised <= set(found)
+    assert found["cases"] == found["finished"] == 12
+    assert len(list((out / "histories").iterdir())) == 2
+    status = answer("study", "status", out)
+    assert promised <= set(status)
+    assert {key: status[key] for key in promised - {"files"}} == {key: found[key] for key in promised - {"files"}}
+    exported = answer("study", "export", out, "--to", folder / "t.csv")
+    table = pandas.read_csv(folder / "t.csv")
+    assert len(table) == exported["finished"] == 12
+    assert set(table["record"]) == {"wave.csv"}
+    assert sorted(set(table["im"])) == pytest.approx([0.3, 0.5, 0.9])
+    assert table["pga_g"].to_numpy() == pytest.approx(table["im"].to_numpy(), rel=1e-9)
+    assert table["reversed"].sum() == 6
+
+
+def test_parquet_holds_the_same_numbers_to_the_bit(tmp_path):
+    pytest.importorskip("pyarrow")
+    table = st.run_study(study(realisations=2)).table
+    again = pandas.read_parquet(write_table(table, tmp_path / "t.parquet"))
+    for name in table:
+        assert [str(one) for one in again[name]] == [str(one) for one in table[name]], name
+
+
+def test_the_old_study_file_is_a_study_of_harmonics(folder):
+    (folder / "grid.toml").write_text(
+        'column = "three.toml"\nmodel = "housner"\nfrequencies = "1:2:2"\namplitudes = ["0.1g", "0.3g"]\nduration = 2.0\n'
+    )
+    grid, refused = read_plan(folder / "grid.toml")
+    assert (grid.size, refused) == (4, {})
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (('files = ["wave.csv"]', "files = []"), "names no record"),
+        (('files = ["wave.csv"]', 'files = ["*.V2"]'), "no file matches '*.V2'"),
+        (('im = "pga"', 'im = "pga@geomean"'), "needs a second horizontal component"),
+        (('im = "pga"', 'im = "d5_95"'), "level '0.3g'"),
+        (('"0.3g"', "0.3"), "has no unit"),
+        (("realisations = 40", "realisations = 0"), "realisations in [scatter] is 0"),
+        (("friction = 0.1", "friction = 5.0"), "friction of the scatter is 5"),
+        (('model = "dem2d"', 'model = "dem4d"'), "there is no model 'dem4d'"),
+        (('column = "three.toml"', ""), "names no column"),
+    ],
+)
+def test_a_bad_study_is_refused_in_one_sentence(folder, capsys, change, said):
+    (folder / "study.toml").write_text(FILE.replace(*change))
+    assert call(["study", "run", str(folder / "study.toml"), "--out", str(folder / "out")]) == 2
+    text = capsys.readouterr().err
+    assert said in text
+    assert text.count("\n") == 1
+    assert not (folder / "out").exists()
+
+
+def test_a_folder_that_is_no_study_says_so(tmp_path, capsys):
+    assert call(["study", "status", str(tmp_path)]) == 2
+    assert "is no folder of a study" in capsys.readouterr().err
+    (tmp_path / "plan.npz").write_bytes(b"nothing")
+    assert call(["study", "status", str(tmp_path)]) == 2
+    assert "is damaged" in capsys.readouterr().err
