@@ -114,7 +114,7 @@ def curves(
         said = scaled_to(table)
         if measure is None and said not in (None, "factor"):
             measure = parse_measure(str(said))
-        who = [one for one in ("column", "model") if one in table and (one == "column" or table[one].nunique() > 1)]
+        who = [one for one in ("column", "model") if one in table and (one == "column" or len(set(table[one])) > 1)]
         labels = (
             [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else [Path(source).stem] * len(table)
         )
