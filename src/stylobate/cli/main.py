@@ -22,6 +22,7 @@ from . import (
     compare,
     critical,
     domain,
+    experiments,
     fragility,
     ida,
     limit,
@@ -78,7 +79,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 for _room in (
     run, critical, domain, pushover, limit, compare, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, animate, reproduce, cite, bench
+    spectrum, columns, animate, reproduce, experiments, cite, bench
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name)(_passing_on(getattr(_room, _name)))

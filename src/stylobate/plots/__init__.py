@@ -1,6 +1,7 @@
 """Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG."""
 
 from .amplitudes import draw_amplitudes
+from .boulders import draw_boulder_fragility, draw_reliability, draw_verdicts
 from .collapse_over_amplitude import draw_collapse_over_amplitude
 from .directions import draw_directions
 from .domain import draw_boundaries, draw_domain
@@ -23,10 +24,12 @@ from .rocking_spectrum import draw_rocking_spectrum
 from .spectra import draw_spectra
 from .style import save
 from .suite import draw_suite
+from .tosses import draw_toss_errors
 from .uplift import draw_uplift
 
 __all__ = [
     "draw_amplitudes",
+    "draw_boulder_fragility",
     "draw_boundaries",
     "draw_collapse_over_amplitude",
     "draw_comparison",
@@ -48,12 +51,15 @@ __all__ = [
     "draw_probability_panels",
     "draw_pushover",
     "draw_record_verdicts",
+    "draw_reliability",
     "draw_residuals",
     "draw_risk",
     "draw_rocking_spectrum",
     "draw_spectra",
     "draw_suite",
     "draw_survival",
+    "draw_toss_errors",
     "draw_uplift",
+    "draw_verdicts",
     "save",
 ]

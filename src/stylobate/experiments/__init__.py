@@ -1,0 +1,1 @@
+"""Against nature: open measurements that lie beside the project, computed again and scored."""
