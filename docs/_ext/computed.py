@@ -9,6 +9,7 @@ from pathlib import Path
 import api_pages
 import command_pages
 import model_pages
+import nature_pages
 import other_codes_pages
 import validation_pages
 from sphinx.util import logging
@@ -34,7 +35,12 @@ def compute(app):
     ):
         return
     log.info("computing the validation cases and the comparison of the models …")
-    for text in validation_pages.computed(out) + other_codes_pages.computed(out) + model_pages.computed(out):
+    for text in (
+        validation_pages.computed(out)
+        + other_codes_pages.computed(out)
+        + model_pages.computed(out)
+        + nature_pages.computed(out)
+    ):
         write(*text)
     stamp.touch()
 

@@ -62,10 +62,10 @@ class Body:
         )
         return np.concatenate((v, dq, force / self.mass, spin, stretch.ravel()))
 
-    def move(self, state, times, ground=lambda t: 0.0, step=2e-4, tolerance=1e-6, stop=None):
+    def move(self, state, times, ground=lambda t: 0.0, step=2e-4, tolerance=1e-6, stop=None, method="LSODA"):
         """States at times; positions and quaternions first."""
         start = np.concatenate((state, np.zeros(2 * len(self.vertices))))
         return solve_ivp(
-            self.rates, (times[0], times[-1]), start, "LSODA", times, events=stop, args=(ground,), rtol=tolerance,
+            self.rates, (times[0], times[-1]), start, method, times, events=stop, args=(ground,), rtol=tolerance,
             atol=1e-9, max_step=step,
         )  # fmt: skip
