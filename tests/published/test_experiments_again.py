@@ -53,8 +53,8 @@ def test_a_toss_to_its_first_impact(name):
 def test_a_boulder_topples_when_and_where_it_does_here(number):
     """Time from the first 0.05 g to a tilt of 45°, to 5 %, and the direction, to 5°.
 
-    These tests topple within 1.4 s. The time near an unstable equilibrium goes with the logarithm of what pushes the body off
-    it: the two ways of friction, and the integrator's 1e-4, are 0.05 s there.
+    These tests topple within 1.4 s. The time near an unstable equilibrium goes with the logarithm of what pushes the
+    body off it: the two ways of friction, and the integrator's 1e-4, are 0.05 s there.
     """
     with open(FOLDER / "granite" / "specimens.json") as file:
         one = json.load(file)["SP1"]
