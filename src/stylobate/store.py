@@ -16,7 +16,7 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -25,6 +25,7 @@ from .errors import InputError, StylobateError
 from .reading import read_bytes, shown
 
 if TYPE_CHECKING:
+    import pandas
     import xarray
 
 #: Number of the format that is written; this one and format 1 are read.
@@ -62,6 +63,19 @@ with xarray.open_dataset(io.BytesIO(sys.stdin.buffer.read()), engine="h5netcdf",
 """
 
 
+class Tabled(Protocol):
+    """A result that is a labelled data set, and a table as well."""
+
+    @property
+    def table(self) -> pandas.DataFrame:
+        """One row per cell."""
+        ...
+
+    def to_xarray(self) -> xarray.Dataset:
+        """All of it."""
+        ...
+
+
 def write(data: xarray.Dataset, kind: str, path: str | Path) -> Path:
     """Write a data set, its arrays compressed; the file appears whole or not at all.
 
@@ -94,6 +108,24 @@ def write(data: xarray.Dataset, kind: str, path: str | Path) -> Path:
             raise StylobateError(
                 f"{target} cannot be written: {error.strerror}; nothing is left of it: make room, or choose another folder."
             ) from None
+    return target
+
+
+def save(result: Tabled, kind: str, path: str | Path) -> Path:
+    """Write a result by the ending of the name: netCDF for ``.nc``, its table for ``.csv``; whole or not at all.
+
+    Raises
+    ------
+    InputError
+        Another ending, or a folder that cannot be written to.
+    """
+    target = Path(path)
+    if target.suffix == ".nc":
+        return write(result.to_xarray(), kind, target)
+    if target.suffix != ".csv":
+        raise InputError(f"{target} ends in {target.suffix!r}; a {kind} is saved as .nc (netCDF) or .csv (table).")
+    with replacing(target) as partial:
+        result.table.to_csv(partial, index=False)
     return target
 
 

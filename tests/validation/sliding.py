@@ -3,6 +3,7 @@
 import math
 
 import numpy as np
+from oracles.nodal_beam import nodal_accelerations, rotation_rates
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
@@ -150,8 +151,8 @@ def two_derivations():
             for gravity in (0.0, g, 0.7 * g):
                 theta, a_g = 0.05 * random.standard_normal(drums), 3.0 * random.standard_normal()
                 moments = 2e4 * random.standard_normal(drums)
-                turn = matrices.rotation_rates(moments, theta, a_g, gravity)
+                turn = rotation_rates(matrices, moments, theta, a_g, gravity)
                 absolute = a_g + np.cumsum(column.heights * turn)
-                nodes = matrices.nodal_accelerations(moments, theta, a_g, gravity)
+                nodes = nodal_accelerations(matrices, moments, theta, a_g, gravity)
                 worst = max(worst, float(np.abs(nodes - absolute).max() / np.abs(absolute).max()))
     return worst

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import store
-from ..atomic import replacing
 from ..campaign.ledger import PROGRESS_FILE, discard
 from ..campaign.runner import Progress, run_campaign
 from ..column import Column
@@ -157,17 +156,7 @@ class Domain:
         flags = np.zeros(self.shape, dtype=np.int8)
         for flag, verdict in enumerate(v.VERDICTS):
             flags[verdicts == verdict] = flag
-        variables: dict[str, Any] = {
-            "verdict": (
-                dims,
-                flags,
-                {
-                    "long_name": "verdict of the run",
-                    "flag_values": np.arange(len(v.VERDICTS), dtype=np.int8),
-                    "flag_meanings": " ".join(one.replace(" ", "_") for one in v.VERDICTS),
-                },
-            )
-        }
+        variables: dict[str, Any] = {"verdict": (dims, flags, v.FLAGS)}
         outcomes = np.full(len(self.rows), -1, dtype=np.int8)
         for one in Outcome:
             outcomes[self.rows.are("outcome", one.label)] = int(one)
@@ -184,35 +173,17 @@ class Domain:
             variables[name] = (dims, self.grid(name), {"units": unit, "long_name": meaning})
         variables["column"] = ((), json.dumps(self.column.to_dict()))
         variables["provenance"] = ((), json.dumps(self.provenance, default=str))
-        coordinates = {
-            "frequency": ("frequency", self.frequencies, {"units": "Hz", "long_name": "frequency of the base motion"}),
-            "amplitude": ("amplitude", self.amplitudes, {"units": "m s-2", "long_name": "amplitude of acceleration"}),
-            "amplitude_g": ("amplitude", self.amplitudes / g, {"units": "g", "long_name": "amplitude in g"}),
-        }
         attributes = {
             "model": self.model,
             "version": __version__,
             "wall_s": self.wall_time,
             "uplift_acceleration_m_s2": self.column.uplift_acceleration,
         }
-        return xarray.Dataset(variables, coordinates, attributes)
+        return xarray.Dataset(variables, grid_coordinates(self.frequencies, self.amplitudes), attributes)
 
     def save(self, path: str | Path) -> Path:
-        """Write the domain: netCDF for a name that ends in ``.nc``, a table for ``.csv``; whole or not at all.
-
-        Raises
-        ------
-        InputError
-            Another ending, or a folder that cannot be written to.
-        """
-        target = Path(path)
-        if target.suffix not in (".nc", ".csv"):
-            raise InputError(f"{target} ends in {target.suffix!r}; a domain is saved as .nc (netCDF) or .csv (table).")
-        if target.suffix == ".nc":
-            return store.write(self.to_xarray(), "domain", target)
-        with replacing(target) as partial:
-            self.table.to_csv(partial, index=False)
-        return target
+        """Write the domain, ``.nc`` or ``.csv``: see :func:`stylobate.store.save`."""
+        return store.save(self, "domain", path)
 
     @classmethod
     def load(cls, path: str | Path) -> Domain:
@@ -248,6 +219,15 @@ class Domain:
             return cls(column, model, *axes, rows, wall, provenance)
         except Exception as error:
             raise store.unreadable(path, error) from None
+
+
+def grid_coordinates(frequencies: np.ndarray, amplitudes: np.ndarray) -> dict[str, tuple]:
+    """Coordinates of a labelled array over frequencies [Hz] and amplitudes [m/s²]."""
+    return {
+        "frequency": ("frequency", frequencies, {"units": "Hz", "long_name": "frequency of the base motion"}),
+        "amplitude": ("amplitude", amplitudes, {"units": "m s-2", "long_name": "amplitude of acceleration"}),
+        "amplitude_g": ("amplitude", amplitudes / g, {"units": "g", "long_name": "amplitude in g"}),
+    }
 
 
 def collapse_domain(

@@ -11,14 +11,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from .. import store
-from ..atomic import replacing
 from ..column import Column
 from ..column.imperfections import Imperfection
 from ..constants import g
-from ..errors import InputError
 from ..version import __version__
 from . import verdicts as v
-from .domain import cell_edges
+from .domain import cell_edges, grid_coordinates
 
 if TYPE_CHECKING:
     import pandas
@@ -209,16 +207,11 @@ class CollapseProbability:
         cells, runs = ("frequency", "amplitude"), ("frequency", "amplitude", "replicate")
         low, high = self.interval
         level = f"{100.0 * self.confidence:g} % confidence limit (Wilson)"
-        flags = {
-            "long_name": "verdict of the run",
-            "flag_values": np.arange(len(v.VERDICTS), dtype=np.int8),
-            "flag_meanings": " ".join(one.replace(" ", "_") for one in v.VERDICTS),
-        }
         peak = {"units": "m", "long_name": "largest top displacement relative to the base"}
         share = {"units": "1", "long_name": "share of the runs that collapse; undecided ones do not count as collapsed"}
         return xarray.Dataset(
             {
-                "verdict": (runs, self.codes, flags),
+                "verdict": (runs, self.codes, v.FLAGS),
                 "peak_top_displacement_m": (runs, self.peaks, peak),
                 "collapse_frequency": (cells, self.frequency, share),
                 "confidence_low": (cells, low, {"units": "1", "long_name": f"lower {level}"}),
@@ -226,11 +219,7 @@ class CollapseProbability:
                 "column": ((), json.dumps(self.column.to_dict())),
                 "provenance": ((), json.dumps(self.provenance, default=str)),
             },
-            {
-                "frequency": ("frequency", self.frequencies, {"units": "Hz"}),
-                "amplitude": ("amplitude", self.amplitudes, {"units": "m s-2"}),
-                "amplitude_g": ("amplitude", self.amplitudes / g, {"units": "g"}),
-            },
+            grid_coordinates(self.frequencies, self.amplitudes),
             {
                 "model": self.model,
                 "version": __version__,
@@ -241,21 +230,8 @@ class CollapseProbability:
         )
 
     def save(self, path: str | Path) -> Path:
-        """Write netCDF (``.nc``, every run) or a table (``.csv``, every cell); whole or not at all.
-
-        Raises
-        ------
-        InputError
-            Another ending, or a folder that cannot be written to.
-        """
-        target = Path(path)
-        if target.suffix not in (".nc", ".csv"):
-            raise InputError(f"{target} ends in {target.suffix!r}; it is saved as .nc (netCDF) or .csv (table).")
-        if target.suffix == ".nc":
-            return store.write(self.to_xarray(), "probability", target)
-        with replacing(target) as partial:
-            self.table.to_csv(partial, index=False)
-        return target
+        """Write every run (``.nc``) or a table of the cells (``.csv``): see :func:`stylobate.store.save`."""
+        return store.save(self, "probability", path)
 
     @classmethod
     def load(cls, path: str | Path) -> CollapseProbability:

@@ -24,6 +24,13 @@ from ..response.rows import Rows
 STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN = "stands", "collapsed", "undecided", "failed", "not run"
 VERDICTS = (STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN)
 
+#: What a labelled array says of itself that holds verdicts as their places in VERDICTS.
+FLAGS = {
+    "long_name": "verdict of the run",
+    "flag_values": np.arange(len(VERDICTS), dtype=np.int8),
+    "flag_meanings": " ".join(one.replace(" ", "_") for one in VERDICTS),
+}
+
 
 def verdict(row: Mapping[str, Any] | None) -> str:
     """Verdict of a run from its row (``Measures.row()``); None stands for a run that was not made."""

@@ -116,7 +116,7 @@ def compare(
     else:
         for name, text in said.items():
             print(f"{name}: {text}")
-        console.print_table(table)
+        (console.print_table if over_domain else console.print_side_by_side)(table)
         if files:
             print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
 

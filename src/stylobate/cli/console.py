@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
@@ -12,6 +13,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     import pandas
+
+#: Widest line of a table [characters], and what stands where there is no value.
+WIDEST, MISSING = 100, "-"
 
 
 def emit(result: Mapping[str, Any]) -> None:
@@ -62,6 +66,34 @@ def write_table(table: pandas.DataFrame, path: Path) -> Path:
 def print_table(table: pandas.DataFrame, digits: int = 4) -> None:
     """Print a table for people."""
     print(table.to_string(index=False, na_rep="-", float_format=lambda value: f"{value:.{digits}g}"))
+
+
+def print_side_by_side(table: pandas.DataFrame) -> None:
+    """Print a table of few rows turned round, each row a column of at most a hundred characters in all.
+
+    The first column of the table names its rows; what no row has a value for is left out.
+    """
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    shown = Table(box=None, pad_edge=False)
+    for name in (table.columns[0], *table.iloc[:, 0]):
+        shown.add_column(Text(str(name)), overflow="fold")
+    for name in table.columns[1:]:
+        values = [_as_text(value) for value in table[name]]
+        if any(value != MISSING for value in values):
+            shown.add_row(Text(name), *map(Text, values))
+    Console(width=min(WIDEST, shutil.get_terminal_size((WIDEST, 24)).columns), highlight=False).print(shown)
+
+
+def _as_text(value: Any) -> str:
+    """A value of a table for people."""
+    if isinstance(value, (list, tuple)):
+        return " ".join(_as_text(one) for one in value) or MISSING
+    if value is None or value == "" or (isinstance(value, float) and math.isnan(value)):
+        return MISSING
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
 def print_refused(refused: Mapping[str, str]) -> None:

@@ -19,7 +19,7 @@ import numpy as np
 
 from .. import store
 from ..analysis import verdicts as v
-from ..analysis.domain import Domain, collapse_domain
+from ..analysis.domain import Domain, collapse_domain, grid_coordinates
 from ..analysis.probability import CollapseProbability
 from ..analysis.replicates import collapse_probability
 from ..atomic import replacing
@@ -129,13 +129,8 @@ def histories_piece(
     dims = ("frequency", "amplitude")
     variables: dict[str, Any] = {one: ((*dims, "time"), values, {"units": "m"}) for one, values in curves.items()}
     variables |= {one: (dims, values, {"units": "s" if "time" in one else "m"}) for one, values in facts.items()}
-    meanings = " ".join(one.replace(" ", "_") for one in v.VERDICTS)
-    variables["verdict"] = (dims, flags, {"flag_values": np.arange(5, dtype=np.int8), "flag_meanings": meanings})
-    coordinates = {
-        "frequency": ("frequency", c.FREQUENCIES, {"units": "Hz"}),
-        "amplitude": ("amplitude", c.AMPLITUDES, {"units": "m s-2"}),
-        "time": ("time", time, {"units": "s"}),
-    }
+    variables["verdict"] = (dims, flags, v.FLAGS)
+    coordinates = grid_coordinates(c.FREQUENCIES, c.AMPLITUDES) | {"time": ("time", time, {"units": "s"})}
     note = "displacements of base and top relative to the ground, and of the ground"
     attributes = {"column": name, "model": label, "version": __version__, "note": note, "duration_s": c.DURATION}
     data_set = xarray.Dataset(variables, coordinates, attributes)

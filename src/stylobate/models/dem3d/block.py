@@ -182,16 +182,9 @@ class SpaceBlock(DrumBlock):
         force, up, lo = (joint[name][:, :, lane] for name in ("f", "up", "lo"))
         return force[:-1] - force[1:], up[:-1] + lo[1:]
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        ground = np.zeros(1, self.ground.dtype)
-        ground["a"][0, :, lane] = self.ground_acceleration(lane, self.time(lane))
-        joint, state = self.joint.copy(), self.lane.copy()
-        state["dt"][0, lane] = self.dt[lane]
-        self.kernel.forces(self.drum, joint, state)
-        out = np.empty(6)
-        self.kernel.ledger(self.drum, joint, state, ground, 0, self.dt[lane], lane, out)
-        return out
+    def put_ground(self, ground: np.ndarray, lane: int, acceleration: np.ndarray) -> None:
+        """Write the base's acceleration as the kernel wants it."""
+        ground["a"][0, :, lane] = acceleration
 
     def residual_acceleration(self, lane: int) -> float:
         """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""

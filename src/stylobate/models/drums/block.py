@@ -314,6 +314,10 @@ class DrumBlock:
         slope = case.column.as_found.base_tilt * DEGREE
         return np.array(along_base(case.motion, time, math.cos(slope), math.sin(slope)))
 
+    def put_ground(self, ground: np.ndarray, lane: int, acceleration: np.ndarray) -> None:
+        """Write the base's acceleration as the kernel wants it."""
+        ground["ax"][0, lane], ground["az"][0, lane] = acceleration
+
     def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Opening of every joint, and where the drum above it is along it [m], each of shape (n,)."""
         opening, slip = np.empty(len(self.drum) - 1), np.empty(len(self.drum) - 1)
@@ -328,7 +332,7 @@ class DrumBlock:
     def energies(self, lane: int) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
         ground = np.zeros(1, self.ground.dtype)
-        ground["ax"][0, lane], ground["az"][0, lane] = self.ground_acceleration(lane, self.time(lane))
+        self.put_ground(ground, lane, self.ground_acceleration(lane, self.time(lane)))
         # the forces at the present positions, found as the next step will find them, on a copy
         joint, state = self.joint.copy(), self.lane.copy()
         state["dt"][0, lane] = self.dt[lane]
