@@ -199,7 +199,8 @@ def test_models_side_by_side_fit_a_terminal(capsys):
     lines = capsys.readouterr().out.splitlines()
     assert max(map(len, lines)) <= 100
     names = [line.split()[0] for line in lines[1:] if not line.startswith(" ")]
-    assert names[:3] == ["model", "outcome", "collapsed"] and "residual_twist_per_joint_rad" in names
+    assert names[:3] == ["model", "outcome", "collapsed"]
+    assert "residual_twist_per_joint_rad" in names
 
 
 def test_a_model_is_compared_with_itself_under_other_options(command, tmp_path):
