@@ -137,7 +137,7 @@ def draw_reliability(table: Any, *, ax: Any = None) -> Figure:
     figure, axes = panel(ax, (4.6, 4.6))
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.8)
     for (name, rows), (color, marker, aside) in zip(
-        table.groupby("specimen"), ((BROWN, "o", -0.006), (BLUE, "s", 0.006))
+        table.groupby("specimen"), ((BROWN, "o", -0.012), (BLUE, "s", 0.012))
     ):
         x, y = rows["probability"].to_numpy() + aside, rows["observed"].to_numpy()
         ends = [y - rows["observed_low"], rows["observed_high"] - y]
