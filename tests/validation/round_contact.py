@@ -210,7 +210,7 @@ def transient_wobbling_on_stiff_joints():
     "dem3d",
     "a frustum in flight for 2 s, 0.3 rad/s across and 2 rad/s about its axis: largest error of its axes",
     AtMost(1e-11),
-    source=r"turns about itself at $(1/C - 1/A)\,L\cdot k$ and about $L$ at $|L|/A$",
+    source=r"turns about itself at $(1/C - 1/A)\,L\cdot k$ and about $L$ at $\Vert L \Vert/A$",
     reason="rounding over 20,000 steps",
 )
 def torque_free_motion():
