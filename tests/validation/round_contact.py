@@ -36,7 +36,7 @@ def resistance(column, tilts, law):
     height, weight = column.centroid_height, column.mass * column.gravity
     azimuth = np.arange(block.lanes) * (2.0 * math.pi / block.lanes) + 0.1
     h = np.stack([np.cos(azimuth), np.sin(azimuth), np.zeros(block.lanes)])
-    best = np.zeros(block.lanes)
+    best = carried = np.zeros(block.lanes)
     for tilt in tilts:
         turns = [rotation(np.cross([0, 0, 1.0], h[:, lane]), tilt) for lane in range(block.lanes)]
         low, high = -0.5 * column.base_width * math.sin(tilt), 1e-3
@@ -103,7 +103,7 @@ def slid(ax, ay, duration, dt=1e-4, column=LOW):
     time = np.arange(round(duration / dt) + 1) * dt
     block = block_of(column, stiffness_damping=1e-4)
     block.load(0, Run(column, Motion(dt, ax(time), ay(time))))
-    still, last = np.zeros(2), 0.0
+    now, still, last = np.zeros(2), np.zeros(2), 0.0
     while not block.is_over(0):
         block.advance(1)
         now = block.since_start(0)[0][0]
@@ -122,7 +122,7 @@ def slid(ax, ay, duration, dt=1e-4, column=LOW):
 def friction_is_a_cone():
     push = -0.6 * g * math.sqrt(0.5)
     now, last = slid(lambda t: np.where(t < 0.2 - 1e-9, push, 0.0), lambda t: np.where(t < 0.2 - 1e-9, push, 0.0), 0.5)
-    return float(np.hypot(*now)), last
+    return float(np.linalg.norm(now)), last
 
 
 @case(
