@@ -18,7 +18,7 @@ from ..errors import InputError, OutOfRangeWarning, check_range
 from .column import GRAVITIES, Column
 from .drum import DENSITIES, LENGTHS
 from .found_geometry import drum_outline, geometry
-from .joint import Joint
+from .joint import Joint, without_unsaid
 
 MAX_BLOCKS = 400
 
@@ -215,6 +215,11 @@ class Assembly:
             raise InputError(f"two blocks are called {twice!r}; give every block a name of its own.")
         if all(block.fixed for block in self.blocks):
             raise InputError(f"no block of {self.name!r} can move; leave fixed = true out for at least one.")
+        laws = (self.joint, *(law for *_, law in self.overrides), *(block.surface for block in self.blocks))
+        if any(law is not None and law.ring_width is not None for law in laws):
+            raise InputError(
+                f"a joint of {self.name!r} has a ring_width, and rings are those of round drums; leave it out."
+            )
         pairs = [frozenset((one, other)) for one, other, _ in self.overrides]
         known = {block.name for block in self.bodies}
         for (one, other, _), pair in zip(self.overrides, pairs, strict=True):
@@ -276,7 +281,7 @@ class Assembly:
 
     def to_dict(self) -> dict:
         """Everything that defines the assembly, as plain values in SI units."""
-        return asdict(self)
+        return asdict(self, dict_factory=without_unsaid)
 
     @property
     def frequency_parameter(self) -> float:
@@ -300,6 +305,7 @@ def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Asse
         Width and height of the fixed steps under the column, from the top down [m]; the ground lies below the last.
         None: the base is a half-plane.
     """
+    column.must_carry_on_whole_faces("an assembly of blocks")
     blocks, level = [], 0.0
     for i, (width, height) in enumerate(steps):
         width = check_range(f"width of step {i + 1}", width, 0.0, FAR_AWAY, unit="m", open_low=True)

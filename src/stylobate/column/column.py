@@ -21,7 +21,7 @@ from .as_found import AS_BUILT, AsFound
 from .drum import Drum, section_area, section_second_moment
 from .found_geometry import check_as_found, uplift_accelerations
 from .found_in_space import smallest_uplift
-from .joint import Joint
+from .joint import Joint, without_unsaid
 
 MAX_DRUMS = 200
 
@@ -77,6 +77,7 @@ class Column:
         if len({drum.section for drum in self.drums}) > 1:
             raise InputError("the drums mix circular and rectangular sections; give all drums the same section.")
         object.__setattr__(self, "gravity", check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²"))
+        self._check_rings()
         if self.as_found:
             check_as_found(self)
         wide = [i + 1 for i, drum in enumerate(self.drums) if drum.top_width > drum.bottom_width * (1 + 1e-12)]
@@ -87,6 +88,56 @@ class Column:
                 "this is computed as given: swap the widths if it was not meant.",
                 OutOfRangeWarning,
                 stacklevel=3,
+            )
+
+    def _check_rings(self) -> None:
+        for j, joint in enumerate(self.joints):
+            if joint.ring_width is None:
+                continue
+            if self.section != "circular":
+                raise InputError(
+                    f"ring_width of joint {j + 1} is {joint.ring_width:g} m, and {self.name!r} has rectangular faces; "
+                    "rings are known for round ones: leave it out."
+                )
+            width = float(self.joint_widths[j])
+            if joint.ring_width > 0.5 * width:
+                raise InputError(
+                    f"ring_width of joint {j + 1} of {self.name!r} is {joint.ring_width:g} m, thicker than its face, "
+                    f"of diameter {width:g} m; allowed is up to {0.5 * width:g} m, or leave it out for a whole face."
+                )
+            if max(self.sunken_widths(j)) >= width:
+                raise InputError(
+                    f"the rings of joint {j + 1} of {self.name!r} do not meet: ring_width = {joint.ring_width:g} m, and one "
+                    f"face is that much wider than the other; make the ring wider."
+                )
+
+    @property
+    def on_rings(self) -> bool:
+        """Whether some joint carries on a ring."""
+        return any(joint.ring_width is not None for joint in self.joints)
+
+    def sunken_widths(self, joint: int) -> tuple[float, float]:
+        """Diameters of the sunken middles of the face above a joint and of the one below [m]; 0 for none.
+
+        The base is not sunk.
+        """
+        ring = self.joints[joint].ring_width
+        if ring is None:
+            return 0.0, 0.0
+        below = self.drums[joint - 1].top_width if joint else 0.0
+        return max(self.drums[joint].bottom_width - 2.0 * ring, 0.0), max(below - 2.0 * ring, 0.0)
+
+    def must_carry_on_whole_faces(self, what: str) -> None:
+        """Refuse a column on rings where ``what`` knows none.
+
+        Raises
+        ------
+        InputError
+        """
+        if self.on_rings:
+            raise InputError(
+                f"{what} knows no rings, and a joint of {self.name!r} has a ring_width; use dem3d with law=bed, or leave it "
+                "out."
             )
 
     # -- made from -----------------------------------------------------------------------------------------------
@@ -258,14 +309,16 @@ class Column:
     @cached_property
     def joint_areas(self) -> np.ndarray:
         """Contact area A_i of each joint [m²], shape (n,)."""
-        return np.array([section_area(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)])
+        whole = [section_area(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
+        sunken = [section_area("circular", max(self.sunken_widths(i)), 0.0) for i in range(self.n)]
+        return np.array(whole) - sunken
 
     @cached_property
     def joint_second_moments(self) -> np.ndarray:
         """Second moment J_i of each joint's contact area [m⁴], shape (n,)."""
-        return np.array(
-            [section_second_moment(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
-        )
+        whole = [section_second_moment(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
+        sunken = [section_second_moment("circular", max(self.sunken_widths(i)), 0.0) for i in range(self.n)]
+        return np.array(whole) - sunken
 
     def _joint_depth(self, i: int) -> float:
         return min(self.drums[i].depth, self.drums[i - 1].upper_depth) if i else self.drums[0].depth
@@ -350,17 +403,12 @@ class Column:
 
     def to_dict(self) -> dict:
         """Everything that defines the column, as plain values in SI units."""
-        plain = dataclasses.asdict(self)
+        plain = dataclasses.asdict(self, dict_factory=without_unsaid)
         plain.pop("as_found")
-        plain |= {"drums": [_without_none(one, "top_depth") for one in plain["drums"]], "joints": list(plain["joints"])}
+        plain |= {"drums": list(plain["drums"]), "joints": list(plain["joints"])}
         return plain | ({"as_found": self.as_found.to_dict()} if self.as_found else {})
 
     @cached_property
     def digest(self) -> str:
         """SHA-256 of :meth:`to_dict`."""
         return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
-
-
-def _without_none(fields: dict, name: str) -> dict:
-    """Fields without the one of that name where it is None: what is not there does not change a digest."""
-    return {key: value for key, value in fields.items() if key != name or value is not None}

@@ -90,7 +90,7 @@ def joint_from_dict(fields: Mapping[str, Any]) -> Joint:
     # A joint stores friction as angle and as coefficient. Only the form that it was made from reproduces both exactly.
     for form in ("friction_coefficient", "friction_angle"):
         joint = Joint(**{key: value for key, value in fields.items() if key != form})
-        if dataclasses.asdict(joint) == dict(fields):
+        if dataclasses.asdict(joint) == {"ring_width": None} | dict(fields):
             break
     return joint
 
@@ -99,7 +99,7 @@ def _joint_fields(joint: Joint) -> dict[str, float]:
     fields = dataclasses.asdict(joint)
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
-    return {key: value for key, value in fields.items() if key != drop}
+    return {key: value for key, value in fields.items() if key != drop and value is not None}
 
 
 def _as_found_fields(found: AsFound) -> dict[str, Any]:

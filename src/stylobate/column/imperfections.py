@@ -124,6 +124,7 @@ def rebuilt(
             shear_stiffness=joint.shear_stiffness * stiff[i],
             friction_coefficient=joint.tan_phi * rough[i],
             cohesion=joint.cohesion,
+            ring_width=joint.ring_width,
         )
         for i, joint in enumerate(column.joints)
     )

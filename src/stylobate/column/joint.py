@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from ..constants import DEGREE
 from ..errors import InputError, check_range
+from .drum import LENGTHS
 
 DEFAULT_FRICTION_ANGLE = 35.0
 
@@ -29,6 +31,9 @@ class Joint:
         tan φ [-], instead of the angle.
     cohesion : float
         c [Pa], acts while the joint is in contact.
+    ring_width : float, optional
+        Width of the ring on which round faces carry, from their rims inward [m]: the middle of both faces is sunk
+        (anathyrosis). The whole faces if left out. Known to ``dem3d`` with ``law="bed"``.
 
     Raises
     ------
@@ -41,8 +46,12 @@ class Joint:
     friction_angle: float | None = None
     friction_coefficient: float | None = None
     cohesion: float = 0.0
+    ring_width: float | None = None
 
     def __post_init__(self) -> None:
+        if self.ring_width is not None:
+            width = check_range("ring_width of a joint", self.ring_width, *LENGTHS, unit="m", remedy="use SI units")
+            object.__setattr__(self, "ring_width", width)
         remedy = "a rigid joint is approached by a large stiffness, such as 5e10"
         for name in ("normal_stiffness", "shear_stiffness"):
             value = check_range(f"{name} of a joint", getattr(self, name), 1.0, 1e15, unit="N/m³", remedy=remedy)
@@ -84,3 +93,11 @@ class Joint:
         """tan φ [-]."""
         assert self.friction_coefficient is not None
         return self.friction_coefficient
+
+
+def without_unsaid(fields: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Fields of a dataclass as a dictionary, less what was added to the description later and is not given.
+
+    What is not given so leaves the digest of a column what it was.
+    """
+    return {name: value for name, value in fields if value is not None or name not in ("top_depth", "ring_width")}

@@ -73,6 +73,8 @@ class Specimen:
         object.__setattr__(self, "gravity", check_range("gravity", self.gravity, 1e-2, 100.0, unit="m/s²"))
         object.__setattr__(self, "inertia", _inertia(self.inertia))
         object.__setattr__(self, "vertices", _hull_vertices(self.vertices))
+        if self.joint.ring_width is not None:
+            raise InputError(f"the joint of {self.name!r} has a ring_width, and a specimen has no rings; leave it out.")
         turn = self.resting.turn / DEGREE
         if turn > FARTHEST_TURN:
             raise InputError(

@@ -17,13 +17,14 @@ from .toml import Table, checked, parse_toml
 
 
 class JointTable(Table):
-    """``[joint]``: stiffness [N/m³], one form of friction (angle in degrees), cohesion [Pa]."""
+    """``[joint]``: stiffness [N/m³], one form of friction (angle in degrees), cohesion [Pa], width of the ring [m]."""
 
     normal_stiffness: float
     shear_stiffness: float
     friction_angle: float | None = None
     friction_coefficient: float | None = None
     cohesion: float = 0.0
+    ring_width: float | None = None
 
 
 class OverrideTable(Table):
@@ -35,6 +36,7 @@ class OverrideTable(Table):
     friction_angle: float | None = None
     friction_coefficient: float | None = None
     cohesion: float | None = None
+    ring_width: float | None = None
 
 
 class DrumTable(Table):

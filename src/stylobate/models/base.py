@@ -11,6 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
+from ..column import Column
 from ..column.specimen import Specimen
 from ..errors import InputError, LeftOutWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
@@ -93,8 +94,8 @@ class Model:
     ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
     everything lies still, ``takes_start`` whether it can start from a pose,
-    ``takes_specimens`` whether it computes single bodies of any shape; ``carries`` how many columns alike it can
-    take along in a single run at next to no cost.
+    ``takes_specimens`` whether it computes single bodies of any shape; ``takes_rings`` whether joints may carry on rings;
+    ``carries`` how many columns alike it can take along in a single run at next to no cost.
     """
 
     name: ClassVar[str] = ""
@@ -107,6 +108,7 @@ class Model:
     follows_to_rest: ClassVar[bool] = False
     takes_start: ClassVar[bool] = False
     takes_specimens: ClassVar[bool] = False
+    takes_rings: ClassVar[bool] = False
     carries: ClassVar[int] = 0
 
     def check(self, column: Any, motion: Motion) -> None:
@@ -123,6 +125,8 @@ class Model:
                 f"{self.name} computes the plane of x and z, and {column.name!r} is found out of it "
                 "(an azimuth other than 0 and 180, or a turn); use dem3d, or leave these out."
             )
+        if isinstance(column, Column) and not self.takes_rings:
+            column.must_carry_on_whole_faces(self.name)
         for axis, values in motion.components.items():
             peak = float(np.abs(values).max())
             if not peak <= LARGEST_ACCELERATION:

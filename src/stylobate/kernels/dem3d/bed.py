@@ -9,6 +9,7 @@ import math
 
 from ..jit import law
 from .pose import CENTRED
+from .rim import overlap
 
 #: Places (−1 … 1) and weights of the strips: with eight of them a disc is met to 1e-6, a lens to 5e-3 at worst.
 STRIPS = (
@@ -86,3 +87,30 @@ def settle_askew(d, gx, gy, along, across, ra, rl, q_u, cos_l, sin_l):
     s = 0.0 if flat else gy * each
     sums = settle(d, g, along * c + across * s, across * c - along * s, ra, rl, q_u, cos_l, sin_l)
     return sums[0], sums[1], sums[2] * c - sums[3] * s, sums[2] * s + sums[3] * c, sums[4], sums[5]
+
+
+@law
+def settle_ring(d, gx, gy, along, across, ra, rl, ia, il):
+    """As :func:`settle_askew` for two rings, of radii ra and rl, whose middles are sunk within ia and il.
+
+    The overlap of the discs, less what of it lies over either sunken middle.  # Eq. (E11)
+    """
+    s = math.sqrt(along * along + across * across)
+    _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ra, rl, s)
+    a0, n0, x0, y0, q0, e0 = settle_askew(d, gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l)
+    _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ia, rl, s)
+    a1, n1, x1, y1, q1, e1 = settle_askew(d, gx, gy, along, across, ia, rl, -cos_u, cos_l, sin_l)
+    _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ra, il, s)
+    a2, n2, x2, y2, q2, e2 = settle_askew(d, gx, gy, along, across, ra, il, -cos_u, cos_l, sin_l)
+    _, cos_u, _, _, cos_l, sin_l, _, _ = overlap(ia, il, s)
+    a3, n3, x3, y3, q3, e3 = settle_askew(d, gx, gy, along, across, ia, il, -cos_u, cos_l, sin_l)
+    n = n0 - n1 - n2 + n3
+    some = 1.0 if n > 0.0 else 0.0
+    return (
+        max(a0 - a1 - a2 + a3, 0.0) * some,
+        n * some,
+        (x0 - x1 - x2 + x3) * some,
+        (y0 - y1 - y2 + y3) * some,
+        max(q0 - q1 - q2 + q3, 0.0) * some,
+        max(e0 - e1 - e2 + e3, 0.0) * some,
+    )

@@ -5,7 +5,7 @@ import math
 from ..drums.frame import run_chunks
 from ..jit import apart, kernel, law
 from ..run_codes import LANES
-from .bed import settle, settle_askew
+from .bed import settle, settle_askew, settle_ring
 from .friction import NOTHING
 from .ground import fill_ground
 from .look import check_finite, joint_state, observe
@@ -59,7 +59,13 @@ def forces(drum, joint, lane):
             kn = e.kn[l]
             slope = sine / cosine
             d = -(cx * zx + cy * zy + cz * zz) - slope * along
-            sums = settle(d, slope, along, across, ra, rl, -cos_u, cos_l, sin_l)
+            limit = EVEN[1]
+            iu = il = 0.0
+            if e.hole.shape[0] > 1:
+                iu, il, limit = e.hole[0, l] * cosine, e.hole[1, l], e.hole[2, l]
+                sums = settle_ring(d, slope, 0.0, along, across, ra, rl, iu, il)
+            else:
+                sums = settle(d, slope, along, across, ra, rl, -cos_u, cos_l, sin_l)
             # regions of the upper face push along the lower normal, regions of the lower face along the upper one
             share = min(max((cos_g + cos_u) / max(cos_l + cos_u, NOTHING), 0.0), 1.0)
             low, high = (1.0 - share) / cosine, share * cosine
@@ -76,7 +82,10 @@ def forces(drum, joint, lane):
                 gx = beta * (ax * hx + ay * hy + az * hz)
                 gy = beta * (ax * tx + ay * ty + az * tz)
                 d -= beta * (vx * zx + vy * zy + vz * zz) + gx * along + gy * across
-                more = settle_askew(d, slope + gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l)
+                if e.hole.shape[0] > 1:
+                    more = settle_ring(d, slope + gx, gy, along, across, ra, rl, iu, il)
+                else:
+                    more = settle_askew(d, slope + gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l)
                 n, x, y, second = kn * more[1], kn * more[2], kn * more[3], kn * more[4]
                 pressure = resultant(n, x, y, low, high, hx, hy, hz, tx, ty, tz, normal, other)
             each = 1.0 / max(n, NOTHING)
@@ -88,7 +97,7 @@ def forces(drum, joint, lane):
             velocity, spin = (vx, vy, vz), (ox, oy, oz)
             pressing = n * (low + high)
             carry(
-                e, o, v, l, damped, pressing, spread, stiffness, cohesion, EVEN,
+                e, o, u, v, l, damped, pressing, spread, stiffness, cohesion, (EVEN[0], limit),
                 face, middle, velocity, spin, pressure, elastic,
             )  # fmt: skip
 

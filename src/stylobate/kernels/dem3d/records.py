@@ -27,10 +27,13 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                f[3] up[3] lo[3]  force on the drum above [N], moments on both drums about their centroids [N m]
                d[6]           dashpots: force and moment on the drum above, about the middle of the face below (damped only);
                               with corners the force of each of them, in the axes of the drum below
+               hole[3]        rings: radii of the sunken middles of the upper and of the lower face [m], and the limit of
+                              torsion over ρ μ N (rings only)
                w[22]          with corners: what they share within one evaluation, see corner_forces.py
     lane       dt             step [s];  g[3]  gravity, as an acceleration of the base: up is positive [m/s²]
                beta alpha     stiffness- and mass-proportional damping [s], [1/s]; local: local damping [-]
                pivot          share of the torsional friction that acts [-]
+               roll           resistance to rolling, a share of the lever of pressure (only where there is some) [-]
                free           1; 0 holds the motion in the plane of x and z
                work shear visc  work of the input, of the friction springs on their surroundings reversed, of dampers [J]
                p[3]           momentum of all drums [kg m/s]
@@ -63,11 +66,12 @@ from ..run_codes import LANES
 PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")
 
 
-def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
+def block_types(damped: bool, corners: int = 1, ring: bool = False, rolling: bool = False) -> tuple[np.dtype, ...]:
     """Record types (drum, joint, lane, ground, feed, watch).
 
-    Whether there are dashpots (``d`` of more than one row) and corners (``px`` of more than one) is part of the types: each
-    loop is compiled for what is used. A body with corners may have three different moments of inertia.
+    Whether there are dashpots (``d`` of more than one row), corners (``px``), rings (``hole``) and resistance to rolling
+    (``roll``) is part of the types: each loop is compiled for what is used. A body with corners may have three different
+    moments of inertia.
     """
     dashpots = (3 * corners if corners > 1 else 6) if damped else 1
     row = (LANES,)
@@ -98,10 +102,11 @@ def block_types(damped: bool, corners: int = 1) -> tuple[np.dtype, ...]:
                 up=3,
                 lo=3,
                 d=dashpots,
+                hole=3 if ring else 1,
                 w=22 if corners > 1 else 1,
             )
         ),
-        np.dtype(fields("dt beta alpha local pivot free work shear visc", g=3, p=3)),
+        np.dtype(fields("dt beta alpha local pivot free work shear visc", g=3, p=3, roll=2 if rolling else 1)),
         np.dtype(fields("", a=3)),
         np.dtype(counts("x y z last step end") + fields("ratio factor", r=9)),
         np.dtype(

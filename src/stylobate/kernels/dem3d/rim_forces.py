@@ -117,7 +117,7 @@ def forces(drum, joint, lane):
             velocity, spin = (vx, vy, vz), (ox, oy, oz)
             pressure, elastic = (fx, fy, fz, mx, my, mz), (ex, ey, ez, ix, iy, iz)
             carry(
-                e, o, v, l, damped, press_, spread, stiffness, cohesion, ON_RIM,
+                e, o, u, v, l, damped, press_, spread, stiffness, cohesion, ON_RIM,
                 face, middle, velocity, spin, pressure, elastic,
             )  # fmt: skip
 

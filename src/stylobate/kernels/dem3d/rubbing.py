@@ -6,9 +6,30 @@ from ..jit import law
 from .friction import NOTHING, kept, returned
 from .pose import cross, in_body, in_space
 
+#: Share of a relative rolling velocity that its resistance may take in one step.
+STOPPING = 0.5
+
 
 @law
-def carry(e, o, v, l, damped, pressing, spread, kf, cohesion, torsion, face, middle, velocity, spin, pressure, elastic):
+def resistance(rolling, pressing, dx, dy, dz, ox, oy, oz, mobility, dt):
+    """Moment that resists rolling, c N r against the part of the angular velocity along r.  # Eq. (E12)
+
+    r = (dx, dy, dz) goes from the middle of the face to that of pressure, ``mobility`` is the sum of the drums' inverse
+    moments of inertia; no step takes more than a share of the velocity.
+    """
+    square = dx * dx + dy * dy + dz * dz
+    each = 1.0 / math.sqrt(max(square, 1e-24))
+    rate = (ox * dx + oy * dy + oz * dz) * each
+    most = STOPPING * abs(rate) / max(mobility * dt, NOTHING)
+    size = min(rolling * pressing * square * each, most) * each
+    size = -size if rate > 0.0 else size
+    return size * dx, size * dy, size * dz
+
+
+@law
+def carry(
+    e, o, u, v, l, damped, pressing, spread, kf, cohesion, torsion, face, middle, velocity, spin, pressure, elastic
+):
     """Adds friction to the pressure of a joint and puts the sum on the two drums.
 
     ``pressing`` and ``spread`` are the normal force and the mean square distance of pressure from its middle; ``kf`` the
@@ -65,6 +86,13 @@ def carry(e, o, v, l, damped, pressing, spread, kf, cohesion, torsion, face, mid
         ex, ey, ez = fx - ex + gx, fy - ey + gy, fz - ez + gz
         ax, ay, az = cross(px, py, pz, gx, gy, gz)
         ix, iy, iz = mx - ix + ax + turn * nx, my - iy + ay + turn * ny, mz - iz + az + turn * nz
+        if o.roll.shape[0] > 1:
+            ax, ay, az = px - cx, py - cy, pz - cz
+            slip = ax * nx + ay * ny + az * nz
+            ax, ay, az = ax - slip * nx, ay - slip * ny, az - slip * nz
+            ax, ay, az = resistance(o.roll[0, l], pressing, ax, ay, az, ox, oy, oz, u.ia[l] + v.ia[l], dt)
+            mx, my, mz = mx + ax, my + ay, mz + az
+            ix, iy, iz = ix + ax, iy + ay, iz + az
         qx, qy, qz, twist = qx + gx, qy + gy, qz + gz, twist + turn
         ax, ay, az = cross(ox, oy, oz, cx, cy, cz)
         o.visc[l] -= (

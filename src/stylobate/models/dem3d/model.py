@@ -33,8 +33,8 @@ LAWS = {"rim": ("rim_forces", 1.0), "bed": ("bed_forces", 0.0)}
 #: What a joint of each law gives with its load on its edge.
 TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
 
-#: In place of a section: one body that stands on its vertices.
-SPECIMEN = "specimen"
+#: In place of a section: one body that stands on its vertices; round drums on rings.
+SPECIMEN, RING = "specimen", "ring"
 
 #: The same for rectangular faces, and their corners.
 CORNER_LAW = ("corner_forces", 2.0)
@@ -48,10 +48,13 @@ class DistinctElement3D(SteppedDrums):
     ----------
     law : {"rim", "bed"}
         Where a joint of round faces carries: ``rim`` puts its stiffness on the rim of the overlap of the two faces, ``bed``
-        spreads it over the overlap (an elastic bed without tension). Rectangular faces carry at the four corners of their
-        overlap.
+        spreads it over the overlap (an elastic bed without tension), less the sunken middles of joints on rings. Rectangular
+        faces carry at the four corners of their overlap.
     pivot_friction : float
         Share of the torsional friction that acts, from 0 (a rim pivots freely about its point of contact) to 1.
+    rolling_resistance : float
+        c: a moment c N r resists the rolling of a round face about the arm r from its middle to that of the pressure N; it
+        only dissipates, and counts as viscous in the ledger. 0 for none [-].
     planar : bool
         Hold the motion in the plane of x and z: the plane twin of the same law, for comparison.
     block_modulus : float, optional
@@ -99,9 +102,11 @@ class DistinctElement3D(SteppedDrums):
     takes_start: ClassVar[bool] = True
     takes_specimens: ClassVar[bool] = True
     takes_as_found: ClassVar[bool] = True
+    takes_rings: ClassVar[bool] = True
 
     law: str = "rim"
     pivot_friction: float = 1.0
+    rolling_resistance: float = 0.0
     planar: bool = False
     block_modulus: float | None = None
     restitution: float | None = None
@@ -111,6 +116,7 @@ class DistinctElement3D(SteppedDrums):
         if self.law not in LAWS:
             raise InputError(f"law is {self.law!r}; allowed is {', '.join(LAWS)}.")
         check_range("pivot_friction", self.pivot_friction, 0.0, 1.0)
+        check_range("rolling_resistance", self.rolling_resistance, 0.0, 1.0)
         if self.restitution is not None:
             check_range("restitution", self.restitution, 0.0, 1.0)
             if self.stiffness_damping:
@@ -124,7 +130,7 @@ class DistinctElement3D(SteppedDrums):
     @property
     def damped(self) -> bool:
         """Whether any damping acts during the run."""
-        return super().damped or self.restitution is not None
+        return super().damped or self.restitution is not None or self.rolling_resistance > 0.0
 
     def damping(self, column: Column) -> float:
         """Stiffness damping β for a column [s]: as given, or as its restitution asks for."""
@@ -146,8 +152,15 @@ class DistinctElement3D(SteppedDrums):
 
     def check(self, column: Column | Specimen, motion: Motion) -> None:
         """Refuse joints too soft, what is found that space does not know, and a step unstable or too long for the motion."""
+        if self.rolling_resistance and (isinstance(column, Specimen) or column.section != "circular"):
+            raise InputError(
+                f"rolling_resistance = {self.rolling_resistance:g} is for round drums, and {column.name!r} has corners; "
+                "leave it out."
+            )
         if not isinstance(column, Specimen):
             super().check(column, motion)
+            if self.law != "bed":
+                column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
             chipped = next((one.drum for one in column.as_found.drums if one.chip_left or one.chip_right), None)
             if chipped is not None:
                 raise InputError(
@@ -176,20 +189,22 @@ class DistinctElement3D(SteppedDrums):
         """Columns of one kind can share a block of lanes: number of drums and section; specimens with as many rows."""
         if isinstance(column, Specimen):
             return rows_for(column), SPECIMEN
-        return column.n, column.section
+        return column.n, RING if column.on_rings else column.section
 
     def kernel(self, section: str = "circular") -> Any:
         """Module of kernels."""
         if section == SPECIMEN:
             return importlib.import_module("...kernels.dem3d.vertex_forces", __package__)
-        name = LAWS[self.law][0] if section == "circular" else CORNER_LAW[0]
+        name = CORNER_LAW[0] if section == "rectangular" else LAWS[self.law][0]
         return importlib.import_module(f"...kernels.dem3d.{name}", __package__)
 
     def record_types(self, section: str = "circular") -> tuple:
         """Record types of the kernel's arrays."""
         if section == SPECIMEN:
             return self.kernel(section).block_types()
-        return self.kernel(section).block_types(self.damped, 1 if section == "circular" else len(CORNERS))
+        corners = len(CORNERS) if section == "rectangular" else 1
+        rolling = self.rolling_resistance > 0.0
+        return self.kernel(section).block_types(self.damped, corners, section == RING, rolling)
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it."""
@@ -226,9 +241,11 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     closure = column.joint_weights / (kn * column.joint_areas)
     drums, joints = drum_fields(column, closure), joint_fields(column, kn, ks)
-    lane = lane_fields(column, model.damping(column), model.mass_damping, model.pivot_friction, model.planar)
+    options = model.pivot_friction, model.planar, model.rolling_resistance
+    lane = lane_fields(column, model.damping(column), model.mass_damping, *options)
     if column.as_found:
-        kernel, types = model.kernel(column.section), model.record_types(column.section)
+        section = model.kind(column)[1]
+        kernel, types = model.kernel(section), model.record_types(section)
         found, friction = found_start(column, kernel, types, (drums, joints, lane), closure)
         drums, joints = drums | found, joints | friction
     toes = TOES[model.law if column.section == "circular" else "corners"](column, kn)

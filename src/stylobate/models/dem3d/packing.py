@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -12,6 +13,9 @@ from ...column.found_in_space import upward
 
 #: Radius of the base, wide enough to be a half-space [m].
 BASE_RADIUS = 1.0e3
+
+#: Radius of a sunken middle that is none [m].
+LEAST = 1e-9
 
 
 def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
@@ -88,13 +92,36 @@ def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np
     return memory | {
         "kn": with_free_top(kn),
         "ks": with_free_top(ks),
+        "hole": _holes(column),
         "co": with_free_top([joint.cohesion for joint in column.joints]),
         "mu": with_free_top([joint.tan_phi for joint in column.joints]),
     }
 
 
+def _holes(column: Column) -> np.ndarray:
+    """Radii of the sunken middles of the upper and the lower face [m], and the limit of torsion over ρ μ N; (n + 1, 1 or 3).
+
+    The limit is that of two concentric rings under even pressure.
+    """
+    if not column.on_rings:
+        return np.zeros((column.n + 1, 1))
+    holes = np.zeros((column.n + 1, 3))
+    for j in range(column.n):
+        radius = 0.5 * column.joint_widths[j]
+        upper, lower = (0.5 * width for width in column.sunken_widths(j))
+        inner = max(upper, lower)
+        evenly = 2.0 / 3.0 * (radius**3 - inner**3) / (radius**2 - inner**2)  # Eq. (E11)
+        holes[j] = max(upper, LEAST), max(lower, LEAST), evenly / math.sqrt(0.5 * (radius**2 + inner**2))
+    return holes
+
+
 def lane_fields(
-    column: Column, stiffness_damping: float, mass_damping: float, pivot_friction: float, planar: bool
+    column: Column,
+    stiffness_damping: float,
+    mass_damping: float,
+    pivot_friction: float,
+    planar: bool,
+    rolling_resistance: float = 0.0,
 ) -> dict[str, Any]:
     """Fields of a lane at the start of a run; parameters as of the model."""
     sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
@@ -103,5 +130,6 @@ def lane_fields(
         "beta": stiffness_damping,
         "alpha": mass_damping,
         "pivot": pivot_friction,
+        "roll": rolling_resistance,
         "free": 0.0 if planar else 1.0,
     }

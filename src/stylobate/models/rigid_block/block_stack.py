@@ -82,6 +82,7 @@ class BlockStack:
     def of_column(cls, column: Column) -> BlockStack:
         """The blocks of a column: true trapezia; circular sections through their areas and second moments."""
         column.must_be_as_built("the statics of blocks")
+        column.must_carry_on_whole_faces("the statics of blocks")
         n = column.n
         low = np.array([drum.bottom_width for drum in column.drums]) / 2.0
         high = np.array([drum.top_width for drum in column.drums]) / 2.0

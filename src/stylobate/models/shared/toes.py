@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ...column import Column
@@ -30,12 +32,56 @@ def rim_toes(column: Column, kn: np.ndarray) -> np.ndarray:
 
 
 def bed_toes(column: Column, kn: np.ndarray) -> np.ndarray:
-    """As :func:`rim_toes`, of joints on an elastic bed."""
+    """As :func:`rim_toes`, of joints on an elastic bed; of rings the toe is found from the law itself."""
+    if column.on_rings:
+        return np.array([_ring_toe(column, float(kn[j]), j) for j in range(column.n)]) - _closed(column, kn)
     weight, radius = column.joint_weights, 0.5 * column.joint_widths
     # N = 8 √2/15 k_n √R e^2.5 / (tan α)^1.5
     steepness = (centroids_above(column) / radius) ** 1.5
     stiffness = (8.0 * np.sqrt(2.0) / 15.0) * kn * np.sqrt(radius) * steepness
     return SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - _closed(column, kn)
+
+
+def _ring_toe(column: Column, kn: float, j: int) -> float:
+    """By how much the toe of a ring under the weight above lowers the energy [J]: its depth is found by bisection."""
+    weight, outer = float(column.joint_weights[j]), 0.5 * float(column.joint_widths[j])
+    inner, slope = 0.5 * max(column.sunken_widths(j)), outer / float(centroids_above(column)[j])
+
+    def carried(toe: float) -> tuple[float, float]:
+        force, stored = disc_on_bed(kn, outer, toe - slope * outer, slope)
+        less = disc_on_bed(kn, inner, toe - slope * outer, slope) if inner > 0.0 else (0.0, 0.0)
+        return force - less[0], stored - less[1]
+
+    low, high = 0.0, 1e-9
+    while carried(high)[0] < weight:
+        high *= 2.0
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if carried(middle)[0] < weight else (low, middle)
+    return SHORT_ARC * (weight * high - carried(high)[1])
+
+
+def disc_on_bed(kn: float, radius: float, depth: float, slope: float) -> tuple[float, float]:
+    """Force [N] and elastic energy [J] of a disc on an elastic bed without tension, in closed form.  # Eq. (E11)
+
+    Parameters
+    ----------
+    kn : float
+        Stiffness per area [N/m³].
+    radius : float
+        [m]
+    depth : float
+        Of the disc's middle [m]; negative above the bed.
+    slope : float
+        Change of depth along the steepest descent [-].
+    """
+    edge = slope * radius
+    x = min(max(-depth / max(edge, 1e-300), -1.0), 1.0)
+    w, angle = math.sqrt(1.0 - x * x), math.acos(x)
+    area, first = angle - x * w, 2.0 / 3.0 * w**3
+    second = 0.25 * (angle + x * w * (1.0 - 2.0 * x * x))
+    force = kn * radius**2 * (depth * area + edge * first)
+    return force, 0.5 * kn * radius**2 * (depth * depth * area + 2.0 * depth * edge * first + edge * edge * second)
 
 
 def point_toes(column: Column, kn: np.ndarray, share: float | np.ndarray) -> np.ndarray:
