@@ -22,7 +22,7 @@ from stylobate.cli.main import call
 from stylobate.cli.reproduce import build, describe
 from stylobate.errors import DamagedFileWarning
 from stylobate.own_files import LIST, own_files
-from stylobate.paper import pieces, study
+from stylobate.paper import literature, pieces, study
 from stylobate.paper.cases import BEAM
 from stylobate.paper.folder import check_folder, claim
 from stylobate.paper.reading import CHOICES, FAILS, HOLDS
@@ -292,8 +292,9 @@ def test_runs_are_counted_and_certainty_is_what_its_domains_say(made):
     folder, summary, _ = made
     found = run_study(folder, True, 1, grids=GRIDS)
     single, population = 6 * (4 + 2) + 2 * 3 + 4 * len(GRIDS.variants), 3 * 6
+    tested = len(literature.ASKED) * literature.NUMBER
     space = 2 * (3 * 2 + 4)  # two cells: three populations of two columns, four plane domains
-    assert summary["runs"] == found.runs == 2 * (single + 2 * 6 + population + space) + 2 * 50 + 4 * 4 + 4 * 4
+    assert summary["runs"] == found.runs == 2 * (single + 2 * 6 + population + space) + 2 * 50 + 4 * 4 + 4 * 4 + tested
     assert list(found.shaken) == ["beam, as the paper", "beam, true drums", "beam, β = 0.5 ms", "DEM, two points"]
     for name, doubt in found.doubts.items():
         assert doubt.steps.halved.provenance["parameters"]["step_factor"] == 0.5 * st.DistinctElement2D().step_factor

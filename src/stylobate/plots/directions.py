@@ -5,15 +5,17 @@ from __future__ import annotations
 from typing import cast
 
 import numpy as np
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 from matplotlib.projections.polar import PolarAxes
 
 from ..analysis.directions import Compass
-from .style import BLACK, BLUE, RED, in_lines, styled
+from .style import BLACK, BLUE, RED, in_lines, page, styled
 
 
 @styled
-def draw_directions(compass: Compass, title: str | None = None, *, worst: str = "largest") -> Figure:
+def draw_directions(
+    compass: Compass, title: str | None = None, *, worst: str = "largest", figure: Figure | SubFigure | None = None
+) -> Figure:
     """A value over the direction of the shaking along x: north up, azimuths clockwise as those of records.
 
     Parameters
@@ -22,8 +24,10 @@ def draw_directions(compass: Compass, title: str | None = None, *, worst: str = 
     title : str, optional
     worst : {"largest", "smallest"}
         Which value is marked. Values beyond what was looked at stand open at the rim.
+    figure : matplotlib figure or subfigure, optional
+        Where to draw.
     """
-    figure = Figure(figsize=(4.6, 4.9))
+    figure = page(figure, (4.6, 4.9))
     axes = cast(PolarAxes, figure.add_subplot(projection="polar"))
     axes.set_theta_zero_location("N")
     axes.set_theta_direction(-1)

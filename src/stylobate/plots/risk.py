@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.risk import Risk, Survival
 from ..motion.intensity_specs import parse_measure
@@ -13,7 +13,7 @@ from .style import BLACK, BLUE, GREY, RED, page, panel, styled
 
 
 @styled
-def draw_risk(result: Risk, title: str | None = None) -> Figure:
+def draw_risk(result: Risk, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
     """Hazard curve and fragility, and below them how much of the rate comes from which intensity.
 
     Parameters
@@ -21,8 +21,10 @@ def draw_risk(result: Risk, title: str | None = None) -> Figure:
     result : Risk
     title : str, optional
         The return period by default.
+    figure : matplotlib figure or subfigure, optional
+        Where to draw.
     """
-    figure = page(None, (NARROW[0], 4.6))
+    figure = page(figure, (NARROW[0], 4.6))
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.2, 1.0))
     hazard, f = result.hazard, result.fragility
     (line,) = upper.plot(hazard.im, hazard.rate, color=BLACK, linewidth=1.4, label="hazard")
