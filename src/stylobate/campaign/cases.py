@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
-from ..column.scatter import Scatter
+from ..column.scatter import Scatter, usual_scatter
 from ..constants import g
 from ..errors import InputError, check_range
 from ..kernels.jit import source_digest
@@ -170,7 +170,11 @@ class Study:
                 "reversed": bool(direction.get("reversed", False)),
             }
 
-        scatter = None if not self.realisations else (self.scatter or Scatter()).given
+        usual = {} if self.scatter is not None else {one.name: usual_scatter(one).given for one in self.columns}
+        scatter = None
+        if self.realisations:
+            same = len({str(one) for one in usual.values()}) <= 1
+            scatter = self.scatter.given if self.scatter is not None else usual[self.columns[0].name] if same else usual
         return {
             "models": [{"model": model.name, "parameters": model.parameters()} for model in self.models],
             "columns": [{"column": column.name, "base_width_m": column.base_width} for column in self.columns],

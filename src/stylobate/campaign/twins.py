@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..column import Column
-from ..column.scatter import Scatter, scattered_columns
+from ..column.scatter import Scatter, scattered_columns, usual_scatter
 from ..errors import InputError
 from ..models.base import Model
 
@@ -36,7 +36,7 @@ def the_twins(column: Column, model: Model, replicates: int, scatter: Scatter | 
     for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
             raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
-    asked = Scatter() if scatter is None else scatter
+    asked = usual_scatter(column) if scatter is None else scatter
     if not asked.given:
         raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")
     left_out = ("offset",) if asked.offset and not model.takes_as_found else ()

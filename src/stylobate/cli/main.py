@@ -26,6 +26,7 @@ from . import (
     fragility,
     ida,
     limit,
+    materials,
     motion,
     pushover,
     reproduce,
@@ -79,7 +80,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 for _room in (
     run, critical, domain, pushover, limit, compare, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, animate, reproduce, experiments, cite, bench
+    spectrum, columns, materials, animate, reproduce, experiments, cite, bench
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name)(_passing_on(getattr(_room, _name)))

@@ -14,8 +14,9 @@ from .assembly import Assembly, Block
 from .column import Column
 from .files import joint_from_dict, load_column
 from .joint import Joint
+from .materials import Material, material
 from .presets import PRESETS
-from .tables import JointTable
+from .tables import JointTable, joint_fields
 from .toml import Table, parse_toml, read_table
 
 
@@ -34,11 +35,12 @@ class BetweenTable(Table):
     """``[[joint_override]]``: the law between two blocks by name; ``ground`` is the ground."""
 
     between: list[str]
-    normal_stiffness: float
-    shear_stiffness: float
+    material: str | None = None
+    normal_stiffness: float | None = None
+    shear_stiffness: float | None = None
     friction_angle: float | None = None
     friction_coefficient: float | None = None
-    cohesion: float = 0.0
+    cohesion: float | None = None
 
 
 class AssemblyTable(Table):
@@ -46,10 +48,11 @@ class AssemblyTable(Table):
 
     name: str | None = None
     density: float | None = None
+    material: str | None = None
     depth: float = 1.0
     gravity: float = STANDARD_GRAVITY
     ground: float | bool = 0.0
-    joint: JointTable
+    joint: JointTable | None = None
     block: list[BlockTable]
     joint_override: list[BetweenTable] | None = None
 
@@ -106,25 +109,35 @@ def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:
 
 def _assembly(table: AssemblyTable, default_name: str) -> Assembly:
     blocks = []
+    stone = None if table.material is None else material(table.material)
+    common = table.density if table.density is not None or stone is None else stone.density.value
+    if table.joint is None and stone is None:
+        raise InputError("key 'joint' is missing; add it, or name a material.")
     for i, one in enumerate(table.block):
         name = one.name if one.name is not None else f"block {i + 1}"
-        density = one.density if one.density is not None else table.density
+        density = one.density if one.density is not None else common
         if density is None and not one.fixed:
             raise InputError(f"block {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
         corners = tuple(tuple(corner) for corner in one.vertices)
-        surface = None if one.surface is None else Joint(**one.surface.model_dump())
+        surface = None if one.surface is None else _law(one.surface, stone, f"the surface of block {name!r}")
         depth = one.depth if one.depth is not None else table.depth
         blocks.append(Block(corners, density or 0.0, name, depth, one.fixed, surface))  # pyright: ignore[reportArgumentType]
     overrides = []
     for one in table.joint_override or []:
         if len(one.between) != 2:
             raise InputError(f"a joint_override is between {len(one.between)} blocks; name two, e.g. ['a', 'b'].")
-        overrides.append((*one.between, Joint(**one.model_dump(exclude={"between"}))))
+        where = f"the [[joint_override]] between {one.between[0]!r} and {one.between[1]!r}"
+        overrides.append((*one.between, _law(one, stone, where)))
     if table.ground is True:
         raise InputError("ground is true; give its level in m, or false for none.")
     ground = None if table.ground is False else float(table.ground)
-    joint = Joint(**table.joint.model_dump())
+    joint = _law(table.joint, stone, "[joint]")
     laws = (joint, *(block.surface for block in blocks if block.surface), *(law for _, _, law in overrides))
     for doubt in [doubt for law in laws for doubt in law.doubts][:1]:
         warnings.warn(f"{doubt}: is the unit right?", OutOfRangeWarning, stacklevel=4)
     return Assembly(tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides))
+
+
+def _law(table: Table | None, stone: Material | None, where: str) -> Joint:
+    given = {} if table is None else table.model_dump(exclude={"between"})
+    return Joint(**joint_fields(given, stone, where))

@@ -22,6 +22,7 @@ from .drum import Drum, section_area, section_second_moment
 from .found_geometry import check_as_found, uplift_accelerations
 from .found_in_space import smallest_uplift
 from .joint import Joint, without_unsaid
+from .materials import material
 
 MAX_DRUMS = 200
 
@@ -46,6 +47,9 @@ class Column:
     as_found : AsFound
         What is not as built: offset and leaning drums, chipped edges, a base out of level. The closed-form properties
         below are those of the column as built, but for the accelerations that open joints.
+    material : str, optional
+        Name of the stone and its joints, such as ``marble, worn`` (:mod:`stylobate.column.materials`): how columns like
+        this one scatter. Densities and joints are those given above.
 
     Raises
     ------
@@ -64,6 +68,7 @@ class Column:
     name: str = "column"
     gravity: float = STANDARD_GRAVITY
     as_found: AsFound = AS_BUILT
+    material: str | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "drums", tuple(self.drums))
@@ -77,6 +82,8 @@ class Column:
         if len({drum.section for drum in self.drums}) > 1:
             raise InputError("the drums mix circular and rectangular sections; give all drums the same section.")
         object.__setattr__(self, "gravity", check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²"))
+        if self.material is not None:
+            object.__setattr__(self, "material", material(self.material).name)
         self._check_rings()
         if self.as_found:
             check_as_found(self)

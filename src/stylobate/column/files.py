@@ -55,6 +55,8 @@ def write_column(column: Column, path: str | Path) -> Path:
     common = Counter(column.joints).most_common(1)[0][0]
     sizes = ("height", "bottom_width", "top_width", "density")
     table: dict[str, Any] = {"name": column.name, "section": first.section, "gravity": column.gravity}
+    if column.material is not None:
+        table["material"] = column.material
     table["drum"] = [{key: getattr(drum, key) for key in (*sizes, *_depths(drum))} for drum in column.drums]
     table["joint"] = _joint_fields(common)
     others = [{"index": i, **_joint_fields(joint)} for i, joint in enumerate(column.joints, 1) if joint != common]
@@ -82,7 +84,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     as_found = AsFound(
         tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
     )
-    return Column(drums, joints, data["name"], data["gravity"], as_found)
+    return Column(drums, joints, data["name"], data["gravity"], as_found, data.get("material"))
 
 
 def joint_from_dict(fields: Mapping[str, Any]) -> Joint:

@@ -100,4 +100,5 @@ def without_unsaid(fields: list[tuple[str, Any]]) -> dict[str, Any]:
 
     What is not given so leaves the digest of a column what it was.
     """
-    return {name: value for name, value in fields if value is not None or name not in ("top_depth", "ring_width")}
+    later = ("top_depth", "ring_width", "material")
+    return {name: value for name, value in fields if value is not None or name not in later}

@@ -13,6 +13,7 @@ from ..errors import check_range
 from .as_found import FoundDrum
 from .column import Column
 from .imperfections import rebuilt
+from .materials import material
 
 #: Draws lie within so many standard deviations.
 WITHIN = 2.5
@@ -69,8 +70,29 @@ class Scatter:
 
     def describe(self) -> str:
         """The sizes in words."""
-        words = (f"{name.replace('_', ' ')} {100.0 * value:g} %" for name, value in self.given.items())
+        words = (f"{name.replace('_', ' ')} {100.0 * value:.3g} %" for name, value in self.given.items())
         return ", ".join(words) or "nothing"
+
+
+def usual_scatter(column: Column) -> Scatter:
+    """How columns like this one scatter where nobody says: as its material does, else by the defaults.
+
+    The friction and density of a column that differ from its material's were given by hand: they scatter by the defaults.
+    """
+    usual = Scatter()
+    if column.material is None:
+        return usual
+    stone, changes = material(column.material), {}
+    rough, dense = stone.friction_coefficient, stone.density
+    if rough is not None and rough.variation and all(_same(joint.tan_phi, rough.value) for joint in column.joints):
+        changes["friction"] = min(rough.variation, LARGEST["friction"])
+    if dense.variation and all(_same(drum.density, dense.value) for drum in column.drums):
+        changes["density"] = min(dense.variation, LARGEST["density"])
+    return dataclasses.replace(usual, **changes)
+
+
+def _same(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=1e-9)
 
 
 def scattered_columns(

@@ -13,17 +13,22 @@ from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
 from .joint import Joint
+from .materials import Material, material
 from .toml import Table, checked, parse_toml
 
 
 class JointTable(Table):
-    """``[joint]``: stiffness [N/m³], one form of friction (angle in degrees), cohesion [Pa], width of the ring [m]."""
+    """``[joint]``: stiffness [N/m³], one form of friction (angle in degrees), cohesion [Pa], width of the ring [m].
 
-    normal_stiffness: float
-    shear_stiffness: float
+    What is left out is that of the material.
+    """
+
+    material: str | None = None
+    normal_stiffness: float | None = None
+    shear_stiffness: float | None = None
     friction_angle: float | None = None
     friction_coefficient: float | None = None
-    cohesion: float = 0.0
+    cohesion: float | None = None
     ring_width: float | None = None
 
 
@@ -31,6 +36,7 @@ class OverrideTable(Table):
     """``[[joint_override]]``: what differs at one joint; joint 1 is the one with the base."""
 
     index: int
+    material: str | None = None
     normal_stiffness: float | None = None
     shear_stiffness: float | None = None
     friction_angle: float | None = None
@@ -88,6 +94,7 @@ class ColumnTable(Table):
     section: str = "rectangular"
     depth: float | None = None
     density: float | None = None
+    material: str | None = None
     gravity: float = STANDARD_GRAVITY
     tapered: TaperedTable | None = None
     drum: list[DrumTable] | None = None
@@ -162,29 +169,61 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     return column.replace(as_found=AsFound(some, table.as_found.base_tilt, table.as_found.base_azimuth))
 
 
+def joint_fields(given: dict[str, Any], stone: Material | None, where: str = "[joint]") -> dict[str, Any]:
+    """Fields of a :class:`Joint` that a table gives, by hand or by the name of a material.
+
+    Parameters
+    ----------
+    given : dict
+        The table.
+    stone : Material, optional
+        Of what the table leaves out, unless it names another.
+    where : str
+        What messages call the table.
+
+    Raises
+    ------
+    InputError
+        A material that does not exist, or a stiffness that is neither given nor published.
+    """
+    fields = {name: value for name, value in given.items() if value is not None}
+    named = fields.pop("material", None)
+    stone = stone if named is None else material(named)
+    if stone is not None:
+        return stone.joint_values(fields, where)
+    for name in ("normal_stiffness", "shear_stiffness"):
+        if name not in fields:
+            raise InputError(f"key {name!r} is missing in {where}; add it [N/m³], or name a material.")
+    return fields
+
+
 def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
-    if table.joint is None:
+    stone = None if table.material is None else material(table.material)
+    if table.joint is None and stone is None:
         raise InputError(
             "there is no [joint] table; add one with normal_stiffness and shear_stiffness [N/m³] "
-            "and friction_angle [degrees]."
+            "and friction_angle [degrees], or name a material."
         )
+    given = {} if table.joint is None else table.joint.model_dump()
+    common = joint_fields(given, stone)
+    density = table.density if table.density is not None or stone is None else stone.density.value
     if table.tapered is not None and table.drum is not None:
         raise InputError("both [tapered] and [[drum]] are given; keep one of the two.")
     if table.section == "circular" and table.depth is not None:
         raise InputError(f"depth is {table.depth:g} m for a circular section; leave it out.")
     name = default_name if table.name is None else table.name
-    joint = Joint(**table.joint.model_dump())
+    joint = Joint(**common)
     overrides: dict[int, Joint] = {}
     for override in table.joint_override or ():
         if override.index in overrides:
             raise InputError(f"joint_override index {override.index} is given twice; keep one of the two.")
-        overrides[override.index] = _overridden(table.joint, override)
+        overrides[override.index] = _overridden(common, override)
     if table.tapered is not None:
-        if table.density is None:
-            raise InputError("key 'density' [kg/m³] is missing; add it above [tapered].")
-        return kind.tapered(
+        if density is None:
+            raise InputError("key 'density' [kg/m³] is missing; add it above [tapered], or name a material.")
+        column = kind.tapered(
             **table.tapered.model_dump(),
-            density=table.density,
+            density=density,
             joint=joint,
             section=table.section,
             depth=1.0 if table.depth is None else table.depth,
@@ -192,14 +231,16 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
             name=name,
             gravity=table.gravity,
         )
-    if not table.drum:
+    elif table.drum:
+        drums = [_drum(i, one, table, density) for i, one in enumerate(table.drum)]
+        column = kind.of_drums(drums, joint, overrides=overrides, name=name, gravity=table.gravity)
+    else:
         raise InputError("there is neither [tapered] nor [[drum]]; add one of the two.")
-    drums = [_drum(i, one, table) for i, one in enumerate(table.drum)]
-    return kind.of_drums(drums, joint, overrides=overrides, name=name, gravity=table.gravity)
+    return column if stone is None else column.replace(material=stone.name)
 
 
-def _drum(i: int, one: DrumTable, table: ColumnTable) -> Drum:
-    density = table.density if one.density is None else one.density
+def _drum(i: int, one: DrumTable, table: ColumnTable, common: float | None) -> Drum:
+    density = common if one.density is None else one.density
     if density is None:
         raise InputError(f"[[drum]] number {i + 1} has no density; add one to it, or a common one at the top [kg/m³].")
     if table.section == "circular" and one.depth is not None:
@@ -211,12 +252,13 @@ def _drum(i: int, one: DrumTable, table: ColumnTable) -> Drum:
         raise InputError(f"[[drum]] number {i + 1}: {error}") from None
 
 
-def _overridden(common: JointTable, override: OverrideTable) -> Joint:
-    fields = common.model_dump()
-    changes = override.model_dump(exclude={"index"}, exclude_none=True)
+def _overridden(common: dict[str, Any], override: OverrideTable) -> Joint:
+    fields, changes = dict(common), override.model_dump(exclude={"index"}, exclude_none=True)
     if "friction_angle" in changes or "friction_coefficient" in changes:
         fields["friction_angle"] = fields["friction_coefficient"] = None
     try:
+        if override.material is not None:
+            return Joint(**joint_fields({"ring_width": common.get("ring_width")} | changes, None, "it"))
         return Joint(**(fields | changes))
     except InputError as error:
         raise InputError(f"[[joint_override]] with index {override.index}: {error}") from None

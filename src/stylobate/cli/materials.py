@@ -1,0 +1,74 @@
+"""``stylobate materials``: published densities, friction and stiffness of stone and its joints, with their sources."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from . import options as o
+
+if TYPE_CHECKING:
+    from ..column.materials import Material, Quantity
+
+
+def materials(
+    which: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[MATERIAL]...", help="Such as 'marble, worn'; one by one with sources. All by default."
+        ),
+    ] = None,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Stone and joints by name, for column files.
+
+    What is published on density, friction and stiffness, its range and its source.
+    """
+    from ..column.materials import MATERIALS, material
+    from . import console
+
+    o.the_threads(threads)
+    chosen = [material(name) for name in which] if which else list(MATERIALS.values())
+    summary: dict = {"materials": [one.to_dict() for one in chosen], "files": []}
+    with console.folder(out, "materials.json") as folder:
+        if folder is not None:
+            summary["files"] = [str(console.write_json(folder / "materials.json", summary))]
+    if as_json:
+        console.emit(summary)
+        return
+    if which:
+        for one in chosen:
+            console.say(one.name, {name.replace("_", " "): _in_full(q) for name, q in one.quantities.items()})
+    else:
+        import pandas
+
+        console.print_table(pandas.DataFrame([_row(one) for one in chosen]))
+        print("Ranges in brackets. Sources and notes: stylobate materials 'marble, worn'. In a file: material = \"…\"")
+    if summary["files"]:
+        print(f"1 file in {summary['files'][0]}")
+
+
+def _row(one: Material) -> dict[str, str]:
+    return {
+        "material": one.name,
+        "density kg/m³": _short(one.density),
+        "friction": _short(one.friction_coefficient),
+        "k_n N/m³": _short(one.normal_stiffness),
+        "k_s N/m³": _short(one.shear_stiffness),
+        "cohesion Pa": _short(one.cohesion),
+    }
+
+
+def _short(q: Quantity | None) -> str:
+    if q is None:
+        return "-"
+    return f"{q.value:.4g}" + (f" [{q.low:.4g}–{q.high:.4g}]" if q.low < q.high else "")
+
+
+def _in_full(q: Quantity) -> str:
+    unit = "" if q.unit == "-" else f" {q.unit}"
+    span = f", {q.low:.4g} to {q.high:.4g}{unit}" if q.low < q.high else ""
+    return f"{q.value:.4g}{unit}{span}; {q.cited}: {q.note}"
