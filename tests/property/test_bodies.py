@@ -11,7 +11,7 @@ import stylobate as st
 from stylobate.column.presets import preset
 from stylobate.response import Collapse, Histories, Measures, Response, SpaceMeasures, Touch
 from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices
-from stylobate.response.shapes import CircularFrustum, ConvexSolid, Prism, RectangularFrustum
+from stylobate.response.shapes import Chipped, CircularFrustum, ConvexSolid, Prism, RectangularFrustum
 
 CORNERS = np.array([[-0.5, -0.4], [0.6, -0.4], [0.2, 0.8], [-0.4, 0.5]])
 CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
@@ -19,6 +19,11 @@ AREA = 0.5 * float(np.sum(CORNERS[:, 0] * np.roll(CORNERS[:, 1], -1) - np.roll(C
 SHAPES = {
     "cone": (CircularFrustum(1.0, 0.6, 2.0, 0.9), math.pi * 2.0 * (1.0 + 0.6 + 0.36) / 12.0),
     "frustum": (RectangularFrustum((1.0, 2.0), (0.5, 1.0), 3.0, 1.2), 3.0 * (2.0 + 0.5 + 1.0) / 3.0),
+    # a wedge 0.3 m wide and 0.4 m high is off the lower edge of a box
+    "chipped": (
+        Chipped(RectangularFrustum((1.0, 0.8), (1.0, 0.8), 1.0, 0.5), np.array([(0.8, 0.0, -0.6, 0.46)])),
+        0.752,
+    ),
     "prism": (Prism(CORNERS, 0.7), 0.7 * AREA),
     "solid": (ConvexSolid(CUBE), 8.0),
 }

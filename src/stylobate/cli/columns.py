@@ -100,12 +100,14 @@ def _as_found(column: Column) -> dict[str, str]:
         facts["as found, base"] = f"slopes by {column.as_found.base_tilt:g}°, up {towards}"
     for one in column.as_found.drums:
         said = [
-            f"{word} {getattr(one, name):g} {unit}" + _azimuth(one, name)
+            f"{word} {getattr(one, name):g} {unit}" + _azimuth(one, name.partition("_")[0])
             for name, word, unit in (
                 ("offset", "offset", "m"),
                 ("tilt", "tilted", "degrees"),
                 ("chip_left", "chipped on the left by", "m"),
                 ("chip_right", "chipped on the right by", "m"),
+                ("chip_front", "chipped in front by", "m"),
+                ("chip_back", "chipped at the back by", "m"),
                 ("turn", "turned by", "degrees"),
             )
             if getattr(one, name) != 0.0

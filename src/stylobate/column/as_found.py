@@ -10,6 +10,9 @@ import numpy as np
 
 from ..errors import InputError, check_range
 
+#: Edges that may be chipped.
+SIDES = ("left", "right", "front", "back")
+
 
 @dataclass(frozen=True)
 class FoundDrum:
@@ -31,7 +34,13 @@ class FoundDrum:
         Of this drum, and of all that stands on it, about its axis on the joint under it, from x towards y [degrees];
         takes a model in space.
     chip_left, chip_right : float
-        Width that its lower face has lost at an edge [m]; the mass is taken as if nothing were lost.
+        Width that its lower face has lost along an edge, towards −x and x of the drum's own axes [m]; of a round face, the
+        depth of the segment beyond a chord. The mass is taken as if nothing were lost.
+    chip_front, chip_back : float
+        The same towards −y and y [m]; of rectangular faces only, and they take a model in space.
+    chip_azimuth : float
+        Of a round drum: its "right" for chips lies at this azimuth, from its own x axis towards y [degrees]; every other one
+        than 0 and 180 takes a model in space.
 
     Raises
     ------
@@ -47,6 +56,9 @@ class FoundDrum:
     offset_azimuth: float = 0.0
     tilt_azimuth: float = 0.0
     turn: float = 0.0
+    chip_front: float = 0.0
+    chip_back: float = 0.0
+    chip_azimuth: float = 0.0
 
     def __post_init__(self) -> None:
         if isinstance(self.drum, bool) or not isinstance(self.drum, (int, np.integer)) or self.drum < 1:
@@ -56,21 +68,37 @@ class FoundDrum:
         for name, low, high, unit in (
             ("offset", -10.0, 10.0, "m"),
             ("tilt", -30.0, 30.0, "degrees"),
-            ("chip_left", 0.0, 10.0, "m"),
-            ("chip_right", 0.0, 10.0, "m"),
+            *((f"chip_{side}", 0.0, 10.0, "m") for side in SIDES),
             ("offset_azimuth", -360.0, 360.0, "degrees"),
             ("tilt_azimuth", -360.0, 360.0, "degrees"),
             ("turn", -180.0, 180.0, "degrees"),
+            ("chip_azimuth", -360.0, 360.0, "degrees"),
         ):
             value = check_range(f"{name} of drum {self.drum}", getattr(self, name), low, high, unit=unit)
             object.__setattr__(self, name, value)
+        left = self.chip_left
         _into_plane(self, "offset", "offset_azimuth")
         _into_plane(self, "tilt", "tilt_azimuth")
+        if abs(self.chip_azimuth) == 180.0:
+            object.__setattr__(self, "chip_left", self.chip_right)
+            object.__setattr__(self, "chip_right", left)
+        if not self.chipped or self.chip_azimuth % 180.0 == 0.0:
+            object.__setattr__(self, "chip_azimuth", 0.0)
 
     @property
     def in_plane(self) -> bool:
         """Whether a plane model can take it."""
-        return self.offset_azimuth == self.tilt_azimuth == self.turn == 0.0
+        return not any(getattr(self, name) for name in _IN_SPACE)
+
+    @property
+    def chips(self) -> tuple[float, float, float, float]:
+        """Widths lost to the left, the right, the front and the back [m]."""
+        return self.chip_left, self.chip_right, self.chip_front, self.chip_back
+
+    @property
+    def chipped(self) -> bool:
+        """Whether anything is lost."""
+        return any(self.chips)
 
 
 def _into_plane(one: Any, value: str, azimuth: str) -> None:
@@ -141,7 +169,7 @@ class AsFound:
 
 
 #: What of a drum a plane model cannot take.
-_IN_SPACE = ("offset_azimuth", "tilt_azimuth", "turn")
+_IN_SPACE = ("offset_azimuth", "tilt_azimuth", "turn", "chip_front", "chip_back", "chip_azimuth")
 
 #: A column exactly as it was built: no offset, tilt, chip or slope.
 AS_BUILT = AsFound()

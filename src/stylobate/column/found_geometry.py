@@ -137,6 +137,16 @@ def check_as_found(column: Column) -> None:
     for one in column.as_found.drums:
         if one.drum > column.n:
             raise InputError(f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.")
+        if column.section == "circular" and (one.chip_front or one.chip_back):
+            raise InputError(
+                f"drum {one.drum} of {name} is round, and chip_front = {one.chip_front:g}, chip_back = {one.chip_back:g} m; "
+                "round drums take chip_left and chip_right with a chip_azimuth."
+            )
+        if column.section != "circular" and one.chip_azimuth:
+            raise InputError(
+                f"drum {one.drum} of {name} is rectangular, and its chip_azimuth is {one.chip_azimuth:g}°; such drums "
+                "take chip_left, chip_right, chip_front and chip_back along their edges: leave chip_azimuth out."
+            )
     if not column.as_found.in_plane:
         _check_in_space(column)
         return
@@ -152,13 +162,10 @@ def check_as_found(column: Column) -> None:
 
 def _check_in_space(column: Column) -> None:
     at = space_geometry(column)
-    for one in column.as_found.drums:
-        if one.chip_left or one.chip_right:
-            raise InputError(
-                f"drum {one.drum} of {column.name!r} is chipped, and the column is found out of the plane of x and z; "
-                "chips are known in the plane only: leave them or the azimuths and turns out."
-            )
-    for j in range(column.n):
+    for j, drum in enumerate(column.drums):
+        left, right, front, back = column.as_found.of(j + 1).chips
+        if left + right >= drum.bottom_width or front + back >= drum.depth:
+            raise InputError(f"joint {j + 1} of {column.name!r} has no contact left; make its chips smaller.")
         load = space_load(column, at, j)
         inside = inside_overlap(column, at, j, load.place)
         _check_joint(column, j, load.normal, float(np.hypot(*load.shear)), -inside)

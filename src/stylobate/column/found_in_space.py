@@ -89,6 +89,27 @@ def space_geometry(
     return out
 
 
+def shares_left(column: Column) -> np.ndarray:
+    """Share of each drum's lower face that its chips leave [-], shape (n,)."""
+    left = np.ones(column.n)
+    for one in column.as_found.drums:
+        drum = column.drums[one.drum - 1]
+        width, depth = drum.bottom_width, drum.depth
+        if drum.circular:
+            lost = sum(_segment(0.5 * width, chip) for chip in (one.chip_left, one.chip_right))
+            left[one.drum - 1] -= lost / (0.25 * math.pi * width**2)
+        else:
+            a, b, c, d = one.chips
+            left[one.drum - 1] = (width - a - b) * (depth - c - d) / (width * depth)
+    return left
+
+
+def _segment(radius: float, height: float) -> float:
+    """Area of the segment of a disc with a height [m²]."""
+    angle = math.acos(1.0 - height / radius)
+    return radius * radius * (angle - math.sin(angle) * math.cos(angle))
+
+
 def base_axes(column: Column) -> np.ndarray:
     """Axes of the base as columns, in those of the motion [-], shape (3, 3): it rises towards its azimuth."""
     azimuth = column.as_found.base_azimuth * DEGREE
@@ -122,21 +143,24 @@ def space_load(column: Column, at: SpaceGeometry, joint: int, acceleration: np.n
 def inside_overlap(column: Column, at: SpaceGeometry, joint: int, place: np.ndarray) -> float:
     """How far a place along a joint is inside both faces; negative outside [m]."""
     drum, own = column.drums[joint], place - at.offset[joint]
+    one = column.as_found.of(joint + 1)
     below = column.drums[joint - 1] if joint else None
+    half = 0.5 * drum.bottom_width
+    x, y = _turned_back(own, at.turned[joint] + one.chip_azimuth * DEGREE)
+    chipped = min(half - one.chip_right - x, half - one.chip_left + x)
     if drum.circular:
-        return min(
-            0.5 * drum.bottom_width - math.hypot(*own),
-            math.inf if below is None else 0.5 * below.top_width - math.hypot(*place),
-        )
-    up = np.array([0.0, 0.0, 1.0])
-    ends = [(own, at.turned[joint], drum.bottom_width, drum.depth)]
-    if below is not None:
-        ends.append((place, at.turned[joint - 1], below.top_width, below.upper_depth))
-    inside = math.inf
-    for point, turned, width, depth in ends:
-        x, y = np.abs(rotation(up, -turned)[:2, :2] @ point)
-        inside = min(inside, 0.5 * width - x, 0.5 * depth - y)
-    return inside
+        under = math.inf if below is None else 0.5 * below.top_width - math.hypot(*place)
+        return min(half - math.hypot(*own), chipped, under)
+    inside = min(chipped, 0.5 * drum.depth - one.chip_back - y, 0.5 * drum.depth - one.chip_front + y)
+    if below is None:
+        return inside
+    x, y = np.abs(_turned_back(place, at.turned[joint - 1]))
+    return min(inside, 0.5 * below.top_width - x, 0.5 * below.upper_depth - y)
+
+
+def _turned_back(point: np.ndarray, angle: float) -> np.ndarray:
+    """A place along a joint in axes that are turned by an angle [rad]."""
+    return rotation(np.array([0.0, 0.0, 1.0]), -angle)[:2, :2] @ point
 
 
 def smallest_uplift(column: Column) -> np.ndarray:

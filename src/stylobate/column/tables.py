@@ -77,6 +77,9 @@ class FoundDrumTable(Table):
     offset_azimuth: float = 0.0
     tilt_azimuth: float = 0.0
     turn: float = 0.0
+    chip_front: float = 0.0
+    chip_back: float = 0.0
+    chip_azimuth: float = 0.0
 
 
 class AsFoundTable(Table):

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..response.shapes import CircularFrustum, Mesh, Shape, hull
+from ..response.shapes import Chipped, CircularFrustum, Mesh, Shape, hull
 from .view import View
 
 #: Flutes around a round drum, as on a Doric shaft.
@@ -63,11 +63,12 @@ def surface_of(shape: Shape, fixed: bool = False) -> Surface:
     mesh = shape.mesh(2 * FLUTES)
     if fixed:
         return Surface(mesh.vertices, mesh.faces, (FIXED,) * len(mesh.faces))
-    if not isinstance(shape, CircularFrustum):
+    chips = len(shape.cuts) if isinstance(shape, Chipped) else 0
+    if not isinstance(shape.whole if isinstance(shape, Chipped) else shape, CircularFrustum):
         return _marked(mesh)
-    sides = len(mesh.faces) - 2
+    sides = len(mesh.faces) - 2 - chips
     strips = [MARK if i in (0, sides - 1) else FLUTE if i % 2 else STONE for i in range(sides)]
-    return Surface(mesh.vertices, mesh.faces, (STONE, STONE, *strips))
+    return Surface(mesh.vertices, mesh.faces, (STONE, STONE, *strips, *(STONE,) * chips))
 
 
 def _marked(mesh: Mesh) -> Surface:

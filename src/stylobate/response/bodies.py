@@ -8,13 +8,14 @@ from functools import singledispatch
 
 import numpy as np
 
-from ..column import Column
+from ..column import Column, Drum
+from ..column.as_found import FoundDrum
 from ..column.assembly import FAR_AWAY, Assembly
-from ..column.found_geometry import drum_outline, geometry
+from ..column.found_geometry import CHIP_SLOPE, geometry
 from ..column.specimen import Specimen
 from ..constants import DEGREE
 from .poses import Reference
-from .shapes import CircularFrustum, ConvexSolid, Prism, RectangularFrustum, Shape
+from .shapes import Chipped, CircularFrustum, ConvexSolid, Prism, RectangularFrustum, Shape
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,17 +62,33 @@ def _(structure: Column) -> Bodies:
     shapes: list[Shape] = []
     for i, drum in enumerate(structure.drums):
         one, high = found.of(i + 1), drum.centroid_height
-        if one.chip_left or one.chip_right:  # the outline's axes are those of the lower face
-            c, s = math.cos(one.tilt * DEGREE), math.sin(one.tilt * DEGREE)
-            corners = drum_outline(structure, i) @ np.array([[c, -s], [s, c]])
-            shapes.append(Prism(corners, drum.mean_width if drum.circular else drum.mean_depth))
-        elif drum.circular:
-            shapes.append(CircularFrustum(drum.bottom_width, drum.top_width, drum.height, high))
+        if drum.circular:
+            whole = CircularFrustum(drum.bottom_width, drum.top_width, drum.height, high)
         else:
             sides = (drum.bottom_width, drum.depth), (drum.top_width, drum.upper_depth)
-            shapes.append(RectangularFrustum(*sides, drum.height, high))
+            whole = RectangularFrustum(*sides, drum.height, high)
+        shapes.append(Chipped(whole, chips_of(drum, one)) if one.chipped else whole)
     names = tuple(f"drum {i + 1}" for i in range(structure.n))
     return Bodies(names, tuple(shapes), (False,) * structure.n, Reference(at.centroid, at.lean + at.tilt, slope))
+
+
+def chips_of(drum: Drum, one: FoundDrum) -> np.ndarray:
+    """Planes that cut the chips off a drum: outward normals, and distances from its centroid [m], shape (k, 4)."""
+    planes = []
+    for chip, azimuth, low, high in zip(
+        one.chips,
+        np.array([180.0, 0.0, 270.0, 90.0]) + one.chip_azimuth,
+        (drum.bottom_width, drum.bottom_width, drum.depth, drum.depth),
+        (drum.top_width, drum.top_width, drum.upper_depth, drum.upper_depth),
+        strict=True,
+    ):
+        if chip:
+            share = min(CHIP_SLOPE * chip / drum.height, 0.5)
+            along, up = chip + 0.5 * share * (high - low), share * drum.height
+            size, angle = math.hypot(along, up), azimuth * DEGREE
+            normal = np.array([up * math.cos(angle), up * math.sin(angle), -along]) / size
+            planes.append((*normal, (up * (0.5 * low - chip) + along * drum.centroid_height) / size))
+    return np.array(planes)
 
 
 @bodies_of.register

@@ -8,6 +8,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+#: Decimals of a metre to which corners of a cut body are the same.
+SAME = 10
+
 
 class Mesh(NamedTuple):
     """A closed surface of flat faces: vertices [m], shape (m, 3); vertex numbers of each face, counter-clockwise outside."""
@@ -79,8 +82,56 @@ class RectangularFrustum:
 
 
 @dataclass(frozen=True, eq=False)
+class Chipped:
+    """A drum with chipped edges: what planes leave of it.
+
+    Parameters
+    ----------
+    whole : CircularFrustum or RectangularFrustum
+    cuts : array
+        Unit normals of the planes, outward, and their distances from the origin [m], shape (k, 4).
+    """
+
+    whole: CircularFrustum | RectangularFrustum
+    cuts: np.ndarray
+
+    @cached_property
+    def outline(self) -> np.ndarray:
+        """Corners (x, z) of what is seen along y [m], shape (k, 2)."""
+        return hull(self.mesh(128).vertices[:, [0, 2]])
+
+    def mesh(self, around: int = 32) -> Mesh:
+        """The surface: the faces of the whole drum in their order, then those of the chips."""
+        vertices, faces = self.whole.mesh(around)
+        polygons = [vertices[list(face)] for face in faces]
+        for *normal, distance in self.cuts:
+            kept = [_cut(polygon, np.array(normal), distance) for polygon in polygons]
+            # the new face has what lies in the plane, in order round its middle
+            edge = np.concatenate([polygon[np.abs(polygon @ normal - distance) < 1e-9] for polygon in kept])
+            along = np.cross((0.0, 0.0, 1.0), normal)
+            flat = np.stack((edge @ along, edge @ np.cross(normal, along)), axis=1)
+            from_middle = flat - flat.mean(axis=0)
+            polygons = [*kept, edge[np.argsort(np.arctan2(from_middle[:, 1], from_middle[:, 0]))]]
+        # corners that several faces share are one vertex
+        points, numbers = np.unique(np.concatenate(polygons).round(SAME), axis=0, return_inverse=True)
+        ends = np.cumsum([len(polygon) for polygon in polygons])[:-1]
+        around_each = [part.tolist() for part in np.split(numbers.ravel(), ends)]
+        return Mesh(points, tuple(tuple(i for i, j in zip(one, one[1:] + one[:1]) if i != j) for one in around_each))
+
+
+def _cut(polygon: np.ndarray, normal: np.ndarray, distance: float) -> np.ndarray:
+    """What of a convex polygon lies within a plane [m], shape (k, 3)."""
+    inside = distance - polygon @ normal
+    after, beyond = np.roll(inside, -1), np.roll(polygon, -1, axis=0)
+    crosses = inside * after < 0.0
+    share = inside / np.where(crosses, inside - after, 1.0)
+    both = np.stack((polygon, polygon + share[:, None] * (beyond - polygon)), axis=1).reshape(-1, 3)
+    return both[np.stack((inside >= 0.0, crosses), axis=1).ravel()]
+
+
+@dataclass(frozen=True, eq=False)
 class Prism:
-    """A convex polygon in the plane x–z, of constant thickness along y: a block of an assembly, a drum with chipped edges.
+    """A convex polygon in the plane x–z, of constant thickness along y: a block of an assembly.
 
     Parameters
     ----------
@@ -140,7 +191,7 @@ class ConvexSolid:
 
 
 #: What every shape gives to those who draw it: ``outline``, seen along y, and ``mesh()``, its surface.
-Shape = CircularFrustum | RectangularFrustum | Prism | ConvexSolid
+Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid
 
 
 def hull(points: np.ndarray) -> np.ndarray:

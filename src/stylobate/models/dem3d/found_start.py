@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ...column import Column
+from ...column import Column, Drum
+from ...column.as_found import FoundDrum
 from ...column.found_in_space import SpaceGeometry, SpaceLoad, space_geometry, space_load
 from ...errors import InputError
 from .packing import CORNERS
@@ -24,6 +25,13 @@ DIFFERENCES = 0.1, 1e-4
 PROBE = 1e30
 
 
+def face_corners(drum: Drum, found: FoundDrum) -> np.ndarray:
+    """Corners of a rectangular drum's lower face, less its chips, from the middle of the whole face [m], shape (4, 2)."""
+    corners = CORNERS * (0.5 * drum.bottom_width, 0.5 * drum.depth)
+    left, right, front, back = found.chips
+    return corners - np.where(CORNERS > 0.0, (right, back), (-left, -front))
+
+
 def found_fields(column: Column, at: SpaceGeometry) -> dict[str, np.ndarray]:
     """Fields of the drums of a column as found, the base first: axes, centroids, lower faces in the drums' axes."""
     fields = {}
@@ -33,8 +41,7 @@ def found_fields(column: Column, at: SpaceGeometry) -> dict[str, np.ndarray]:
         for a, axis in enumerate("ijk"):
             fields[axis + name] = np.concatenate(([float(a == c)], at.axes[:, c, a]))
     if column.section != "circular":
-        own = np.array([(0.5 * drum.bottom_width, 0.5 * drum.depth) for drum in column.drums])
-        corners = own[:, None] * CORNERS
+        corners = np.array([face_corners(drum, column.as_found.of(i)) for i, drum in enumerate(column.drums, 1)])
         for c, name in enumerate(("px", "py", "pz")):
             values = np.einsum("nb,nkb->nk", at.bed[:, c, :2], corners)
             fields[name] = np.concatenate((np.zeros((1, len(CORNERS))), values))

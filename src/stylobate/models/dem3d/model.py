@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import Any, ClassVar
 
 from ...column import Column
+from ...column.found_in_space import shares_left
 from ...column.specimen import Specimen
 from ...errors import InputError, check_range
 from ...motion import Motion
@@ -161,10 +162,11 @@ class DistinctElement3D(SteppedDrums):
             super().check(column, motion)
             if self.law != "bed":
                 column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
-            chipped = next((one.drum for one in column.as_found.drums if one.chip_left or one.chip_right), None)
-            if chipped is not None:
+            chipped = next((one.drum for one in column.as_found.drums if one.chipped), None)
+            if chipped is not None and column.section == "circular":
                 raise InputError(
-                    f"dem3d knows no chips, and drum {chipped} of {column.name!r} has one; use dem2d, or leave it out."
+                    f"dem3d knows chips of rectangular drums, and drum {chipped} of {column.name!r} is round; use dem2d for "
+                    "chips in its plane, or leave the chip out."
                 )
             if self.planar and not column.as_found.in_plane:
                 raise InputError(
@@ -248,7 +250,8 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
         kernel, types = model.kernel(section), model.record_types(section)
         found, friction = found_start(column, kernel, types, (drums, joints, lane), closure)
         drums, joints = drums | found, joints | friction
-    toes = TOES[model.law if column.section == "circular" else "corners"](column, kn)
+    law = model.law if column.section == "circular" else "corners"
+    toes = TOES[law](column, kn * shares_left(column))
     return PackedColumn((drums, joints, lane), model.step_for(column), toes)
 
 
