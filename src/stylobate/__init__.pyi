@@ -18,10 +18,15 @@ from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
 from .campaign.cases import Study as Study
 from .column import AsFound as AsFound
+from .column import Bar as Bar
 from .column import Column as Column
+from .column import Core as Core
+from .column import Dowel as Dowel
 from .column import Drum as Drum
 from .column import FoundDrum as FoundDrum
 from .column import Joint as Joint
+from .column import Layer as Layer
+from .column import Tie as Tie
 from .column import preset as preset
 from .column.assembly import Assembly as Assembly
 from .column.assembly import Block as Block

@@ -22,6 +22,8 @@ from .drum import Drum, section_area, section_second_moment
 from .found_geometry import check_as_found, uplift_accelerations
 from .found_in_space import smallest_uplift
 from .joint import Joint, without_unsaid
+from .link_checks import check_links
+from .links import Layer, Link
 from .materials import material
 
 MAX_DRUMS = 200
@@ -50,12 +52,14 @@ class Column:
     material : str, optional
         Name of the stone and its joints, such as ``marble, worn`` (:mod:`stylobate.column.materials`): how columns like
         this one scatter. Densities and joints are those given above.
+    links : sequence of Link
+        Dowels, bars, ties, cores and layers that strengthen it; the closed-form properties know nothing of them.
 
     Raises
     ------
     InputError
-        No drum, too many drums, a number of joints that differs from the number of drums, or a column that is not in
-        equilibrium as found.
+        No drum, too many drums, a number of joints that differs from the number of drums, a column that is not in
+        equilibrium as found, or a link that cannot be.
 
     Warns
     -----
@@ -69,10 +73,12 @@ class Column:
     gravity: float = STANDARD_GRAVITY
     as_found: AsFound = AS_BUILT
     material: str | None = None
+    links: tuple[Link, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "drums", tuple(self.drums))
         object.__setattr__(self, "joints", tuple(self.joints))
+        object.__setattr__(self, "links", tuple(self.links))
         if not 1 <= len(self.drums) <= MAX_DRUMS:
             raise InputError(f"the column has {len(self.drums)} drums; allowed is 1 to {MAX_DRUMS}.")
         if len(self.joints) != len(self.drums):
@@ -85,6 +91,8 @@ class Column:
         if self.material is not None:
             object.__setattr__(self, "material", material(self.material).name)
         self._check_rings()
+        if self.links:
+            check_links(self)
         if self.as_found:
             check_as_found(self)
         wide = [i + 1 for i, drum in enumerate(self.drums) if drum.top_width > drum.bottom_width * (1 + 1e-12)]
@@ -268,6 +276,19 @@ class Column:
                 "use the model dem2d or dem3d, or leave [as_found] out."
             )
 
+    def must_be_without_links(self, what: str) -> None:
+        """Refuse a column with links where ``what`` knows none.
+
+        Raises
+        ------
+        InputError
+        """
+        if self.links:
+            raise InputError(
+                f"{what} knows no links, and {self.name!r} has a {self.links[0].kind}; use dem2d or dem3d, or leave "
+                "[[link]] out."
+            )
+
     # -- the stack -----------------------------------------------------------------------------------------------
 
     @property
@@ -312,6 +333,15 @@ class Column:
         for i in range(1, self.n):
             widths[i] = min(widths[i], self.drums[i - 1].top_width)
         return np.array(widths)
+
+    @cached_property
+    def friction(self) -> np.ndarray:
+        """tan φ of each joint, that of a layer where there is one [-], shape (n,)."""
+        values = np.array([joint.tan_phi for joint in self.joints])
+        for link in self.links:
+            if isinstance(link, Layer) and link.friction_coefficient is not None:
+                values[link.joint - 1] = link.friction_coefficient
+        return values
 
     @cached_property
     def joint_areas(self) -> np.ndarray:
@@ -412,8 +442,10 @@ class Column:
         """Everything that defines the column, as plain values in SI units."""
         plain = dataclasses.asdict(self, dict_factory=without_unsaid)
         plain.pop("as_found")
+        plain.pop("links")
         plain |= {"drums": list(plain["drums"]), "joints": list(plain["joints"])}
-        return plain | ({"as_found": self.as_found.to_dict()} if self.as_found else {})
+        plain |= {"as_found": self.as_found.to_dict()} if self.as_found else {}
+        return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
 
     @cached_property
     def digest(self) -> str:

@@ -14,6 +14,7 @@ from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
 from .joint import Joint
+from .links import link_from_dict
 from .presets import PRESETS, preset
 
 
@@ -64,6 +65,8 @@ def write_column(column: Column, path: str | Path) -> Path:
         table["joint_override"] = others
     if column.as_found:
         table["as_found"] = _as_found_fields(column.as_found)
+    if column.links:
+        table["link"] = [link.to_dict() for link in column.links]
     target = Path(path)
     with replacing(target) as partial:
         partial.write_text(tomli_w.dumps(table), encoding="utf-8")
@@ -84,7 +87,8 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     as_found = AsFound(
         tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
     )
-    return Column(drums, joints, data["name"], data["gravity"], as_found, data.get("material"))
+    links = tuple(link_from_dict(fields) for fields in data.get("links", ()))
+    return Column(drums, joints, data["name"], data["gravity"], as_found, data.get("material"), links)
 
 
 def joint_from_dict(fields: Mapping[str, Any]) -> Joint:

@@ -174,7 +174,7 @@ def _check_in_space(column: Column) -> None:
 def _check_joint(column: Column, j: int, normal: float, shear: float, beyond: float) -> None:
     """Refuse a joint that slides under its load [N], or that its load passes beyond its contact [m]."""
     name, law = repr(column.name), column.joints[j]
-    friction = law.tan_phi * normal + law.cohesion * column.joint_areas[j]
+    friction = column.friction[j] * normal + law.cohesion * column.joint_areas[j]
     if normal <= 0.0 or shear > friction:
         raise InputError(
             f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "

@@ -13,6 +13,7 @@ from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
 from .joint import Joint
+from .link_tables import LinkTable, links_of
 from .materials import Material, material
 from .toml import Table, checked, parse_toml
 
@@ -104,6 +105,7 @@ class ColumnTable(Table):
     joint: JointTable | None = None
     joint_override: list[OverrideTable] | None = None
     as_found: AsFoundTable | None = None
+    link: list[LinkTable] | None = None
 
 
 def read_as(kind: Any, path: str | Path) -> Any:
@@ -166,10 +168,13 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     _doubt_units(
         column, [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
     )
-    if table.as_found is None:
-        return column
-    some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())
-    return column.replace(as_found=AsFound(some, table.as_found.base_tilt, table.as_found.base_azimuth))
+    changes: dict[str, Any] = {}
+    if table.as_found is not None:
+        some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())
+        changes["as_found"] = AsFound(some, table.as_found.base_tilt, table.as_found.base_azimuth)
+    if table.link:
+        changes["links"] = links_of(table.link, column.n)
+    return column.replace(**changes) if changes else column
 
 
 def joint_fields(given: dict[str, Any], stone: Material | None, where: str = "[joint]") -> dict[str, Any]:

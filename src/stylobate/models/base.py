@@ -95,6 +95,7 @@ class Model:
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
     everything lies still, ``takes_start`` whether it can start from a pose,
     ``takes_specimens`` whether it computes single bodies of any shape; ``takes_rings`` whether joints may carry on rings;
+    ``takes_links`` whether columns may have links;
     ``carries`` how many columns alike it can take along in a single run at next to no cost.
     """
 
@@ -109,6 +110,7 @@ class Model:
     takes_start: ClassVar[bool] = False
     takes_specimens: ClassVar[bool] = False
     takes_rings: ClassVar[bool] = False
+    takes_links: ClassVar[bool] = False
     carries: ClassVar[int] = 0
 
     def check(self, column: Any, motion: Motion) -> None:
@@ -127,6 +129,8 @@ class Model:
             )
         if isinstance(column, Column) and not self.takes_rings:
             column.must_carry_on_whole_faces(self.name)
+        if isinstance(column, Column) and not self.takes_links:
+            column.must_be_without_links(self.name)
         for axis, values in motion.components.items():
             peak = float(np.abs(values).max())
             if not peak <= LARGEST_ACCELERATION:

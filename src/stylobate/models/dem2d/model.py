@@ -186,7 +186,7 @@ def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
         "kn": with_free_top(kn * area / width),
         "ks": with_free_top(ks * area / width),
         "co": with_free_top(np.array([joint.cohesion for joint in column.joints]) * area / width),
-        "mu": with_free_top(np.array([joint.tan_phi for joint in column.joints])),
+        "mu": with_free_top(column.friction),
         "fs": np.zeros((n + 1, model.points)),
         "over": np.zeros(n + 1),
     }

@@ -94,7 +94,7 @@ def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np
         "ks": with_free_top(ks),
         "hole": _holes(column),
         "co": with_free_top([joint.cohesion for joint in column.joints]),
-        "mu": with_free_top([joint.tan_phi for joint in column.joints]),
+        "mu": with_free_top(column.friction),
     }
 
 

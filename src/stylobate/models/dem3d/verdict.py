@@ -90,7 +90,7 @@ def flat_barrier(
         turns = np.zeros(column.n + 1)
     turned = slip if turns is None else np.stack([_turn(turns[j]) @ slip[j] for j in range(column.n)])
     place = np.cumsum(turned, axis=0)
-    friction = np.array([joint.tan_phi for joint in column.joints])
+    friction = column.friction
     lowest = math.inf
     for j in range(column.n):
         mass = column.masses[j:]
@@ -134,9 +134,7 @@ def found_barrier(column: Column, flat: SpaceGeometry, toes: np.ndarray, walks: 
     up = upward(column)
     level = np.minimum(flat.frame[:, :, 2] @ up, 1.0)
     slope = np.arccos(level)
-    friction = np.array(
-        [math.tan(max(math.atan(one.tan_phi) - s, 0.0)) for one, s in zip(column.joints, slope, strict=True)]
-    )
+    friction = np.array([math.tan(max(math.atan(one) - s, 0.0)) for one, s in zip(column.friction, slope, strict=True)])
     lowest = math.inf
     for j in range(column.n):
         mass = column.masses[j:]

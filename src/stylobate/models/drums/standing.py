@@ -92,10 +92,7 @@ def flat_barrier(column: Column, flat: Geometry, toes: np.ndarray) -> float:
     up = -down / column.gravity
     slope = flat.lean + column.as_found.base_tilt * DEGREE
     friction = np.array(
-        [
-            math.tan(max(math.atan(joint.tan_phi) - abs(one), 0.0))
-            for joint, one in zip(column.joints, slope, strict=True)
-        ]
+        [math.tan(max(math.atan(rough) - abs(one), 0.0)) for rough, one in zip(column.friction, slope, strict=True)]
     )
     lowest = math.inf
     for j in range(column.n):

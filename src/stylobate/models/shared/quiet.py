@@ -47,7 +47,7 @@ def opening_acceleration(column: Column) -> float:
                 for drum in column.drums
             ),
         )
-    return min(least, column.gravity * min(joint.tan_phi for joint in column.joints))
+    return min(least, column.gravity * float(column.friction.min()))
 
 
 def level(motion: Motion, column: Column) -> np.ndarray:

@@ -1,0 +1,148 @@
+"""Links as data: files and back, digests, numbers of presets by their formulas, and every mistake in one sentence."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+import stylobate as st
+from stylobate.column.files import column_from_dict, write_column
+from stylobate.column.link_laws import properties, shear_limits, shear_stiffness
+
+JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
+COLUMN = st.Column.tapered(
+    height=5.0, bottom_width=0.96, top_width=0.66, drums=12, density=1600.0, joint=JOINT, section="circular"
+)
+#: SHA-256 of this column before there were links.
+DIGEST = "cf5328c3705b61ff5499fe2b97e3c4294dcb7b439120614cd95b9de4590d2992"
+
+ALL_KINDS = (
+    st.Dowel(joint=3, at=(0.1, -0.1), diameter=0.04, embedment=0.1, material="titanium", clearance=0.001),
+    st.Dowel(joint=3, shear_stiffness=1e8, shear_capacity=2e4, failure="brittle", name="key"),
+    st.Bar(joint=1, diameter=0.03, embedment=0.2, material="stainless steel", pretension=1e3),
+    st.Tie(at=(0.55, 0.0), to=(0.4, 0.0), diameter=0.02, material="stainless steel", pretension=1e4),
+    st.Core(diameter=0.03, material="titanium", to_drum=11),
+    st.Layer(joint=1, friction_coefficient=0.05, shear_stiffness=1e5, damping=1e4),
+)
+
+
+def test_a_column_without_links_keeps_its_digest() -> None:
+    assert COLUMN.digest == DIGEST
+    assert COLUMN.replace(links=()).digest == DIGEST
+    assert COLUMN.replace(links=ALL_KINDS).digest != DIGEST
+
+
+def test_links_come_back_from_files_and_descriptions(tmp_path) -> None:
+    column = COLUMN.replace(links=ALL_KINDS)
+    assert st.read_column(write_column(column, tmp_path / "column.toml")) == column
+    assert column_from_dict(json.loads(json.dumps(column.to_dict()))) == column
+
+
+def test_a_file_puts_one_link_into_all_joints(tmp_path) -> None:
+    path = write_column(COLUMN, tmp_path / "column.toml")
+    with path.open("a") as file:
+        file.write(
+            '[[link]]\nkind = "dowel"\njoints = "all"\nat = [0.1, 0]\nshear_stiffness = 1e8\n'
+            '[[link]]\nkind = "layer"\njoints = [1, 2]\ndamping = 1000\n'
+        )
+    links = st.read_column(path).links
+    assert [one.joint for one in links if isinstance(one, st.Dowel)] == list(range(1, 13))
+    assert [one.joint for one in links if isinstance(one, st.Layer)] == [1, 2]
+
+
+def test_the_friction_of_a_joint_is_that_of_its_layer() -> None:
+    friction = COLUMN.replace(links=ALL_KINDS).friction
+    assert friction[0] == 0.05
+    assert friction[1] == JOINT.tan_phi
+    assert COLUMN.replace(links=ALL_KINDS).replace(links=()).friction[0] == JOINT.tan_phi
+
+
+def test_long_and_short_dowels_meet_the_limits_of_a_beam_on_a_foundation() -> None:
+    """Long: K/(4 β), the half-infinite beam; short: K l/8, a rigid pin that turns (Hetényi 1946)."""
+    d, stone = 0.03, 50e9
+    bending = 105e9 * math.pi * d**4 / 64.0
+    bed = 0.65 * (stone * d**4 / bending) ** (1 / 12) * stone / (1.0 - 0.25**2)
+    beta = (bed / (4.0 * bending)) ** 0.25
+    assert shear_stiffness("titanium", d, 12.0 / beta, stone) == pytest.approx(bed / (4.0 * beta), rel=1e-6)
+    assert shear_stiffness("titanium", d, 0.1 / beta, stone) == pytest.approx(bed * 0.1 / beta / 8.0, rel=1e-4)
+
+
+def test_a_thin_long_dowel_is_sheared_and_a_short_thick_one_crushes_the_stone() -> None:
+    thin = shear_limits("titanium", 0.02, 0.2, 60e6)
+    assert min(thin, key=lambda name: thin[name]).startswith("shear of the bar")
+    assert min(thin.values()) == pytest.approx(275e6 / math.sqrt(3.0) * math.pi * 0.02**2 / 4.0)
+    made = properties(
+        COLUMN.replace(
+            links=[st.Dowel(joint=2, diameter=0.2, embedment=0.05, material="titanium", stone_strength=10e6)]
+        )
+    )[0]
+    assert made.failure == "crushing"
+    assert made.shear_capacity == pytest.approx((math.sqrt(2.0) - 1.0) * 30e6 * 0.2 * 0.05)
+
+
+def test_a_tie_has_the_stiffness_and_yield_of_its_bar() -> None:
+    tie = properties(COLUMN.replace(links=ALL_KINDS))[3]
+    area, length = math.pi * 0.01**2, math.dist(tie.low, tie.high)
+    assert tie.axial_stiffness == pytest.approx(200e9 * area / length)
+    assert tie.axial_capacity == pytest.approx(200e6 * area)
+    assert (tie.lower, tie.upper, tie.straight) == (0, 12, True)
+
+
+TITANIUM = {"diameter": 0.04, "embedment": 0.1, "material": "titanium"}
+
+
+@pytest.mark.parametrize(
+    ("made", "said"),
+    [
+        (lambda: st.Dowel(joint=2, **(TITANIUM | {"embedment": 0.5})), "embedded by 0.5 m, and drum 2 is 0.416667 m"),
+        (lambda: st.Dowel(joint=2, at=(0.7, 0.0), **TITANIUM), "outside the section"),
+        (lambda: st.Dowel(joint=2, at=(0.43, 0.0), **TITANIUM), "at least 20 mm must be left"),
+        (lambda: st.Dowel(joint=2, clearance=0.05, **TITANIUM), "leaves 0.02 m all round"),
+        (lambda: st.Dowel(joint=2, clearance=0.005, hole=0.042, **TITANIUM), "its hole leaves 0.001 m all round"),
+        (lambda: st.Tie(at=(0.3, 0.0), axial_stiffness=1e6), "passes through stone"),
+        (lambda: st.Core(at=(0.32, 0.0), axial_stiffness=1e6), "to the rim of drum 12"),
+        (lambda: st.Dowel(joint=2, shear_stiffness=1e6, shear_capacity=0.0), "holds nothing"),
+        (lambda: st.Dowel(joint=13, shear_stiffness=1e6), "there is no joint 13"),
+        (lambda: st.Dowel(joint=0, shear_stiffness=1e6), "allowed is a whole number from 1"),
+        (lambda: st.Dowel(joint=2, diameter=0.04, embedment=0.1, material="titan"), "did you mean titanium"),
+        (lambda: st.Dowel(joint=2), "neither material nor shear_stiffness"),
+        (lambda: st.Dowel(joint=2, shear_stiffness=1e6, failure="britle"), "did you mean brittle"),
+        (lambda: st.Tie(at=(0.6, 0.0), axial_stiffness=1e6, axial_capacity=1e3, pretension=2e3), "more than its axial"),
+        (lambda: st.Tie(at=(0.6, 0.0), from_drum=3, to_drum=2, axial_stiffness=1e6), "must be the higher one"),
+        (lambda: st.Tie(at=(0.6, 0.0), to_drum=40, axial_stiffness=1e6), "the drums are 1 to 12"),
+        (lambda: st.Layer(joint=1), "neither friction_coefficient"),
+        (lambda: st.Dowel(joint=2, at=(0.1,), shear_stiffness=1e6), "a place in plan"),
+        (lambda: "dowel", "give a Dowel, Bar, Tie, Core or Layer"),
+    ],
+)
+def test_what_cannot_be_is_said_in_one_sentence(made, said) -> None:
+    with pytest.raises(st.InputError, match=said) as error:
+        COLUMN.replace(links=[made()])
+    assert str(error.value).count(". ") == 0
+    assert str(error.value).endswith(".")
+
+
+def test_files_name_the_table_and_the_nearest_key(tmp_path) -> None:
+    path = write_column(COLUMN, tmp_path / "column.toml")
+    text = path.read_text()
+    for table, said in (
+        ('kind = "dovel"\njoint = 1', "did you mean dowel"),
+        ('kind = "dowel"\njoint = 1\nshear_stifness = 1e6', "shear_stiffness"),
+        ('kind = "dowel"\nshear_stiffness = 1e6', "a dowel has no joint"),
+        ('kind = "layer"\njoint = 1\nembedment = 0.1\ndamping = 1.0', "a layer has no 'embedment'"),
+        ('kind = "tie"\njoints = "all"\naxial_stiffness = 1e6', "give from_drum and to_drum"),
+        ('kind = "dowel"\njoints = "some"\nshear_stiffness = 1e6', 'must be "all"'),
+    ):
+        path.write_text(f"{text}\n[[link]]\n{table}\n")
+        with pytest.raises(st.InputError, match=said):
+            st.read_column(path)
+
+
+def test_models_without_links_refuse_them() -> None:
+    column = COLUMN.replace(links=[st.Dowel(joint=2, shear_stiffness=1e6)])
+    motion = st.harmonic(frequency=1.0, amplitude=1.0, duration=1.0)
+    for model in (st.HousnerBlock(), st.RigidBeam(), st.RigidBlock()):
+        with pytest.raises(st.InputError, match="knows no links"):
+            st.simulate(column, motion, model)
