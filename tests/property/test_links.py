@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from typing import Any
 
 import pytest
 
@@ -90,7 +91,7 @@ def test_a_tie_has_the_stiffness_and_yield_of_its_bar() -> None:
     assert (tie.lower, tie.upper, tie.straight) == (0, 12, True)
 
 
-TITANIUM = {"diameter": 0.04, "embedment": 0.1, "material": "titanium"}
+TITANIUM: dict[str, Any] = {"diameter": 0.04, "embedment": 0.1, "material": "titanium"}
 
 
 @pytest.mark.parametrize(
@@ -113,7 +114,7 @@ TITANIUM = {"diameter": 0.04, "embedment": 0.1, "material": "titanium"}
         (lambda: st.Tie(at=(0.6, 0.0), from_drum=3, to_drum=2, axial_stiffness=1e6), "must be the higher one"),
         (lambda: st.Tie(at=(0.6, 0.0), to_drum=40, axial_stiffness=1e6), "the drums are 1 to 12"),
         (lambda: st.Layer(joint=1), "neither friction_coefficient"),
-        (lambda: st.Dowel(joint=2, at=(0.1,), shear_stiffness=1e6), "a place in plan"),
+        (lambda: st.Dowel(joint=2, **{"at": (0.1,), "shear_stiffness": 1e6}), "a place in plan"),
         (lambda: "dowel", "give a Dowel, Bar, Tie, Core or Layer"),
     ],
 )
