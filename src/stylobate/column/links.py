@@ -328,7 +328,8 @@ def link_from_dict(fields: Mapping[str, Any]) -> Link:
     kind = str(fields.get("kind", ""))
     if kind not in KINDS:
         raise InputError(f"kind of a link is {kind!r}; {suggest(kind, KINDS)}allowed are {', '.join(KINDS)}.")
-    made, known = KINDS[kind], {one.name for one in dataclasses.fields(KINDS[kind])}
+    made: Any = KINDS[kind]
+    known = {one.name for one in dataclasses.fields(made)}
     values: dict[str, Any] = {name: value for name, value in fields.items() if name != "kind" and value is not None}
     for name in values:
         if name not in known:
