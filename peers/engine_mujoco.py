@@ -12,11 +12,14 @@ VERSION = mujoco.__version__
 VARIANTS = {
     "MuJoCo, default contact": (2e-3, "0.02 1", "0.9 0.95 0.001"),
     "MuJoCo, stiff contact": (5e-4, "0.002 1", "0.95 0.99 0.001"),
+    "MuJoCo, sharp contact": (1e-4, "0.0005 1", "0.95 0.99 0.001"),
+    "MuJoCo, ringing contact": (1e-4, "0.001 0.1", "0.95 0.99 0.001"),
 }
 
 SETTINGS = (
     "elliptic cones, impratio 10, implicitfast, Newton to 1e-10, multiccd; no rolling or torsional friction; stiff: steps "
-    "of 0.5 ms, solref 0.002 1, solimp 0.95 0.99 0.001; default: steps of 2 ms, solref 0.02 1, solimp 0.9 0.95 0.001"
+    "of 0.5 ms, solref 0.002 1, solimp 0.95 0.99 0.001; default: steps of 2 ms, solref 0.02 1, solimp 0.9 0.95 0.001; "
+    "sharp and ringing, as experiments: steps of 0.1 ms, solref 0.0005 1 and 0.001 0.1, solimp as stiff"
 )
 
 

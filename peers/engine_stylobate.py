@@ -8,10 +8,10 @@ from scenes import DENSITY, FRICTION, Run, Scene
 import stylobate as st
 
 VERSION = st.__version__
-VARIANTS = {"stylobate": (0.0, 5e10), "stylobate, β = 10⁻⁴ s": (1e-4, 5e10)}
+VARIANTS = {"stylobate": (0.0, 5e10), "stylobate, β = 10⁻⁴ s": (1e-4, 5e10), "stylobate, β = 10⁻³ s": (1e-3, 5e10)}
 SETTINGS = (
     "dem2d (plane) and dem3d (released or round, pivot friction 0), k_n 5e10 and k_s 2.5e10 N/m³, steps of 0.4 of the "
-    "largest stable one; no damping, or dashpots of 0.1 ms"
+    "largest stable one; no damping, or dashpots of 0.1 or 1 ms"
 )
 
 

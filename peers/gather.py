@@ -19,13 +19,17 @@ HERE = Path(__file__).parent
 RESULTS = HERE / "results.json"
 OTHERS = HERE.parent / ".venv-peers" / "bin" / "python"
 
-#: Parts of each variant: plane cases, round drums, and facets of a round column (0: truly round).
+#: Parts of each variant: plane cases, round drums, passes nearly in a plane, facets of a round column (0: truly round).
 PARTS = {
-    ("stylobate", "stylobate"): ("plane", "drums", "0"),
-    ("stylobate", "stylobate, β = 10⁻⁴ s"): ("plane", "0"),
-    ("mujoco", "MuJoCo, stiff contact"): ("plane", "drums", "0", "12", "16", "24", "48"),
-    ("mujoco", "MuJoCo, default contact"): ("plane", "drums", "0"),
-    ("pybullet", "PyBullet"): ("plane", "drums", "0", "24"),
+    ("stylobate", "stylobate"): ("plane", "drums", "passes", "0"),
+    ("stylobate", "stylobate, β = 10⁻⁴ s"): ("plane", "passes", "0"),
+    ("stylobate", "stylobate, β = 10⁻³ s"): ("passes",),
+    ("mujoco", "MuJoCo, stiff contact"): ("plane", "drums", "passes", "0", "12", "16", "24", "48"),
+    ("mujoco", "MuJoCo, default contact"): ("plane", "drums", "passes", "0"),
+    ("mujoco", "MuJoCo, sharp contact"): ("passes",),
+    ("mujoco", "MuJoCo, ringing contact"): ("passes",),
+    ("pybullet", "PyBullet"): ("plane", "drums", "passes", "0", "24"),
+    ("pybullet", "PyBullet, short steps"): ("passes",),
     ("lmgc90", "LMGC90"): ("plane", "12", "16", "24", "48"),
 }
 
@@ -36,9 +40,13 @@ WORKERS = 4
 LIMIT = 1500
 
 
-def parts_folder() -> Path:
-    """Where finished parts are kept, so that a call that was stopped goes on; another one for other code or engines."""
-    sources = [*sorted(set(HERE.glob("*.py")) - {Path(__file__)}), HERE.parent / "requirements" / "peers.lock"]
+def parts_folder(name: str) -> Path:
+    """Where an engine's finished parts are kept, so that a call that was stopped goes on; another one for other code."""
+    sources = [HERE / f"{one}.py" for one in (f"engine_{name}", "measures", "run", "scenes")]
+    if name == "stylobate":
+        sources += sorted((HERE.parent / "src").rglob("*.py"))
+    else:
+        sources.append(HERE.parent / "requirements" / "peers.lock")
     digest = hashlib.sha256(b"".join(file.read_bytes() for file in sources)).hexdigest()[:12]
     folder = HERE.parent / "build" / "peers" / digest
     folder.mkdir(parents=True, exist_ok=True)
@@ -49,7 +57,8 @@ def one(job: tuple[str, str, str]) -> tuple[tuple[str, str, str], dict]:
     """Run a part, or take it if it is there; what went wrong is a result."""
     name, variant, part = job
     began = time.perf_counter()
-    file = parts_folder() / f"{name}-{list(PARTS).index((name, variant))}-{part}.json"
+    told = hashlib.sha256(variant.encode()).hexdigest()[:6]
+    file = parts_folder(name) / f"{name}-{told}-{part}.json"
     ended = [""]
     if not file.exists():
         python = sys.executable if name == "stylobate" else str(OTHERS)

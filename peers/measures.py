@@ -31,6 +31,12 @@ ROLLING_TILT, SINKING_TILTS = 0.1, np.radians((17.0, 30.0))
 #: Shares of the motion across, for one and the same round column.
 ACROSS = (0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
 
+#: Precession of the round column that is set free almost in a plane at ``ROLLING_TILT`` [rad/s].
+PRECESSIONS = (0.1, 0.03, 0.01, 0.003, 1e-3, 1e-4)
+
+#: Shares of the motion across of a population of runs, to either side.
+POPULATION = [side * share for side in (1.0, -1.0) for share in np.geomspace(3e-4, 3e-2, 12)]
+
 #: How far the monolith rocks out when it is set free, as a share of α.
 SHARE = 0.5
 
@@ -193,6 +199,41 @@ def space(run: Engine, facets: int, whole: bool) -> dict:
         out["verdicts"] = {cell(f, a): collapsed(shaken(run, bodies, f, a, 0.01), bodies) for f, a in cells}
         out["peaks"] = [horizontal_peak(shaken(run, bodies, 1.0, 0.3, across, 0.0), bodies) for across in ACROSS]
     return out
+
+
+def one_pass(run: Engine, precession: float) -> dict:
+    """Half a turn of the round column that is set free almost in a plane: what it keeps, and how far to the side it goes.
+
+    ``kept`` is its energy at the farthest tilt on the other side over that at the start, ``aside`` the direction of that
+    tilt less half a turn [rad], ``growth`` its precession then over that at the start.
+    """
+    slope = np.array([math.cos(ROLLING_TILT), 0.0, -math.sin(ROLLING_TILT)])
+    omega = tuple(-precession * math.sin(ROLLING_TILT) * slope)
+    seen = run(Scene((round_body(),), 1.9, tilt=ROLLING_TILT, omega=omega, output=0.002))
+    axis = seen.axis[:, 0]
+    lean, azimuth = np.hypot(axis[:, 0], axis[:, 1]), np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
+    upright = int(np.argmin(lean[seen.time < 1.2]))
+    far = upright + int(np.argmax(lean[upright:]))
+    near = slice(max(far - 15, 0), far + 16)
+    rate, direction = np.polyfit(seen.time[near] - seen.time[far], azimuth[near], 1)
+    alpha = math.atan2(0.5 * DIAMETER, 0.5 * TALL)
+
+    def energy(tilt: float) -> float:
+        return math.cos(alpha - tilt) - math.cos(alpha)
+
+    return {
+        "kept": energy(math.asin(lean[far])) / energy(ROLLING_TILT),
+        "aside": direction - math.copysign(math.pi, direction),
+        "growth": rate / precession,
+    }
+
+
+def passes(run: Engine) -> dict:
+    """One pass of the round column at several precessions; a population of runs at 1 Hz and 0.3 g: collapses, peaks [m]."""
+    found = [one_pass(run, rate) for rate in PRECESSIONS]
+    bodies = (round_body(),)
+    peaks = [horizontal_peak(shaken(run, bodies, 1.0, 0.3, share, 0.0), bodies) for share in POPULATION]
+    return {key: [one[key] for one in found] for key in found[0]} | {"population": sorted(peaks)}
 
 
 def horizontal_peak(seen: Run, bodies) -> float:

@@ -1,6 +1,6 @@
 """One part of the cases with one variant of one engine: ``run.py ENGINE VARIANT PART FILE``.
 
-PART is plane, drums or a number of facets.
+PART is plane, drums, passes or a number of facets.
 Every part is a process of its own: an engine that ends the process takes nothing else with it.
 """
 
@@ -32,6 +32,8 @@ def main(name: str, variant: str, part: str, file: str) -> None:
         found = measures.plane(run, few=name != "stylobate")
     elif part == "drums":
         found = measures.round_stack(run)
+    elif part == "passes":
+        found = measures.passes(run)
     else:
         facets = int(part)
         found = measures.space(run, facets, whole=facets == 0 or (name == "lmgc90" and facets == 12))

@@ -11,10 +11,12 @@ def texts(out):
         (out / "peers_plane.md", other_engines.plane_table()),
         (out / "peers_verdicts.md", other_engines.verdict_table()),
         (out / "peers_round.md", other_engines.round_table()),
+        (out / "peers_passes.md", other_engines.passes_table()),
     ]
 
 
 def computed(out):
     """The table of thresholds, computed with the validation cases; the picture of what is stored."""
-    other_engines.engines_compared().savefig(out / "engines_compared.png", dpi=150, facecolor="white")
+    for picture in (other_engines.engines_compared, other_engines.passes_compared):
+        picture().savefig(out / f"{picture.__name__}.png", dpi=150, facecolor="white")
     return [(out / "thresholds.md", table())]

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from validation.space import round_column
+from validation.space import cylinder, joint, round_column, wobble
 
 import stylobate as st
 from stylobate.column import Column
@@ -90,3 +90,46 @@ def test_what_the_model_cannot_compute_is_refused_in_one_sentence():
         st.simulate(round_column(), shaking(0.0, 0.1), DistinctElement3D(time_step=1e-3))
     with pytest.raises(st.InputError, match="starts from rest; leave start out"):
         st.simulate(round_column(), shaking(0.0, 0.1), st.RigidBlock(), start=st.Start(0.1))
+
+
+def one_pass(body, start):
+    """Energy kept at the farthest tilt on the other side, and precession there over that at the start (0.01 rad/s)."""
+    seen = st.simulate(
+        body, Motion(1.9, np.zeros(2)), DistinctElement3D(pivot_friction=0.0), start=start, until_end=True,
+        output_interval=0.002,
+    )  # fmt: skip
+    axis = seen.body_axis[:, 0]
+    lean, azimuth = np.hypot(axis[:, 0], axis[:, 1]), np.unwrap(np.arctan2(axis[:, 1], axis[:, 0]))
+    far = int(np.argmax(np.where(seen.time > 1.0, lean, 0.0)))
+    near = np.abs(seen.time - seen.time[far]) < 0.05
+    rate = np.polyfit(seen.time[near], azimuth[near], 1)[0]
+
+    def energy(tilt):
+        return math.cos(math.atan(0.25) - tilt) - math.cos(math.atan(0.25))
+
+    return energy(math.asin(lean[far])) / energy(0.1), rate / 0.01
+
+
+def test_a_pass_nearly_in_a_plane_is_the_same_with_a_friction_spring_at_each_of_many_vertices():
+    """The rim law's one resultant of friction does what 240 springs of their own do, where both strike and roll.
+
+    Kept 0.979 and 0.971, precession 2.6 and 2.3 times as fast: facets of 13 mm take the rest (0.972 with 720 vertices). A
+    rigid body keeps 1 and 1, an impact in the plane 0.83 and 1.6.
+    """
+    column, (tilt, _, omega) = cylinder(1.0, 4.0), vars(wobble(0.1, 0.01)).values()
+    drum = column.drums[0]
+    angle = np.arange(240) * 2.0 * math.pi / 240
+    rim = np.stack((0.5 * np.cos(angle), 0.5 * np.sin(angle), np.full(240, -2.0)), axis=1)
+    stone = st.Specimen(
+        drum.mass, (drum.inertia, drum.inertia, drum.axial_inertia), np.concatenate((rim, rim[::20] * (1, 1, -1))),
+        joint=joint(5e10),
+    )  # fmt: skip
+    centroid = (0.5 - 0.5 * math.cos(tilt) + 2.0 * math.sin(tilt), 0.0, 0.5 * math.sin(tilt) + 2.0 * math.cos(tilt))
+    arm = np.array(centroid) - (0.5, 0.0, 0.0)
+    toss = st.Toss(centroid, (math.cos(0.05), 0.0, math.sin(0.05), 0.0), tuple(np.cross(omega, arm)), omega)
+    kept, growth = one_pass(column, wobble(0.1, 0.01))
+    other_kept, other_growth = one_pass(stone, toss)
+    assert other_kept == pytest.approx(kept, abs=0.012)
+    assert other_growth == pytest.approx(growth, rel=0.2)
+    assert 0.95 < kept < 0.99
+    assert growth > 2.0

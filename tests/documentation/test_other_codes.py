@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from validation import other_engines as engines
+from validation.space import cylinder, rolling
 
 from stylobate.column import Drum
 
@@ -26,11 +27,12 @@ def peers(monkeypatch):
 def test_the_stored_table_has_date_versions_and_every_part():
     stored = engines.results()
     assert date.fromisoformat(stored["date"]) > date(2026, 1, 1)
-    assert set(stored["engines"]) == set(engines.LINES)
-    for one in stored["engines"].values():
+    assert set(stored["engines"]) == {*engines.LINES, *engines.EXPERIMENTS}
+    for name, one in stored["engines"].items():
         assert one["version"]
         assert one["settings"]
-        assert {"plane"} < set(one["parts"])
+        assert set(one["parts"]) == {"passes"} if name in engines.EXPERIMENTS else {"plane"} < set(one["parts"])
+    assert set(engines.passing()) == {*engines.LINES, *engines.EXPERIMENTS} - {"LMGC90"}
     assert not re.search(r"://|/home/|/tmp/|/work/", engines.FILE.read_text(encoding="utf-8"))
 
 
@@ -40,6 +42,39 @@ def test_what_the_page_says_of_statics_and_of_free_rocking():
         assert abs(seen["static"] - 1.0) < 0.01
         assert abs(seen["quarter"] - 1.0) < 0.01
         assert abs(seen["kept"] - engines.HOUSNER) < 0.05
+
+
+def test_what_the_page_says_of_passes_nearly_in_a_plane():
+    """A pass that keeps more leaves more columns falling; at 0.1 rad/s stiff contacts roll as the rigid body does."""
+    kept = {one: seen["kept"][engines.PRECESSIONS.index(0.01)] for one, seen in engines.passing().items()}
+    for one in kept:
+        assert (engines.fallen(one) == 0) == (kept[one] <= 0.943), one
+        assert (engines.fallen(one) > 0) == (kept[one] >= 0.957), one
+    assert engines.STRUCK == pytest.approx(struck(), abs=5e-4)
+    exact = aside_of_rigid_rolling(0.1)
+    for one, seen in engines.passing().items():
+        assert seen["aside"][0] == pytest.approx(exact, abs=5e-3), one
+    for one in ("MuJoCo, stiff contact", "PyBullet"):
+        assert seen_in_plane(one) == pytest.approx(engines.STRUCK, abs=5e-3)
+
+
+def struck():
+    """What a rigid impact in the plane leaves of the energy of the column 4 m high and 1 m wide (Housner 1963)."""
+    drum = Drum(4.0, 1.0, 1.0, 1600.0, section="circular")
+    about_the_edge = drum.inertia + drum.mass * (0.5**2 + 2.0**2)
+    return (1.0 - 2.0 * drum.mass * 0.5**2 / about_the_edge) ** 2
+
+
+def aside_of_rigid_rolling(precession):
+    """Direction of the farthest tilt after one pass of rigid rolling, less half a turn [rad]."""
+    path = rolling(cylinder(1.0, 4.0), 0.1, precession, 0.0, 1.6).sol
+    times = np.linspace(0.9, 1.5, 6001)
+    tilt, azimuth = path(times)[:2]
+    return azimuth[int(np.argmax(tilt))] - math.pi
+
+
+def seen_in_plane(variant):
+    return engines.passing()[variant]["kept"][-1]
 
 
 def test_tables_name_every_engine_and_a_failed_part():

@@ -21,11 +21,25 @@ LINES = {
     "LMGC90": {"color": BLACK, "marker": "x"},
 }
 
+#: Variants that only pass nearly in a plane: other lengths of a contact, to see what they do.
+EXPERIMENTS = {
+    "stylobate, β = 10⁻³ s": {"color": "#fdb863", "marker": "v"},
+    "MuJoCo, sharp contact": {"color": "#053061", "marker": "v"},
+    "MuJoCo, ringing contact": {"color": "#4393c3", "marker": "P"},
+    "PyBullet, short steps": {"color": "#1b7837", "marker": "v"},
+}
+
+#: Precessions at the start of a pass [rad/s], as in ``peers/measures.py``.
+PRECESSIONS = (0.1, 0.03, 0.01, 0.003, 0.001, 0.0001)
+
 #: A swing that is smaller is none: drums rattle [m].
 SMALLEST_SWING = 0.02
 
 #: What a rigid impact without bouncing leaves of the energy of the paper's monolith (Housner 1963).
 HOUSNER = 0.886
+
+#: The same of the round column 4 m high and 1 m wide.
+STRUCK = 0.831
 
 
 @cache
@@ -152,6 +166,61 @@ def round_table() -> str:
             depth = ", ".join(number(1e3 * float(one), "{:.2f}") for one in seen["sinking"])
             rows.append([*name, ", ".join(number(one, "{:.4f}") for one in seen["static"]), *turning, depth])
     return markdown(head, rows)
+
+
+def passing() -> dict[str, dict]:
+    """What each variant with a round primitive finds of passes nearly in a plane."""
+    return {one: parts(one)["passes"] for one in (*LINES, *EXPERIMENTS) if "kept" in parts(one).get("passes", {})}
+
+
+def fallen(variant: str) -> int:
+    """How many columns of a variant's population collapse."""
+    return sum(not math.isfinite(float(one)) for one in passing()[variant]["population"])
+
+
+def passes_table() -> str:
+    """Energy that a pass keeps, growth of what is across, and what a population does at 1 Hz and 0.3 g."""
+    shown = (0, 1, 2, 3, 5)
+    head = ["engine", *(f"kept at {PRECESSIONS[k]:g} rad/s" for k in shown), "aside at 0.01 [rad]", "precession grows"]
+    head += ["collapses", "peaks: least, median [m]"]
+    rows = []
+    for variant, seen in passing().items():
+        peaks = [float(one) for one in seen["population"]]
+        middle = peaks[len(peaks) // 2]
+        rows.append(
+            [
+                variant, *(number(seen["kept"][k]) for k in shown), number(seen["aside"][2]),
+                number(seen["growth"][-1], "{:.1f} times"), f"{fallen(variant)} of {len(peaks)}",
+                f"{peaks[0]:.2f}, {f'{middle:.2f}' if math.isfinite(middle) else 'falls'}",
+            ]
+        )  # fmt: skip
+    return markdown(head, rows)
+
+
+@styled
+def passes_compared() -> Figure:
+    """Energy kept in one pass over the precession it starts with, and how many columns collapse over what one pass keeps."""
+    figure = Figure(figsize=(WIDTH, 4.2))
+    left, right = figure.subplots(1, 2)
+    for variant, seen in passing().items():
+        line = (LINES | EXPERIMENTS)[variant]
+        left.plot(PRECESSIONS, seen["kept"], markersize=4, label=variant, **line)
+        right.plot(seen["kept"][2], fallen(variant), markersize=7, linestyle="none", **line)
+    left.axhline(1.0, color=GREY, linewidth=0.9)
+    left.annotate("rigid rolling", (1.1e-4, 1.0), va="bottom", fontsize=8, color=GREY)
+    left.axhline(STRUCK, color=GREY, linewidth=0.9, linestyle="--")
+    left.annotate("rigid impact in the plane", (1e-1, STRUCK), ha="right", va="top", fontsize=8, color=GREY)
+    left.set_xscale("log")
+    left.set_ylim(0.805, 1.015)
+    left.set(xlabel="precession at the start [rad/s]", ylabel="energy kept in one pass [-]")
+    right.set(xlabel="energy kept at 0.01 rad/s [-]", ylabel="collapses of 24 at 1 Hz, 0.3 g")
+    right.set_ylim(-1.0, 25.0)
+    right.set_yticks(range(0, 25, 6))
+    for axes in (left, right):
+        axes.grid()
+    handles, labels = left.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside lower center", ncols=3)
+    return figure
 
 
 @styled
