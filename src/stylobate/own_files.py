@@ -34,12 +34,7 @@ class OwnFiles:
         self.folder = Path(os.path.abspath(folder))
         self.kind = ""
         self._known: dict[str, set[str]] = {}
-        for line in self._lines():
-            first, _, name = line.partition("  ")
-            if first == "kind":
-                self.kind = name
-            elif len(first) == 64:
-                self._known.setdefault(name, set()).add(first)
+        self._read()
 
     def __iter__(self) -> Iterator[Path]:
         return (self.folder / name for name in self._known)
@@ -50,9 +45,9 @@ class OwnFiles:
 
     def holds(self, path: Path) -> bool:
         """Whether the file is there as it was written."""
-        if not self.lists(path) or path.is_symlink() or not path.is_file() or self._link(path) is not None:
+        if path.is_symlink() or not path.is_file() or self._link(path) is not None:
             return False
-        return digest(path) in self._known[self._name(path)]
+        return self._is_own(path) or (self._read() and self._is_own(path))
 
     def check(self, path: Path) -> None:
         """Refuse to write over what is not our own.
@@ -97,6 +92,20 @@ class OwnFiles:
         """The folder on the way to the path that is a link, if there is one."""
         way = Path(os.path.abspath(path)).relative_to(self.folder).parents
         return next((self.folder / one for one in list(way)[:-1] if (self.folder / one).is_symlink()), None)
+
+    def _is_own(self, path: Path) -> bool:
+        return self.lists(path) and digest(path) in self._known[self._name(path)]
+
+    def _read(self) -> bool:
+        """Read the list, to which another process at work in the folder may have added; whether there was anything new."""
+        before = sum(map(len, self._known.values()))
+        for line in self._lines():
+            first, _, name = line.partition("  ")
+            if first == "kind":
+                self.kind = name
+            elif len(first) == 64:
+                self._known.setdefault(name, set()).add(first)
+        return sum(map(len, self._known.values())) > before
 
     def _lines(self) -> list[str]:
         place = self.folder / LIST

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import closing
 
 import numpy as np
 import pandas
@@ -14,6 +15,8 @@ import pytest
 import stylobate as st
 from stylobate.analysis.studies import StudyResult, write_table
 from stylobate.campaign import cases as study_cases
+from stylobate.campaign.ledger import Ledger
+from stylobate.campaign.plan import KEY, RUNS_FILE
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
 from stylobate.motion.intensity_specs import parse_measure
@@ -138,6 +141,28 @@ def test_killed_at_any_time_a_study_ends_with_the_same_table_to_the_bit(folder):
     end = st.run_study(read_plan(folder / "study.toml")[0], out)
     assert end.computed == 240 - kept[-1]
     assert end.table.equals(whole.table)
+
+
+def test_several_processes_on_one_folder_run_nothing_twice_and_all_of_them_end(folder):
+    small = FILE.replace('"dem2d"', '"housner"').replace("realisations = 40", "realisations = 20")
+    (folder / "study.toml").write_text(small)
+    (folder / "three.toml").write_text(THREE.replace("drums = 3", "drums = 1"))
+    whole = st.run_study(read_plan(folder / "study.toml")[0])
+    out = folder / "out"
+    out.mkdir()
+    command = [sys.executable, "-c", "from stylobate.cli.main import main; main()", "study", "run", "--json"]
+    command += ["--threads", "1", folder / "study.toml", "--out", out]
+    with closing(Ledger(out / RUNS_FILE, KEY)) as first:  # a process at work, which has made some of the runs
+        for number in range(50):
+            first.record(int(whole.plan.keys[number]), {"case": whole.plan.digest(number), **whole.rows[number]})
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+        others = [subprocess.Popen(command, **pipes) for _ in range(2)]
+        assert all("another process is at work" in other.stderr.readline() for other in others)
+    answers = [json.loads(other.communicate(timeout=120)[0]) for other in others]
+    assert [other.returncode for other in others] == [0, 0]
+    assert sum(answer["computed"] for answer in answers) == 120 - 50
+    assert StudyResult.in_folder(out).table.equals(whole.table)
+    assert sorted(path.name for path in out.glob("*-lock")) == []
 
 
 def finished(folder):

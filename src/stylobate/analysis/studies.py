@@ -99,6 +99,7 @@ def run_study(
     *,
     threads: int | None = None,
     progress: Progress | None = None,
+    waiting: Callable[[], None] | None = None,
 ) -> StudyResult:
     """Run a study; what its folder holds already is not computed again.
 
@@ -112,6 +113,8 @@ def run_study(
         All cores by default.
     progress : callable, optional
         Called with (finished, all).
+    waiting : callable, optional
+        Called once if another process is at work in the folder; this one goes on when that one ends, however it ends.
 
     Raises
     ------
@@ -123,7 +126,7 @@ def run_study(
     folder = None if out is None else Path(out)
     if folder is not None and not folder.is_dir():
         raise InputError(f"folder {folder} does not exist; create it first.")
-    found = run_cases(study, folder, threads=threads, progress=progress)
+    found = run_cases(study, folder, threads=threads, progress=progress, waiting=waiting)
     return StudyResult(found.plan, found.rows, found.wall_time, found.computed)
 
 

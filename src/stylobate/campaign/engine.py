@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,9 +15,12 @@ from ..response import Measures
 from ..response.rows import Rows
 from ..simulate import simulate_iter
 from .cases import Study
-from .ledger import Ledger
+from .ledger import Ledger, finished_runs_in
 from .plan import KEY, RUNS_FILE, Plan
 from .runner import Progress, Stopped
+
+#: Time between two looks at a ledger that another process is at work on [s].
+LOOK = 0.25
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,9 +45,17 @@ class StudyRows:
 
 
 def run_cases(
-    study: Study, folder: Path | None = None, *, threads: int | None = None, progress: Progress | None = None
+    study: Study,
+    folder: Path | None = None,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    waiting: Callable[[], None] | None = None,
 ) -> StudyRows:
     """Run all cases that the ledger of a folder does not hold yet.
+
+    One process at a time computes in a folder: it uses this machine's cores, and an SQLite ledger with several writers must
+    not leave it. Another one waits, reads along, and goes on with what is missing when the first has ended or was killed.
 
     Parameters
     ----------
@@ -55,6 +66,8 @@ def run_cases(
         All cores by default.
     progress : callable, optional
         Called with (finished, all).
+    waiting : callable, optional
+        Called once if another process is at work in the folder.
 
     Raises
     ------
@@ -63,12 +76,14 @@ def run_cases(
     """
     started = time.perf_counter()
     plan = study.plan()
-    book = None if folder is None else Ledger(folder / RUNS_FILE, KEY, len(plan))
-    done = first = 0
+    book, done, first = None, 0, 0
     try:
+        rows = Rows(len(plan))
         if folder is not None:
+            turn = _its_turn(folder / RUNS_FILE, len(plan), progress, waiting)
+            book = Ledger(folder / RUNS_FILE, KEY, len(plan), turn)
             plan.save(folder)
-        rows = Rows(len(plan)) if folder is None else plan.known(folder / RUNS_FILE)
+            rows = plan.known(folder / RUNS_FILE)
         done = first = rows.finished
         if progress:
             progress(done, len(plan))
@@ -90,6 +105,23 @@ def run_cases(
         if book:
             book.close()
     return StudyRows(plan, rows, done - first, time.perf_counter() - started)
+
+
+def _its_turn(
+    ledger: Path, total: int, progress: Progress | None, waiting: Callable[[], None] | None
+) -> Callable[[], None]:
+    """What is done while another process is at work on the ledger: it is told once, and followed."""
+    told: list[bool] = []
+
+    def look() -> None:
+        if waiting and not told:
+            waiting()
+        told.append(True)
+        if progress:
+            progress(min(finished_runs_in(ledger), total), total)
+        time.sleep(LOOK)
+
+    return look
 
 
 def _runs(study: Study, plan: Plan, rows: Rows, threads: int | None) -> Generator[tuple[int, Measures], None, None]:

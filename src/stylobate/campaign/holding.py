@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sqlite3
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -19,16 +20,18 @@ class Holding:
     ----------
     path : path
         What is held; the empty file is called the same with ``-lock`` behind.
+    waiting : callable, optional
+        Called again and again while another process holds it, until that one lets go or ends; it takes the time between two looks.
 
     Raises
     ------
     InputError
-        Another process holds it.
+        Another process holds it, and nobody wants to wait.
     StylobateError
         The system does not let it be held, e.g. because the disk is full.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, waiting: Callable[[], object] | None = None) -> None:
         self.path, self.place = path, Path(f"{path}-lock")
         while True:
             before = self._inode() or self._made()
@@ -41,9 +44,12 @@ class Holding:
                     raise StylobateError(
                         f"the progress cannot be kept in {path} ({error}); make room there, or choose another --out."
                     ) from None
-                raise InputError(
-                    f"{path} is not free: another process is at work on it; wait for its end, or choose another folder."
-                ) from None
+                if waiting is None:
+                    raise InputError(
+                        f"{path} is not free: another process is at work on it; wait for its end, or choose another folder."
+                    ) from None
+                waiting()
+                continue
             if before is not None and before == self._inode():
                 return
             self._file.close()  # the other process removed it in between: this lock would be on a deleted file

@@ -14,7 +14,7 @@ import sqlite3
 import threading
 import warnings
 import weakref
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
@@ -70,6 +70,8 @@ class Ledger:
         Everything that decides the results. A ledger with another key belongs to another campaign and is refused.
     total : int
         Number of runs of the campaign.
+    waiting : callable, optional
+        Called again and again while another process holds the ledger, instead of refusing it.
 
     Raises
     ------
@@ -77,7 +79,9 @@ class Ledger:
         The file is the ledger of another campaign, another process holds it, or nothing can be written there.
     """
 
-    def __init__(self, path: str | Path, key: Mapping[str, Any], total: int = 0) -> None:
+    def __init__(
+        self, path: str | Path, key: Mapping[str, Any], total: int = 0, waiting: Callable[[], object] | None = None
+    ) -> None:
         self.path, self.total = Path(path), total
         text = json.dumps(key, sort_keys=True, default=str)
         self.campaign = hashlib.sha256(text.encode()).hexdigest()
@@ -85,7 +89,7 @@ class Ledger:
             raise InputError(
                 f"{self.path} cannot keep the progress: it is a folder, or has none; choose another --out."
             )
-        self._holding = Holding(self.path)
+        self._holding = Holding(self.path, waiting)
         try:
             self._file, found = self._open(text)
             if found != text:

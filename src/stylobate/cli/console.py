@@ -127,6 +127,12 @@ def ledger(folder: Path | None, part: str = "") -> Path | None:
     return None if folder is None else folder / (place.with_stem(f"{place.stem}-{part}") if part else place)
 
 
+def another_at_work(folder: Path) -> Callable[[], None]:
+    """Says on standard error that this command waits for another one."""
+    said = f"stylobate: another process is at work in {folder}; this one goes on when that one ends."
+    return lambda: print(said, file=sys.stderr, flush=True)
+
+
 def done_with(*ledgers: Path | None) -> None:
     """The results are written: the finished runs need no longer be kept apart."""
     from ..campaign.ledger import discard

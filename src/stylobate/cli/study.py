@@ -37,7 +37,7 @@ def run(
         assert folder is not None
         console.ledger(folder)
         with console.progress("runs") as progress:
-            result = run_study(study, folder, threads=count, progress=progress)
+            result = run_study(study, folder, threads=count, progress=progress, waiting=console.another_at_work(folder))
         with console.progress("histories") as progress:
             files = keep_histories(study, result, folder, progress)
         files.append(write_table(result.table, folder / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
