@@ -158,12 +158,20 @@ def simulate_iter(
     threads : int, optional
         All cores by default.
     """
+    options = check_cases(cases, model, tail=tail, until_end=until_end, quiet=quiet)
+    yield from model.run_many(cases, options, thread_count(threads))
+
+
+def check_cases(
+    cases: Sequence[Case], model: Model, *, tail: float = 0.0, until_end: bool = False, quiet: float = 0.0
+) -> RunOptions:
+    """Refuse or warn of cases before any is computed; the options with which :func:`simulate_iter` runs them."""
     share = check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion")
     options = dataclasses.replace(_options(tail, 0.01, until_end), quiet=share)
     for column, motion in _to_check(cases):
         model.check(column, motion)
         model.check_length(column, motion, options)
-    yield from model.run_many(cases, options, thread_count(threads))
+    return options
 
 
 def simulate_many(

@@ -13,8 +13,8 @@ import numpy as np
 from ..models.base import Cases, Model
 from ..response import Measures
 from ..response.rows import Rows
-from ..simulate import simulate_iter
 from .cases import Study
+from .executor import compute
 from .ledger import Ledger, finished_runs_in
 from .plan import KEY, RUNS_FILE, Plan
 from .runner import Progress, Stopped
@@ -143,6 +143,6 @@ def _some(
     study: Study, numbers: np.ndarray, model: Model, quiet: float, threads: int | None
 ) -> Generator[tuple[int, Measures], None, None]:
     cases = Cases(len(numbers), lambda index: study.case(int(numbers[index])))
-    with closing(simulate_iter(cases, model, tail=study.tail, quiet=quiet, threads=threads)) as finished:
+    with closing(compute(cases, model, tail=study.tail, quiet=quiet, threads=threads)) as finished:
         for index, measures in finished:
             yield int(numbers[index]), measures

@@ -21,7 +21,8 @@ class Holding:
     path : path
         What is held; the empty file is called the same with ``-lock`` behind.
     waiting : callable, optional
-        Called again and again while another process holds it, until that one lets go or ends; it takes the time between two looks.
+        Called again and again while another process holds it, until that one lets go or ends; it takes the time between two
+        looks.
 
     Raises
     ------

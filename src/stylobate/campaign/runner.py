@@ -12,8 +12,8 @@ from typing import Any
 from ..models.base import Case, Model
 from ..response import Measures
 from ..response.rows import Rows
-from ..simulate import simulate_iter
 from ..version import __version__
+from .executor import compute
 from .ledger import Ledger, what_is_kept
 from .others import Others
 
@@ -118,7 +118,7 @@ def finished_runs(
         for number, row in book.rows() if book else ():
             if others.leave_out(number):
                 yield number, row
-        with closing(simulate_iter(others, model, tail=tail, quiet=quiet, threads=threads)) as finished:
+        with closing(compute(others, model, tail=tail, quiet=quiet, threads=threads)) as finished:
             for index, measures in finished:
                 number, row = others.number(index), keep(measures)
                 if book:

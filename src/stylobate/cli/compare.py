@@ -52,6 +52,7 @@ def compare(
         typer.Option("--set", metavar="MODEL.NAME=VALUE", help="Option of one of the models; may be repeated."),
     ] = None,
     threads: o.Threads = None,
+    dask: o.Dask = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
@@ -81,6 +82,7 @@ def compare(
         if harmonic or pulse or synthetic or motion:
             raise InputError("both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
+        o.the_engine(context, dask, count)
         each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with (
             console.folder(out, "comparison.csv", "comparison", *each) as folder,

@@ -127,10 +127,9 @@ def ledger(folder: Path | None, part: str = "") -> Path | None:
     return None if folder is None else folder / (place.with_stem(f"{place.stem}-{part}") if part else place)
 
 
-def another_at_work(folder: Path) -> Callable[[], None]:
-    """Says on standard error that this command waits for another one."""
-    said = f"stylobate: another process is at work in {folder}; this one goes on when that one ends."
-    return lambda: print(said, file=sys.stderr, flush=True)
+def note(sentence: str) -> None:
+    """Say on standard error what a person should know while a command goes on."""
+    print(f"stylobate: {sentence}", file=sys.stderr, flush=True)
 
 
 def done_with(*ledgers: Path | None) -> None:

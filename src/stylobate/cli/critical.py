@@ -50,6 +50,7 @@ def critical(
     scatter: o.ScatterSizes = None,
     seed: o.Seed = None,
     threads: o.Threads = None,
+    dask: o.Dask = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
@@ -72,11 +73,13 @@ def critical(
     twins = o.the_population(replicates, scatter, seed) or {}
     if asked.several:
         suite = asked.expand(stone.frequency_parameter, amplitude_open=True)
+        o.the_engine(context, dask, count)
         over_suite(stone, suite, how, grid, twins, after, whole, count, out, as_json)
         return
     shaking = asked.motion(stone.frequency_parameter, amplitude_open=True)
     # the amplitude of a formula is that of its sine; of a record, or once it is conditioned, the peak that it has along x
     nominal = 1.0 if (harmonic or pulse) and not condition else None
+    o.the_engine(context, dask, count)
     with console.folder(out, "critical.csv", "critical.json", "probability.csv", "probability", "critical") as folder:
         with console.progress("amplitudes") as progress:
             ledger = console.ledger(folder)

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 
 def domain(
+    context: typer.Context,
     what: Annotated[
         str, typer.Argument(metavar="STUDY|COLUMN", help="A study file (TOML), or a column: preset or column file.")
     ],
@@ -53,6 +54,7 @@ def domain(
     ] = False,
     settings: o.Settings = None,
     threads: o.Threads = None,
+    dask: o.Dask = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
@@ -71,6 +73,7 @@ def domain(
         if half_step:
             raise InputError("--half-step is for a domain without --replicates; give one of the two.")
         population = the_population(replicates, imperfection, seed)
+        o.the_engine(context, dask, count)
         run_probability(study, population, count, out, as_json)
         return
     for option, value in (("--imperfection", imperfection), ("--seed", seed)):
@@ -78,6 +81,7 @@ def domain(
             raise InputError(
                 f"{option} is for variations of the column; give --replicates as well, e.g. --replicates 20."
             )
+    o.the_engine(context, dask, count)
     with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain") as folder:
         ledger, half = console.ledger(folder), console.ledger(folder, "half-step")
         with console.progress("cells") as progress:

@@ -55,6 +55,7 @@ def ida(
     whole: o.Whole = False,
     settings: o.Settings = None,
     threads: o.Threads = None,
+    dask: o.Dask = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
@@ -75,6 +76,7 @@ def ida(
     records = o.the_request(context, motion=sources, separate=True).expand()
     known = the_facts(about, sources, [one.name for one in records.motions])
     names = ("runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures")
+    o.the_engine(context, dask, workers)
     with console.folder(out, *names) as folder:
         with console.progress("runs") as progress:
             found = analyse(

@@ -122,6 +122,13 @@ ScatterSizes = Annotated[
 ]
 Threads = Annotated[str | None, typer.Option("--threads", metavar="N", help="Threads to use; all cores by default.")]
 
+Dask = Annotated[
+    str | None,
+    typer.Option(
+        "--dask", metavar="ADDRESS|local", help="Compute on a Dask cluster: its scheduler, or local for workers here."
+    ),
+]
+
 
 def the_model(name: str, settings: list[str] | None) -> Model:
     """The model of that name with its options."""
@@ -145,6 +152,15 @@ def the_threads(text: str | None) -> int:
     if text is not None and not text.isdecimal():
         raise InputError(f"--threads is {text!r}; allowed is a whole number from 1; leave it out to use all cores.")
     return thread_count(None if text is None else int(text))
+
+
+def the_engine(context: typer.Context, dask: str | None, threads: int) -> None:
+    """From here to the end of the command runs are computed by threads, or by the workers of a Dask cluster."""
+    if dask is not None:
+        from ..campaign.cluster import on_cluster
+        from . import console
+
+        context.with_resource(on_cluster(dask, threads, console.note))
 
 
 def the_tail(text: str) -> float:

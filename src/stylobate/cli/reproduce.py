@@ -18,10 +18,12 @@ FOLDER = Path("reproduction")
 
 
 def reproduce(
+    context: typer.Context,
     quick: Annotated[
         bool, typer.Option("--quick", help="Coarser grids: one to two minutes on two cores, instead of five to ten.")
     ] = False,
     threads: o.Threads = None,
+    dask: o.Dask = None,
     out: Annotated[
         Path | None,
         typer.Option("--out", metavar="DIR", help="Folder for everything; reproduction, by default reproduction."),
@@ -36,6 +38,7 @@ def reproduce(
 
     count = o.the_threads(threads)
     folder = out or (FOLDER.with_name("reproduction-quick") if quick else FOLDER)
+    o.the_engine(context, dask, count)
     summary = build(folder, quick, count)
     if as_json:
         console.emit(summary)

@@ -18,9 +18,11 @@ StudyFolder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of 
 
 
 def run(
+    context: typer.Context,
     file: StudyName,
     out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder that keeps the runs, for good.")],
     threads: o.Threads = None,
+    dask: o.Dask = None,
     as_json: o.Json = False,
 ) -> None:
     """Run a study, or what is missing of it.
@@ -33,11 +35,13 @@ def run(
 
     count = o.the_threads(threads)
     study, refused = read_plan(file)
+    o.the_engine(context, dask, count)
     with console.folder(out, "study.parquet", "study.csv", "study.json") as folder:
         assert folder is not None
         console.ledger(folder)
         with console.progress("runs") as progress:
-            result = run_study(study, folder, threads=count, progress=progress, waiting=console.another_at_work(folder))
+            another = f"another process is at work in {folder}; this one goes on when that one ends."
+            result = run_study(study, folder, threads=count, progress=progress, waiting=lambda: console.note(another))
         with console.progress("histories") as progress:
             files = keep_histories(study, result, folder, progress)
         files.append(write_table(result.table, folder / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))

@@ -55,6 +55,7 @@ def suite(
     scatter: o.ScatterSizes = None,
     seed: o.Seed = None,
     threads: o.Threads = None,
+    dask: o.Dask = None,
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
@@ -80,6 +81,7 @@ def suite(
     how = o.the_model(model, settings)
     records = o.the_request(context, motion=sources, separate=True).expand()
     twins = o.the_population(replicates, scatter, seed) or {}
+    o.the_engine(context, dask, workers)
     with console.folder(out, "suite.csv", "suite.json", "suite", "directions") as folder:
         ledger = console.ledger(folder)
         with console.progress("runs") as progress:

@@ -1,0 +1,45 @@
+"""Where runs are computed: by threads of this process, or by whatever has taken their place (a Dask cluster)."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Protocol
+
+from ..models.base import Case, Model
+from ..response import Measures
+from ..simulate import simulate_iter
+
+#: (index of the case, measures) as runs finish, in any order.
+Finished = Generator[tuple[int, Measures], None, None]
+
+
+class Executor(Protocol):
+    """What computes runs; the same cases give the same measures, to the bit, with any."""
+
+    def __call__(
+        self, cases: Sequence[Case], model: Model, *, tail: float, quiet: float, threads: int | None
+    ) -> Finished:
+        """Run all cases; closing what is returned stops it."""
+        ...
+
+
+_INSTEAD: ContextVar[Executor | None] = ContextVar("_INSTEAD", default=None)
+
+
+def compute(
+    cases: Sequence[Case], model: Model, *, tail: float = 0.0, quiet: float = 0.0, threads: int | None = None
+) -> Finished:
+    """Run many cases where runs are computed now; parameters as in :func:`stylobate.simulate.simulate_iter`."""
+    return (_INSTEAD.get() or simulate_iter)(cases, model, tail=tail, quiet=quiet, threads=threads)
+
+
+@contextmanager
+def computed_by(executor: Executor) -> Iterator[None]:
+    """Inside the block an executor computes, instead of threads."""
+    token = _INSTEAD.set(executor)
+    try:
+        yield
+    finally:
+        _INSTEAD.reset(token)

@@ -1,0 +1,94 @@
+"""Dask workers on this machine, in processes of their own that end with this one, however it ends.
+
+The scheduler and the workers belong to a second process in a session of its own: a Ctrl-C at the terminal reaches this
+process alone, which ends them; when it is killed, its end of the pipe closes, and they end by themselves.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from contextlib import suppress
+
+from ..errors import StylobateError
+
+#: Time until they end by force [s].
+_PATIENCE = 0.5
+
+
+class LocalWorkers:
+    """A scheduler and workers of one thread each.
+
+    Parameters
+    ----------
+    count : int
+
+    Raises
+    ------
+    StylobateError
+        They could not be started.
+    """
+
+    def __init__(self, count: int) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", __name__, str(count)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
+        )  # fmt: skip
+        assert self._process.stdout is not None
+        last = ""
+        try:
+            for line in self._process.stdout:
+                last = line.strip()
+                if last.startswith("tcp://"):
+                    self.address = last
+                    return
+        except BaseException:
+            self.end()
+            raise
+        raise StylobateError(f"the workers on this machine did not start ({last}); leave --dask out to use threads.")
+
+    @property
+    def process(self) -> int:
+        """Number of the process of the scheduler."""
+        return self._process.pid
+
+    def end(self) -> None:
+        """End them; what they are computing is not waited for."""
+        with suppress(OSError):
+            if self._process.stdin is not None:
+                self._process.stdin.close()
+        try:
+            self._process.wait(_PATIENCE)
+        except subprocess.TimeoutExpired:
+            self._process.kill()  # its workers notice
+            self._process.wait()
+        finally:
+            if self._process.stdout is not None:
+                self._process.stdout.close()
+
+
+def serve(count: int) -> None:
+    """Be the process of the scheduler, until the one that started it closes the pipe or ends."""
+    import dask
+    from distributed import LocalCluster
+
+    with tempfile.TemporaryDirectory(prefix="stylobate-workers-", ignore_cleanup_errors=True) as place:
+        with dask.config.set({"distributed.scheduler.allowed-failures": 1}):
+            cluster = LocalCluster(
+                n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=place
+            )
+        print(cluster.scheduler_address, flush=True)
+        nothing = os.open(os.devnull, os.O_WRONLY)
+        for stream in (1, 2):
+            os.dup2(nothing, stream)
+        sys.stdin.read()
+        for nanny in list(cluster.workers.values()):
+            with suppress(Exception):
+                nanny.process.process._process.kill()  # at once: a compiled loop does not listen
+    os._exit(0)
+
+
+if __name__ == "__main__":
+    serve(int(sys.argv[1]))

@@ -1,0 +1,240 @@
+"""Runs on a Dask cluster: the same rows to the bit as by threads, whatever happens to the workers."""
+
+import dataclasses
+import json
+import os
+import signal
+import sys
+import threading
+import time
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from poison import Poisonous
+
+import stylobate as st
+from stylobate.campaign import cluster as module
+from stylobate.campaign.chunk import Chunk, law, pack, results_of, unpack
+from stylobate.campaign.cluster import on_cluster
+from stylobate.campaign.executor import compute
+from stylobate.campaign.hand_out import HandOut
+from stylobate.campaign.runner import run_campaign
+from stylobate.cli.main import call
+from stylobate.models.base import Case, Cases, RunOptions
+from stylobate.motion.request import MotionRequest
+from stylobate.simulate import simulate_iter
+
+COLUMN = st.preset("paper-monolithic")
+POISON = dataclasses.replace(COLUMN, name="poison")
+MOTION = st.harmonic(1.0, 1.0, 1.0)
+
+
+@pytest.fixture(scope="module")
+def cluster():
+    """One worker; it is killed again and again."""
+    pytest.importorskip("distributed")
+    before = os.environ.get("PYTHONPATH")
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [str(Path(__file__).parents[1]), before]))
+    try:
+        with on_cluster("local", 1) as client:
+            yield client
+    finally:
+        os.environ.pop("PYTHONPATH") if before is None else os.environ.update(PYTHONPATH=before)
+
+
+def test_rows_are_those_of_threads_to_the_bit(cluster, tmp_path):
+    records = MotionRequest(files=("sample:el-centro-1940",)).expand().motions
+    motions = [st.harmonic(0.8, 1.0, 2.0), *(one.replace(ax=one.samples[:300], ay=None, az=None) for one in records)]
+    columns = [st.preset("paper-monolithic"), st.preset("paper-12-drums")]
+    cases = Cases(60, lambda n: Case(columns[n % 3 == 0], motions[n % len(motions)].scaled(0.3 + 0.05 * n)))
+    on_workers = run_campaign(cases, st.DistinctElement2D(), quiet=0.1, ledger=tmp_path / "runs.sqlite")
+    assert not on_workers.interrupted
+    by_threads = {number: one.row() for number, one in simulate_iter(cases, st.DistinctElement2D(), quiet=0.1)}
+    assert list(map(repr, on_workers.rows)) == [repr(by_threads[number]) for number in range(60)]
+
+
+def test_a_killed_worker_is_replaced_and_its_chunks_are_computed_again(cluster):
+    kill = threading.Timer(0.5, lambda: os.kill(pid, signal.SIGKILL))
+    [pid] = cluster.run(os.getpid).values()
+    cases = Cases(60, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
+    kill.start()
+    found = run_campaign(cases, Poisonous(0.05))
+    assert [row["peak_top_displacement_m"] for row in found.rows] == [1.0 + n for n in range(60)]
+    assert list(cluster.run(os.getpid).values()) != [pid]
+
+
+def test_a_case_that_kills_its_workers_is_a_run_that_failed(cluster):
+    found = dict(compute([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous()))
+    assert found[0].row()["outcome"] == "rocked"
+    assert found[1].row()["outcome"] == "failed"
+    assert found[1].reason == "the workers that computed it died, each time"
+
+
+STUDY = """
+column = "paper-monolithic"
+model = "housner"
+[motions]
+files = ["sample:el-centro-1940"]
+[scale]
+im = "pga"
+levels = ["0.3g", "0.5g", "0.9g"]
+"""
+
+
+def test_the_recipe_for_slurm_and_a_study_on_its_cluster(cluster, tmp_path, monkeypatch, capsys):
+    page = (Path(__file__).parents[2] / "docs" / "cluster.md").read_text(encoding="utf-8")
+    script = page.split("```python\n")[1].split("```")[0]
+    asked = {}
+
+    class Scheduler:  # in place of dask_jobqueue.SLURMCluster, which takes a queue of jobs
+        scheduler_address = cluster.scheduler.address
+
+        def __init__(self, **job):
+            asked.update(job)
+
+        def scale(self, jobs):
+            asked["jobs"] = jobs
+
+    monkeypatch.setitem(sys.modules, "dask_jobqueue", SimpleNamespace(SLURMCluster=Scheduler))
+    monkeypatch.setattr("builtins.input", lambda: "")
+    exec(script, {})
+    address = capsys.readouterr().out.split()[-1]
+    assert address == cluster.scheduler.address
+    assert asked["jobs"] > 0
+    (tmp_path / "study.toml").write_text(STUDY)
+    for out, options in (("threads", []), ("dask", ["--dask", address])):
+        arguments = ["study", "run", tmp_path / "study.toml", "--out", tmp_path / out, "--json", *options]
+        assert call(list(map(str, arguments))) == 0, capsys.readouterr().err
+        assert json.loads(capsys.readouterr().out)["computed"] == 3
+    tables = [(tmp_path / out / "study.parquet").read_bytes() for out in ("threads", "dask")]
+    assert tables[0] == tables[1]
+
+
+# -- without a cluster: the bookkeeping ------------------------------------------------------------------------------
+
+
+class Killed(Exception):
+    """As of Dask, by its name."""
+
+
+Killed.__name__ = "KilledWorker"
+
+
+class Client:
+    """Computes a chunk when it is asked what has become of it; the odd chunk dies with its worker, or is lost."""
+
+    def __init__(self, poison=(), lost=(), twice=False, threads=2):
+        self.poison, self.lost, self.twice, self.threads = set(poison), set(lost), twice, threads
+        self.status, self.chunks = "running", []
+
+    def nthreads(self):
+        return {"one": self.threads}
+
+    def subscribe_topic(self, topic, handler):
+        self.send = lambda some: handler((0.0, some))
+
+    def unsubscribe_topic(self, topic):
+        self.send = None
+
+    def submit(self, task, *given, key, pure):
+        future = SimpleNamespace(status="finished", release=lambda: None)
+        if task is not results_of.__globals__["run_chunk"]:
+            future.result = lambda: task(*given)
+            return future
+        chunk = unpack(given[0])
+        self.chunks.append(chunk.numbers)
+
+        def done(tell):
+            if not self.poison.isdisjoint(chunk.numbers):
+                future.status, future.exception = "error", lambda: Killed()
+            elif not self.lost.isdisjoint(chunk.numbers):
+                self.lost -= set(chunk.numbers)
+                future.status = "cancelled"
+            else:
+                found = results_of(chunk, [one.result() for one in given[1]], self.send, "here")
+                if self.twice:
+                    self.send((chunk.name, found[1]))
+                future.result = lambda: found
+            tell(future)
+
+        future.add_done_callback = done
+        return future
+
+
+def handed_out(client, count=40):
+    cases = Cases(count, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
+    return list(HandOut(client, cases, Poisonous(), RunOptions()).results())
+
+
+def test_a_chunk_that_kills_its_workers_is_cut_down_to_the_case():
+    client = Client(poison=[7, 31])
+    found = dict(handed_out(client))
+    assert len(found) == 40
+    assert {n for n, one in found.items() if one.outcome.label == "failed"} == {7, 31}
+    assert [found[n].peak_top_displacement for n in range(6)] == [1.0 + n for n in range(6)]
+    assert sorted(client.chunks[-2:]) == [[7], [31]]  # once more, each alone
+
+
+def test_what_was_suspected_only_because_it_was_beside_is_computed_in_the_end():
+    client = Client(poison=[7])
+    cases = Cases(8, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
+    work = HandOut(client, cases, Poisonous(), RunOptions())
+    found = {}
+    for number, measures in work.results():
+        found[number] = measures
+        if len(found) == 7:  # what killed the workers was something else
+            client.poison.clear()
+    assert found[7].outcome.label == "rocked"
+
+
+def test_lost_chunks_are_sent_again_and_results_that_come_twice_count_once():
+    found = handed_out(Client(lost=[3, 20], twice=True))
+    assert sorted(number for number, _ in found) == list(range(40))
+
+
+def test_chunks_are_about_as_long_as_they_should_be():
+    client = Client()
+    handed_out(client, 60_000)
+    sizes = [len(one) for one in client.chunks]
+    assert sizes[0] == 64
+    assert max(sizes) <= 20_000
+    assert all(after <= 8 * max(sizes[: k + 1]) for k, after in enumerate(sizes[1:]))
+    few = Client(threads=30)
+    handed_out(few, 40)
+    assert len(few.chunks) >= 20  # as many workers as there are have something to do
+
+
+def test_a_worker_with_another_law_is_refused_in_a_sentence():
+    chunk = Chunk("a", ("0.0", "other"), Poisonous(), RunOptions(), [0], [COLUMN], [0], [0], [1.0], ["m"])
+    with pytest.raises(st.InputError, match="the worker at tcp://there computes with stylobate"):
+        results_of(unpack(pack(chunk)), [(0.1, np.zeros(3), None, None)], print, "tcp://there")
+    assert law()[0] == st.__version__
+
+
+def test_a_scheduler_that_is_gone_is_one_sentence():
+    client = Client(threads=0)
+    client.status = "closed"
+    with pytest.raises(st.errors.StylobateError, match="the Dask scheduler is gone"):
+        handed_out(client)
+
+
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:1", "nowhere", ""])
+def test_an_unreachable_scheduler_is_one_sentence(address, monkeypatch, capsys):
+    pytest.importorskip("distributed")
+    assert module.PATIENCE < 8.0
+    monkeypatch.setattr(module, "PATIENCE", 0.5)
+    grid = ["--frequencies", "1:2:2", "--amplitudes", "0.1g:0.3g:3"]
+    started = time.monotonic()
+    assert call(["domain", "paper-monolithic", *grid, "--dask", address]) == 2
+    said = capsys.readouterr().err
+    assert said.count("\n") == 1
+    assert f"no Dask scheduler answers at {address!r}" in said
+    assert time.monotonic() - started < 8.0
+
+
+def test_without_dask_the_remedy_is_named(monkeypatch):
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(st.InputError, match=r"install stylobate\[cluster\]"), on_cluster("local"):
+        pass
