@@ -7,7 +7,7 @@ import queue
 import threading
 from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from ..models.base import Case, Model
@@ -36,7 +36,8 @@ def on_cluster(
     Parameters
     ----------
     address : str
-        Of the scheduler, such as ``tcp://10.0.0.1:8786``; ``local`` starts workers on this machine for the time of the block.
+        Of the scheduler, such as ``tcp://10.0.0.1:8786``; ``local`` starts workers on this machine, and ends them with the
+        block.
     workers : int, optional
         Of a local cluster, each of one thread; as many as cores by default.
     say : callable, optional
@@ -73,7 +74,7 @@ def on_cluster(
 
 def _connect(client: type[Client], address: str) -> Client:
     """A client of the scheduler at an address, or the sentence that there is none; within :data:`PATIENCE`."""
-    from distributed.comm import get_address_host_port
+    from distributed.comm.addressing import get_address_host_port
 
     answers: queue.SimpleQueue = queue.SimpleQueue()
 

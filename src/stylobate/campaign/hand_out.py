@@ -13,7 +13,7 @@ import time
 import uuid
 from collections import OrderedDict, deque
 from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..errors import InputError, StylobateError
 from ..models.base import Case, Model, RunOptions
@@ -22,8 +22,8 @@ from ..motion import Motion
 from ..response import Measures
 from .chunk import Chunk, law, pack, run_chunk, samples, unpack
 
-if TYPE_CHECKING:
-    from distributed import Client, Future
+#: A client and a future of ``distributed``, whose methods are typed for coroutines as well.
+Client = Future = Any
 
 #: A chunk takes about so long [s], and is at most so many times as large as what has been timed.
 LENGTH, GROWTH = 10.0, 8

@@ -11,6 +11,7 @@ import subprocess
 import sys
 import tempfile
 from contextlib import suppress
+from typing import Any
 
 from ..errors import StylobateError
 
@@ -71,14 +72,13 @@ class LocalWorkers:
 
 def serve(count: int) -> None:
     """Be the process of the scheduler, until the one that started it closes the pipe or ends."""
-    import dask
+    from dask.config import set as setting
     from distributed import LocalCluster
 
     with tempfile.TemporaryDirectory(prefix="stylobate-workers-", ignore_cleanup_errors=True) as place:
-        with dask.config.set({"distributed.scheduler.allowed-failures": 1}):
-            cluster = LocalCluster(
-                n_workers=count, threads_per_worker=1, processes=True, dashboard_address=None, local_directory=place
-            )
+        with setting({"distributed.scheduler.allowed-failures": 1}):
+            how: dict[str, Any] = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
+            cluster = LocalCluster(n_workers=count, local_directory=place, **how)
         print(cluster.scheduler_address, flush=True)
         nothing = os.open(os.devnull, os.O_WRONLY)
         for stream in (1, 2):
