@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from validation.conservation import first_impact
+from validation.conservation import first_impact, rounding_shows
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint, preset
 from stylobate.constants import g
@@ -101,27 +101,20 @@ def test_every_term_of_the_ledger_is_there():
 @pytest.mark.parametrize("column", [MONOLITH, TWELVE, FOUND], ids=["monolith", "12 drums", "found"])
 @pytest.mark.parametrize("points", [2, 5])
 def test_mirrored_input_gives_the_mirrored_motion(column, points):
-    """Until the first impact no further apart than two runs whose inputs differ by 1e-10: both differences only grow.
+    """As long as rounding stays below 1e-12: to 1e-11, a ten-millionth of what the joints have opened by then.
 
-    Sums that are mirrored round otherwise, by some 1e-15 at every step; what the motion makes of that, on this processor
-    or another, the second run measures.
+    Sums that are mirrored round otherwise. What the motion makes of that, on this processor or another, runs say whose
+    input differs in its last bit; rounding enters at each of thousands of steps, so that it differs from run to run by a
+    few times, not by ten.
     """
     model, motion = DistinctElement2D(points=points), harmonic(1.0, 0.4 * g, 2.0)
     right, left = simulate(column, motion, model), simulate(mirrored(column), motion.scaled(-1.0), model)
-    beside = simulate(column, motion.scaled(1.0 + 1e-10), model)
-    end = first_impact(right) - 2
-    if points > 2 and column is TWELVE:  # the faces of twelve joints open point by point, each with small impacts
-        end = min(end, int(np.searchsorted(right.time, 0.45)))
-    if column is FOUND:  # joints that bear unevenly open one by one from the start
-        end = min(end, int(np.searchsorted(right.time, 0.26)))
-    before = slice(0, end)
+    before = slice(0, min(first_impact(right) - 2, rounding_shows(right, column, motion, model)))
     assert right.peak_top_displacement > 0.1
-    assert right.time[end] > 0.25
+    assert right.joint_opening[before].max() > 1e-4
     for name, sign in (("drum_x", -1.0), ("drum_z", 1.0), ("drum_rotation", -1.0), ("joint_opening", 1.0)):
         a, b = getattr(right, name)[before], getattr(left, name)[before]
-        apart = np.abs(getattr(beside, name)[before] - a).max()
-        # 1e-13: the rounding of heights of metres over the steps of a quarter of a second, which the second run shares
-        np.testing.assert_allclose(b, sign * a, rtol=0, atol=apart + 1e-13)
+        np.testing.assert_allclose(b, sign * a, rtol=0, atol=1e-11)
 
 
 @pytest.mark.parametrize("column", [MONOLITH, TWELVE], ids=["monolith", "12 drums"])

@@ -177,21 +177,33 @@ def first_impact(response) -> int:
     return rows
 
 
+def rounding_shows(response, column: Column, motion, model) -> int:
+    """Row from which one of two runs whose input differs in its last bit is more than 1e-12 away [m, rad]."""
+    rows = len(response.time)
+    for last_bit in (2.0**-52, -(2.0**-53)):
+        beside = simulate(column, motion.scaled(1.0 + last_bit), model)
+        both = min(len(response.time), len(beside.time))  # a run ends where its collapse is certain
+        for name in ("drum_x", "drum_z", "drum_rotation", "joint_opening"):
+            apart = np.abs(getattr(beside, name)[:both] - getattr(response, name)[:both]).max(axis=1) > 1e-12
+            rows = min(rows, int(np.argmax(apart))) if apart.any() else rows
+    return rows
+
+
 @case(
     "dem2d",
     "mirrored input, 1 and 12 drums at 0.4 g: largest difference of the mirrored displacements until the first "
-    "impact [m]",
-    AtMost(2e-11),
+    "impact, as long as the last bit of the input makes less than 1e-12 [m]",
+    AtMost(1e-11),
     source="symmetry",
-    reason="impacts make rounding grow",
+    reason="opening joints and impacts make rounding grow, from run to run by a few times more or less",
 )
 def mirror_dem():
     worst = 0.0
     for column in (MONOLITH, TWELVE):
         motion = harmonic(1.0, 0.4 * g, 2.0)
         right, left = (simulate(column, motion.scaled(sign), DistinctElement2D()) for sign in (1.0, -1.0))
-        before = slice(0, first_impact(right) - 2)
-        assert right.time[before][-1] > 0.4
+        before = slice(0, min(first_impact(right) - 2, rounding_shows(right, column, motion, DistinctElement2D())))
+        assert right.joint_opening[before].max() > 1e-3
         worst = max(worst, float(np.abs(right.drum_x[before] + left.drum_x[before]).max()))
     return worst
 
