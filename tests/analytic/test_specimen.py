@@ -135,13 +135,14 @@ def test_a_batch_has_the_bits_of_single_runs_whatever_its_neighbours():
 
 
 def test_the_ledger_closes_to_second_order():
-    motions = [shaken(a, 0.5 * a, 2.0) for a in np.linspace(0.25, 0.3, 16)]
+    """Half the step, a quarter of the imbalance: 4.0 over 256 rocking bodies; of 128 the ratio scatters by 0.3."""
+    motions = [shaken(a, 0.5 * a, 2.0) for a in np.linspace(0.25, 0.3, 128)]
     means = []
     for share in (0.8, 0.4):
         table = st.simulate_many(box(0.8, 0.6, 3.0, 0.4), motions, st.DistinctElement3D(step_factor=share))
         means.append(float(np.sqrt((table["energy_imbalance"] ** 2).mean())))
     assert means[1] < 1e-2
-    assert means[0] / means[1] > 2.5
+    assert means[0] / means[1] > 2.8
 
 
 def test_free_fall_turns_as_a_free_body():
