@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from validation.statics import inclined
 
-from stylobate.analysis.limit import gravity_forces, limit_analysis
+from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.pushover import pushover
+from stylobate.analysis.static_loads import gravity_forces
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.column.as_found import AsFound
 from stylobate.column.found_geometry import gravity_vector

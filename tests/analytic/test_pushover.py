@@ -8,8 +8,9 @@ import pytest
 from validation.statics import COLUMNS, MULTIPLIERS, tapered
 
 from stylobate.analysis.equilibrium_path import EquilibriumPath
-from stylobate.analysis.limit import crushing_forces, gravity_forces, horizontal_forces, limit_analysis
+from stylobate.analysis.limit import limit_analysis
 from stylobate.analysis.pushover import STATES, pushover
+from stylobate.analysis.static_loads import crushing_forces, gravity_forces, horizontal_forces
 from stylobate.column import Column, Drum, Joint, preset
 from stylobate.errors import InputError
 from stylobate.models.rigid_block.block_stack import BlockStack

@@ -8,8 +8,8 @@ import numpy as np
 
 from ..errors import InputError
 from ..models.rigid_block.block_stack import BlockStack
-from .limit import joint_forces
 from .pushover_result import PushoverResult
+from .static_loads import joint_forces
 
 #: Newton: largest number of iterations and of halvings of a correction, and the tolerance [weight of the column].
 MAX_ITERATIONS, MAX_HALVINGS, TOLERANCE = 60, 12, 1e-9

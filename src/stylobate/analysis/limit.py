@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column import Column
-from ..constants import DEGREE
-from ..errors import InputError, StylobateError, check_range
+from ..errors import InputError, StylobateError
 from ..models.rigid_block.block_stack import BlockStack
+from .static_loads import check_standing, contact_limits, crushing_forces, gravity_forces, horizontal_forces
 
 #: A joint's strength counts as used up when less than this share of it is left [-].
 ACTIVE = 1e-7
@@ -83,13 +83,14 @@ def limit_analysis(
     *,
     pattern: Sequence[float] | None = None,
     base_tilt: float = 0.0,
+    direction: float = 0.0,
     flow: str = "non-associated",
     compressive_strength: float | None = None,
 ) -> LimitResult:
     """Collapse multiplier of horizontal forces on a column of rigid blocks, from below and from above.
 
-    The forces push towards +x. For columns, which are symmetric, the other direction is the same with the other tilt; a
-    stack of quadrilaterals is to be mirrored for it.
+    The forces push towards +x, or to the other side with ``direction=180``. What is found then is told as seen in a
+    mirror: the forces push to the right again.
 
     Parameters
     ----------
@@ -97,8 +98,12 @@ def limit_analysis(
     pattern : sequence of float, optional
         Relative horizontal force on each drum, bottom to top; proportional to mass by default. Their sum is λ W.
     base_tilt : float
-        Tilt of the base, downhill towards +x, where the forces push [degrees]; a negative one makes them push uphill.
-        A column as found counts its ``base_tilt`` the other way, counter-clockwise.
+        Tilt of the base, downhill towards +x, where the forces push along it [degrees]; a negative one makes them push
+        uphill. A column as found brings its own ``base_tilt``, counted the other way, counter-clockwise; its forces are
+        horizontal.
+    direction : {0, 180}
+        Where the forces push to [degrees], in the plane; in space see
+        :func:`stylobate.analysis.limit_directions.limit_in_space`.
     flow : {"non-associated", "associated"}
         Flow rule of friction in the mechanism: sliding without or with dilatancy tan φ. In a stack the joint forces
         follow from equilibrium alone, so that the multiplier is the same.
@@ -116,7 +121,7 @@ def limit_analysis(
     """
     if flow not in FLOWS:
         raise InputError(f"flow is {flow!r}; allowed are {', '.join(FLOWS)}.")
-    stack = column if isinstance(column, BlockStack) else BlockStack.of_column(column)
+    stack = towards(column, direction)
     strength = crushing_forces(stack, compressive_strength)
     dead = gravity_forces(stack, base_tilt)
     live = horizontal_forces(stack, pattern)
@@ -134,101 +139,18 @@ def limit_analysis(
     return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, flow)
 
 
-# -- loads, shared with the pushover analysis -------------------------------------------------------------------------
-
-
-def gravity_forces(stack: BlockStack, base_tilt: float = 0.0) -> np.ndarray:
-    """Weight of each block in the frame of the base [N, N, N m], shape (n, 3)."""
-    tilt = check_range("base_tilt", base_tilt, -60.0, 60.0, unit="degrees") * DEGREE
-    weight = stack.mass * stack.gravity
-    return np.column_stack((weight * np.sin(tilt), -weight * np.cos(tilt), np.zeros(stack.n)))
-
-
-def horizontal_forces(stack: BlockStack, pattern: Sequence[float] | None = None) -> np.ndarray:
-    """Horizontal forces for λ = 1 g: their sum is the weight [N, N, N m], shape (n, 3)."""
-    share = stack.mass if pattern is None else np.asarray(pattern, dtype=float)
-    if share.shape != (stack.n,):
-        raise InputError(
-            f"the load pattern has {share.size} values for {stack.n} drums; give one value per drum, bottom to top."
-        )
-    if not np.isfinite(share).all() or (share < 0.0).any() or share.sum() <= 0.0:
-        raise InputError("the load pattern must hold finite values ≥ 0 with a positive sum; give relative forces.")
-    forces = np.zeros((stack.n, 3))
-    forces[:, 0] = share / share.sum() * stack.weight
-    return forces
-
-
-def crushing_forces(stack: BlockStack, compressive_strength: float | None) -> np.ndarray:
-    """f_c A of each joint [N], infinite without a limit, shape (n,)."""
-    if compressive_strength is None:
-        return np.full(stack.n, np.inf)
-    return stack.area * check_range(
-        "compressive_strength",
-        compressive_strength,
-        0.0,
-        1e12,
-        unit="Pa",
-        open_low=True,
-        remedy="leave it out for none",
-    )
-
-
-def joint_forces(stack: BlockStack, loads: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Compression N, shear V on the part above, and eccentricity of N in each joint under given loads, by equilibrium.
-
-    Parameters
-    ----------
-    stack : BlockStack
-    loads : array
-        Forces and moment on each block [N, N, N m], shape (n, 3).
-
-    Returns
-    -------
-    tuple of array
-        [N], [N], [m], each of shape (n,); the eccentricity is NaN where N is not positive.
-    """
-    forces = np.linalg.solve(stack.compatibility().T, -loads.ravel()).reshape(-1, 3)
-    n = forces[:, 0]
-    return n, forces[:, 1], np.where(n > 0.0, forces[:, 2] / np.where(n > 0.0, n, 1.0), np.nan)
-
-
-def check_standing(stack: BlockStack, dead: np.ndarray, strength: np.ndarray, base_tilt: float = 0.0) -> None:
-    """Refuse a column that cannot stand under its own weight.
+def towards(column: Column | BlockStack, direction: float) -> BlockStack:
+    """The stack of a column, seen in a mirror where the forces push to the left.
 
     Raises
     ------
     InputError
-        Names the joint, what is needed, what there is, and the remedy.
+        A direction out of the plane.
     """
-    n, v, e = joint_forces(stack, dead)
-    left, right = contact_limits(stack)
-    tilt = f" on a base tilted by {base_tilt:g} degrees" if base_tilt else ""
-    for i in range(stack.n):
-        where = f"joint {i + 1}"
-        if n[i] >= strength[i]:
-            raise InputError(
-                f"{where} crushes under the column's own weight: it carries {n[i]:.4g} N and bears f_c A = "
-                f"{strength[i]:.4g} N; give compressive_strength above {n[i] / stack.area[i]:.4g} Pa."
-            )
-        share = 1.0 - n[i] / strength[i]
-        if abs(v[i]) > stack.friction[i] * n[i] + stack.cohesion[i] + 1e-12 * n[i]:
-            raise InputError(
-                f"{where} slides under the column's own weight{tilt}: it needs a friction coefficient of "
-                f"{(abs(v[i]) - stack.cohesion[i]) / n[i]:.4g} and has {stack.friction[i]:.4g}; raise the friction "
-                "or lower the tilt."
-            )
-        if not left[i] * share <= e[i] <= right[i] * share:
-            raise InputError(
-                f"the part above {where} overturns under its own weight{tilt}: its weight acts {e[i]:.4g} m from the "
-                f"middle of the joint, allowed is {left[i] * share:.4g} to {right[i] * share:.4g} m; lower the tilt."
-            )
-
-
-def contact_limits(stack: BlockStack) -> tuple[np.ndarray, np.ndarray]:
-    """Left and right end of each contact section, from the joint's middle [m], each of shape (n,)."""
-    left = np.maximum(stack.upper_reach[:, 0], stack.lower_reach[:, 0])
-    right = np.minimum(stack.upper_reach[:, 1], stack.lower_reach[:, 1])
-    return left, right
+    stack = column if isinstance(column, BlockStack) else BlockStack.of_column(column)
+    if direction % 360.0 not in (0.0, 180.0):
+        raise InputError(f"direction is {direction:g} degrees; allowed in the plane are 0 (to the right) and 180.")
+    return stack.mirrored() if direction % 360.0 else stack
 
 
 # -- the programmes ---------------------------------------------------------------------------------------------------

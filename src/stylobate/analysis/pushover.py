@@ -9,8 +9,9 @@ from ..errors import InputError, check_range
 from ..models.rigid_block.block_stack import BlockStack
 from .elastic_stability import check_stable
 from .equilibrium_path import EquilibriumPath
-from .limit import check_standing, crushing_forces, gravity_forces, horizontal_forces
+from .limit import towards
 from .pushover_result import STATES, PushoverResult
+from .static_loads import check_standing, crushing_forces, gravity_forces, horizontal_forces
 
 __all__ = ["CONTROLS", "STATES", "PushoverResult", "pushover"]
 
@@ -25,12 +26,13 @@ def pushover(
     geometric: bool = True,
     to: float | None = None,
     base_tilt: float = 0.0,
+    direction: float = 0.0,
     compressive_strength: float | None = None,
 ) -> PushoverResult:
     """Follow the equilibrium of a column under its weight and growing horizontal forces, over the peak and down.
 
-    The forces push towards +x. For columns, which are symmetric, the other direction is the same with the other tilt; a
-    stack of quadrilaterals is to be mirrored for it.
+    The forces push towards +x, or to the other side with ``direction=180``. What is found then is told as seen in a
+    mirror: the forces push to the right again.
 
     Parameters
     ----------
@@ -46,8 +48,11 @@ def pushover(
         path is followed until the multiplier is zero or the top has moved by two base widths (geometric), or to a tenth
         of the base width; and on from there while the multiplier still rises.
     base_tilt : float
-        Tilt of the base, downhill towards +x, where the forces push [degrees]; a negative one makes them push uphill.
-        A column as found counts its ``base_tilt`` the other way, counter-clockwise.
+        Tilt of the base, downhill towards +x, where the forces push along it [degrees]; a negative one makes them push
+        uphill. A column as found brings its own ``base_tilt``, counted the other way, counter-clockwise; its forces are
+        horizontal.
+    direction : {0, 180}
+        Where the forces push to [degrees].
     compressive_strength : float, optional
         f_c of the joints [Pa]; unlimited by default.
 
@@ -65,7 +70,7 @@ def pushover(
     """
     if control not in CONTROLS:
         raise InputError(f"control is {control!r}; allowed are {', '.join(CONTROLS)}.")
-    stack = column if isinstance(column, BlockStack) else BlockStack.of_column(column)
+    stack = towards(column, direction)
     if to is None:
         end = (2.0 if geometric else 0.1) * float(stack.width[0])
     else:

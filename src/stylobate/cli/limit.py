@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from ..errors import InputError
 from . import options as o
 from .pushover import Pattern, Strength, Tilt, mechanism_rows, the_loads
 
 if TYPE_CHECKING:
     from ..analysis.limit import LimitResult
+    from ..analysis.limit_directions import LimitByDirection
 
 
 def limit(
@@ -18,6 +20,14 @@ def limit(
     flow: Annotated[
         str, typer.Option("--flow", metavar="RULE", help="Friction in the mechanism: non-associated or associated.")
     ] = "non-associated",
+    directions: Annotated[
+        str | None,
+        typer.Option(
+            "--directions",
+            metavar="A:A:N",
+            help="In space: where the forces push to, such as 0:345:24, from x towards y.",
+        ),
+    ] = None,
     pattern: Pattern = None,
     tilt: Tilt = "0",
     compressive_strength: Strength = None,
@@ -27,38 +37,77 @@ def limit(
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.
 
-    Under horizontal forces to the right, by a static and a kinematic linear programme.
+    Under horizontal forces to the right, by a static and a kinematic linear programme. A column as found: in both
+    directions, or all round in space, and the weakest of them; so any column with --directions.
     """
     from ..analysis.limit import limit_analysis
+    from ..analysis.limit_directions import limit_directions
     from ..column.files import load_column
+    from ..motion.ranges import azimuth_range
     from . import console
 
     o.the_threads(threads)
     stone = load_column(column)
     loads = the_loads(pattern, tilt, compressive_strength)
-    with console.folder(out, "limit.json", "limit") as folder:
-        found = limit_analysis(stone, flow=flow, **loads)
-        summary, files = summarize(found), []
+    azimuths = None if directions is None else azimuth_range(directions)
+    around = azimuths is not None or bool(stone.as_found)
+    if around and loads != the_loads(None, "0", None) and (azimuths is not None or not stone.as_found.in_plane):
+        raise InputError(
+            "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
+            "--directions out for a column found in the plane."
+        )
+    with console.folder(out, "limit.json", "limit", "directions") as folder:
+        all_round = limit_directions(stone, azimuths, **loads) if around else None
+        plane = all_round is None or all_round.dims == "xz"
+        weakest = 0.0 if all_round is None else all_round.weakest.azimuth
+        found = limit_analysis(stone, flow=flow, direction=weakest, **loads) if plane else None
+        summary, files = ({} if found is None else summarize(found)), []
+        if all_round is not None:
+            summary = around_summary(all_round) | summary
         if folder is not None:
             from .. import plots
-            from ..models.rigid_block.block_stack import BlockStack
+            from ..analysis.limit import towards
 
-            files = [
-                console.write_json(folder / "limit.json", summary),
-                *plots.save(plots.draw_mechanism(BlockStack.of_column(stone), found), folder / "limit"),
-            ]
+            files = [console.write_json(folder / "limit.json", summary)]
+            if found is not None:
+                files += plots.save(plots.draw_mechanism(towards(stone, weakest), found), folder / "limit")
+            if all_round is not None:
+                files += plots.save(plots.draw_limit_directions(all_round, stone.name), folder / "directions")
             summary["files"] = [str(file) for file in files]
     if as_json:
         console.emit(summary)
         return
-    modes = "; ".join(f"joint {item.joint} {item.mode}" for item in found.active)
-    facts = {
-        "column": stone.name,
-        "static and kinematic bound": f"{found.lower:.6g} and {found.upper:.6g} g",
-        "mechanism": modes,
-        "joints at their strength": ", ".join(map(str, found.at_limit)),
+    facts = {"column": stone.name}
+    sentence = f"The column becomes a mechanism at {summary['collapse_multiplier_g']:.4g} g"
+    if all_round is not None:
+        weak = all_round.weakest
+        sentence += f", pushed towards {weak.azimuth:g} degrees"
+        facts["weakest direction"] = f"{weak.azimuth:g} degrees from x towards y: joint {weak.joint} {weak.mode}"
+        most = int(all_round.multipliers.argmax())
+        facts["strongest direction"] = f"{all_round.azimuths[most]:g} degrees: {all_round.multipliers[most]:.4g} g"
+    if found is not None:
+        facts |= {
+            "static and kinematic bound": f"{found.lower:.6g} and {found.upper:.6g} g",
+            "mechanism": "; ".join(f"joint {item.joint} {item.mode}" for item in found.active)
+            + (", seen from behind" if weakest else ""),
+            "joints at their strength": ", ".join(map(str, found.at_limit)),
+        }
+    console.say(f"{sentence}.", facts, files)
+
+
+def around_summary(found: LimitByDirection) -> dict:
+    """What the JSON object says of several directions."""
+    weak = found.weakest
+    return {
+        "collapse_multiplier_g": weak.multiplier,
+        "weakest_azimuth_deg": weak.azimuth,
+        "active_joints": [{"joint": weak.joint, "mode": weak.mode, "rate": None}],
+        "dims": found.dims,
+        "directions": [
+            {"azimuth_deg": one.azimuth, "multiplier_g": one.multiplier, "joint": one.joint, "mode": one.mode}
+            for one in found.limits
+        ],
     }
-    console.say(f"The column becomes a mechanism at {found.multiplier:.4g} g.", facts, files)
 
 
 def summarize(found: LimitResult) -> dict:

@@ -40,6 +40,12 @@ def pushover(
         str, typer.Option("--control", metavar="WAY", help="displacement or arc-length.")
     ] = "displacement",
     linear: Annotated[bool, typer.Option("--linear", help="Equilibrium in the undisplaced state.")] = False,
+    direction: Annotated[
+        str | None,
+        typer.Option(
+            "--direction", metavar="0|180", help="Forces to the right or to the left; the weaker one by default."
+        ),
+    ] = None,
     pattern: Pattern = None,
     tilt: Tilt = "0",
     compressive_strength: Strength = None,
@@ -49,26 +55,32 @@ def pushover(
 ) -> None:
     """Pushover curve of a column of rigid blocks.
 
-    Its weight, then horizontal forces to the right, over the peak and down to zero.
+    Its weight, then horizontal forces, over the peak and down to zero. To the right; of a column as found in the direction
+    in which the limit analysis finds it weaker.
     """
-    from ..analysis.limit import limit_analysis
+    from ..analysis.limit import limit_analysis, towards
+    from ..analysis.limit_directions import limit_directions
     from ..analysis.pushover import pushover as follow
     from ..column.files import load_column
-    from ..models.rigid_block.block_stack import BlockStack
     from . import console
 
     o.the_threads(threads)
     stone = load_column(column)
     loads = the_loads(pattern, tilt, compressive_strength)
     far = None if to is None else number("--to", to)
+    if direction is not None:
+        loads["direction"] = number("--direction", direction)
+    elif stone.as_found and stone.as_found.in_plane:
+        loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
     with console.folder(out, "pushover.csv", "pushover.json", "pushover") as folder:
         path = follow(stone, control=control, geometric=not linear, to=far, **loads)
-        summary, files = summarize(path), []
+        summary, files = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}, []
         if folder is not None:
             from .. import plots
 
             limit = limit_analysis(stone, **loads).multiplier
-            figure = plots.draw_pushover(BlockStack.of_column(stone), path, limit, stone.name)
+            stack = towards(stone, loads.get("direction", 0.0))
+            figure = plots.draw_pushover(stack, path, limit, stone.name)
             files = [
                 path.save(folder / "pushover.csv"),
                 console.write_json(folder / "pushover.json", summary),
@@ -79,6 +91,8 @@ def pushover(
         console.emit(summary)
         return
     facts = {"column": stone.name}
+    if stone.as_found:
+        facts["pushed"] = "to the left, seen from behind" if summary["direction_deg"] else "to the right"
     if path.peaked:
         sentence = f"The column gives way at {path.collapse_multiplier:.4g} g."
         facts |= {

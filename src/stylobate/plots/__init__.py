@@ -12,6 +12,7 @@ from .fragility import draw_fragility
 from .histories import draw_comparison, draw_histories
 from .ida import draw_efficiency, draw_ida
 from .joints import draw_joints
+from .limit_directions import draw_limit_directions
 from .motion import draw_motion
 from .orbit import draw_orbit
 from .probability import draw_probability
@@ -44,6 +45,7 @@ __all__ = [
     "draw_histories",
     "draw_ida",
     "draw_joints",
+    "draw_limit_directions",
     "draw_mechanism",
     "draw_motion",
     "draw_orbit",

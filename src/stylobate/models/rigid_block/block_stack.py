@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...column import Column, Joint
 from ...column.drum import section_area, section_second_moment
+from ...column.found_geometry import drum_outline, geometry
+from ...constants import DEGREE
 from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_range
 
@@ -45,8 +47,11 @@ class BlockStack:
         Middle of the topmost face [m], shape (2,).
     gravity : float
         [m/s²]
-    outlines : array
-        Corners of each block in the plane, counter-clockwise from the lower left [m], shape (n, 4, 2).
+    outlines : array or sequence of array
+        Corners of each block in the plane, counter-clockwise from the lower left [m], shape (n, 4, 2); of columns as found
+        one array (k, 2) for each block, because chips have corners too.
+    slope : float
+        Of the base as found, counter-clockwise positive [rad]; all other angles and places are along and normal to it.
     """
 
     mass: np.ndarray
@@ -66,7 +71,8 @@ class BlockStack:
     cohesion: np.ndarray
     top: np.ndarray
     gravity: float
-    outlines: np.ndarray
+    outlines: np.ndarray | Sequence[np.ndarray]
+    slope: float = 0.0
 
     @property
     def n(self) -> int:
@@ -80,9 +86,16 @@ class BlockStack:
 
     @classmethod
     def of_column(cls, column: Column) -> BlockStack:
-        """The blocks of a column: true trapezia; circular sections through their areas and second moments."""
-        column.must_be_as_built("the statics of blocks")
+        """The blocks of a column: true trapezia; circular sections through their areas and second moments.
+
+        Raises
+        ------
+        InputError
+            A column on rings, or found out of the plane.
+        """
         column.must_carry_on_whole_faces("the statics of blocks")
+        if column.as_found:
+            return cls._as_found(column)
         n = column.n
         low = np.array([drum.bottom_width for drum in column.drums]) / 2.0
         high = np.array([drum.top_width for drum in column.drums]) / 2.0
@@ -106,6 +119,64 @@ class BlockStack:
             gravity=column.gravity,
             outlines=outlines,
             **_stiffness(column.joints, column.joint_areas, column.joint_second_moments),
+        )
+
+    @classmethod
+    def _as_found(cls, column: Column) -> BlockStack:
+        """The blocks of a column as found, in axes along and normal to its base."""
+        if not column.as_found.in_plane:
+            raise InputError(
+                f"{column.name!r} is found out of the plane of x and z, and the statics of blocks are plane; "
+                "'limit' goes round it in space, 'pushover' takes no azimuths and turns."
+            )
+        at, n = geometry(column), column.n
+        along = np.column_stack((np.cos(at.lean), np.sin(at.lean)))
+        middle, width = 0.5 * (at.low + at.high), at.high - at.low
+        # of a round drum: the contact of a round face as wide as what is left of the overlap
+        share = width / column.joint_widths
+        power = 2.0 if column.section == "circular" else 1.0
+        area, second = column.joint_areas * share**power, column.joint_second_moments * share ** (power + 2.0)
+        upper, lower, outlines = np.empty((n, 2)), np.empty((n, 2)), []
+        for i, drum in enumerate(column.drums):
+            one = column.as_found.of(i + 1)
+            under = 0.5 * column.drums[i - 1].top_width if i else BASE_REACH
+            half = 0.5 * drum.bottom_width
+            upper[i] = one.offset - half + one.chip_left, one.offset + half - one.chip_right
+            lower[i] = -under, under
+            c, s = along[i]
+            outlines.append(at.centroid[i] + drum_outline(column, i) @ np.array([[c, s], [-s, c]]))
+        top = 0.5 * (outlines[-1][-1] + outlines[-1][-2])
+        return cls(
+            mass=column.masses,
+            inertia=column.inertias,
+            centroid=at.centroid,
+            joint=at.origin + middle[:, None] * along,
+            angle=at.lean,
+            width=width,
+            area=area,
+            second_moment=second,
+            upper_reach=upper - middle[:, None],
+            lower_reach=lower - middle[:, None],
+            top=top,
+            gravity=column.gravity,
+            outlines=tuple(outlines),
+            slope=column.as_found.base_tilt * DEGREE,
+            **_stiffness(column.joints, area, second),
+        )
+
+    def mirrored(self) -> BlockStack:
+        """The same stack with left and right changed."""
+        flip = np.array([-1.0, 1.0])
+        return replace(
+            self,
+            centroid=self.centroid * flip,
+            joint=self.joint * flip,
+            angle=-self.angle,
+            upper_reach=-self.upper_reach[:, ::-1],
+            lower_reach=-self.lower_reach[:, ::-1],
+            top=self.top * flip,
+            outlines=tuple(corners[::-1] * flip for corners in self.outlines),
+            slope=-self.slope,
         )
 
     @classmethod

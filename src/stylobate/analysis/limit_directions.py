@@ -1,0 +1,148 @@
+"""Limit analysis by direction: the multiplier all round a column as found, and where it is weakest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..column import Column
+from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
+from ..constants import DEGREE
+from ..errors import InputError
+from .limit import LimitResult, limit_analysis
+
+#: Directions that are looked at where nobody says which [degrees], and halvings of the multiplier.
+ALL_ROUND, HALVINGS = tuple(float(one) for one in range(0, 360, 15)), 60
+
+#: A column that bears more than this is not held by its joints alone [g].
+LARGEST = 1e3
+
+
+@dataclass(frozen=True)
+class DirectionLimit:
+    """What horizontal forces in one direction make of a column in space.
+
+    Parameters
+    ----------
+    azimuth : float
+        Where the forces push to, from x towards y [degrees].
+    multiplier : float
+        λ at which the column becomes a mechanism [g].
+    joint : int
+        That gives way first, from 1 at the base.
+    mode : str
+        ``rocking`` or ``sliding``.
+    """
+
+    azimuth: float
+    multiplier: float
+    joint: int
+    mode: str
+
+
+@dataclass(frozen=True, eq=False)
+class LimitByDirection:
+    """Result of :func:`limit_directions`: one limit for each direction."""
+
+    limits: tuple[DirectionLimit, ...]
+    dims: str
+
+    @property
+    def azimuths(self) -> np.ndarray:
+        """Where the forces push to [degrees]."""
+        return np.array([one.azimuth for one in self.limits])
+
+    @property
+    def multipliers(self) -> np.ndarray:
+        """λ [g], shape of :attr:`azimuths`."""
+        return np.array([one.multiplier for one in self.limits])
+
+    @property
+    def weakest(self) -> DirectionLimit:
+        """The direction in which least is borne; the first of equal ones."""
+        least = self.multipliers.min() * (1.0 + 1e-9)
+        return next(one for one in self.limits if one.multiplier <= least)
+
+
+def limit_directions(column: Column, azimuths: Sequence[float] | None = None, **loads: Any) -> LimitByDirection:
+    """Collapse multiplier of a column in several directions.
+
+    Parameters
+    ----------
+    column : Column
+    azimuths : sequence of float, optional
+        Where the forces push to, from x towards y [degrees]. By default both directions of the plane for a column found in
+        it, and every 15 degrees for any other.
+    **loads
+        Of :func:`stylobate.limit_analysis`, for the directions of the plane.
+
+    Raises
+    ------
+    InputError
+        A direction that is not finite, or none; a column on rings.
+    """
+    if azimuths is None and column.as_found and column.as_found.in_plane:
+        return LimitByDirection(tuple(_in_plane(column, one, loads) for one in (0.0, 180.0)), "xz")
+    asked = ALL_ROUND if azimuths is None else tuple(float(one) for one in azimuths)
+    if not asked or not np.isfinite(asked).all():
+        raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
+    return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")
+
+
+def _in_plane(column: Column, direction: float, loads: dict[str, Any]) -> DirectionLimit:
+    found = limit_analysis(column, direction=direction, **loads)
+    return DirectionLimit(direction, found.multiplier, found.governing_joint, mode_of(found))
+
+
+def mode_of(found: LimitResult) -> str:
+    """``rocking`` or ``sliding``, of the lowest joint of the mechanism."""
+    return next(item.mode.split()[0] for item in found.active if item.joint == found.governing_joint)
+
+
+def limit_in_space(column: Column, azimuth: float = 0.0) -> DirectionLimit:
+    """Collapse multiplier of horizontal forces, in proportion to mass, in one direction in space.
+
+    A stack is statically determinate: what lies above a joint presses it with one force, which must pass through the
+    overlap of its faces and within the cone of friction. A single force does not twist the joint about the point at which it
+    acts. Rigid drums, joints of unlimited strength; static and kinematic bound coincide.
+
+    Parameters
+    ----------
+    column : Column
+    azimuth : float
+        Where the forces push to, from x towards y [degrees].
+    """
+    column.must_carry_on_whole_faces("limit analysis in space")
+    at = space_geometry(column)
+    angle = azimuth * DEGREE
+    push = base_axes(column).T @ (np.cos(angle), np.sin(angle), 0.0)
+    best = DirectionLimit(azimuth, LARGEST, 0, "")
+    for joint in range(column.n):
+        if not _gives_way(column, at, joint, best.multiplier, push):
+            continue
+        low, high = 0.0, best.multiplier
+        for _ in range(HALVINGS):
+            middle = 0.5 * (low + high)
+            low, high = (low, middle) if _gives_way(column, at, joint, middle, push) else (middle, high)
+        # equal ones, as of sliding on equal joints, are told of the lowest
+        if best.joint == 0 or high < best.multiplier * (1.0 - 1e-9):
+            best = DirectionLimit(azimuth, high, joint + 1, _gives_way(column, at, joint, high, push))
+    if best.joint == 0:
+        raise InputError(
+            f"{column.name!r} bears more than {LARGEST:g} g towards {azimuth:g} degrees; no such column stands freely."
+        )
+    return best
+
+
+def _gives_way(column: Column, at: SpaceGeometry, joint: int, multiplier: float, push: np.ndarray) -> str:
+    """How a joint gives way under a multiplier; empty where it does not."""
+    load = space_load(column, at, joint, column.gravity * (upward(column) - multiplier * push))
+    law = column.joints[joint]
+    if load.normal <= 0.0:
+        return "rocking"
+    if np.hypot(*load.shear) > law.tan_phi * load.normal + law.cohesion * column.joint_areas[joint]:
+        return "sliding"
+    return "rocking" if inside_overlap(column, at, joint, load.place) < 0.0 else ""
