@@ -8,6 +8,7 @@ import numpy as np
 
 from ..errors import InputError
 from ..models.rigid_block.block_stack import BlockStack
+from .path_links import PathLinks
 from .pushover_result import PushoverResult
 from .static_loads import joint_forces
 
@@ -44,6 +45,7 @@ class EquilibriumPath:
         n = stack.n
         self.memory = np.zeros((n, 4))
         self.memory[:, 2] = 1.0
+        self.links = PathLinks(stack, geometric) if stack.links else None
         self.position, self.multiplier = np.zeros((n, 3)), 0.0
         self.force, self.stiffness = np.empty((n, 3)), np.empty((3 * n, 3 * n))
         self.after, self.report = np.empty((n, 4)), np.empty((n, 6))
@@ -51,6 +53,7 @@ class EquilibriumPath:
         self.height = float(stack.top[1])
         self.rise = 0.0
         self.kept: list[tuple] = []
+        self.link_forces: list[np.ndarray] = []
         # Rounding of positions of the size of the column causes a force of this size: a smaller tolerance cannot be met.
         rounding = 20.0 * np.finfo(float).eps * self.height * float(stack.normal_stiffness.max())
         self.tolerance = max(TOLERANCE, rounding / stack.weight)
@@ -86,7 +89,12 @@ class EquilibriumPath:
             self.after,
             self.report,
         )
-        return (self.force + self.dead + multiplier * self.live).ravel()
+        out = (self.force + self.dead + multiplier * self.live).ravel()
+        if self.links is None:
+            return out
+        loads, tangent = self.links.loads(position)
+        self.stiffness += tangent
+        return out + loads
 
     def solve(self, constraint, position: np.ndarray, multiplier: float) -> tuple[np.ndarray, float] | str:
         """Newton's method with line search for equilibrium under a constraint; what stopped it where it fails.
@@ -137,6 +145,9 @@ class EquilibriumPath:
         self.residual(position, multiplier)
         self.position, self.multiplier = position, multiplier
         self.memory[:] = self.after
+        if self.links is not None:
+            self.links.accept(position)
+            self.link_forces.append(self.links.force.copy())
         self.eccentricity = self.report[:, 1].copy()
         self.kept.append((self.top(position)[0], multiplier, position, self.report.copy(), self.memory[:, 3].copy()))
 
@@ -239,7 +250,10 @@ class EquilibriumPath:
 
     def pressed(self) -> np.ndarray:
         """Displacements under the dead load with all joints closed [m, m, rad], shape (n, 3): where Newton starts."""
-        n, v, e = joint_forces(self.stack, self.dead)
+        loads = self.dead
+        if self.links is not None:  # what they are pretensioned with
+            loads = loads + self.links.loads(np.zeros_like(self.position))[0].reshape(-1, 3)
+        n, v, e = joint_forces(self.stack, loads)
         stack = self.stack
         strain = (-n / stack.normal_stiffness, -v / stack.shear_stiffness, -n * e / stack.rotational_stiffness)
         return np.linalg.solve(stack.compatibility(), np.column_stack(strain).ravel()).reshape(-1, 3)
@@ -305,6 +319,8 @@ class EquilibriumPath:
             stop=stop,
             geometric=self.geometric,
             arms=self.height - self.stack.joint[:, 1],
+            links=tuple((one.name, one.action) for one in self.stack.links),
+            link_force=np.array(self.link_forces).reshape(len(self.kept), len(self.stack.links)),
         )
 
 

@@ -8,16 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..column import Column
-from ..errors import InputError, StylobateError
+from ..errors import InputError
 from ..models.rigid_block.block_stack import BlockStack
-from .static_loads import check_standing, contact_limits, crushing_forces, gravity_forces, horizontal_forces
-
-#: A joint's strength counts as used up when less than this share of it is left [-].
-ACTIVE = 1e-7
+from .limit_programmes import ACTIVE, Facets, equilibrium_matrix, kinematic_bound, non_associated, static_bound
+from .static_loads import check_standing, crushing_forces, gravity_forces, horizontal_forces
 
 FLOWS = ("non-associated", "associated")
-
-_TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
 
 @dataclass(frozen=True)
@@ -37,6 +33,27 @@ class ActiveJoint:
     joint: int
     mode: str
     rate: float
+
+
+@dataclass(frozen=True)
+class LinkForce:
+    """What a link holds at collapse.
+
+    Parameters
+    ----------
+    name, action : str
+        The link, and what it does: ``shear``, ``closing`` of its joint, or a ``line`` in tension.
+    force, capacity : float
+        [N]; of shear towards +x on the part below positive.
+    yields : bool
+        Whether it takes part in the mechanism with all its capacity.
+    """
+
+    name: str
+    action: str
+    force: float
+    capacity: float
+    yields: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,6 +76,8 @@ class LimitResult:
         Joints whose strength is used up, whether or not the mechanism shown uses them; counted from 1.
     flow : str
         Flow rule of the mechanism that is shown.
+    links : tuple of LinkForce
+        What each link holds at collapse.
     """
 
     multiplier: float
@@ -71,6 +90,7 @@ class LimitResult:
     eccentricity: np.ndarray
     at_limit: tuple[int, ...]
     flow: str
+    links: tuple[LinkForce, ...] = ()
 
     @property
     def governing_joint(self) -> int:
@@ -105,8 +125,9 @@ def limit_analysis(
         Where the forces push to [degrees], in the plane; in space see
         :func:`stylobate.analysis.limit_directions.limit_in_space`.
     flow : {"non-associated", "associated"}
-        Flow rule of friction in the mechanism: sliding without or with dilatancy tan φ. In a stack the joint forces
-        follow from equilibrium alone, so that the multiplier is the same.
+        Flow rule of friction in the mechanism: sliding without or with dilatancy tan φ. In a stack without links the joint
+        forces follow from equilibrium alone, so that the multiplier is the same; with links it is that of associated flow,
+        and so is the mechanism where no other one is found.
     compressive_strength : float, optional
         f_c of the joints [Pa]; unlimited by default.
 
@@ -126,17 +147,19 @@ def limit_analysis(
     dead = gravity_forces(stack, base_tilt)
     live = horizontal_forces(stack, pattern)
     check_standing(stack, dead, strength, base_tilt)
-    equilibrium = stack.compatibility()
-    facets = _Facets(stack)
-    lower, forces = _static(equilibrium, dead, live, facets)
+    equilibrium = equilibrium_matrix(stack)
+    facets = Facets(stack)
+    lower, forces = static_bound(equilibrium, dead, live, facets)
     # The crushing domain is curved: its tangents are added where the last answer left it.  (Kelley's cutting planes)
-    while facets.cut(stack, forces, strength):
-        lower, forces = _static(equilibrium, dead, live, facets)
-    upper, rates, multipliers = _kinematic(equilibrium, dead, live, facets)
-    if flow == "non-associated":
-        rates, multipliers = _non_associated(equilibrium, live, facets, forces)
+    while facets.cut(forces, strength):
+        lower, forces = static_bound(equilibrium, dead, live, facets)
+    upper, rates, multipliers = kinematic_bound(equilibrium, dead, live, facets)
+    other = non_associated(equilibrium, live, facets, forces) if flow == "non-associated" else None
+    if other is not None:
+        rates, multipliers = other
     control = _top_movement(rates)
-    return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, flow)
+    shown = "associated" if other is None else flow
+    return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, shown)
 
 
 def towards(column: Column | BlockStack, direction: float) -> BlockStack:
@@ -153,133 +176,6 @@ def towards(column: Column | BlockStack, direction: float) -> BlockStack:
     return stack.mirrored() if direction % 360.0 else stack
 
 
-# -- the programmes ---------------------------------------------------------------------------------------------------
-
-
-class _Facets:
-    """Strength of all joints as rows f · (N, V, M) ≤ k, each with the place, kind and flow of its joint."""
-
-    def __init__(self, stack: BlockStack) -> None:
-        self.rows: list[np.ndarray] = []
-        self.bound: list[float] = []
-        self.joint: list[int] = []
-        self.kind: list[str] = []
-        left, right = contact_limits(stack)
-        self.left, self.right = left, right
-        for i in range(stack.n):
-            mu, cohesion = stack.friction[i], stack.cohesion[i]
-            # M = N e: the eccentricity stays inside the contact section.  # theory/limit_analysis, strength
-            self.add(i, [-right[i], 0.0, 1.0], 0.0, "rocking right")
-            self.add(i, [left[i], 0.0, -1.0], 0.0, "rocking left")
-            # |V| ≤ c A + N tan φ; V acts on the part above: towards −x when that slides to the right.
-            self.add(i, [-mu, -1.0, 0.0], cohesion, "sliding right")
-            self.add(i, [-mu, 1.0, 0.0], cohesion, "sliding left")
-
-    def add(self, joint: int, row: Sequence[float], bound: float, kind: str) -> None:
-        self.rows.append(np.asarray(row, dtype=float))
-        self.bound.append(bound)
-        self.joint.append(joint)
-        self.kind.append(kind)
-
-    def cut(self, stack: BlockStack, forces: np.ndarray, strength: np.ndarray) -> bool:
-        """Add tangents of the crushing domain M ≤ N a (1 − N/(f_c A)) that the forces (N, V, M) violate."""
-        added = False
-        for i in map(int, np.flatnonzero(np.isfinite(strength))):
-            n, _, m = forces[i]
-            for half, sign, kind in ((self.right[i], 1.0, "rocking right"), (-self.left[i], -1.0, "rocking left")):
-                if sign * m > half * n * (1.0 - n / strength[i]) + 1e-10 * half * n:
-                    # Tangent at N: M ≤ a [N (1 − 2 n/F) + n²/F].
-                    slope, offset = half * (1.0 - 2.0 * n / strength[i]), half * n * n / strength[i]
-                    self.add(i, [-slope, 0.0, sign], offset, kind)
-                    added = True
-        return added
-
-    def matrix(self, n: int, *, dilatancy: bool = True) -> np.ndarray:
-        """Rows as one matrix of shape (facets, 3 n); without dilatancy the flow of friction has no opening."""
-        out = np.zeros((len(self.rows), 3 * n))
-        for k, (row, i, kind) in enumerate(zip(self.rows, self.joint, self.kind)):
-            out[k, 3 * i : 3 * i + 3] = row
-            if not dilatancy and kind.startswith("sliding"):
-                out[k, 3 * i] = 0.0
-        return out
-
-
-def _static(equilibrium: np.ndarray, dead: np.ndarray, live: np.ndarray, facets: _Facets) -> tuple[float, np.ndarray]:
-    """Largest λ in equilibrium with admissible joint forces (lower bound theorem)."""
-    from scipy.optimize import linprog
-
-    size = dead.size
-    scale = np.abs(dead).max()
-    balance = np.column_stack((equilibrium.T, live.ravel() / scale))
-    strength = np.column_stack((facets.matrix(size // 3), np.zeros(len(facets.rows))))
-    found = linprog(
-        np.append(np.zeros(size), -1.0),
-        A_ub=strength,
-        b_ub=np.array(facets.bound) / scale,
-        A_eq=balance,
-        b_eq=-dead.ravel() / scale,
-        bounds=(None, None),
-        method="highs",
-        options=_TIGHT,
-    )
-    _check_solved(found, "static")
-    return float(found.x[-1]), found.x[:-1].reshape(-1, 3) * scale
-
-
-def _kinematic(
-    equilibrium: np.ndarray, dead: np.ndarray, live: np.ndarray, facets: _Facets
-) -> tuple[float, np.ndarray, np.ndarray]:
-    """Smallest λ = (dissipation − power of gravity) / (power of the live load), associated flow (upper bound)."""
-    from scipy.optimize import linprog
-
-    size = dead.size
-    scale = np.abs(dead).max()
-    flow = facets.matrix(size // 3)
-    # Normality: what the joints dissipate is −(N, V, M) · B q̇, so that B q̇ + Σ γ f = 0.
-    compatible = np.column_stack((equilibrium, flow.T))
-    power = np.append(live.ravel() / scale, np.zeros(len(flow)))
-    found = linprog(
-        np.append(-dead.ravel() / scale, np.array(facets.bound) / scale),
-        A_eq=np.vstack((compatible, power)),
-        b_eq=np.append(np.zeros(size), 1.0),
-        bounds=[(None, None)] * size + [(0.0, None)] * len(flow),
-        method="highs",
-        options=_TIGHT,
-    )
-    _check_solved(found, "kinematic")
-    return float(found.fun), found.x[:size].reshape(-1, 3), found.x[size:]
-
-
-def _non_associated(
-    equilibrium: np.ndarray, live: np.ndarray, facets: _Facets, forces: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Mechanism of the facets that the joint forces use up, friction without dilatancy: the one of least movement."""
-    from scipy.optimize import linprog
-
-    size = live.size
-    scale = np.abs(live).max()
-    left_over = np.array(facets.bound) - facets.matrix(size // 3) @ forces.ravel()
-    used = left_over < ACTIVE * forces[facets.joint, 0]
-    flow = facets.matrix(size // 3, dilatancy=False)
-    compatible = np.column_stack((equilibrium, flow.T))
-    power = np.append(live.ravel() / scale, np.zeros(len(flow)))
-    found = linprog(
-        np.append(np.zeros(size), np.ones(len(flow))),
-        A_eq=np.vstack((compatible, power)),
-        b_eq=np.append(np.zeros(size), 1.0),
-        bounds=[(None, None)] * size + [(0.0, None if use else 0.0) for use in used],
-        method="highs",
-        options=_TIGHT,
-    )
-    _check_solved(found, "mechanism")
-    return found.x[:size].reshape(-1, 3), found.x[size:]
-
-
-def _check_solved(found, which: str) -> None:
-    if found.status != 0:
-        raise StylobateError(f"the {which} programme of the limit analysis was not solved: {found.message}")
-
-
 def _result(
     stack: BlockStack,
     lower: float,
@@ -287,29 +183,32 @@ def _result(
     forces: np.ndarray,
     rates: np.ndarray,
     multipliers: np.ndarray,
-    facets: _Facets,
+    facets: Facets,
     flow: str,
 ) -> LimitResult:
-    threshold = ACTIVE * multipliers.max()
-    active = [
-        ActiveJoint(facets.joint[k] + 1, facets.kind[k], float(rate))
-        for k, rate in enumerate(multipliers)
-        if rate > threshold
-    ]
-    left_over = np.array(facets.bound) - facets.matrix(stack.n) @ forces.ravel()
-    used = left_over < ACTIVE * forces[facets.joint, 0]
-    n = forces[:, 0]
+    threshold, n = ACTIVE * multipliers.max(), stack.n
+    places, kinds = facets.place, facets.kind
+    moving = [k for k, rate in enumerate(multipliers) if rate > threshold]
+    active = [ActiveJoint(places[k] + 1, kinds[k], float(multipliers[k])) for k in moving if places[k] < n]
+    yielding = {places[k] - n for k in moving if places[k] >= n and kinds[k] != "slack"}
+    joints = forces[: 3 * n].reshape(-1, 3)
+    compression = joints[:, 0]
+    links = tuple(
+        LinkForce(one.name, one.action, -float(forces[3 * n + k]), one.capacity, k in yielding)
+        for k, one in enumerate(stack.links)
+    )
     return LimitResult(
         multiplier=0.5 * (lower + upper),
         lower=lower,
         upper=upper,
         mechanism=rates,
         active=tuple(sorted(active, key=lambda item: item.joint)),
-        compression=n,
-        shear=forces[:, 1],
-        eccentricity=forces[:, 2] / np.where(n > 0.0, n, np.nan),
-        at_limit=tuple(sorted({facets.joint[k] + 1 for k in np.flatnonzero(used)})),
+        compression=compression,
+        shear=joints[:, 1],
+        eccentricity=joints[:, 2] / np.where(compression > 0.0, compression, np.nan),
+        at_limit=tuple(sorted({places[k] + 1 for k in np.flatnonzero(facets.used(forces)) if places[k] < n})),
         flow=flow,
+        links=links,
     )
 
 

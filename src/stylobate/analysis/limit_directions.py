@@ -116,6 +116,7 @@ def limit_in_space(column: Column, azimuth: float = 0.0) -> DirectionLimit:
         Where the forces push to, from x towards y [degrees].
     """
     column.must_carry_on_whole_faces("limit analysis in space")
+    column.must_be_without_links("limit analysis in space")
     at = space_geometry(column)
     angle = azimuth * DEGREE
     push = base_axes(column).T @ (np.cos(angle), np.sin(angle), 0.0)
@@ -143,6 +144,6 @@ def _gives_way(column: Column, at: SpaceGeometry, joint: int, multiplier: float,
     law = column.joints[joint]
     if load.normal <= 0.0:
         return "rocking"
-    if np.hypot(*load.shear) > law.tan_phi * load.normal + law.cohesion * column.joint_areas[joint]:
+    if np.hypot(*load.shear) > column.friction[joint] * load.normal + law.cohesion * column.joint_areas[joint]:
         return "sliding"
     return "rocking" if inside_overlap(column, at, joint, load.place) < 0.0 else ""

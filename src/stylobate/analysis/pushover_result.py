@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,6 +48,10 @@ class PushoverResult:
         Whether equilibrium is in the displaced state.
     arms : array
         Height of the top above each joint [m], shape (n,).
+    links : tuple of (str, str)
+        Name of each link and what it does: ``shear``, ``closing`` of its joint, ``line``.
+    link_force : array
+        What each of them holds [N], shape (steps, links).
     """
 
     displacement: np.ndarray
@@ -65,6 +69,8 @@ class PushoverResult:
     stop: str
     geometric: bool
     arms: np.ndarray
+    links: tuple[tuple[str, str], ...] = ()
+    link_force: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
 
     @property
     def peak(self) -> int:
@@ -140,6 +146,8 @@ class PushoverResult:
             table[f"joint_{i + 1}_opening_m"] = self.opening[:, i]
             table[f"joint_{i + 1}_slip_m"] = self.slip[:, i]
             table[f"joint_{i + 1}_eccentricity_m"] = self.eccentricity[:, i]
+        for k, (name, action) in enumerate(self.links):
+            table[f"{name}, {action}, N"] = self.link_force[:, k]
         return pandas.DataFrame(table)
 
     def save(self, path: str | Path) -> Path:

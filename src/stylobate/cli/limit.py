@@ -49,7 +49,7 @@ def limit(
     o.the_threads(threads)
     stone = load_column(column)
     loads = the_loads(pattern, tilt, compressive_strength)
-    azimuths = None if directions is None else azimuth_range(directions)
+    azimuths = None if directions is None else azimuth_range(directions).tolist()
     around = azimuths is not None or bool(stone.as_found)
     if around and loads != the_loads(None, "0", None) and (azimuths is not None or not stone.as_found.in_plane):
         raise InputError(
@@ -92,6 +92,11 @@ def limit(
             + (", seen from behind" if weakest else ""),
             "joints at their strength": ", ".join(map(str, found.at_limit)),
         }
+        facts |= {
+            one.name: f"{one.force:.4g} N of {one.capacity:.4g} N" + (", yields" if one.yields else "")
+            for one in found.links
+            if one.force or one.yields
+        }
     console.say(f"{sentence}.", facts, files)
 
 
@@ -119,5 +124,15 @@ def summarize(found: LimitResult) -> dict:
         "flow": found.flow,
         "active_joints": [{"joint": item.joint, "mode": item.mode, "rate": item.rate} for item in found.active],
         "joints_at_strength": list(found.at_limit),
+        "links": [
+            {
+                "link": one.name,
+                "action": one.action,
+                "force_n": one.force,
+                "capacity_n": one.capacity,
+                "yields": one.yields,
+            }
+            for one in found.links
+        ],
         "mechanism": mechanism_rows(found.mechanism),
     }

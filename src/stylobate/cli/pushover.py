@@ -125,6 +125,10 @@ def summarize(path: PushoverResult) -> dict:
         "steps": len(path.multiplier),
         "curve": {"displacement_m": path.displacement.tolist(), "multiplier_g": path.multiplier.tolist()},
         "mechanism": mechanism_rows(path.mechanism),
+        "links": [
+            {"link": name, "action": action, "largest_force_n": float(abs(path.link_force[:, k]).max())}
+            for k, (name, action) in enumerate(path.links)
+        ],
         "joint_states": [[STATES[state] for state in step] for step in path.states[[path.peak, -1]]],
     }
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from ...column.found_geometry import drum_outline, geometry
 from ...constants import DEGREE
 from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_range
+from .stack_links import StackLink, stack_links
 
 #: Reach of the base to either side of its joint [m]: a plane without end.
 BASE_REACH = 1.0e6
@@ -52,6 +54,8 @@ class BlockStack:
         one array (k, 2) for each block, because chips have corners too.
     slope : float
         Of the base as found, counter-clockwise positive [rad]; all other angles and places are along and normal to it.
+    links : tuple of StackLink
+        What strengthens it.
     """
 
     mass: np.ndarray
@@ -73,6 +77,7 @@ class BlockStack:
     gravity: float
     outlines: np.ndarray | Sequence[np.ndarray]
     slope: float = 0.0
+    links: tuple[StackLink, ...] = ()
 
     @property
     def n(self) -> int:
@@ -118,7 +123,8 @@ class BlockStack:
             top=np.array([0.0, column.height]),
             gravity=column.gravity,
             outlines=outlines,
-            **_stiffness(column.joints, column.joint_areas, column.joint_second_moments),
+            links=stack_links(column),
+            **_stiffness(column.joints, column.joint_areas, column.joint_second_moments, column.friction),
         )
 
     @classmethod
@@ -161,7 +167,8 @@ class BlockStack:
             gravity=column.gravity,
             outlines=tuple(outlines),
             slope=column.as_found.base_tilt * DEGREE,
-            **_stiffness(column.joints, area, second),
+            links=stack_links(column),
+            **_stiffness(column.joints, area, second, column.friction),
         )
 
     def mirrored(self) -> BlockStack:
@@ -177,6 +184,7 @@ class BlockStack:
             top=self.top * flip,
             outlines=tuple(corners[::-1] * flip for corners in self.outlines),
             slope=-self.slope,
+            links=tuple(one.mirrored() for one in self.links),
         )
 
     @classmethod
@@ -269,13 +277,15 @@ class BlockStack:
         return matrix
 
 
-def _stiffness(joints: Sequence[Joint], area: np.ndarray, second: np.ndarray) -> dict[str, np.ndarray]:
+def _stiffness(
+    joints: Sequence[Joint], area: np.ndarray, second: np.ndarray, friction: np.ndarray | None = None
+) -> dict[str, Any]:
     normal = np.array([joint.normal_stiffness for joint in joints])
     return {
         "normal_stiffness": normal * area,  # Baraldi et al., Eq. 8
         "rotational_stiffness": normal * second,
         "shear_stiffness": np.array([joint.shear_stiffness for joint in joints]) * area,
-        "friction": np.array([joint.tan_phi for joint in joints]),
+        "friction": np.array([joint.tan_phi for joint in joints]) if friction is None else friction,
         "cohesion": np.array([joint.cohesion for joint in joints]) * area,
     }
 
