@@ -112,25 +112,3 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
         assert curve["method"] == "records"
         assert curve["im"] == (im[1] if im else "pgv")
         assert curve["median_low"] < curve["median"] < curve["median_high"]
-
-
-def test_an_interrupted_ida_goes_on(tmp_path, records, capsys, monkeypatch):
-    from stylobate.analysis import ida as module
-
-    line = ("ida", tmp_path / "block.toml", records, "--model", "housner", "--runs", "8", "--threads", "1")
-    whole = said(capsys, *line, "--out", tmp_path / "whole", "--json")
-    real, calls = module.run_campaign, []
-
-    def stops(*arguments, **options):
-        calls.append(len(arguments[0]))
-        if len(calls) == 2:
-            raise KeyboardInterrupt
-        return real(*arguments, **options)
-
-    monkeypatch.setattr(module, "run_campaign", stops)
-    said(capsys, *line, "--out", tmp_path / "parts", code=130)
-    assert (tmp_path / "parts" / "progress-round-0.sqlite").is_file()
-    again = said(capsys, *line, "--out", tmp_path / "parts", "--json")
-    assert again["capacities"] == whole["capacities"]
-    runs = [(tmp_path / one / "runs.csv").read_text() for one in ("whole", "parts")]
-    assert runs[0] == runs[1]

@@ -61,10 +61,11 @@ def commands(records):
         "records": (["critical", "paper-monolithic", *HOUSNER, *grid, "--motion", str(records)], 15),
         "suite": (["suite", "paper-monolithic", str(records), *HOUSNER], 3),
         "domain": (["domain", "paper-monolithic", *HOUSNER, *domain], 6),
+        "ida": (["ida", "paper-monolithic", str(records), *HOUSNER, "--runs", "5", "--largest-factor", "5"], 15),
     }
 
 
-@pytest.mark.parametrize("name", ["critical", "records", "suite", "domain"])
+@pytest.mark.parametrize("name", ["critical", "records", "suite", "domain", "ida"])
 def test_what_is_finished_is_kept_and_the_same_command_goes_on(name, records, counted, tmp_path, capsys):
     command, runs = commands(records)[name]
     whole, out = tmp_path / "whole", tmp_path / "out"

@@ -69,7 +69,7 @@ def one(rng: random.Random, folder: Path) -> Tried:
     if name not in _whole:
         with tempfile.TemporaryDirectory() as other:
             started = time.monotonic()
-            end(start(name, Path(other)))
+            end(start(COMMANDS[name], Path(other)))
             _whole[name] = time.monotonic() - started, tables(Path(other) / "out")
     length, whole = _whole[name]
     out = folder / "out"
@@ -79,23 +79,14 @@ def one(rng: random.Random, folder: Path) -> Tried:
         (out / foreign).write_text(f"of somebody else: {foreign}")
     signals, took = [], []
     for _ in range(rng.randrange(1, 4)):
-        process = start(name, folder)
+        process = start(COMMANDS[name], folder)
         time.sleep(rng.uniform(0.2, 1.1) * length)
         number = rng.choice([signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
         signals.append(number.name)
-        sent, told = time.time(), time.monotonic()
-        process.send_signal(number)
-        _, said = process.communicate(timeout=60)
-        if process.returncode == 130:
-            took.append(time.monotonic() - told)
-        if number != signal.SIGKILL and time.monotonic() - told > ANSWER:
-            raise Fault(f"{name}: {number.name} was answered after {time.monotonic() - told:.1f} s")
-        if process.returncode not in (0, 130, -number) or "Traceback" in said:
-            raise Fault(f"{name}: {number.name} ended with {process.returncode}: {said}")
-        if process.returncode == 130 and len(said.splitlines()) != 1:
-            raise Fault(f"{name}: not one sentence: {said}")
+        sent = time.time()
+        took += kill(process, number, name)
         lost(folder / "notes", sent)
-    end(start(name, folder))
+    end(start(COMMANDS[name], folder))
     for foreign in others:
         if (out / foreign).read_text() != f"of somebody else: {foreign}":
             raise Fault(f"{name}: {foreign} is not as it was")
@@ -110,8 +101,23 @@ def one(rng: random.Random, folder: Path) -> Tried:
     return Tried(f"{len(signals)} kills", numbers={"answers to a signal [s]": took})
 
 
-def start(name: str, folder: Path) -> subprocess.Popen:
-    """The command as a process; its results go to ``out``."""
+def kill(process: subprocess.Popen, number: signal.Signals, name: str) -> list[float]:
+    """Send a signal to a command, whose answer must be quick and one sentence; how long it took [s], of an interrupt."""
+    told = time.monotonic()
+    process.send_signal(number)
+    _, said = process.communicate(timeout=60)
+    took = time.monotonic() - told
+    if number != signal.SIGKILL and took > ANSWER:
+        raise Fault(f"{name}: {number.name} was answered after {took:.1f} s")
+    if process.returncode not in (0, 130, -number) or "Traceback" in said:
+        raise Fault(f"{name}: {number.name} ended with {process.returncode}: {said}")
+    if process.returncode == 130 and len(said.splitlines()) != 1:
+        raise Fault(f"{name}: not one sentence: {said}")
+    return [took] if process.returncode == 130 else []
+
+
+def start(line: list[str], folder: Path) -> subprocess.Popen:
+    """A command as a process; its results go to ``out``."""
     records = folder / "records"
     if not records.is_dir():
         records.mkdir()
@@ -119,7 +125,7 @@ def start(name: str, folder: Path) -> subprocess.Popen:
             times = [0.01 * i for i in range(500)]
             lines = [f"{t:.2f},{(2.0 + k) * math.sin(2 * math.pi * (1 + 0.3 * k) * t):.6f}" for t in times]
             (records / f"record-{k}.csv").write_text("\n".join(["time_s,ax_m_s2", *lines, ""]))
-    arguments = [str(records) if one == "RECORDS" else one for one in COMMANDS[name]]
+    arguments = [str(records) if one == "RECORDS" else one for one in line]
     found = os.pathsep.join(filter(None, [str(Path(__file__).parents[1]), os.getenv("PYTHONPATH")]))
     command = [sys.executable, "-c", SCRIPT, str(folder / "notes"), *arguments, "--out", str(folder / "out"), "--json"]
     return subprocess.Popen(

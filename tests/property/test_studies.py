@@ -1,11 +1,8 @@
-"""Studies: nothing is computed twice or mixed, whatever kills the process; the table is the same to the bit."""
+"""Studies: nothing is computed twice or mixed; the table is the same to the bit (after kills: ``fuzz/studies.py``)."""
 
 import json
-import os
-import signal
 import subprocess
 import sys
-import time
 from contextlib import closing
 
 import numpy as np
@@ -14,9 +11,10 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.studies import StudyResult, write_table
-from stylobate.campaign import cases as study_cases
+from stylobate.campaign import digests
+from stylobate.campaign.kept import KEY
 from stylobate.campaign.ledger import Ledger
-from stylobate.campaign.plan import KEY, RUNS_FILE
+from stylobate.campaign.plan import RUNS_FILE
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
 from stylobate.motion.intensity_specs import parse_measure
@@ -89,7 +87,7 @@ def test_a_case_is_what_simulate_many_computes():
 def test_runs_of_another_law_are_never_mixed_in(tmp_path, monkeypatch):
     st.run_study(study(), tmp_path)
     assert st.run_study(study(tail=1.0), tmp_path).computed == 4
-    monkeypatch.setattr(study_cases, "source_digest", lambda: "another law")
+    monkeypatch.setattr(digests, "source_digest", lambda: "another law")
     assert st.run_study(study(), tmp_path).computed == 4
 
 
@@ -109,40 +107,6 @@ def test_levels_of_an_intensity_are_met():
         st.Study([COLUMN], [motion], [st.HousnerBlock()], (20.0,), parse_measure("pgv"))
 
 
-def test_killed_at_any_time_a_study_ends_with_the_same_table_to_the_bit(folder):
-    whole = st.run_study(read_plan(folder / "study.toml")[0])
-    assert len(whole.plan) == 240
-    out = folder / "out"
-    command = [
-        sys.executable,
-        "-c",
-        "from stylobate.cli.main import main; main()",
-        "study",
-        "run",
-        folder / "study.toml",
-        "--out",
-        out,
-        "--threads",
-        "1",
-    ]
-    kept = []
-    for number, kill in enumerate((signal.SIGKILL, signal.SIGTERM)):
-        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        before = kept[-1] if kept else 0
-        for _ in range(1200):  # until the ledger has grown, or the study is over
-            time.sleep(0.05)
-            if process.poll() is not None or ((out / "plan.npz").exists() and finished(out) > before + 20 * number):
-                break
-        if process.poll() is None:
-            os.kill(process.pid, kill)
-        process.wait(30)
-        kept.append(finished(out))
-    assert kept == sorted(kept)
-    end = st.run_study(read_plan(folder / "study.toml")[0], out)
-    assert end.computed == 240 - kept[-1]
-    assert end.table.equals(whole.table)
-
-
 def test_several_processes_on_one_folder_run_nothing_twice_and_all_of_them_end(folder):
     small = FILE.replace('"dem2d"', '"housner"').replace("realisations = 40", "realisations = 20")
     (folder / "study.toml").write_text(small)
@@ -154,7 +118,9 @@ def test_several_processes_on_one_folder_run_nothing_twice_and_all_of_them_end(f
     command += ["--threads", "1", folder / "study.toml", "--out", out]
     with closing(Ledger(out / RUNS_FILE, KEY)) as first:  # a process at work, which has made some of the runs
         for number in range(50):
-            first.record(int(whole.plan.keys[number]), {"case": whole.plan.digest(number), **whole.rows[number]})
+            first.record(
+                int(whole.plan.digests.keys[number]), {"case": whole.plan.digests[number], **whole.rows[number]}
+            )
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
         others = [subprocess.Popen(command, **pipes) for _ in range(2)]
         assert all("another process is at work" in other.stderr.readline() for other in others)
@@ -163,10 +129,6 @@ def test_several_processes_on_one_folder_run_nothing_twice_and_all_of_them_end(f
     assert sum(answer["computed"] for answer in answers) == 120 - 50
     assert StudyResult.in_folder(out).table.equals(whole.table)
     assert sorted(path.name for path in out.glob("*-lock")) == []
-
-
-def finished(folder):
-    return StudyResult.in_folder(folder).rows.finished
 
 
 def test_run_status_and_export_under_their_promised_names(folder, capsys):

@@ -5,14 +5,17 @@ from __future__ import annotations
 import math
 import time
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.runner import Stopped, run_campaign
+from ..campaign.digests import Digests, Hasher
+from ..campaign.kept import Kept
+from ..campaign.runner import Progress, Stopped
 from ..column import Column
 from ..column.scatter import Scatter
 from ..errors import InputError, OutOfRangeWarning, check_range
@@ -39,9 +42,6 @@ WARNED, LARGEST = 10.0, 20.0
 
 #: Runs of a record.
 RUNS = 14
-
-#: Called with (finished runs, most that there will be).
-Progress = Callable[[int, int], None]
 
 
 @dataclass
@@ -74,7 +74,7 @@ def ida(
     whole: bool = False,
     threads: int | None = None,
     progress: Progress | None = None,
-    ledger: Callable[[int], str | Path | None] | None = None,
+    ledger: str | Path | None = None,
 ) -> Ida:
     """Scale every record over levels of an intensity, and run the column.
 
@@ -102,8 +102,9 @@ def ida(
         As for :func:`stylobate.suite_table`.
     progress : callable, optional
         Called with (finished, most that there will be).
-    ledger : callable, optional
-        The file that keeps the finished runs of a round, by its number; a call that was stopped goes on from there.
+    ledger : path, optional
+        File that keeps finished runs: a call that was stopped goes on from there, one for other levels, records or twins
+        makes only the runs that are new. It stays for the caller to remove.
 
     Returns
     -------
@@ -142,32 +143,38 @@ def ida(
         value, peak = fact[measure.key], float(level(motion, column).max())
         start = value * (1.0 / peak) ** measure.power
         traces += [Trace(motion, one, k, value, start, [], []) for k, one in enumerate(columns)]
-    key = {"column": column.digest, "motions": [one.digest for one in taken], "im": measure.name}
-    key |= {"runs": runs, "largest": largest_factor, "replicates": replicates, "seed": seed, "scatter": str(scatter)}
     stripes = None if levels is None else sorted({float(one) for one in levels})
-    done, number, total = 0, 0, (runs if stripes is None else len(stripes)) * len(traces)
+    done, total = 0, (runs if stripes is None else len(stripes)) * len(traces)
 
     def wanted(one: Trace) -> list[float]:
         if stripes is not None:
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
-    while asked := [(one, new) for one in traces for new in wanted(one)]:
-        cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
-        found = run_campaign(
-            cases, model, tail=tail, quiet=share_of(taken, whole), threads=threads,
-            progress=None if progress is None else lambda n, _, done=done: progress(done + n, total),
-            ledger=None if ledger is None else ledger(number),
-            key=key | {"levels": [new for _, new in asked]},
-        )  # fmt: skip
-        rows = list(found.rows)
-        if found.interrupted:
-            places = [] if ledger is None else [ledger(k) for k in range(number + 1)]
-            raise Stopped(done + sum(row is not None for row in rows), total, *places)
-        for (one, new), row in zip(asked, rows):
-            one.levels.append(new)
-            one.rows.append(dict(row or {}))
-        done, number = done + len(cases), number + 1
+    kept, hasher, quiet = None, Hasher(model, tail), share_of(taken, whole)
+    try:
+        kept = Kept(None if ledger is None else Path(ledger), total)
+        while asked := [(one, new) for one in traces for new in wanted(one)]:
+            cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
+            group = np.arange(len(cases)), model, quiet
+            making = kept.run(cases, Digests(hasher.of_cases(cases, quiet)), [group], tail=tail, threads=threads)
+            rows: list[dict] = [{}] * len(cases)
+            with closing(making) as finished:
+                for number, row in finished:
+                    rows[number] = row
+                    done += 1
+                    if progress:
+                        progress(done, total)
+            for (one, new), row in zip(asked, rows):
+                one.levels.append(new)
+                one.rows.append(row)
+    except KeyboardInterrupt:
+        if kept:
+            kept.close()
+        raise Stopped(done, total, ledger) from None
+    finally:
+        if kept:
+            kept.close()
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
     table["hunted"] = stripes is None

@@ -152,7 +152,7 @@ def keep_histories(
     numbers: list[int] = sorted({*wanted.values(), *(ranked if study.keep == "histories" else [])})
     place.mkdir(exist_ok=True)
     for done, number in enumerate(numbers):
-        target = place / f"{result.plan.digest(number)}.nc"
+        target = place / f"{result.plan.digests[number]}.nc"
         if not target.is_file():
             histories_of(study, number).save(target)
         files.append(target)

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -15,13 +13,14 @@ from ..column import Column
 from ..column.scatter import Scatter, usual_scatter
 from ..constants import g
 from ..errors import InputError, check_range
-from ..kernels.jit import source_digest
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
 from ..motion.intensity_specs import IntensityMeasure
 from ..version import __version__
+from .digests import LENGTH, Digests, Hasher, digest_of_samples
+from .kept import Group
 from .plan import Plan
 from .twins import the_twins
 
@@ -135,27 +134,29 @@ class Study:
 
     def plan(self) -> Plan:
         """What is run, as plain data with the digest of every case."""
-        samples = [motion.replace(factor=1.0).digest for motion in self.motions]
         sizes = self.factors * np.array([[motion.factor] for motion in self.motions])
-        tails = [
-            [f"{digest} {quiet!r} {size!r}" for size in some]
-            for digest, quiet, some in zip(samples, self.quiet.tolist(), sizes.tolist(), strict=True)
-        ]
-        digests = np.empty((self.size, 16), dtype=np.uint8)
+        each = zip(map(digest_of_samples, self.motions), sizes.tolist(), self.quiet.tolist(), strict=True)
+        ends = [[Hasher.of_motion(samples, size, quiet) for size in some] for samples, some, quiet in each]
+        digests = np.empty((self.size, LENGTH), dtype=np.uint8)
         number = 0
         for model, columns in zip(self.models, self.stands, strict=True):
-            law = [model.name, model.parameters(), self.tail, __version__, source_digest()]
-            head = json.dumps(law, sort_keys=True, default=str)
+            hasher = Hasher(model, self.tail)
             for some in columns:
-                heads = [hashlib.sha256(f"{head} {one.digest} ".encode()) for one in some]
-                for motion in tails:
+                starts = [hasher.of_column(one) for one in some]
+                for motion in ends:
                     for end in motion:
-                        for start in heads:
-                            found = start.copy()
-                            found.update(end.encode())
-                            digests[number] = np.frombuffer(found.digest()[:16], np.uint8)
+                        for start in starts:
+                            digests[number] = np.frombuffer(Hasher.ended(start, end), np.uint8)
                             number += 1
-        return Plan(self._axes(), digests)
+        return Plan(self._axes(), Digests(digests))
+
+    def groups(self) -> Iterator[Group]:
+        """Cases that run together: of one model and one share of quiet."""
+        each = self.size // len(self.models)
+        motion = np.arange(each) // (self.shape[3] * self.shape[4]) % self.shape[2]
+        for place, model in enumerate(self.models):
+            for quiet in sorted(set(self.quiet.tolist())):
+                yield place * each + np.flatnonzero(self.quiet[motion] == quiet), model, quiet
 
     def _axes(self) -> dict[str, Any]:
         def one(motion: Motion) -> dict[str, Any]:

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
-from ..models.base import Cases, Model
-from ..response import Measures
+from ..models.base import Cases
 from ..response.rows import Rows
 from .cases import Study
-from .executor import compute
-from .ledger import Ledger, finished_runs_in
-from .plan import KEY, RUNS_FILE, Plan
+from .kept import Kept
+from .ledger import finished_runs_in
+from .plan import RUNS_FILE, Plan
 from .runner import Progress, Stopped
 
 #: Time between two looks at a ledger that another process is at work on [s].
@@ -76,35 +73,27 @@ def run_cases(
     """
     started = time.perf_counter()
     plan = study.plan()
-    book, done, first = None, 0, 0
+    ledger = None if folder is None else folder / RUNS_FILE
+    rows, kept = Rows(len(plan)), None
     try:
-        rows = Rows(len(plan))
+        kept = Kept(ledger, len(plan), None if ledger is None else _its_turn(ledger, len(plan), progress, waiting))
         if folder is not None:
-            turn = _its_turn(folder / RUNS_FILE, len(plan), progress, waiting)
-            book = Ledger(folder / RUNS_FILE, KEY, len(plan), turn)
             plan.save(folder)
-            rows = plan.known(folder / RUNS_FILE)
-        done = first = rows.finished
-        if progress:
-            progress(done, len(plan))
-        with closing(_runs(study, plan, rows, threads)) as finished:
-            for number, measures in finished:
-                row, key = measures.row(), int(plan.keys[number])
-                if book:
-                    book.record(key, {"case": plan.digest(number), **row})
-                for same in plan.numbers(key):
-                    rows[same] = row
-                    done += 1
+        cases = Cases(len(plan), study.case)
+        runs = kept.run(cases, plan.digests, study.groups(), tail=study.tail, threads=threads)
+        with closing(runs) as finished:
+            for done, (number, row) in enumerate(finished, 1):
+                rows[number] = row
                 if progress:
                     progress(done, len(plan))
     except KeyboardInterrupt:
-        if book:
-            book.close()
-        raise Stopped(done, len(plan), None if folder is None else folder / RUNS_FILE) from None
+        if kept:
+            kept.close()
+        raise Stopped(rows.finished, len(plan), ledger) from None
     finally:
-        if book:
-            book.close()
-    return StudyRows(plan, rows, done - first, time.perf_counter() - started)
+        if kept:
+            kept.close()
+    return StudyRows(plan, rows, kept.computed, time.perf_counter() - started)
 
 
 def _its_turn(
@@ -122,27 +111,3 @@ def _its_turn(
         time.sleep(LOOK)
 
     return look
-
-
-def _runs(study: Study, plan: Plan, rows: Rows, threads: int | None) -> Generator[tuple[int, Measures], None, None]:
-    """(number of the case, measures) of what is not there yet; cases of one model and one share of quiet together."""
-    todo = ~rows.made
-    for key in np.unique(plan.keys[todo]) if len(np.unique(plan.keys)) < len(plan) else ():
-        todo[plan.numbers(int(key))[1:]] = False  # the same case twice is run once
-    each = len(plan) // len(study.models)
-    motion = np.arange(len(plan)) // (study.shape[3] * study.shape[4]) % study.shape[2]
-    for place, model in enumerate(study.models):
-        for quiet in sorted(set(study.quiet.tolist())):
-            those = np.flatnonzero(todo & (study.quiet[motion] == quiet))
-            those = those[those // each == place]
-            if len(those):
-                yield from _some(study, those, model, quiet, threads)
-
-
-def _some(
-    study: Study, numbers: np.ndarray, model: Model, quiet: float, threads: int | None
-) -> Generator[tuple[int, Measures], None, None]:
-    cases = Cases(len(numbers), lambda index: study.case(int(numbers[index])))
-    with closing(compute(cases, model, tail=study.tail, quiet=quiet, threads=threads)) as finished:
-        for index, measures in finished:
-            yield int(numbers[index]), measures

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import json
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,16 +13,14 @@ import numpy as np
 from ..atomic import replacing
 from ..errors import InputError
 from ..response.rows import Rows
-from .ledger import rows_in
+from .digests import Digests
+from .kept import known
 
 if TYPE_CHECKING:
     import pandas
 
 #: Files in the folder of a study: its plan, and its finished runs.
 PLAN_FILE, RUNS_FILE = "plan.npz", "runs.sqlite"
-
-#: One ledger takes the runs of any study: what tells them apart is the digest of each case.
-KEY = {"keyed by": "digest of the case"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,12 +31,12 @@ class Plan:
     ----------
     axes : dict
         Models, columns, motions, levels, factors and realisations as plain values.
-    digests : array of uint8
-        Of each case, in the order (model, column, motion, level, realisation), shape (cases, 16).
+    digests : Digests
+        Of each case, in the order (model, column, motion, level, realisation).
     """
 
     axes: dict[str, Any]
-    digests: np.ndarray
+    digests: Digests
 
     def __len__(self) -> int:
         return len(self.digests)
@@ -50,35 +47,11 @@ class Plan:
         sizes = [len(self.axes[name]) for name in ("models", "columns", "motions", "levels")]
         return (*sizes, max(1, self.axes["realisations"]))
 
-    def digest(self, number: int) -> str:
-        """Digest of a case, 32 hexadecimal digits."""
-        return self.digests[number].tobytes().hex()
-
-    @cached_property
-    def keys(self) -> np.ndarray:
-        """Numbers of the cases in the ledger, from their digests, shape (cases,)."""
-        first = np.ascontiguousarray(self.digests[:, :8]).view(">u8")[:, 0]
-        return (first >> np.uint64(5)).astype(np.int64)  # 59 bits: 18 decimal digits hold them
-
-    @cached_property
-    def _order(self) -> tuple[np.ndarray, np.ndarray]:
-        order = np.argsort(self.keys, kind="stable")
-        return order, self.keys[order]
-
-    def numbers(self, key: int) -> list[int]:
-        """Cases with that number in the ledger: one, or several that are the same."""
-        order, keys = self._order
-        first, last = np.searchsorted(keys, [key, key + 1])
-        return order[first:last].tolist()
-
     def known(self, ledger: Path) -> Rows:
-        """Rows of the cases that a ledger holds; those of other studies and other laws in it are passed over."""
+        """Rows of the cases that a ledger holds."""
         found = Rows(len(self))
-        for key, row in rows_in(ledger, KEY):
-            digest = row.pop("case", None)
-            for number in self.numbers(key):
-                if digest == self.digest(number):
-                    found[number] = row
+        for number, row in known(ledger, self.digests):
+            found[number] = row
         return found
 
     def labels(self) -> pandas.DataFrame:
@@ -107,7 +80,9 @@ class Plan:
         """Write it into the folder of the study, whole or not at all."""
         content = io.BytesIO()
         np.savez(
-            content, axes=np.frombuffer(json.dumps(self.axes, default=str).encode(), np.uint8), digests=self.digests
+            content,
+            axes=np.frombuffer(json.dumps(self.axes, default=str).encode(), np.uint8),
+            digests=self.digests.digests,
         )
         target = folder / PLAN_FILE
         with replacing(target) as partial:
@@ -128,6 +103,6 @@ class Plan:
             raise InputError(f"{folder} is no folder of a study: it has no {PLAN_FILE}; give that of study run --out.")
         try:
             with np.load(place, allow_pickle=False) as found:
-                return cls(json.loads(found["axes"].tobytes()), found["digests"])
+                return cls(json.loads(found["axes"].tobytes()), Digests(found["digests"]))
         except Exception:  # whatever a damaged archive makes of it
             raise InputError(f"{place} is damaged; run the study again, which finds its finished runs there.") from None

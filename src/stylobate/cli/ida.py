@@ -11,9 +11,6 @@ import typer
 from ..errors import InputError
 from . import options as o
 
-#: Most rounds of levels that leave a file of finished runs.
-ROUNDS = 1000
-
 _MAGNITUDE = re.compile(r"\bM[wWlLsS]?\s?(\d\.\d)\b")
 
 
@@ -78,11 +75,12 @@ def ida(
     names = ("runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures")
     o.the_engine(context, dask, workers)
     with console.folder(out, *names) as folder:
+        ledger = console.ledger(folder)
         with console.progress("runs") as progress:
             found = analyse(
                 stone, records.motions, how, measure, **twins, levels=stripes, runs=runs, largest_factor=largest,
                 about=known, tail=after, whole=whole, threads=workers, progress=progress,
-                ledger=None if folder is None else lambda k: console.ledger(folder, f"round-{k}"),
+                ledger=ledger,
             )  # fmt: skip
         curves = found.curves(edp)
         best = which_tells_most(found.runs, edp=edp)
@@ -107,7 +105,7 @@ def ida(
             files.append(folder / "ida.json")
             result["files"] = [str(file) for file in files]
             console.write_json(files[-1], result)
-            console.done_with(*(one for k in range(ROUNDS) if (one := folder / f"progress-round-{k}.sqlite").exists()))
+            console.done_with(ledger)
     if as_json:
         console.emit(result)
         return

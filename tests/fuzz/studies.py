@@ -1,0 +1,142 @@
+"""A study of five thousand runs, killed at random times with its Dask workers: in the end its table is that of no kill.
+
+A try kills twice, the program or one of its workers, then lets the study end. At most a second of finished runs may be lost
+at each kill, nothing that is in the ledger is run again, the table must be the same to the bit, and no worker left over.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import random
+import signal
+import sqlite3
+import subprocess
+import tempfile
+import time
+from contextlib import closing, suppress
+from pathlib import Path
+
+from stylobate.analysis.studies import StudyResult
+from stylobate.campaign.plan import RUNS_FILE
+
+from .kills import end, kill, lost, start
+from .target import Fault, Target, Tried
+
+CASES = 5040
+STUDY = """
+column = "column.toml"
+model = "dem2d"
+[motions]
+files = ["wave.csv"]
+[scale]
+im = "pga"
+levels = "0.05g:1.5g:252"
+[scatter]
+realisations = 20
+friction = 0.1
+width = 0.01
+"""
+COLUMN = """name = "one"
+section = "circular"
+density = 2600.0
+[tapered]
+height = 2.4
+bottom_width = 0.5
+top_width = 0.4
+drums = 1
+[joint]
+normal_stiffness = 2.0e8
+shear_stiffness = 1.0e8
+friction_coefficient = 0.7
+"""
+
+#: Time in which workers end that have lost their program [s].
+LAST = 20.0
+
+_whole: list = []
+
+
+def one(rng: random.Random, folder: Path) -> Tried:
+    """Kill a study twice, let it end, and compare."""
+    if not _whole:
+        with tempfile.TemporaryDirectory() as other:
+            began = time.monotonic()
+            end(start(line(Path(other), []), Path(other)))
+            _whole.extend((time.monotonic() - began, StudyResult.in_folder(Path(other) / "out").table))
+    length, whole = _whole
+    options = rng.choice([[], ["--dask", "local"]])
+    what, took, there = [], [], []
+    for _ in range(2):
+        process = start(line(folder, options), folder)
+        time.sleep(rng.uniform(0.3, 1.1) * length * (1.5 if options else 1.0))
+        workers = of_cluster(process.pid) if options else []
+        if workers and rng.random() < 0.5:  # the program goes on with another one
+            with suppress(ProcessLookupError):
+                os.kill(rng.choice(workers), signal.SIGKILL)
+            what.append("worker")
+            end(process)
+            continue
+        number = rng.choice([signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
+        what.append(number.name)
+        sent = time.time()
+        took += kill(process, number, "study")
+        lost(folder / "notes", sent)
+        there.append((len(made(folder)), kept(folder)))
+        gone(workers)
+    end(start(line(folder, options), folder))
+    out = folder / "out"
+    runs = made(folder)
+    twice = [number for before, known in there for number in runs[before:] if number in known]
+    if twice or len(kept(folder)) != CASES or len(set(runs)) != CASES:
+        raise Fault(f"{len(twice)} runs were made twice, {len(kept(folder))} are in the ledger, after {what}")
+    if not StudyResult.in_folder(out).table.equals(whole):
+        raise Fault(f"another table after {what}")
+    if left := [path.name for path in out.glob(".*") if path.name != ".stylobate-files"]:
+        raise Fault(f"{left} were left over after {what}")
+    return Tried("2 kills", numbers={"answers to a signal [s]": took, "lost runs": [float(len(runs) - CASES)]})
+
+
+def made(folder: Path) -> list[int]:
+    """Numbers of the runs that were made, in their order."""
+    notes = folder / "notes"
+    return [int(one.split(" ", 2)[1]) for one in notes.read_text().splitlines()] if notes.exists() else []
+
+
+def kept(folder: Path) -> set[int]:
+    """Numbers of the runs that the ledger holds."""
+    place = folder / "out" / RUNS_FILE
+    if not place.exists():
+        return set()
+    with closing(sqlite3.connect(place)) as file:
+        return {number for (number,) in file.execute("SELECT number FROM runs")}
+
+
+def line(folder: Path, options: list[str]) -> list[str]:
+    """The command, and the files that it reads."""
+    if not (folder / "study.toml").exists():
+        steps = [f"{0.01 * i:.2f},{0.4 * math.sin(0.02 * math.pi * i):.6f}" for i in range(401)]
+        files = {"study.toml": STUDY, "column.toml": COLUMN, "wave.csv": "\n".join(["time_s,ax_g", *steps])}
+        for name, text in files.items():
+            (folder / name).write_text(text)
+    return ["study", "run", str(folder / "study.toml"), "--threads", "1", *options]
+
+
+def of_cluster(program: int) -> list[int]:
+    """Processes of the workers that a program has started."""
+    table = subprocess.run(["ps", "-eo", "pid=,ppid=,args="], capture_output=True, text=True, check=True).stdout
+    rows = [one.split(None, 2) for one in table.splitlines()]
+    clusters = {pid for pid, parent, args in rows if int(parent) == program and "local_workers" in args}
+    return [int(pid) for pid, parent, args in rows if parent in clusters and "spawn_main" in args]
+
+
+def gone(workers: list[int]) -> None:
+    """See that processes end."""
+    deadline = time.monotonic() + LAST
+    while left := [one for one in workers if Path(f"/proc/{one}").exists()]:
+        if time.monotonic() > deadline:
+            raise Fault(f"workers {left} live on without their program")
+        time.sleep(0.05)
+
+
+TARGET = Target("studies", 50, 1, one, limit=600.0)
