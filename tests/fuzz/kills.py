@@ -147,24 +147,23 @@ def end(process: subprocess.Popen) -> None:
 
 
 def lost(notes: Path, killed: float) -> int:
-    """Runs that were finished and are not in their ledger; those of the last second may be."""
-    finished: dict[str, dict[int, float]] = {}
-    for line in notes.read_text().splitlines() if notes.exists() else ():
-        when, number, ledger = line.split(" ", 2)
-        finished.setdefault(ledger, {})[int(number)] = float(when)
-    missing = 0
-    for ledger, runs in finished.items():
-        if not Path(ledger).exists():  # the results are written
+    """Runs that were finished and are not in their ledger; those of the last second may be. They are noted no more."""
+    missing, left = 0, []
+    ledgers: dict[str, set[int]] = {}
+    for line in notes.read_text().splitlines(keepends=True) if notes.exists() else ():
+        when, number, ledger = line.rstrip("\n").split(" ", 2)
+        if not Path(ledger).exists():  # the results are written: the same command begins anew
             continue
-        with closing(sqlite3.connect(ledger)) as file:
-            kept = {number for (number,) in file.execute("SELECT number FROM runs")}
-        gone = [killed - when for number, when in runs.items() if number not in kept]
-        if gone and max(gone) > 1.0:
-            raise Fault(f"a run that was finished {max(gone):.1f} s before the kill is lost")
-        missing += len(gone)
-    # What is done is forgotten: the same command begins anew.
-    lines = notes.read_text().splitlines(keepends=True) if notes.exists() else []
-    notes.write_text("".join(line for line in lines if Path(line.split(" ", 2)[2].strip()).exists()))
+        if ledger not in ledgers:
+            with closing(sqlite3.connect(ledger)) as file:
+                ledgers[ledger] = {number for (number,) in file.execute("SELECT number FROM runs")}
+        if int(number) in ledgers[ledger]:
+            left.append(line)
+        elif killed - float(when) > 1.0:
+            raise Fault(f"a run that was finished {killed - float(when):.1f} s before the kill is lost")
+        else:
+            missing += 1
+    notes.write_text("".join(left))
     return missing
 
 

@@ -66,7 +66,7 @@ def one(rng: random.Random, folder: Path) -> Tried:
             _whole.extend((time.monotonic() - began, StudyResult.in_folder(Path(other) / "out").table))
     length, whole = _whole
     options = rng.choice([[], ["--dask", "local"]])
-    what, took, there = [], [], []
+    what, took, gone = [], [], []
     for _ in range(2):
         process = start(line(folder, options), folder)
         time.sleep(rng.uniform(0.3, 1.1) * length * (1.5 if options else 1.0))
@@ -81,24 +81,22 @@ def one(rng: random.Random, folder: Path) -> Tried:
         what.append(number.name)
         sent = time.time()
         took += kill(process, number, "study")
-        lost(folder / "notes", sent)
-        there.append((len(made(folder)), kept(folder)))
-        gone(workers)
+        gone.append(float(lost(folder / "notes", sent)))
+        ended(workers)
     end(start(line(folder, options), folder))
     out = folder / "out"
     runs = made(folder)
-    twice = [number for before, known in there for number in runs[before:] if number in known]
-    if twice or len(kept(folder)) != CASES or len(set(runs)) != CASES:
-        raise Fault(f"{len(twice)} runs were made twice, {len(kept(folder))} are in the ledger, after {what}")
+    if len(runs) != CASES or set(runs) != kept(folder):
+        raise Fault(f"{len(runs)} runs were made, {len(kept(folder))} are in the ledger, after {what}")
     if not StudyResult.in_folder(out).table.equals(whole):
         raise Fault(f"another table after {what}")
     if left := [path.name for path in out.glob(".*") if path.name != ".stylobate-files"]:
         raise Fault(f"{left} were left over after {what}")
-    return Tried("2 kills", numbers={"answers to a signal [s]": took, "lost runs": [float(len(runs) - CASES)]})
+    return Tried("2 kills", numbers={"answers to a signal [s]": took, "lost runs": gone})
 
 
 def made(folder: Path) -> list[int]:
-    """Numbers of the runs that were made, in their order."""
+    """Numbers of the runs that were made, as often as they were made and not lost."""
     notes = folder / "notes"
     return [int(one.split(" ", 2)[1]) for one in notes.read_text().splitlines()] if notes.exists() else []
 
@@ -130,7 +128,7 @@ def of_cluster(program: int) -> list[int]:
     return [int(pid) for pid, parent, args in rows if parent in clusters and "spawn_main" in args]
 
 
-def gone(workers: list[int]) -> None:
+def ended(workers: list[int]) -> None:
     """See that processes end."""
     deadline = time.monotonic() + LAST
     while left := [one for one in workers if Path(f"/proc/{one}").exists()]:

@@ -151,30 +151,25 @@ def ida(
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
-    kept, hasher, quiet = None, Hasher(model, tail), share_of(taken, whole)
+    hasher, quiet = Hasher(model, tail), share_of(taken, whole)
     try:
-        kept = Kept(None if ledger is None else Path(ledger), total)
-        while asked := [(one, new) for one in traces for new in wanted(one)]:
-            cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
-            group = np.arange(len(cases)), model, quiet
-            making = kept.run(cases, Digests(hasher.of_cases(cases, quiet)), [group], tail=tail, threads=threads)
-            rows: list[dict] = [{}] * len(cases)
-            with closing(making) as finished:
-                for number, row in finished:
-                    rows[number] = row
-                    done += 1
-                    if progress:
-                        progress(done, total)
-            for (one, new), row in zip(asked, rows):
-                one.levels.append(new)
-                one.rows.append(row)
+        with closing(Kept(None if ledger is None else Path(ledger), total)) as kept:
+            while asked := [(one, new) for one in traces for new in wanted(one)]:
+                cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
+                group = np.arange(len(cases)), model, quiet
+                making = kept.run(cases, Digests(hasher.of_cases(cases, quiet)), [group], tail=tail, threads=threads)
+                rows: list[dict] = [{}] * len(cases)
+                with closing(making) as finished:
+                    for number, row in finished:
+                        rows[number] = row
+                        done += 1
+                        if progress:
+                            progress(done, total)
+                for (one, new), row in zip(asked, rows):
+                    one.levels.append(new)
+                    one.rows.append(row)
     except KeyboardInterrupt:
-        if kept:
-            kept.close()
         raise Stopped(done, total, ledger) from None
-    finally:
-        if kept:
-            kept.close()
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
     table["hunted"] = stripes is None

@@ -74,25 +74,21 @@ def run_cases(
     started = time.perf_counter()
     plan = study.plan()
     ledger = None if folder is None else folder / RUNS_FILE
-    rows, kept = Rows(len(plan)), None
+    rows = Rows(len(plan))
+    turn = None if ledger is None else _its_turn(ledger, len(plan), progress, waiting)
     try:
-        kept = Kept(ledger, len(plan), None if ledger is None else _its_turn(ledger, len(plan), progress, waiting))
-        if folder is not None:
-            plan.save(folder)
-        cases = Cases(len(plan), study.case)
-        runs = kept.run(cases, plan.digests, study.groups(), tail=study.tail, threads=threads)
-        with closing(runs) as finished:
-            for done, (number, row) in enumerate(finished, 1):
-                rows[number] = row
-                if progress:
-                    progress(done, len(plan))
+        with closing(Kept(ledger, len(plan), turn)) as kept:
+            if folder is not None:
+                plan.save(folder)
+            cases = Cases(len(plan), study.case)
+            runs = kept.run(cases, plan.digests, study.groups(), tail=study.tail, threads=threads)
+            with closing(runs) as finished:
+                for done, (number, row) in enumerate(finished, 1):
+                    rows[number] = row
+                    if progress:
+                        progress(done, len(plan))
     except KeyboardInterrupt:
-        if kept:
-            kept.close()
         raise Stopped(rows.finished, len(plan), ledger) from None
-    finally:
-        if kept:
-            kept.close()
     return StudyRows(plan, rows, kept.computed, time.perf_counter() - started)
 
 
