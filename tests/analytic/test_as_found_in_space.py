@@ -163,7 +163,10 @@ def test_out_of_equilibrium_and_out_of_the_plane_are_refused_in_one_sentence(tmp
     with pytest.raises(st.InputError, match="planar = True holds the motion in the plane"):
         st.simulate(found(), STILL, DistinctElement3D(planar=True))
     chipped = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(1, chip_left=0.02),)))
-    with pytest.raises(st.InputError, match=r"dem3d knows chips of rectangular drums, and drum 1 .* is round"):
-        st.simulate(chipped, STILL, DistinctElement3D())
+    with pytest.raises(st.InputError, match="dem3d with law=bed knows no chips of round drums"):
+        st.simulate(chipped, STILL, DistinctElement3D(law="bed"))
+    twice = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(1, chip_left=0.02, chip_right=0.01),)))
+    with pytest.raises(st.InputError, match=r"drum 1 of .* is round and chipped on the left and on the right"):
+        st.simulate(twice, STILL, DistinctElement3D())
     column = found(5.0, 1.0)
     assert Column.from_toml(write_column(column, tmp_path / "c.toml")) == column

@@ -61,8 +61,8 @@ def forces(drum, joint, lane):
             d = -(cx * zx + cy * zy + cz * zz) - slope * along
             limit = EVEN[1]
             iu = il = 0.0
-            if e.hole.shape[0] > 1:
-                iu, il, limit = e.hole[0, l] * cosine, e.hole[1, l], e.hole[2, l]
+            if e.lost.shape[0] > 1:
+                iu, il, limit = e.lost[0, l] * cosine, e.lost[1, l], e.lost[2, l]
                 sums = settle_ring(d, slope, 0.0, along, across, ra, rl, iu, il)
             else:
                 sums = settle(d, slope, along, across, ra, rl, -cos_u, cos_l, sin_l)
@@ -82,7 +82,7 @@ def forces(drum, joint, lane):
                 gx = beta * (ax * hx + ay * hy + az * hz)
                 gy = beta * (ax * tx + ay * ty + az * tz)
                 d -= beta * (vx * zx + vy * zy + vz * zz) + gx * along + gy * across
-                if e.hole.shape[0] > 1:
+                if e.lost.shape[0] > 1:
                     more = settle_ring(d, slope + gx, gy, along, across, ra, rl, iu, il)
                 else:
                     more = settle_askew(d, slope + gx, gy, along, across, ra, rl, -cos_u, cos_l, sin_l)

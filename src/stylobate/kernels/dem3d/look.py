@@ -6,7 +6,16 @@ from ..drums.lanes import FAR
 from ..jit import kernel, law, strict
 from ..run_codes import FAILED, LANES, RUNNING, SUPPORT_MARGIN
 from .pose import cross, faces, in_body, in_space, lean
-from .support import end_of_corners, end_of_discs, middle_of_corners, middle_of_discs, opening_of_corners
+from .records import CHIPS
+from .support import (
+    end_of_chipped,
+    end_of_corners,
+    end_of_discs,
+    middle_of_chipped,
+    middle_of_corners,
+    middle_of_discs,
+    opening_of_corners,
+)
 
 #: Cosine of the angle between two faces below which they count as parted [-].
 ON_EDGE = 0.1
@@ -148,6 +157,8 @@ def observe(drum, joint, lane, feed, watch):
                 mx, my, parted = middle_of_corners(u, v, l)
             else:
                 mx, my, parted = middle_of_discs(u, v, l, a, b)
+                if e.lost.shape[0] == CHIPS:
+                    mx, my, parted = middle_of_chipped(u, v, e, l, a, b, mx, my, parted)
             # a drum that stands on its edge has left the face below as well
             nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
             parted |= nx * v.kx[l] + ny * v.ky[l] + nz * v.kz[l] < ON_EDGE
@@ -159,6 +170,8 @@ def observe(drum, joint, lane, feed, watch):
                 ex, ey, ez = end_of_corners(u, v, l, dx, dy)
             else:
                 ex, ey, ez = end_of_discs(u, v, l, dx, dy)
+                if e.lost.shape[0] == CHIPS:
+                    ex, ey, ez = end_of_chipped(u, v, e, l, dx, dy, ex, ey, ez)
             ex, ey, ez = ex + hx, ey + hy, ez + hz
             ru = u.rb[l]
             out = (gx - ex) * dx + (gy - ey) * dy

@@ -27,8 +27,8 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                f[3] up[3] lo[3]  force on the drum above [N], moments on both drums about their centroids [N m]
                d[6]           dashpots: force and moment on the drum above, about the middle of the face below (damped only);
                               with corners the force of each of them, in the axes of the drum below
-               hole[3]        rings: radii of the sunken middles of the upper and of the lower face [m], and the limit of
-                              torsion over ρ μ N (rings only)
+               lost           what the faces lack. Rings, [3]: radii of the sunken middles of the upper and of the lower face
+                              [m], and the limit of torsion over ρ μ N. Chips, [6]: see chipped.py
                w[22]          with corners: what they share within one evaluation, see corner_forces.py
     lane       dt             step [s];  g[3]  gravity, as an acceleration of the base: up is positive [m/s²]
                beta alpha     stiffness- and mass-proportional damping [s], [1/s]; local: local damping [-]
@@ -62,16 +62,19 @@ import numpy as np
 
 from ..run_codes import LANES
 
+#: Rows of ``lost``.
+RINGS, CHIPS = 3, 6
+
 #: Peaks that are kept, see the legend of ``watch``.
 PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")
 
 
-def block_types(damped: bool, corners: int = 1, ring: bool = False, rolling: bool = False) -> tuple[np.dtype, ...]:
+def block_types(damped: bool, corners: int = 1, lost: int = 1, rolling: bool = False) -> tuple[np.dtype, ...]:
     """Record types (drum, joint, lane, ground, feed, watch).
 
-    Whether there are dashpots (``d`` of more than one row), corners (``px``), rings (``hole``) and resistance to rolling
-    (``roll``) is part of the types: each loop is compiled for what is used. A body with corners may have three different
-    moments of inertia.
+    Whether there are dashpots (``d`` of more than one row), corners (``px``), rings or chips (``lost``, so many rows) and
+    resistance to rolling (``roll``) is part of the types: each loop is compiled for what is used. A body with corners may
+    have three different moments of inertia.
     """
     dashpots = (3 * corners if corners > 1 else 6) if damped else 1
     row = (LANES,)
@@ -102,7 +105,7 @@ def block_types(damped: bool, corners: int = 1, ring: bool = False, rolling: boo
                 up=3,
                 lo=3,
                 d=dashpots,
-                hole=3 if ring else 1,
+                lost=lost,
                 w=22 if corners > 1 else 1,
             )
         ),

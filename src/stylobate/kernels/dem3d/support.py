@@ -1,10 +1,10 @@
-"""Where the part of a column above a joint is held: the ends of round faces, and corners of rectangular ones."""
+"""Where the part of a column above a joint is held: the ends of round faces, whole or chipped, and corners of others."""
 
 import math
 
 from ..jit import law
 from .corner import clamped
-from .pose import faces, in_body, in_space
+from .pose import cross, faces, in_body, in_space
 
 #: Share of a face's corners' area below which two faces have parted [-].
 PARTED = 1e-9
@@ -39,6 +39,40 @@ def end_of_discs(u, v, l, dx, dy):
         return cx + scale * (dx - su * nx), cy + scale * (dy - su * ny), cz - scale * su * nz
     scale = rl / max(el, 1e-12)
     return scale * (dx - sl * v.kx[l]), scale * (dy - sl * v.ky[l]), -scale * sl * v.kz[l]
+
+
+@law
+def middle_of_chipped(u, v, e, l, a, b, mx, my, parted):
+    """As :func:`middle_of_discs` for an upper face with a chip, from what that has found."""
+    x, y, z = in_space(u, l, e.lost[0, l], e.lost[1, l], e.lost[2, l])
+    x, y, _ = in_body(v, l, x, y, z)
+    ru, rl = u.rb[l], v.rt[l]
+    reach = ru * e.lost[4, l]
+    half = 0.5 * (reach - ru)
+    # beyond the chord lies nothing
+    return mx + half * x, my + half * y, parted | (reach + a * x + b * y <= -rl)
+
+
+@law
+def end_of_chipped(u, v, e, l, dx, dy, ex, ey, ez):
+    """As :func:`end_of_discs` for an upper face with a chip, from what that has found: an end of the chord if nearer."""
+    ru = u.rb[l]
+    nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+    ax, ay, az = in_space(u, l, e.lost[0, l], e.lost[1, l], e.lost[2, l])
+    bx, by, bz = cross(nx, ny, nz, ax, ay, az)
+    toward, beside = dx * ax + dy * ay, dx * bx + dy * by
+    cosine = e.lost[4, l]
+    sine = e.lost[5, l] if beside > 0.0 else -e.lost[5, l]
+    # whether the end of the whole disc lies on the segment that is lost
+    beyond = toward > cosine * math.sqrt(toward * toward + beside * beside)
+    _, _, _, cx, cy, cz = faces(u, v, l)
+    x, y, z = (
+        cx + ru * (cosine * ax + sine * bx),
+        cy + ru * (cosine * ay + sine * by),
+        cz + ru * (cosine * az + sine * bz),
+    )
+    nearer = beyond & (x * dx + y * dy < ex * dx + ey * dy)
+    return (x if nearer else ex), (y if nearer else ey), (z if nearer else ez)
 
 
 @law

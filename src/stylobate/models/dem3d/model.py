@@ -23,7 +23,7 @@ from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
 from .block import SpaceBlock, histories
 from .found_start import found_start
-from .packing import CORNERS, drum_fields, joint_fields, lane_fields
+from .packing import CORNERS, chipped, drum_fields, joint_fields, lane_fields
 from .restitution import damping_for
 from .specimen import SpecimenBlock, rows_for, top_frequency
 from .stability import highest_frequency
@@ -34,8 +34,11 @@ LAWS = {"rim": ("rim_forces", 1.0), "bed": ("bed_forces", 0.0)}
 #: What a joint of each law gives with its load on its edge.
 TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
 
-#: In place of a section: one body that stands on its vertices; round drums on rings.
-SPECIMEN, RING = "specimen", "ring"
+#: In place of a section: one body that stands on its vertices; round drums on rings, or with chips.
+SPECIMEN, RING, CHIPPED = "specimen", "ring", "chipped"
+
+#: Numbers that the kernels need of what faces lack.
+LOST = {RING: 3, CHIPPED: 6}
 
 #: The same for rectangular faces, and their corners.
 CORNER_LAW = ("corner_forces", 2.0)
@@ -162,11 +165,16 @@ class DistinctElement3D(SteppedDrums):
             super().check(column, motion)
             if self.law != "bed":
                 column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
-            chipped = next((one.drum for one in column.as_found.drums if one.chipped), None)
-            if chipped is not None and column.section == "circular":
+            twice = next((one.drum for one in column.as_found.drums if one.chip_left and one.chip_right), None)
+            if twice is not None and chipped(column):
                 raise InputError(
-                    f"dem3d knows chips of rectangular drums, and drum {chipped} of {column.name!r} is round; use dem2d for "
-                    "chips in its plane, or leave the chip out."
+                    f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "
+                    "chip of a round drum: leave the smaller one out, or use dem2d in its plane."
+                )
+            if self.law == "bed" and chipped(column):
+                raise InputError(
+                    f"dem3d with law=bed knows no chips of round drums, and a drum of {column.name!r} has one; use law=rim, "
+                    "or leave the chip out."
                 )
             if self.planar and not column.as_found.in_plane:
                 raise InputError(
@@ -191,13 +199,14 @@ class DistinctElement3D(SteppedDrums):
         """Columns of one kind can share a block of lanes: number of drums and section; specimens with as many rows."""
         if isinstance(column, Specimen):
             return rows_for(column), SPECIMEN
-        return column.n, RING if column.on_rings else column.section
+        return column.n, RING if column.on_rings else CHIPPED if chipped(column) else column.section
 
     def kernel(self, section: str = "circular") -> Any:
         """Module of kernels."""
         if section == SPECIMEN:
             return importlib.import_module("...kernels.dem3d.vertex_forces", __package__)
-        name = CORNER_LAW[0] if section == "rectangular" else LAWS[self.law][0]
+        others = {"rectangular": CORNER_LAW[0], CHIPPED: "chipped_forces"}
+        name = others.get(section, LAWS[self.law][0])
         return importlib.import_module(f"...kernels.dem3d.{name}", __package__)
 
     def record_types(self, section: str = "circular") -> tuple:
@@ -206,7 +215,7 @@ class DistinctElement3D(SteppedDrums):
             return self.kernel(section).block_types()
         corners = len(CORNERS) if section == "rectangular" else 1
         rolling = self.rolling_resistance > 0.0
-        return self.kernel(section).block_types(self.damped, corners, section == RING, rolling)
+        return self.kernel(section).block_types(self.damped, corners, LOST.get(section, 1), rolling)
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it."""

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import upward
+from ...column.found_in_space import space_geometry, upward
 
 #: Radius of the base, wide enough to be a half-space [m].
 BASE_RADIUS = 1.0e3
@@ -92,19 +92,45 @@ def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np
     return memory | {
         "kn": with_free_top(kn),
         "ks": with_free_top(ks),
-        "hole": _holes(column),
+        "lost": _lost(column),
         "co": with_free_top([joint.cohesion for joint in column.joints]),
         "mu": with_free_top(column.friction),
     }
 
 
-def _holes(column: Column) -> np.ndarray:
-    """Radii of the sunken middles of the upper and the lower face [m], and the limit of torsion over ρ μ N; (n + 1, 1 or 3).
+def chipped(column: Column) -> bool:
+    """Whether drums are round and chipped."""
+    return column.section == "circular" and any(one.chipped for one in column.as_found.drums)
+
+
+def chip_directions(column: Column) -> np.ndarray:
+    """Towards the chip of every drum's lower face, in the axes of the drum [-], shape (n, 3)."""
+    found = [column.as_found.of(i + 1) for i in range(column.n)]
+    azimuth = np.radians([one.chip_azimuth for one in found])
+    away = [-1.0 if one.chip_left else 1.0 for one in found]
+    flat = np.stack((away * np.cos(azimuth), away * np.sin(azimuth)), axis=1)
+    return np.einsum("nca,na->nc", space_geometry(column).bed[:, :, :2], flat)
+
+
+def _lost(column: Column) -> np.ndarray:
+    """What the faces of every joint lack (legend of kernels), (n + 1, 1), (n + 1, 3) with rings, (n + 1, 6) with chips."""
+    if column.on_rings:
+        return _sunken(column)
+    lost = np.zeros((column.n + 1, 6 if chipped(column) else 1))
+    if chipped(column):
+        lost[:-1, :3] = chip_directions(column)
+        for i, drum in enumerate(column.drums):
+            versine = 2.0 * max(column.as_found.of(i + 1).chips) / drum.bottom_width
+            sine = math.sqrt(versine * (2.0 - versine))
+            lost[i, 3:] = math.atan2(sine, 1.0 - versine), 1.0 - versine, sine
+    return lost
+
+
+def _sunken(column: Column) -> np.ndarray:
+    """Radii of the sunken middles of the upper and the lower face [m], and the limit of torsion over ρ μ N, (n + 1, 3).
 
     The limit is that of two concentric rings under even pressure.
     """
-    if not column.on_rings:
-        return np.zeros((column.n + 1, 1))
     holes = np.zeros((column.n + 1, 3))
     for j in range(column.n):
         radius = 0.5 * column.joint_widths[j]

@@ -10,7 +10,7 @@ from ...column import Column
 from ...column.found_in_space import SpaceGeometry, inside_overlap, space_geometry, space_load, upward
 from ...constants import DEGREE
 from ..shared.toes import given_by_toes
-from .packing import CORNERS
+from .packing import CORNERS, chip_directions
 
 #: Share of its margin that a drum on another one may walk off while it wobbles [-].
 WALK = 0.4
@@ -207,6 +207,7 @@ def _centroids_inside(column: Column, drum: np.ndarray, lane: int) -> bool:
     up = upward(column)
     axes = [np.array([vector(i, f"{a}x {a}y {a}z") for a in "ijk"]) for i in range(column.n + 1)]
     centroids = np.array([vector(i + 1, "x y z") for i in range(column.n)])
+    directions = chip_directions(column)
     for j in range(column.n):
         mass = column.masses[j:]
         part = mass @ centroids[j:] / mass.sum()
@@ -217,6 +218,12 @@ def _centroids_inside(column: Column, drum: np.ndarray, lane: int) -> bool:
             (foot, vector(j + 1, "nx ny nz") @ upper, drum["rb"][j + 1, lane]),
             (below, axes[j][2], drum["rt"][j, lane]),
         )
+        one = column.as_found.of(j + 1)
+        if one.chipped:
+            drop = (part - foot) @ faces[0][1] / (faces[0][1] @ up)
+            toward, radius = (part - drop * up - foot) @ (directions[j] @ upper), faces[0][2]
+            if toward >= radius - max(one.chips):
+                return False
         for middle, normal, radius in faces:
             drop = (part - middle) @ normal / (normal @ up)
             if math.dist(part - drop * up, middle) >= radius:
