@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from stylobate.column import Column, Drum, Joint
+from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
 from stylobate.constants import g
 from stylobate.kernels.run_codes import RUNNING
 from stylobate.models.base import Case, RunOptions
@@ -281,6 +281,47 @@ def test_barrier_of_turned_and_offset_faces():
     assert flat_barrier(column, np.array([(0.0, 0.0), (0.5, 0.0)])) == 0.0
     assert flat_barrier(column, np.zeros((2, 2)), np.array([0.0, 0.0, 0.3])) < straight
     assert flat_barrier(column, np.zeros((2, 2)), np.array([0.0, 0.3, 0.3])) == pytest.approx(straight)
+
+
+def reach(corners, toward):
+    """How far a convex polygon goes from the origin in a direction."""
+    side = np.roll(corners, -1, axis=0) - corners
+    outward = np.stack((side[:, 1], -side[:, 0]), axis=1)[np.hypot(*side.T) > 1e-12]
+    level = (outward * corners[np.hypot(*side.T) > 1e-12]).sum(axis=1)
+    ahead = outward @ toward > 1e-12
+    return float((level[ahead] / (outward[ahead] @ toward)).min())
+
+
+@pytest.mark.parametrize(
+    ("sides", "twist", "missing"),
+    [((1.0, 1.0), 1.0, 0.009), ((1.0, 1.0), 5.0, 0.045), ((1.0, 1.0), 20.0, 0.187), ((1.0, 1.0), 45.0, 0.293),
+     ((1.0, 0.5), 1.0, 0.017), ((1.0, 0.5), 5.0, 0.089), ((1.0, 0.5), 20.0, 0.348), ((1.0, 0.5), 45.0, 0.561)],
+)  # fmt: skip
+def test_how_much_of_the_overlap_of_turned_faces_is_missing(sides, twist, missing):
+    """The joint opens where the four places end: nearer than the overlap's rim, by what the theory page says."""
+    half = 0.5 * np.array(sides)
+    c, s = math.cos(math.radians(twist)), math.sin(math.radians(twist))
+    corners = half * np.array([(1, -1), (1, 1), (-1, 1), (-1, -1)])
+    turned = corners @ np.array([(c, s), (-s, c)])
+    held = np.clip(turned, -half, half)
+    angles = np.radians(np.arange(0.0, 180.0, 0.05))
+    ways = np.stack((np.cos(angles), np.sin(angles)), axis=1)
+    four = np.array([reach(held, way) for way in ways])
+    true = np.array([min(reach(corners, way), reach(turned, way)) for way in ways])
+    assert (four < true * (1.0 + 1e-12)).all()
+    worst = int(np.argmin(four / true))
+    assert 1.0 - four[worst] / true[worst] == pytest.approx(missing, abs=6e-4)
+    if twist != 20.0:
+        return
+    drum = Drum(1.5, sides[0], sides[0], 2000.0, "rectangular", sides[1])
+    wide = Drum(1.5, 4.0, sides[0], 2000.0, "rectangular", 4.0, sides[1])
+    column = Column.of_drums([wide, drum], Joint(2e11, 1e11, friction_coefficient=0.9))
+    column = column.replace(as_found=AsFound((FoundDrum(2, turn=twist),)))
+    # the upper drum alone, 0.75 m to its middle
+    rise = np.concatenate((np.linspace(0.0, 1.0, 100), np.ones(20))) * -g * four[worst] / 0.75
+    motions = [Motion(0.01, *(share * rise * one for one in ways[worst])) for share in (0.97, 1.03)]
+    below, above = simulate_many([column] * 2, motions, DistinctElement3D())["peak_joint_opening_m"]
+    assert above > 1e-5 > 10.0 * below
 
 
 def test_a_turned_drum_on_another_stands_and_carries_its_weight_straight():
