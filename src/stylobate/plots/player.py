@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jinja2 import Template
@@ -15,6 +16,9 @@ from .animation import SHAPE, film_of, frame_indices
 from .scene import Scene, scale_bar
 from .solids import COLOURS, DIFFUSE, LIGHT
 from .view import OBLIQUE, View
+
+#: The scripts that play films, of those in the plane the first alone.
+SCRIPTS = ("player.js", "player_space.js")
 
 #: Corners of the polygons that stand for circles.
 AROUND = 24
@@ -35,25 +39,44 @@ def write_player(
     ----------
     response : Response
     path : str or Path
-    frames_per_second : float
-        Frames that the page shows in a second [1/s].
-    speed : float
-        At which the page shows that many: 0.5 keeps twice as many states. The viewer chooses how fast it plays.
-    window : (float, float), optional
-        Beginning and end of what the page shows [s]; all by default.
-    seen_from : View
-        From where what moved in space is seen at first; the viewer turns it.
+    frames_per_second, speed, window, seen_from
+        As in :func:`film_data`.
     """
     scene = film_of(response, seen_from)
     indices = np.unique(frame_indices(scene.time, frames_per_second, speed, window))
+    title = f"{scene.name}, {response.provenance.get('motion', '')}"
+    here = Path(__file__)
+    template = Template(here.with_name("player.html").read_text(encoding="utf-8"), autoescape=True)
+    scripts = SCRIPTS if response.dims == "xyz" else SCRIPTS[:1]
+    script = Markup("".join(here.with_name(one).read_text(encoding="utf-8") for one in scripts))
+    page = template.render(title=title, sentence=scene.sentence, data=film_data(scene, indices, seen_from), script=script)
+    target = Path(path)
+    with replacing(target) as partial:
+        partial.write_text(page, encoding="utf-8")
+    return target
+
+
+def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE) -> dict[str, Any]:
+    """What the scripts of a page play: bodies, poses, the ground and what is seen of them at first, as plain values.
+
+    Parameters
+    ----------
+    scene : Scene
+        Of :func:`stylobate.plots.animation.film_of`.
+    indices : array of int
+        The recorded states of the film, rising.
+    seen_from : View
+        From where what moved in space is seen at first; the viewer turns it.
+    """
+    response, shown = scene.response, list(scene.shown)
     view = scene.view(indices, SHAPE)
-    shown, space = list(scene.shown), response.dims == "xyz"
-    poses = _upright(scene, response.body_position, response.body_orientation)[indices][:, shown]
+    poses = _upright(scene, response.body_position, response.body_orientation)[:, shown]
     data = {
         "time": scene.time[indices].round(4).tolist(),
         "shapes": [one.round(5).tolist() for one in _vertices(scene)],
         "fixed": scene.fixed,
-        "poses": np.nan_to_num(poses, nan=1e6).round(5).tolist(),
+        "poses": np.nan_to_num(poses[indices], nan=1e6).round(5).tolist(),
+        "start": poses[0].round(5).tolist(),
         "view": [round(float(end), 4) for end in view],
         "bar": scale_bar(view[1] - view[0]),
         "level": scene.level,
@@ -62,21 +85,12 @@ def write_player(
         "peak": float(np.abs(scene.ground).max()),
     }
     if scene.ground_across is not None:
-        start = _upright(scene, response.body_position[0], response.body_orientation[0])[shown]
         data |= {
             "across": scene.ground_across[indices].round(5).tolist(),
             "peak": max(data["peak"], float(np.abs(scene.ground_across).max())),
-            "space": _in_space(scene, seen_from, start),
+            "space": _in_space(scene, seen_from),
         }
-    title = f"{scene.name}, {response.provenance.get('motion', '')}"
-    here = Path(__file__)
-    template = Template(here.with_name("player.html").read_text(encoding="utf-8"), autoescape=True)
-    script = Markup(here.with_name("player_space.js").read_text(encoding="utf-8")) if space else ""
-    page = template.render(title=title, sentence=scene.sentence, data=data, space=script)
-    target = Path(path)
-    with replacing(target) as partial:
-        partial.write_text(page, encoding="utf-8")
-    return target
+    return data
 
 
 def _upright(scene: Scene, position: np.ndarray, orientation: np.ndarray) -> np.ndarray:
@@ -94,11 +108,10 @@ def _vertices(scene: Scene) -> list[np.ndarray]:
     return [scene.response.bodies.shapes[i].mesh(AROUND).vertices for i in scene.shown]
 
 
-def _in_space(scene: Scene, view: View, start: np.ndarray) -> dict:
-    """What the page needs to turn bodies: their faces with tones, poses at the start, the ground, view and light."""
+def _in_space(scene: Scene, view: View) -> dict:
+    """What the page needs to turn bodies: their faces with tones, the ground, view and light."""
     return {
         "faces": [[(tone, *face) for tone, face in zip(one.tones, one.faces, strict=True)] for one in scene.surfaces],
-        "start": start.round(5).tolist(),
         "plate": scene.plate.round(4).tolist(),
         "directions": scene.directions.round(4).tolist(),
         "view": (view.azimuth, view.elevation),

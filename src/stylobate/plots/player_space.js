@@ -1,31 +1,13 @@
 // Bodies in space: turned and zoomed by hand, shaded, the farther ones painted first.
-const space = data.space, larger = document.getElementById("larger");
-let [azimuth, elevation] = space.view, zoom = 1;
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 const unit = a => { const size = Math.hypot(...a); return a.map(x => x / size); };
-
-// Two turns after one another as unit quaternions, the right one first.
-function after([a, b, c, d], [w, x, y, z]) {
-  return [a * w - b * x - c * y - d * z, a * x + b * w + c * z - d * y, a * y - b * z + c * w + d * x,
-    a * z + b * y - c * x + d * w];
-}
-// A pose with displacement and turn from the start made larger.
-function magnified(pose, start, factor) {
-  if (factor === 1) return pose;
-  const place = [0, 1, 2].map(i => start[i] + factor * (pose[i] - start[i])), [w, x, y, z] = start.slice(3);
-  let turn = after(pose.slice(3), [w, -x, -y, -z]);
-  if (turn[0] < 0) turn = turn.map(x => -x);
-  const size = Math.hypot(...turn.slice(1)), half = factor * Math.atan2(size, turn[0]);
-  const axis = turn.slice(1).map(x => x / (size || 1) * Math.sin(half));
-  return [...place, ...after([Math.cos(half), ...axis], [w, x, y, z])];
-}
 // A body in a pose: its vertices, in space and in the picture [m], faces with normals, and its outline and box.
-function formed(i, pose, [rightward, upward, toward]) {
-  const at = data.shapes[i].map(corner => placed(corner, pose));
+function formed(i, shape, faced, pose, [rightward, upward, toward]) {
+  const at = shape.map(corner => placed(corner, pose));
   const seen = at.map(p => [dot(p, rightward), dot(p, upward)]), edge = outline(seen.map(([x, y]) => [x, 0, y]));
-  const faces = space.faces[i].map(([tone, ...corners]) => {
+  const faces = faced.map(([tone, ...corners]) => {
     const [p, q, r] = corners.map(j => at[j]), normal = unit(cross(minus(q, p), minus(r, q)));
     return { tone, corners, normal, level: dot(normal, p), slope: dot(normal, toward) };
   });
@@ -63,62 +45,52 @@ function ordered(bodies) {
   }
   return order;
 }
-function drawSpace(k) {
-  const c = film.getContext("2d"), width = film.clientWidth, height = film.clientHeight;
-  const [sa, ca, se, ce] = [Math.sin(azimuth), Math.cos(azimuth), Math.sin(elevation), Math.cos(elevation)];
-  const rightward = [-sa, ca, 0], upward = [-ca * se, -sa * se, ce], toward = [ca * ce, sa * ce, se];
-  const scale = zoom * Math.min(width / (right - left), height / (ceiling - bottom));
-  const middle = 0.5 * (bottom + ceiling) / Math.cos(space.view[1]) * ce;
-  const onScreen = ([x, y]) => [(x - 0.5 * (left + right)) * scale + 0.5 * width, 0.5 * height - (y - middle) * scale];
-  const screen = p => onScreen([dot(p, rightward), dot(p, upward)]);
-  const path = points => { c.beginPath(); points.forEach(p => c.lineTo(...p)); c.closePath(); };
-  const sum = (a, b) => a.map((x, i) => x + b[i]);
-  const light = unit(sum(sum(rightward.map(x => x * space.light[0]), upward.map(x => x * space.light[1])),
-    toward.map(x => x * space.light[2])));
-  c.clearRect(0, 0, width, height);
-  c.lineJoin = "round"; c.lineWidth = 1; c.fillStyle = "#f4f4f4"; c.strokeStyle = "#767676";
-  path(space.plate.map(screen)); c.fill(); c.stroke();
-  c.fillStyle = c.strokeStyle = "#1a1a1a"; c.font = "13px sans-serif"; c.textAlign = "center"; c.textBaseline = "middle";
-  space.directions.forEach(([start, end], i) => {
-    const [from, to, beyond] = [0, 1, 1.3].map(s => screen(start.map((p, k) => p + s * (end[k] - p))));
-    c.beginPath(); c.moveTo(...from); c.lineTo(...to); c.stroke(); c.fillText("xy"[i], ...beyond);
-  });
-  const axes = [rightward, upward, toward];
-  const bodies = data.poses[k].map((pose, i) => formed(i, magnified(pose, space.start[i], +larger.value), axes));
-  for (const { seen, edge, faces } of ordered(bodies)) {
-    const points = seen.map(onScreen);
-    c.lineWidth = 2; c.strokeStyle = "#8c6d3f"; path(edge.map(onScreen)); c.stroke();
-    c.lineWidth = 0.5;
-    for (const { tone, corners, normal, slope } of faces) {
-      if (slope <= 0) continue;
-      const shade = space.diffuse + (1 - space.diffuse) * Math.max(dot(normal, light), 0);
-      c.fillStyle = c.strokeStyle = `rgb(${space.colours[tone].map(x => Math.round(255 * x * shade))})`;
-      path(corners.map(j => points[j])); c.fill(); c.stroke();
-    }
-  }
-  const bar = data.bar / (zoom > 3 ? 10 : zoom < 0.4 ? 0.1 : 1);
-  c.fillStyle = "#1a1a1a"; c.textBaseline = "top";
-  c.fillRect(width - 12 - bar * scale, 12, bar * scale, 3);
-  c.fillText(+bar.toPrecision(3) + " m", width - 12 - Math.max(bar * scale / 2, 16), 19);
+// Seen from anywhere above the ground.
+function spacePainter(data, film) {
+  const space = data.space, [left, right, bottom, ceiling] = data.view;
+  let [azimuth, elevation] = space.view, zoom = 1;
+  return {
+    drag(dx, dy) {
+      azimuth -= 0.01 * dx;
+      elevation = Math.min(Math.max(elevation + 0.01 * dy, 0), 0.5 * Math.PI);
+    },
+    zoomed(factor) { zoom = Math.min(Math.max(zoom * factor, 0.2), 20); },
+    home() { [azimuth, elevation] = space.view; zoom = 1; },
+    draw(k, factor) {
+      const c = film.getContext("2d"), width = film.clientWidth, height = film.clientHeight;
+      const [sa, ca, se, ce] = [Math.sin(azimuth), Math.cos(azimuth), Math.sin(elevation), Math.cos(elevation)];
+      const rightward = [-sa, ca, 0], upward = [-ca * se, -sa * se, ce], toward = [ca * ce, sa * ce, se];
+      const scale = zoom * Math.min(width / (right - left), height / (ceiling - bottom));
+      const middle = 0.5 * (bottom + ceiling) / Math.cos(space.view[1]) * ce;
+      const onScreen = ([x, y]) => [(x - 0.5 * (left + right)) * scale + 0.5 * width, 0.5 * height - (y - middle) * scale];
+      const screen = p => onScreen([dot(p, rightward), dot(p, upward)]);
+      const path = points => { c.beginPath(); points.forEach(p => c.lineTo(...p)); c.closePath(); };
+      const sum = (a, b) => a.map((x, i) => x + b[i]);
+      const light = unit(sum(sum(rightward.map(x => x * space.light[0]), upward.map(x => x * space.light[1])),
+        toward.map(x => x * space.light[2])));
+      c.clearRect(0, 0, width, height);
+      c.lineJoin = "round"; c.lineWidth = 1; c.fillStyle = "#f4f4f4"; c.strokeStyle = "#767676";
+      path(space.plate.map(screen)); c.fill(); c.stroke();
+      c.fillStyle = c.strokeStyle = "#1a1a1a"; c.font = "13px sans-serif"; c.textAlign = "center"; c.textBaseline = "middle";
+      space.directions.forEach(([start, end], i) => {
+        const [from, to, beyond] = [0, 1, 1.3].map(s => screen(start.map((p, k) => p + s * (end[k] - p))));
+        c.beginPath(); c.moveTo(...from); c.lineTo(...to); c.stroke(); c.fillText("xy"[i], ...beyond);
+      });
+      const axes = [rightward, upward, toward];
+      const bodies = data.poses[k].map((pose, i) =>
+        formed(i, data.shapes[i], space.faces[i], magnified(pose, data.start[i], factor), axes));
+      for (const { seen, edge, faces } of ordered(bodies)) {
+        const points = seen.map(onScreen);
+        c.lineWidth = 2; c.strokeStyle = "#8c6d3f"; path(edge.map(onScreen)); c.stroke();
+        c.lineWidth = 0.5;
+        for (const { tone, corners, normal, slope } of faces) {
+          if (slope <= 0) continue;
+          const shade = space.diffuse + (1 - space.diffuse) * Math.max(dot(normal, light), 0);
+          c.fillStyle = c.strokeStyle = `rgb(${space.colours[tone].map(x => Math.round(255 * x * shade))})`;
+          path(corners.map(j => points[j])); c.fill(); c.stroke();
+        }
+      }
+      drawBar(c, width, data.bar / (zoom > 3 ? 10 : zoom < 0.4 ? 0.1 : 1), scale);
+    },
+  };
 }
-// One finger or the mouse turns, two fingers or the wheel zoom.
-const fingers = new Map();
-const zoomed = factor => { zoom = Math.min(Math.max(zoom * factor, 0.2), 20); draw(); };
-const spread = () => { const [a, b] = fingers.values(); return Math.hypot(a.x - b.x, a.y - b.y) || 1; };
-film.style.touchAction = "none"; film.style.cursor = "grab";
-film.onpointerdown = event => { film.setPointerCapture(event.pointerId); fingers.set(event.pointerId, event); };
-film.onpointerup = film.onpointercancel = event => fingers.delete(event.pointerId);
-film.onpointermove = event => {
-  const before = fingers.get(event.pointerId);
-  if (!before) return;
-  const apart = fingers.size === 2 ? spread() : 0;
-  fingers.set(event.pointerId, event);
-  if (apart) return zoomed(spread() / apart);
-  azimuth -= 0.01 * (event.clientX - before.clientX);
-  elevation = Math.min(Math.max(elevation + 0.01 * (event.clientY - before.clientY), 0), 0.5 * Math.PI);
-  draw();
-};
-film.addEventListener("wheel", event => { event.preventDefault(); zoomed(Math.exp(-0.0015 * event.deltaY)); },
-  { passive: false });
-film.ondblclick = () => { [azimuth, elevation] = space.view; zoom = 1; draw(); };
-larger.onchange = draw;
