@@ -296,7 +296,8 @@ def test_the_page_magnifies_and_orders_as_films_do(shaken, tmp_path):
       const last = data.poses.at(-1), space = data.space, c = Math.cos, s = Math.sin, [a, e] = space.view;
       const axes = [[-s(a), c(a), 0], [-c(a) * s(e), -s(a) * s(e), c(e)], [c(a) * c(e), s(a) * c(e), s(e)]];
       console.log(JSON.stringify({ larger: last.map((pose, i) => magnified(pose, data.start[i], 7)),
-        order: ordered(last.map((pose, i) => formed(i, data.shapes[i], space.faces[i], pose, axes))).map(body => body.i) }));"""
+        order: ordered(last.map((pose, i) =>
+          formed(i, data.shapes[i], space.faces[i], pose, axes))).map(body => body.i) }));"""
     (tmp_path / "page.js").write_text(data + laws + script + asked)
     found = json.loads(
         subprocess.run(["node", tmp_path / "page.js"], capture_output=True, text=True, check=True).stdout

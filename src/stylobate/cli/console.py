@@ -8,6 +8,7 @@ import shutil
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -141,9 +142,16 @@ def done_with(*ledgers: Path | None) -> None:
             discard(one)
 
 
+#: Hears of progress (title, done, all) instead of a bar, where a command is run for somebody else than a terminal.
+LISTENER: Callable[[str, float, float], None] | None = None
+
+
 @contextmanager
 def progress(title: str) -> Iterator[Callable[[int, int], None] | None]:
     """A bar with the remaining time on standard error; nothing where that is not a terminal."""
+    if LISTENER is not None:
+        yield partial(LISTENER, title)
+        return
     if not sys.stderr.isatty():
         yield None
         return

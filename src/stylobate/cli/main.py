@@ -32,6 +32,7 @@ from . import (
     reproduce,
     risk,
     run,
+    serve,
     signals,
     spectrum,
     study,
@@ -80,7 +81,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 for _room in (
     run, critical, domain, pushover, limit, compare, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, materials, animate, reproduce, experiments, cite, bench
+    spectrum, columns, materials, animate, serve, reproduce, experiments, cite, bench
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name)(_passing_on(getattr(_room, _name)))

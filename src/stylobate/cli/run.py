@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import typer
 
@@ -20,6 +20,18 @@ if TYPE_CHECKING:
     from ..models.base import Model
     from ..motion import Motion
     from ..response import Response
+
+
+class Drawn(NamedTuple):
+    """What is drawn of a run: its figures, and the strip of the median column like it."""
+
+    all: bool = True
+    median: bool = False
+
+
+#: The figures alone.
+FIGURES = Drawn()
+
 
 #: Pictures of what a model in space computes, besides those of every column.
 SPACE_PICTURES = ["orbit", "uplift", "residuals"]
@@ -56,6 +68,7 @@ def run(
     replicates: o.Replicates = None,
     scatter: o.ScatterSizes = None,
     seed: o.Seed = None,
+    pictures: Annotated[bool, typer.Option("--pictures/--no-pictures", help="Whether --out has figures too.")] = True,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
@@ -79,12 +92,12 @@ def run(
     interval, length = parse_time(output_interval), o.the_tail(tail)
     following = {"tail": length, "output_interval": interval, "until_end": until_end, "until_rest": until_rest}
     twins = the_twins(stone, how, o.the_population(replicates, scatter, seed), until_end or until_rest)
-    strip = twins is not None and replicates is not None
+    drawn = Drawn(pictures, pictures and twins is not None and replicates is not None)
     follow = partial(run_one, stone, model=how, twins=twins, threads=count, **following)
     if asked.several:
-        summaries = each_record(stone, found.motions, how, follow, out, following | {"twins": twins}, as_json, strip)
+        summaries = each_record(stone, found.motions, how, follow, out, following | {"twins": twins}, as_json, drawn)
     else:
-        summaries = [conclude(follow, stone, found.motions[0], how, out, as_json, strip)]
+        summaries = [conclude(follow, stone, found.motions[0], how, out, as_json, drawn)]
     if len(asked.azimuths) > 1 or asked.signs == "both":
         directions(summaries, stone.name, how.name, out, as_json)
     if as_json:
@@ -165,7 +178,7 @@ def each_record(
     out: Path | None,
     asked: dict[str, Any],
     quiet: bool,
-    strip: bool = False,
+    drawn: Drawn = FIGURES,
 ) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     from ..campaign.ledger import Ledger
@@ -185,7 +198,7 @@ def each_record(
             for number, (one, place) in enumerate(zip(motions, places)):
                 summary = known.get(number)
                 if summary is None or not all(Path(file).is_file() for file in summary["files"]):
-                    summary = conclude(follow, stone, one, model, place, quiet, strip)
+                    summary = conclude(follow, stone, one, model, place, quiet, drawn)
                     if book:
                         book.record(number, json.loads(console.as_json(summary)))
                 elif not quiet and place is not None:
@@ -213,7 +226,7 @@ def conclude(
     model: Model,
     out: Path | None,
     quiet: bool,
-    strip: bool = False,
+    drawn: Drawn = FIGURES,
 ) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..analysis.directions import direction_of
@@ -229,9 +242,9 @@ def conclude(
         if population is not None:
             summary |= population.summary()
         if folder is not None:
-            files = write(response, taken, folder)
+            files = write(response, taken, folder, drawn.all)
             if population is not None:
-                files += write_population(population, motion, model, response, folder, strip)
+                files += write_population(population, motion, model, response, folder, drawn.median)
             files.append(folder / "run.json")
             summary["files"] = [str(file) for file in files]
             console.write_json(files[-1], summary)
@@ -263,11 +276,13 @@ def safe_name(name: str, taken: Sequence[Path | None]) -> str:
     return next(one for one in (plain, *(f"{plain}-{i}" for i in range(2, len(used) + 3))) if one not in used)
 
 
-def write(response: Response, motion: Motion, folder: Path) -> list[Path]:
+def write(response: Response, motion: Motion, folder: Path, drawn: bool = True) -> list[Path]:
     """Histories and figures of one run."""
+    files = [response.save(folder / "response.nc")]
+    if not drawn:
+        return files
     from .. import plots
 
-    files = [response.save(folder / "response.nc")]
     pictures = {"histories": plots.draw_histories(response), "filmstrip": plots.draw_filmstrip(response)}
     if response.histories.top is not None:
         pictures["joints"] = plots.draw_joints(response)

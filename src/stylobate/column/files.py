@@ -52,6 +52,14 @@ def write_column(column: Column, path: str | Path) -> Path:
     """Write a column file, drum by drum, that :func:`read_column` reads back as an equal column."""
     import tomli_w
 
+    target = Path(path)
+    with replacing(target) as partial:
+        partial.write_text(tomli_w.dumps(tables_of(column)), encoding="utf-8")
+    return target
+
+
+def tables_of(column: Column) -> dict[str, Any]:
+    """What a column file of this column holds, drum by drum, as TOML gives it."""
     first = column.drums[0]
     common = Counter(column.joints).most_common(1)[0][0]
     sizes = ("height", "bottom_width", "top_width", "density")
@@ -67,10 +75,7 @@ def write_column(column: Column, path: str | Path) -> Path:
         table["as_found"] = _as_found_fields(column.as_found)
     if column.links:
         table["link"] = [link.to_dict() for link in column.links]
-    target = Path(path)
-    with replacing(target) as partial:
-        partial.write_text(tomli_w.dumps(table), encoding="utf-8")
-    return target
+    return table
 
 
 def _depths(drum: Drum) -> tuple[str, ...]:

@@ -128,11 +128,33 @@ def read_as(kind: Any, path: str | Path) -> Any:
             f"{shown(path)} describes an assembly of blocks, which only 'stylobate run' takes (simulate_assembly in "
             "Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
         )
-    table = checked(data, ColumnTable, shown(path))
+    return made_of(kind, data, shown(path), shown(Path(path).stem))
+
+
+def made_of(kind: Any, data: dict[str, Any], source: str = "the column", name: str = "column") -> Any:
+    """Make a column of what a column file holds.
+
+    Parameters
+    ----------
+    kind : type
+        As in :func:`read_as`.
+    data : dict
+        Tables as TOML gives them.
+    source : str
+        What messages call the file.
+    name : str
+        Of a column that states none.
+
+    Raises
+    ------
+    InputError
+        As in :func:`read_as`.
+    """
+    table = checked(data, ColumnTable, source)
     try:
-        return _column(kind, table, default_name=shown(Path(path).stem))
+        return _column(kind, table, default_name=name)
     except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
+        raise InputError(f"{source}: {error}") from None
 
 
 #: What stone and columns are like: density [kg/m³], height of a drum [m], friction angle [degrees].
@@ -160,7 +182,7 @@ def _doubt_units(column: Any, friction_angles: Sequence[float | None]) -> None:
     ]
     doubts += [doubt for joint in dict.fromkeys(column.joints) for doubt in joint.doubts]
     if doubts:
-        warnings.warn(f"{doubts[0]}: is the unit right?", OutOfRangeWarning, stacklevel=4)
+        warnings.warn(f"{doubts[0]}: is the unit right?", OutOfRangeWarning, stacklevel=5)
 
 
 def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:

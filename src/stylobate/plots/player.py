@@ -49,7 +49,9 @@ def write_player(
     template = Template(here.with_name("player.html").read_text(encoding="utf-8"), autoescape=True)
     scripts = SCRIPTS if response.dims == "xyz" else SCRIPTS[:1]
     script = Markup("".join(here.with_name(one).read_text(encoding="utf-8") for one in scripts))
-    page = template.render(title=title, sentence=scene.sentence, data=film_data(scene, indices, seen_from), script=script)
+    page = template.render(
+        title=title, sentence=scene.sentence, data=film_data(scene, indices, seen_from), script=script
+    )
     target = Path(path)
     with replacing(target) as partial:
         partial.write_text(page, encoding="utf-8")

@@ -1,0 +1,136 @@
+"""What the page asks for, checked, and the command lines that do it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
+
+from pydantic import Field
+
+from ..column.toml import Table
+from ..errors import InputError
+
+#: Files of a job: its column, where its records lie, and where its commands write.
+COLUMN, RECORDS, RESULT = "column.toml", "records", "result"
+
+
+class MotionAsked(Table):
+    """A motion as the page holds it, in the words of the command line.
+
+    ``kind`` is ``harmonic``, ``pulse``, ``synthetic``, ``sample`` or ``record``; ``text`` what follows that option, the
+    name of the sample, or the id of the record.
+    """
+
+    kind: Literal["harmonic", "pulse", "synthetic", "sample", "record"]
+    text: str
+    across: str | None = None
+    unit: str | None = None
+    dt: str | None = None
+    component: str | None = None
+    azimuth: str | None = None
+    pga: str | None = None
+    scale: str | None = None
+    vertical: Literal["on", "off"] = "on"
+
+    def words(self, files: Sequence[str] = ()) -> dict[str, Any]:
+        """Words of :meth:`stylobate.motion.MotionRequest.typed`.
+
+        Parameters
+        ----------
+        files : sequence of str
+            Paths of the record.
+        """
+        options = ("across", "unit", "dt", "component", "azimuth", "pga", "scale")
+        found: dict[str, Any] = {name: value for name in options if (value := getattr(self, name))}
+        if self.vertical == "off":
+            found["vertical"] = "off"
+        if self.kind in ("sample", "record"):
+            return found | {"motion": [f"sample:{self.text}"] if self.kind == "sample" else list(files)}
+        return found | {self.kind: self.text}
+
+
+class JobAsked(Table):
+    """What is to be computed: ``run``, ``domain`` or ``ida``; all but kind, column and model as on the command line."""
+
+    kind: Literal["run", "domain", "ida"]
+    column: dict[str, Any]
+    model: str = "dem2d"
+    settings: dict[str, str] = Field(default_factory=dict)
+    motion: MotionAsked | None = None
+    replicates: str | None = None
+    tail: str | None = None
+    frequencies: str | None = None
+    amplitudes: str | None = None
+    duration: str | None = None
+    records: list[str] = Field(default_factory=list)
+    im: str | None = None
+    runs: str | None = None
+    state: str | None = None
+
+
+def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list[str]]:
+    """The command lines, without the program's name; paths from the folder of the job.
+
+    Parameters
+    ----------
+    asked : JobAsked
+    records : mapping
+        Paths of the files of each record, by its id.
+
+    Raises
+    ------
+    InputError
+        Something is missing.
+    """
+    common = [COLUMN, *_options(model=asked.model)]
+    common += [f"--set={name}={value}" for name, value in asked.settings.items() if value]
+    end = [*_options(tail=asked.tail), f"--out={RESULT}"]
+    if asked.kind == "run":
+        if asked.motion is None:
+            raise InputError("a run has no motion; choose one.")
+        return [
+            [
+                "run",
+                *common,
+                *_motion(asked.motion, records),
+                *_options(replicates=asked.replicates),
+                "--no-pictures",
+                *end,
+            ]
+        ]
+    if asked.kind == "domain":
+        grid = _options(frequencies=asked.frequencies, amplitudes=asked.amplitudes, duration=asked.duration)
+        return [["domain", *common, *grid, *end]]
+    if not asked.records:
+        raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
+    files = [path for one in asked.records for path in _files(one, records)]
+    analysis = ["ida", *common, *files, *_options(im=asked.im, runs=asked.runs), *end]
+    return [analysis, ["fragility", RESULT, *_options(state=asked.state), "--out=fragility"]]
+
+
+def shown(command: Sequence[str]) -> str:
+    """A command line as a person types it."""
+    return " ".join(["stylobate", *(one if re.fullmatch(r"[\w./:=,@?+-]+", one) else _quoted(one) for one in command)])
+
+
+def _quoted(text: str) -> str:
+    return "'" + text.replace("'", "'\"'\"'") + "'"
+
+
+def _options(**values: str | None) -> list[str]:
+    return [f"--{name}={value}" for name, value in values.items() if value]
+
+
+def _motion(motion: MotionAsked, records: Mapping[str, Sequence[str]]) -> list[str]:
+    words = motion.words(_files(motion.text, records) if motion.kind == "record" else ())
+    files = [f"--motion={path}" for path in words.pop("motion", ())]
+    return files + _options(**words)
+
+
+def _files(record: str, records: Mapping[str, Sequence[str]]) -> list[str]:
+    if record.startswith("sample:"):
+        return [record]
+    if record not in records:
+        raise InputError("the record is no longer here; upload it again.")
+    return [f"{RECORDS}/{name}" for name in records[record]]

@@ -1,0 +1,62 @@
+"""Cells of a domain while it is computed: read from the command's ledger, and from its table in the end."""
+
+from __future__ import annotations
+
+import csv
+import hashlib
+import sqlite3
+from collections.abc import Iterator
+from contextlib import closing, suppress
+from pathlib import Path
+from typing import Any
+
+from ..analysis.verdicts import verdict
+from ..campaign.ledger import PROGRESS_FILE
+from ..campaign.salvage import read_line
+from .asked import RESULT
+
+
+def new_cells(folder: Path, known: set[int]) -> list[list[Any]]:
+    """Cells of a job that are finished and were not known: number, verdict, peak top displacement [m].
+
+    Parameters
+    ----------
+    folder : Path
+        Of the job.
+    known : set of int
+        Numbers of the cells that the caller has; what is returned is added to it.
+    """
+    table = folder / RESULT / "domain.csv"
+    found = _in_table(table) if table.is_file() else _in_ledger(folder / RESULT / PROGRESS_FILE)
+    new = [one for one in found if one[0] not in known]
+    known.update(one[0] for one in new)
+    return new
+
+
+def _in_table(path: Path) -> Iterator[list[Any]]:
+    with suppress(OSError, ValueError, KeyError), path.open(encoding="utf-8", newline="") as file:
+        for number, row in enumerate(csv.DictReader(file)):
+            yield [number, row["verdict"], _number(row["peak_top_displacement_m"])]
+
+
+def _in_ledger(path: Path) -> Iterator[list[Any]]:
+    if not path.is_file():
+        return
+    with (
+        suppress(sqlite3.Error),  # the ledger is made, or removed, at this moment
+        closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True, timeout=0.2)) as file,
+    ):
+        (key,) = file.execute("SELECT key FROM campaign").fetchone()
+        campaign = hashlib.sha256(str(key).encode()).hexdigest()
+        for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
+            if (found := read_line(line, campaign)) is not None:
+                number, row = found
+                yield [number, verdict(row), _number(row.get("peak_top_displacement_m"))]
+
+
+def _number(value: Any) -> float | None:
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return None
+    return round(number, 5) if abs(number) < 1e6 else None

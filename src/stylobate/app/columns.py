@@ -1,0 +1,109 @@
+"""Columns for the page: what a column file holds, checked, with properties and an elevation."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..column import Column
+from ..column.files import tables_of
+from ..column.found_in_space import base_axes, space_geometry
+from ..column.presets import PRESETS, preset
+from ..column.tables import made_of
+from ..constants import g
+from ..errors import InputError
+from ..response.bodies import bodies_of
+from ..response.poses import PlanePoses
+from ..response.shapes import hull
+
+
+def column_of(table: Mapping[str, Any]) -> Column:
+    """The column that the tables of a file describe.
+
+    Raises
+    ------
+    InputError
+        They describe none; the message names the key and the remedy.
+    """
+    return made_of(Column, dict(table))
+
+
+def presets() -> dict[str, dict[str, Any]]:
+    """Column files of the presets by their names."""
+    return {name: tables_of(preset(name)) for name in PRESETS}
+
+
+def tables_in(path: Path) -> dict[str, Any]:
+    """What a column file holds, drum by drum, whichever way it is written."""
+    return tables_of(Column.from_toml(path))
+
+
+def describe(table: Mapping[str, Any]) -> dict[str, Any]:
+    """What the page shows of a column: properties, warnings and outlines.
+
+    Raises
+    ------
+    InputError
+        The tables describe no column.
+    """
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        column = column_of(table)
+        facts = {
+            "height": column.height,
+            "mass": column.mass,
+            "slenderness": column.slenderness,
+            "frequency_parameter": column.frequency_parameter,
+            "uplift_g": column.uplift_acceleration / g,
+            "joint_uplift_g": (column.joint_uplift_accelerations / g).tolist(),
+            "radius": column.radius,
+            "drums": column.n,
+            "name": column.name,
+            "digest": column.digest,
+        }
+    in_space = not column.as_found.in_plane
+    seen = {"xz": _outlines(column, 0), "yz": _outlines(column, 1)} if in_space else {"xz": _in_plane(column)}
+    return {
+        "facts": facts,
+        "outlines": {name: [one.round(4).tolist() for one in found] for name, found in seen.items()},
+        "in_space": in_space,
+        "slope": float(np.tan(np.radians(column.as_found.base_tilt))) if not in_space else 0.0,
+        "joints": [
+            {"width": float(column.joint_widths[i]), "friction": joint.tan_phi} for i, joint in enumerate(column.joints)
+        ],
+        "warnings": list(dict.fromkeys(str(one.message) for one in doubts)),
+    }
+
+
+def _in_plane(column: Column) -> list[np.ndarray]:
+    """Corners of the drums of a column as found, seen along y [m]."""
+    bodies = bodies_of(column)
+    still = np.zeros((1, column.n))
+    placed = bodies.reference.plane(PlanePoses(still, still, still))[0]
+    found = []
+    for shape, (x, z, angle) in zip(bodies.shapes, placed, strict=True):
+        c, s = np.cos(angle), np.sin(angle)
+        found.append(shape.outline @ np.array([[c, s], [-s, c]]) + (x, z))
+    return found
+
+
+def _outlines(column: Column, axis: int) -> list[np.ndarray]:
+    """The same of a column that is found out of the plane, over x or over y."""
+    at, upright = space_geometry(column), base_axes(column)
+    found = []
+    for i, shape in enumerate(bodies_of(column).shapes):
+        points = (at.centroid[i] + shape.mesh().vertices @ at.axes[i].T) @ upright.T
+        found.append(hull(points[:, [axis, 2]]))
+    return found
+
+
+def refuse_large(table: Mapping[str, Any]) -> None:
+    """Refuse tables with more drums or overrides than a column can have, before they are looked at one by one."""
+    for key in ("drum", "joint_override", "link"):
+        rows = table.get(key)
+        if isinstance(rows, list) and len(rows) > 1000:
+            raise InputError(f"the column has {len(rows)} entries under {key}; allowed is up to 1000.")

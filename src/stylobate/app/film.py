@@ -1,0 +1,64 @@
+"""The film of a run for the page: what the player draws, and histories in step with it, as one JSON file."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..atomic import replacing
+from ..plots.animation import film_of, frame_indices
+from ..plots.player import film_data
+from ..plots.view import OBLIQUE
+from ..response import Response, load_response
+from ..response.histories import ENERGY_TERMS
+
+#: States of all bodies together that a film holds at most, frames per second that it has at best, and at least.
+MOST, BEST, LEAST = 60_000, 30.0, 4.0
+
+
+def write_film(response: Path, target: Path) -> Path:
+    """Write the film of a recorded response."""
+    content = json.dumps(film(load_response(response)), separators=(",", ":"))
+    with replacing(target) as partial:
+        partial.write_text(content, encoding="utf-8")
+    return target
+
+
+def film(response: Response) -> dict[str, Any]:
+    """The verdict in words, the film, and histories at its states: mm and kJ, null for what is not finite."""
+    length = float(response.time[-1] - response.time[0]) or 1.0
+    rate = min(BEST, max(LEAST, MOST / (len(response.bodies.shown) * length)))
+    scene = film_of(response, OBLIQUE)
+    wanted = frame_indices(response.time, min(rate, 4900.0 / length), 1.0)
+    indices = np.unique(np.append(wanted, len(response.time) - 1))
+    return {
+        "sentence": response.sentence,
+        "film": film_data(scene, indices),
+        "histories": _histories(response, indices),
+    }
+
+
+def _histories(response: Response, indices: np.ndarray) -> dict[str, Any]:
+    h = response.histories
+    slip = np.linalg.norm(h.slip, axis=-1)
+    found: dict[str, Any] = {
+        "opening": _plain(1e3 * h.opening[indices].T),
+        "slip": _plain(1e3 * slip[indices].T),
+        "energy": {term: _plain(1e-3 * h.energy[term][indices]) for term in ENERGY_TERMS if term in h.energy},
+    }
+    if h.top is not None:
+        top = h.top[:, None] if h.top.ndim == 1 else h.top
+        found["top"] = {axis: _plain(1e3 * top[indices, k]) for k, axis in zip(range(top.shape[1]), "xy")}
+    if response.dims == "xyz":
+        found["twist"] = _plain(h.twist[indices].T)
+    return found
+
+
+def _plain(values: np.ndarray) -> list[Any]:
+    rounded = np.where(np.isfinite(values), np.round(values, 4), np.nan)
+    if rounded.ndim == 2:
+        return [_plain(row) for row in rounded]
+    return [None if one != one else one for one in rounded.tolist()]

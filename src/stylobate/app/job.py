@@ -1,0 +1,105 @@
+"""A job of the page: what was asked, its command lines, and what has become of it; kept in a folder of its own."""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from ..atomic import replacing
+from ..own_files import LIST
+from .asked import shown
+
+#: States of a job: it waits, is computed, has ended well, was refused as bad input, failed, or was stopped.
+WAITING, RUNNING, DONE, REFUSED, FAILED, CANCELLED = "waiting", "running", "done", "refused", "failed", "cancelled"
+
+#: The file that keeps a job.
+JOB = "job.json"
+
+
+@dataclass
+class Job:
+    """What is known of a job.
+
+    Parameters
+    ----------
+    id : str
+    folder : Path
+    kind : str
+        ``run``, ``domain``, ``ida`` or ``report``.
+    title : str
+        What it computes, in a line.
+    commands : list of list of str
+        Without the program's name.
+    asked : dict
+        What the page asked for, so that it can be asked again.
+    """
+
+    id: str
+    folder: Path
+    kind: str
+    title: str
+    commands: list[list[str]]
+    asked: dict[str, Any]
+    state: str = WAITING
+    created: float = field(default_factory=time.time)
+    started: float | None = None
+    ended: float | None = None
+    done: float = 0.0
+    total: float = 0.0
+    what: str = ""
+    sentence: str = ""
+    warnings: list[str] = field(default_factory=list)
+    results: list[dict[str, Any]] = field(default_factory=list)
+    version: int = 0
+    _files: list[str] | None = field(default=None, init=False, repr=False, compare=False)
+
+    @property
+    def open(self) -> bool:
+        """Whether it waits or is computed."""
+        return self.state in (WAITING, RUNNING)
+
+    def files(self) -> list[str]:
+        """Files that can be taken away: what stood, what was asked and what has come of it; not what is kept half-way."""
+        if self._files is not None:
+            return self._files
+        found = [one for one in self.folder.rglob("*") if one.is_file() and not one.is_symlink()]
+        names = [one.relative_to(self.folder).as_posix() for one in found if one.name[0] != "." and one.name != LIST]
+        self._files = sorted(name for name in names if name not in (JOB, "film.json") and ".sqlite" not in name)
+        return self._files
+
+    def changed(self) -> None:
+        """Look at its files anew when they are asked for next."""
+        self._files = None
+
+    def to_dict(self, whole: bool = True) -> dict[str, Any]:
+        """For the page; less what was asked and what came of it, unless all of it is wanted."""
+        left_out = ("folder", "_files") if whole else ("folder", "_files", "asked", "results")
+        plain = {key: value for key, value in asdict(self).items() if key not in left_out}
+        plain["commands"] = [shown(one) for one in self.commands]
+        plain["files"] = [] if self.open else self.files()
+        plain["film"] = (self.folder / "film.json").is_file()
+        return plain
+
+    def save(self) -> None:
+        """Keep it in its folder."""
+        plain = asdict(self) | {"folder": None}
+        plain.pop("_files")
+        with replacing(self.folder / JOB) as partial:
+            partial.write_text(json.dumps(plain), encoding="utf-8")
+
+    @classmethod
+    def load(cls, folder: Path) -> Job | None:
+        """The job that a folder keeps; None where it keeps none."""
+        try:
+            job = cls(**json.loads((folder / JOB).read_text(encoding="utf-8")) | {"folder": folder})
+        except (OSError, ValueError, TypeError):
+            return None
+        if job.open:
+            job.state, job.sentence = (
+                CANCELLED,
+                "The page was ended meanwhile; what is finished is kept: go on with it.",
+            )
+        return job

@@ -1,0 +1,73 @@
+"""Motions for the page: the one asked for, thinned for its plot, with its measures."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from ..column import Column
+from ..constants import g
+from ..motion import Motion, MotionRequest
+from ..motion.intensity import motion_summary, rocking_measures
+from .asked import MotionAsked
+
+#: Most points of a plotted line, and of the path in plan.
+POINTS, PATH = 2400, 1500
+
+
+def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) -> dict[str, Any]:
+    """What the page shows of a motion.
+
+    Parameters
+    ----------
+    asked : MotionAsked
+    files : sequence of str
+        Of the record.
+    column : Column, optional
+        For measures relative to it.
+
+    Raises
+    ------
+    InputError
+        There is no such motion.
+    """
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        request = MotionRequest.typed(**asked.words(files))
+        motion = request.motion(None if column is None else column.frequency_parameter)
+        summary = motion_summary(motion, spectrum=False)
+        relative = None
+        if column is not None and motion.pga > 0.0:
+            relative = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
+    return {
+        "summary": summary,
+        "relative": relative,
+        "duration": motion.duration,
+        "lines": {axis: _thinned(motion.time, values / g) for axis, values in motion.components.items()},
+        "path": _path(motion),
+        "warnings": list(dict.fromkeys(str(one.message) for one in doubts)),
+    }
+
+
+def _thinned(time: np.ndarray, values: np.ndarray) -> list[list[float]]:
+    """Times and values of a line that looks the same: of every piece its least and its largest value."""
+    if len(values) <= POINTS:
+        return [time.round(5).tolist(), values.round(6).tolist()]
+    size = -(-len(values) // (POINTS // 2))
+    whole = np.arange(0, len(values), size)
+    low = np.array([start + int(values[start : start + size].argmin()) for start in whole])
+    high = np.array([start + int(values[start : start + size].argmax()) for start in whole])
+    chosen = np.unique(np.concatenate((low, high, [0, len(values) - 1])))
+    return [time[chosen].round(5).tolist(), values[chosen].round(6).tolist()]
+
+
+def _path(motion: Motion) -> list[list[float]] | None:
+    """The acceleration in plan [g]: x and y; None along x alone."""
+    if motion.lateral is None:
+        return None
+    step = -(-motion.steps // PATH)
+    return [(motion.components[axis][::step] / g).round(5).tolist() for axis in "xy"]

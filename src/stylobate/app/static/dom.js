@@ -1,0 +1,92 @@
+// Small tools for elements: made, found, told apart; and numbers as people read them.
+
+export const find = (selector, from = document) => from.querySelector(selector);
+
+// el("p", { class: "hint", onclick: f }, "text", child): attributes, listeners (on…) and properties (values) of an element.
+export function el(name, given = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(given)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (key.startsWith("on")) made[key] = value;
+    else if (key === "value" || key === "checked" || key === "disabled" || key === "hidden") made[key] = value;
+    else made.setAttribute(key, value === true ? "" : value);
+  }
+  made.append(...children.flat().filter(one => one !== null && one !== undefined && one !== false));
+  return made;
+}
+
+export function fill(element, ...children) {
+  element.replaceChildren(...children.flat().filter(one => one !== null && one !== undefined && one !== false));
+  return element;
+}
+
+// A labelled control.
+export const field = (label, control, ...more) => el("label", { class: "field" }, el("span", {}, label), control, ...more);
+
+export function select(options, value, onchange, given = {}) {
+  const made = el("select", { ...given, onchange: event => onchange(event.target.value) },
+    options.map(([key, text]) => el("option", { value: key }, text)));
+  made.value = value;
+  return made;
+}
+
+// One of several, as buttons side by side that are radio buttons to the keyboard.
+export function choice(name, label, options, value, onchange) {
+  return el("fieldset", {}, el("legend", {}, label), el("div", { class: "choice" }, options.map(([key, text]) =>
+    el("label", {}, el("input", { type: "radio", name, value: key, checked: key === value, onchange: () => onchange(key) }), text))));
+}
+
+export function facts(pairs) {
+  return el("dl", { class: "facts" }, pairs.filter(one => one && one[1] !== null && one[1] !== undefined && one[1] !== "")
+    .map(([name, value]) => el("div", {}, el("dt", {}, name), el("dd", {}, value))));
+}
+
+export function number(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return value.toExponential(digits - 1);
+  return String(+value.toPrecision(Math.max(digits, Math.ceil(Math.log10(size)))));
+}
+
+export function length(value) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  return Math.abs(value) >= 1 ? number(value) + " m" : number(1000 * value) + " mm";
+}
+
+export const warnings = list => (list || []).map(one => el("p", { class: "warning" }, one));
+
+// Says something at the foot of the page for a while.
+let waiting = 0;
+export function notice(text) {
+  const place = find("#notice");
+  place.textContent = text; place.hidden = false;
+  clearTimeout(waiting);
+  waiting = setTimeout(() => { place.hidden = true; }, 7000);
+}
+
+// Marks the field of a panel that a sentence is about, with the sentence under it; under the panel where it is about none.
+export function mark(panel, error) {
+  for (const one of panel.querySelectorAll("[data-made=error]")) one.remove();
+  for (const one of panel.querySelectorAll("[aria-invalid]")) { one.removeAttribute("aria-invalid"); one.removeAttribute("aria-describedby"); }
+  if (!error) return;
+  const control = error.field && find(`[data-field="${CSS.escape(error.field)}"]`, panel);
+  const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error);
+  if (!control) { (find("[data-errors]", panel) || panel).append(said); return; }
+  control.setAttribute("aria-invalid", "true"); control.setAttribute("aria-describedby", said.id);
+  const row = control.closest("table.drums tr");
+  if (row) row.after(el("tr", { "data-made": "error" }, el("td", { colspan: 9 }, said)));
+  else (control.closest(".field, .slider") || control).after(said);
+}
+
+export function save(name, content) {
+  const link = el("a", { href: URL.createObjectURL(new Blob([content])), download: name });
+  document.body.append(link); link.click(); link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+// Calls a function once, when nothing has asked for it for a while.
+export function later(run, wait) {
+  let timer = 0;
+  return (...given) => { clearTimeout(timer); timer = setTimeout(() => run(...given), wait); };
+}

@@ -1,0 +1,83 @@
+// Fragility: every record scaled until the column falls, and the curve that comes of it.
+
+import { get, post, upload } from "./api.js";
+import { choice, el, facts, field, fill, find, mark, notice, number, select } from "./dom.js";
+import * as motion from "./motion.js";
+import * as run from "./run.js";
+import { change, listen, state } from "./state.js";
+
+const MEASURES = [["pgv", "peak velocity"], ["pga", "peak acceleration"], ["sa:1.0s", "spectral acceleration at 1 s"], ["avgsa", "average spectral acceleration"]];
+const STATES = [["collapse", "collapse"], ["top:0.35d", "top moves 0.35 d"], ["drums:0.01d", "drums shift 0.01 d"]];
+let panel, samples, uploaded = [];
+
+export function start(place, about) {
+  panel = place; samples = about.samples; uploaded = motion.kept();
+  listen(keys => {
+    if (keys.has("fragility") || keys.has("column") || keys.has("model")) render();
+    if (keys.has("fragilityJob")) show();
+    if (keys.has("motion")) { uploaded = motion.kept(); }
+    if (keys.has("tab") && state.tab === "fragility") { uploaded = [...new Map([...uploaded, ...motion.kept()].map(one => [one.id, one])).values()]; render(); }
+  });
+  fill(panel, el("h1", {}, "Fragility"), el("p", { class: "lead" }, "Each record is scaled up until the column falls; from all of them comes the curve: how likely it falls at which intensity."),
+    el("div", { class: "sheet left" }, el("div", { id: "fragility-asked", class: "card", "data-errors": true }), el("div", { id: "fragility-found" })));
+  render(); show();
+}
+const set = changes => change({ fragility: { ...state.fragility, ...changes } });
+
+function render() {
+  const s = state.fragility, list = [...samples.map(one => [`sample:${one.name}`, one.name, one.about]), ...uploaded.map(one => [one.id, one.name, "uploaded"])];
+  const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "records", onchange: event => take([...event.target.files]) });
+  const tick = id => event => set({ records: event.target.checked ? [...s.records, id] : s.records.filter(one => one !== id) });
+  const place = find("#fragility-asked", panel), held = find(".pick", place), down = held ? held.scrollTop : 0;
+  const focused = document.activeElement && document.activeElement.dataset.key;
+  fill(place, el("p", { class: "hint" }, `${(state.column || {}).name || "column"} · ${state.model}`),
+    el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload records …"), files,
+      el("button", { type: "button", class: "quiet", onclick: () => set({ records: s.records.length === list.length ? [] : list.map(one => one[0]) }) }, "All or none")),
+    el("ul", { class: "pick" }, list.map(([id, name, about]) => el("li", {}, el("label", { title: about }, el("input", { type: "checkbox", checked: s.records.includes(id), "data-key": id, onchange: tick(id) }), name)))),
+    el("div", { class: "row" }, field("Intensity", select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
+      field("Runs of a record", el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", onchange: event => set({ runs: event.target.value.trim() }) }))),
+    choice("state", "Limit state", STATES, s.state, one => set({ state: one })),
+    el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records`)));
+  find(".pick", place).scrollTop = down;
+  if (focused) { const again = find(`[data-key="${CSS.escape(focused)}"]`, place); if (again) again.focus(); }
+}
+
+async function take(files) {
+  for (const file of files) {
+    try { const one = await upload("/api/records", file); uploaded = [...uploaded, one]; set({ records: [...state.fragility.records, one.id] }); }
+    catch (error) { notice(`${file.name}: ${error.error}`); }
+  }
+}
+
+async function go() {
+  const s = state.fragility, asked = find("#fragility-asked", panel);
+  try {
+    mark(asked, null);
+    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: s.state });
+    change({ fragilityJob: job.id });
+  } catch (error) { mark(asked, error); }
+}
+
+async function show() {
+  if (!state.fragilityJob) { fill(find("#fragility-found", panel), el("div", { class: "card empty" }, "Choose records and compute.")); return; }
+  try { await hear(await get(`/api/jobs/${state.fragilityJob}`)); } catch (error) { notice(error.error); change({ fragilityJob: "" }); }
+}
+
+export async function hear(news) {
+  if (news.id !== state.fragilityJob) return;
+  const job = news.state === "done" && !news.results ? await get(`/api/jobs/${news.id}`).catch(() => news) : news;
+  const open = ["waiting", "running"].includes(job.state), [analysis, curve] = job.results || [];
+  const act = path => async () => { try { await post(`/api/jobs/${job.id}/${path}`); } catch (error) { notice(error.error); } };
+  const picture = (name, alt) => (job.files || []).includes(name) && el("img", { class: "figure", alt, src: `/api/jobs/${job.id}/files/${name}` });
+  fill(find("#fragility-found", panel), el("div", { class: "card" },
+    el("p", { class: "verdict" }, curve ? said(curve) : run.sentence(job) || "It is done."),
+    open && el("progress", job.total ? { max: job.total, value: job.done, "aria-label": "progress" } : { "aria-label": "progress" }),
+    open && el("div", { class: "row" }, el("button", { type: "button", onclick: act("cancel") }, "Cancel")),
+    ["cancelled", "failed"].includes(job.state) && el("div", { class: "row" }, el("button", { type: "button", onclick: act("again") }, "Go on with it")),
+    curve && facts([["median", `${number(curve.median)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
+      ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
+    (job.warnings || []).map(one => el("p", { class: "warning" }, one)), analysis && job.state === "done" && run.files(job)),
+  picture("fragility/fragility.png", "Fragility curve") && el("div", { class: "card" }, picture("fragility/fragility.png", "Fragility curve")),
+  picture("result/ida.png", "Incremental dynamic analysis: response over intensity") && el("div", { class: "card" }, picture("result/ida.png", "Incremental dynamic analysis: response over intensity")));
+}
+const said = s => `Half of the records bring ${s.state} at ${s.im} = ${number(s.median)} ${s.unit}.`;

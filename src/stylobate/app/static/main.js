@@ -1,0 +1,74 @@
+// The page begins: what there is to choose from, the parts, the line on which jobs are heard, and the address.
+
+import { get } from "./api.js";
+import * as column from "./column.js";
+import { find, notice } from "./dom.js";
+import * as domain from "./domain.js";
+import * as fragility from "./fragility.js";
+import * as jobs from "./jobs.js";
+import * as motion from "./motion.js";
+import * as run from "./run.js";
+import { change, followAddress, listen, read, state } from "./state.js";
+
+const TABS = ["column", "motion", "run", "domain", "fragility", "jobs"];
+
+function showTab() {
+  const tab = TABS.includes(state.tab) ? state.tab : "column";
+  for (const one of TABS) {
+    find(`#${one}`).hidden = one !== tab;
+    const link = find(`[data-tab=${one}]`);
+    if (one === tab) link.setAttribute("aria-current", "page"); else link.removeAttribute("aria-current");
+  }
+  document.title = `${tab[0].toUpperCase()}${tab.slice(1)} · stylobate`;
+}
+
+// One line for all news; the domain that is on show sends its cells on it.
+let line = null, ready = false;
+function follow() {
+  if (line) line.close();
+  line = new EventSource("/api/events" + (state.domainJob ? `?job=${encodeURIComponent(state.domainJob)}` : ""));
+  const on = (name, hear) => line.addEventListener(name, event => hear(JSON.parse(event.data)));
+  on("ready", now => { ready = now; status(); });
+  on("job", job => { jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); status(); });
+  on("gone", jobs.gone);
+  on("cells", ({ job, cells }) => domain.add(job, cells));
+  line.onerror = () => { find("#status").textContent = "not connected"; };
+  line.onopen = status;
+}
+function status() {
+  const open = jobs.open(), running = open.find(one => one.state === "running");
+  const share = running && running.total ? ` ${Math.round(100 * running.done / running.total)} %` : "";
+  find("#status").textContent = running ? `computing${share}${open.length > 1 ? `, ${open.length - 1} waiting` : ""}` : ready ? "ready" : "getting ready …";
+}
+
+async function begin() {
+  Object.assign(state, read());
+  showTab();
+  const [about, kept] = await Promise.all([get("/api/about"), get("/api/records")]);
+  if (!state.column) state.column = structuredClone(about.presets[state.preset] || Object.values(about.presets)[0]);
+  listen(keys => {
+    if (keys.has("tab")) { showTab(); }
+    if (keys.has("domainJob")) follow();
+    if (keys.has("column") && !state.column) change({ column: structuredClone(about.presets[state.preset] || Object.values(about.presets)[0]) });
+  });
+  column.start(find("#column"), about);
+  motion.start(find("#motion"), about, kept.records);
+  run.start(find("#run"));
+  domain.start(find("#domain"));
+  fragility.start(find("#fragility"), about);
+  jobs.start(find("#jobs"));
+  follow();
+  document.documentElement.dataset.ready = "true";
+}
+
+addEventListener("hashchange", followAddress);
+addEventListener("keydown", event => { if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) { event.preventDefault(); run.go(); } });
+for (const link of document.querySelectorAll("#tabs a, .brand")) {
+  link.addEventListener("click", event => {
+    if (event.ctrlKey || event.metaKey || event.shiftKey || event.button) return;
+    event.preventDefault();
+    change({ tab: link.dataset.tab || "column" }, { record: true });
+    scrollTo(0, 0);
+  });
+}
+begin().catch(error => notice(error.error || String(error)));

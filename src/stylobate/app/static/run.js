@@ -1,0 +1,173 @@
+// Run: model and certainty; the verdict; the column as it moves, with its histories in step.
+
+import { get, post } from "./api.js";
+import { choice, el, facts, field, fill, find, later, length, mark, notice, number, select, warnings } from "./dom.js";
+import * as motion from "./motion.js";
+import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
+import { change, listen, state } from "./state.js";
+
+export const MODELS = [
+  ["dem2d", "dem2d", "Distinct elements in the plane: rigid drums that rock, slide and fall."],
+  ["dem3d", "dem3d", "Distinct elements in space: drums that wobble, twist and roll as well; both horizontal components."],
+  ["rigid-block", "rigid-block", "Rigid blocks with interfaces, in the plane."],
+  ["rigid-beam", "rigid-beam", "The founding paper's beam: one rigid body whose base follows a law of moment and rotation."],
+  ["housner", "housner", "Housner's rocking block: the column as one rigid body."],
+];
+
+let panel, player = null, plots = [], loaded = "", followed = null, data = null;
+
+export function start(place) {
+  panel = place;
+  listen(keys => {
+    if (["model", "replicates", "tail", "motion", "column", "settings"].some(key => keys.has(key))) renderAsked();
+    if (keys.has("job")) show();
+    if (keys.has("tab")) { if (state.tab === "run") paint(); else stop(); }
+  });
+  addEventListener("resize", later(() => plots.forEach(one => one.redraw()), 60));
+  fill(panel, el("h1", {}, "Run"), el("p", { class: "lead", id: "run-case" }),
+    el("div", { class: "sheet left" }, el("div", {}, el("div", { class: "card", id: "run-asked", "data-errors": true }), el("div", { class: "card", id: "run-said", "aria-live": "polite", hidden: true })),
+      el("div", { id: "run-film" })));
+  renderAsked(); show();
+}
+function stop() { if (player && find("#play", panel) && find("#play", panel).textContent === "Pause") player.toggle(); }
+
+function renderAsked() {
+  const column = state.column || {}, about = MODELS.find(one => one[0] === state.model);
+  find("#run-case", panel).textContent = `${column.name || "column"}, ${(column.drum || []).length} drums · ${motion.words()}`;
+  const place = find("#run-asked", panel), had = document.activeElement && document.activeElement.dataset.field;
+  fill(place,
+    field("Model", select(MODELS.map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
+    el("p", { class: "hint" }, about ? about[2] : ""),
+    state.model === "dem3d" && choice("law", "Contact in space", [["rim", "rim"], ["bed", "bed"]], state.settings.law || "rim", law => change({ settings: { ...state.settings, law } })),
+    el("div", { class: "row" },
+      field("Columns like this one", el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
+      field("Go on after the motion [s]", el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
+    el("p", { class: "hint" }, "How sure the verdict is: columns that differ by what nobody has measured."),
+    el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")));
+  if (had) { const again = find(`[data-field="${had}"]`, place); if (again) { again.focus(); if (again.setSelectionRange) again.setSelectionRange(99, 99); } }
+}
+
+export const common = () => ({
+  column: state.column, model: state.model, settings: state.settings, ...(state.tail ? { tail: `${state.tail}s` } : {}),
+});
+
+export async function go(changes = {}) {
+  const given = changes instanceof Event ? {} : changes;
+  try {
+    mark(find("#run-asked", panel), null);
+    const job = await post("/api/jobs", { kind: "run", ...common(), motion: motion.asked(), ...(state.replicates ? { replicates: state.replicates } : {}), ...given });
+    change({ tab: "run", job: job.id }, { record: true });
+  } catch (error) {
+    if (state.tab === "run") mark(find("#run-asked", panel), error); else notice(error.error);
+  }
+}
+
+// The job of the address: what is known of it now.
+async function show() {
+  if (!state.job) { fill(find("#run-film", panel), el("div", { class: "card empty" }, "Run the column to see how it moves.")); find("#run-said", panel).hidden = true; loaded = ""; return; }
+  try { hear(await get(`/api/jobs/${state.job}`)); }
+  catch (error) { notice(error.error); change({ job: "" }); }
+}
+
+// News of a job: only those of the one that is shown matter here.
+export async function hear(job) {
+  if (job.id !== state.job) return;
+  if (job.state === "done" && !job.results) job = await get(`/api/jobs/${job.id}`).catch(() => job);
+  if (job.id !== state.job) return;
+  followed = job;
+  said(job);
+  if (job.state === "done" && job.film && loaded !== job.id) {
+    loaded = job.id;
+    const found = await get(`/api/jobs/${job.id}/film`).catch(error => { notice(error.error); return null; });
+    if (found && state.job === job.id) { data = found; film(found); said(job); }
+  } else if (job.state !== "done" && loaded !== job.id) { loaded = ""; fill(find("#run-film", panel), waiting(job)); }
+}
+
+function waiting(job) {
+  const text = { waiting: `In the queue, ${job.place} before it.`, running: "It is computed.", cancelled: "It was cancelled.", refused: "It was not computed.", failed: "It was not computed to its end." }[job.state] || "";
+  return el("div", { class: "card empty" }, el("p", {}, text), job.state === "running" && el("progress", job.total ? { max: job.total, value: job.done, "aria-label": "progress" } : { "aria-label": "progress" }));
+}
+
+function said(job) {
+  const place = find("#run-said", panel), open = job.state === "waiting" || job.state === "running", result = job.results && job.results[0];
+  place.hidden = false;
+  const act = path => async () => { try { await post(`/api/jobs/${job.id}/${path}`); } catch (error) { notice(error.error); } };
+  fill(place,
+    job.state === "done" && result ? verdict(result, data && loaded === job.id ? data.sentence : "") : el("p", { class: "verdict" }, sentence(job)),
+    open && el("progress", job.total ? { max: job.total, value: job.done, "aria-label": "progress" } : { "aria-label": "progress" }),
+    open && el("div", { class: "row" }, el("button", { type: "button", onclick: act("cancel") }, "Cancel")),
+    ["cancelled", "failed"].includes(job.state) && el("div", { class: "row" }, el("button", { type: "button", onclick: act("again") }, "Go on with it")),
+    job.state === "done" && result && measures(result), warnings(job.warnings), job.state === "done" && files(job));
+}
+export function sentence(job) {
+  return { waiting: `Waits: ${job.place} before it.`, running: job.total ? `${job.what || "Computed"}: ${number(job.done)} of ${number(job.total)}` : "It is computed …" }[job.state] || job.sentence;
+}
+
+function verdict(r, words) {
+  const look = r.outcome === "failed" ? "failed" : !r.decided ? "undecided" : r.collapsed ? "collapsed" : "stands";
+  const sure = r.certainty, parts = sure ? [["fell", sure.collapsed], ["", sure.stands], ["open", sure.undecided]] : [];
+  const total = parts.reduce((sum, one) => sum + one[1], 0);
+  const bar = total > 0 && el("div", { class: "chance", role: "img", "aria-label": sure.sentence }, parts.map(([name, count]) => {
+    const piece = el("i", { class: name }); piece.style.width = `${100 * count / total}%`; return piece;
+  }));
+  return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar];
+}
+
+function measures(r) {
+  return facts([
+    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], ["peak top displacement", length(r.peak_top_displacement_m)],
+    r.residual_top_displacement_m !== null && ["residual", length(r.residual_top_displacement_m)], r.peak_tilt_rad !== undefined && ["peak tilt", `${number(r.peak_tilt_rad)} rad`],
+    r.peak_tilt_rad === undefined && ["peak rotation", `${number(r.peak_rotation_rad)} rad`], ["peak joint opening", length(r.peak_joint_opening_m)],
+    r.residual_joint_slip_m !== null && ["residual slip", length(r.residual_joint_slip_m)], r.peak_twist_rad !== undefined && ["peak twist", `${number(r.peak_twist_rad)} rad`],
+    ["energy imbalance", number(r.energy_imbalance, 2)], ["computed in", `${number(r.wall_s)} s, ${r.steps} steps`],
+  ]);
+}
+
+export function files(job) {
+  const link = name => el("li", {}, el("a", { href: `/api/jobs/${job.id}/files/${name.split("/").map(encodeURIComponent).join("/")}`, download: name.split("/").pop() }, name));
+  return el("details", {}, el("summary", {}, "Command line and files"),
+    job.commands.map(one => el("code", { class: "command" }, one)), el("ul", {}, (job.files || []).map(link)));
+}
+
+function film({ film: shown, histories: h }) {
+  const canvas = (id, label, kind) => el("canvas", { id, class: kind, role: "img", "aria-label": label });
+  const speeds = [["0.1", "× 0.1"], ["0.25", "× ¼"], ["0.5", "× ½"], ["1", "true speed"], ["2", "× 2"]], factors = [1, 2, 5, 10, 20, 50, 100];
+  const parts = {
+    film: canvas("film", "The column as it moves", ""), trace: canvas("trace", "Acceleration of the ground", ""), play: el("button", { type: "button", id: "play" }, "Play"),
+    place: el("input", { id: "place", type: "range", min: 0, max: 0, value: 0, "aria-label": "time" }), now: el("output", { id: "now" }),
+    speed: select(speeds, "1", () => {}, { "aria-label": "speed" }), larger: select(factors.map(one => [String(one), `displacements × ${one}`]), "1", () => {}, { "aria-label": "displacements" }),
+  };
+  const top = canvas("top", "Top displacement over time", "plot low"), opening = canvas("opening", "Opening of the joints over time", "plot low"), energy = canvas("energy", "Energy over time", "plot");
+  fill(find("#run-film", panel),
+    el("div", { class: "card" }, parts.film, el("div", { class: "bar" }, parts.play, parts.place, parts.now, parts.speed, parts.larger), parts.trace,
+      el("p", { class: "hint" }, `Drag to ${shown.space ? "turn" : "move"}, wheel or two fingers to zoom, double click to return; or arrows, + − and 0.${shown.space ? " The blue mark is on the same side of every drum." : ""}`)),
+    el("div", { class: "card" }, el("h2", {}, "Top"), top, el("h2", {}, "Joints"), joints(h, opening), el("h2", {}, "Energy"), energy));
+  const x = shown.time;
+  const peak = values => values.reduce((most, one) => one !== null && Math.abs(one) > most ? Math.abs(one) : most, 0);
+  const widest = h.opening.map((values, i) => [peak(values), i]).sort((a, b) => b[0] - a[0]).slice(0, 4).map(one => one[1]).sort((a, b) => a - b);
+  const kind = { name: "opening" };
+  const many = (list, each) => list.map((i, k) => ({ x, y: each[i], label: `joint ${i + 1}`, color: CYCLE[k][0], dash: CYCLE[k][1] }));
+  plots = [
+    h.top && moving(top, () => plot(top, [{ x, y: h.top.x, color: INK, label: h.top.y ? "x" : "" }, ...(h.top.y ? [{ x, y: h.top.y, color: BLUE, dash: [5, 3], label: "y" }] : [])], { xLabel: "time [s]", yLabel: "[mm]", ...limits(h.top, shown) })),
+    moving(opening, () => plot(opening, many(widest, h[kind.name]), { xLabel: "time [s]", yLabel: kind.name === "twist" ? "[rad]" : `${kind.name} [mm]` })),
+    moving(energy, () => plot(energy, Object.entries(h.energy).filter(([, y]) => peak(y) > 0).slice(0, 6).map(([label, y], k) => ({ x, y, label, color: CYCLE[k][0], dash: CYCLE[k][1] })), { xLabel: "time [s]", yLabel: "[kJ]" })),
+  ].filter(Boolean);
+  find("#joints", panel).onchange = event => { kind.name = event.target.value; plots.forEach(one => one.redraw()); player.seek(player.time()); };
+  for (const one of [top, opening, energy]) one.onclick = event => { const near = plots.find(other => other.canvas === one); if (near) player.seek(near.at(event.offsetX)); };
+  parts.painter = (shown.space ? spacePainter : planePainter)(shown, parts.film);
+  parts.shown = k => plots.forEach(one => one.cursor(x[k]));
+  if (player) player.end();
+  plots.forEach(one => one.redraw());
+  player = filmPlayer(shown, parts);
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches && state.tab === "run") player.toggle();
+}
+// Debris lies metres away: the axis ends where the column itself does.
+const limits = (top, shown) => {
+  const tall = 1000 * (shown.view[3] - shown.view[2]), most = Math.max(...Object.values(top).flat().map(one => one === null ? 0 : Math.abs(one)));
+  return most > tall ? { low: -tall, high: tall } : {};
+};
+const joints = (h, canvas) => [el("div", { class: "bar" }, el("select", { id: "joints", "aria-label": "what of the joints" },
+  [["opening", "opening"], ["slip", "slip"], ...(h.twist ? [["twist", "twist"]] : [])].map(([key, text]) => el("option", { value: key }, text)))), canvas];
+
+function paint() { if (player) { plots.forEach(one => one.redraw()); player.fit(); } }
+export const current = () => followed;

@@ -1,0 +1,277 @@
+"""Where jobs are done: one process, one job at a time, the others in a visible queue."""
+
+from __future__ import annotations
+
+import json
+import secrets
+import shutil
+import signal
+import subprocess
+import threading
+import time
+from collections import deque
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from ..errors import InputError
+from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
+
+#: Most jobs that wait, and that are kept.
+WAIT, KEEP = 50, 300
+
+#: What the process says beside its jobs, beside their folder.
+LOG = "worker.log"
+
+#: Time between two looks at an idle process [s].
+LOOK = 0.5
+
+#: Time that a process has to stop by itself when it is told to [s].
+PATIENCE = 3.0
+
+#: Codes of the command line for bad input and for an interrupt.
+BAD_INPUT, INTERRUPTED = 2, 130
+
+
+class Workshop:
+    """Jobs and the process that does them.
+
+    Parameters
+    ----------
+    folder : Path
+        Each job has a folder in it.
+    worker : sequence of str
+        The command line of the process; it takes jobs on standard input.
+    """
+
+    def __init__(self, folder: Path, worker: Sequence[str]) -> None:
+        self.folder, self.worker = folder, list(worker)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        loaded = [Job.load(one) for one in self.folder.iterdir() if one.is_dir()]
+        self.jobs = {one.id: one for one in sorted((job for job in loaded if job), key=lambda job: job.created)}
+        self.version = 0
+        self.ready = False
+        self._queue: deque[str] = deque()
+        self._lock, self._wake = threading.RLock(), threading.Condition()
+        self._process: subprocess.Popen[str] | None = None
+        self._current: str | None = None
+        self._closing = False
+        self._thread = threading.Thread(target=self._work, name="jobs", daemon=True)
+
+    def open(self) -> None:
+        """Start the process."""
+        self._thread.start()
+
+    def close(self) -> None:
+        """End the process; what is finished is kept."""
+        with self._wake:
+            self._closing = True
+            self._wake.notify()
+        self._stop_process()
+        if self._thread.is_alive():
+            self._thread.join()
+
+    # -- asked by the page ---------------------------------------------------------------------------------------
+
+    def submit(
+        self,
+        kind: str,
+        title: str,
+        commands: list[list[str]],
+        asked: dict[str, Any],
+        prepare: Callable[[Path], object] = lambda folder: None,
+    ) -> Job:
+        """Put a job into the queue.
+
+        Parameters
+        ----------
+        kind, title, commands, asked
+            As for :class:`stylobate.app.job.Job`.
+        prepare : callable
+            Writes what the commands need into the job's folder.
+
+        Raises
+        ------
+        InputError
+            Too many jobs wait.
+        """
+        with self._lock:
+            if len(self._queue) >= WAIT:
+                raise InputError(f"{len(self._queue)} jobs are waiting; cancel some, or wait until they are done.")
+            job = Job(secrets.token_hex(6), self.folder, kind, title, commands, asked)
+            job.folder = self.folder / job.id
+            job.folder.mkdir()
+            try:
+                prepare(job.folder)
+            except BaseException:
+                shutil.rmtree(job.folder, ignore_errors=True)
+                raise
+            self.jobs[job.id] = job
+            self._forget_old()
+        self._enqueue(job)
+        return job
+
+    def again(self, job: Job, commands: list[list[str]] | None = None) -> None:
+        """Do a job once more, in its folder: one that was stopped goes on where it was."""
+        with self._lock:
+            if job.open:
+                return
+            job.commands = commands or job.commands
+            job.state, job.sentence, job.ended, job.started, job.warnings, job.results = WAITING, "", None, None, [], []
+            job.done = job.total = 0.0
+        self._enqueue(job)
+
+    def cancel(self, job: Job) -> None:
+        """Take a job out of the queue, or stop it."""
+        with self._lock:
+            if job.state == WAITING:
+                with suppress(ValueError):
+                    self._queue.remove(job.id)
+                self._end(job, CANCELLED, "Cancelled before it began.")
+            elif job.state == RUNNING:
+                job.state = CANCELLED
+                self._changed(job)
+                self._stop_process()
+
+    def remove(self, job: Job) -> None:
+        """Cancel a job and delete its folder."""
+        self.cancel(job)
+        with self._lock:
+            self.jobs.pop(job.id, None)
+            self.version += 1
+        shutil.rmtree(job.folder, ignore_errors=True)
+
+    def place(self, job: Job) -> int:
+        """How many jobs are done before this one."""
+        with self._lock:
+            waiting = list(self._queue)
+            return waiting.index(job.id) + (self._current is not None) if job.id in waiting else 0
+
+    # -- the process ---------------------------------------------------------------------------------------------
+
+    def _enqueue(self, job: Job) -> None:
+        with self._wake:
+            self._queue.append(job.id)
+            self._wake.notify()
+        self._changed(job)
+        job.save()
+
+    def _work(self) -> None:
+        while not self._closing:
+            process = self._started()
+            with self._wake:
+                self._wake.wait_for(lambda: self._closing or self._queue, LOOK)
+            if self._closing or process.poll() is not None or not self._queue:
+                continue
+            with self._lock:
+                job = self.jobs.get(self._queue.popleft())
+                if job is None or job.state != WAITING:
+                    continue
+                self._current, job.state, job.started = job.id, RUNNING, time.time()
+                self._changed(job)
+            try:
+                self._follow(job, process)
+            finally:
+                self._current = None
+        self._stop_process()
+        self._put_away()
+
+    def _started(self) -> subprocess.Popen[str]:
+        if self._process is None or self._process.poll() is not None:
+            self._put_away()
+            self.ready = False
+            with (self.folder.parent / LOG).open("wb") as log:
+                self._process = subprocess.Popen(
+                    self.worker, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True, encoding="utf-8",
+                    bufsize=1, start_new_session=True,
+                )  # fmt: skip
+        return self._process
+
+    def _follow(self, job: Job, process: subprocess.Popen[str]) -> None:
+        """Hand a job to the process and hear what becomes of it."""
+        assert process.stdin is not None
+        assert process.stdout is not None
+        line = json.dumps({"id": job.id, "folder": str(job.folder), "commands": job.commands})
+        with suppress(OSError):
+            process.stdin.write(line + "\n")
+        for said in process.stdout:
+            try:
+                what = json.loads(said)
+            except ValueError:
+                continue
+            self.ready = True
+            if what.get("id") == job.id and self._hear(job, what):
+                return
+        code = process.wait()
+        if job.state == CANCELLED:
+            self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
+        else:
+            why = signal.Signals(-code).name if code < 0 else f"code {code}"
+            self._end(
+                job,
+                FAILED,
+                f"The process that computes was ended from outside ({why}); what is finished is kept: go on with it.",
+            )
+
+    def _hear(self, job: Job, what: dict[str, Any]) -> bool:
+        """Note what the process says; True when the job is over."""
+        if "progress" in what:
+            job.done, job.total = what["progress"]
+            job.what = what["what"]
+            self._changed(job)
+            return False
+        if "code" not in what:
+            self._end(job, DONE, "")
+            return True
+        complaints = [str(one) for one in what["complained"]]
+        job.warnings += [one.removeprefix("warning: ") for one in complaints if one.startswith("warning: ")]
+        with suppress(ValueError):
+            job.results.append(json.loads(what["said"]))
+        if what["code"] == 0:
+            self._changed(job)
+            return False
+        if what["code"] == INTERRUPTED or job.state == CANCELLED:
+            self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
+            return True
+        sentence = next((one for one in reversed(complaints) if not one.startswith("warning: ")), "It failed.")
+        self._end(job, REFUSED if what["code"] == BAD_INPUT else FAILED, sentence)
+        return True
+
+    def _end(self, job: Job, state: str, sentence: str) -> None:
+        job.state, job.sentence, job.ended = state, sentence, time.time()
+        self._changed(job)
+        if job.id in self.jobs:
+            with suppress(InputError, OSError):
+                job.save()
+
+    def _changed(self, job: Job) -> None:
+        with self._lock:
+            self.version += 1
+            job.version = self.version
+            job.changed()
+
+    def _forget_old(self) -> None:
+        ended = [job for job in self.jobs.values() if not job.open]
+        for job in ended[: max(0, len(self.jobs) - KEEP)]:
+            self.jobs.pop(job.id)
+            shutil.rmtree(job.folder, ignore_errors=True)
+
+    def _stop_process(self) -> None:
+        process = self._process
+        if process is None or process.poll() is not None:
+            return
+        process.terminate()
+        try:
+            process.wait(PATIENCE)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+
+    def _put_away(self) -> None:
+        if self._process is not None:
+            for pipe in (self._process.stdin, self._process.stdout):
+                if pipe is not None:
+                    with suppress(OSError):
+                        pipe.close()
+            self._process = None

@@ -1,0 +1,51 @@
+"""``stylobate serve``: the page on this machine."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from contextlib import suppress
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from ..errors import InputError
+
+#: The process that does the jobs of the page.
+WORKER = (sys.executable, "-m", f"{__package__}.worker")
+
+
+def serve(
+    port: Annotated[int, typer.Option("--port", metavar="N", help="Of the page; 0 for any that is free.")] = 8040,
+    host: Annotated[
+        str, typer.Option("--host", metavar="ADDRESS", help="Of this machine, for others to reach the page as well.")
+    ] = "127.0.0.1",
+    no_browser: Annotated[bool, typer.Option("--no-browser", help="Do not open the page in a browser.")] = False,
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", metavar="DIR", help="Keep jobs and records there; without it they end with the page."),
+    ] = None,
+) -> None:
+    """A page to explore columns: edit, shake, watch, and map what stands and what falls.
+
+    Prints its address as the first line, and serves this machine alone until it is stopped (Ctrl-C). Needs the extra 'app'.
+    """
+    from ..atomic import output_folder
+
+    if not 0 <= port <= 65535:
+        raise InputError(f"--port is {port}; allowed is 0 to 65535.")
+    try:
+        from ..app.server import serve as run
+    except ImportError as error:
+        if error.name is None or error.name.partition(".")[0] not in ("starlette", "uvicorn", "anyio"):
+            raise
+        raise InputError(
+            f"the page needs {error.name}, which is not installed; install it with 'pip install stylobate[app]'."
+        ) from None
+    if out is not None:
+        with output_folder(out):
+            pass
+    signal.set_wakeup_fd(-1)  # the server ends by itself, and puts away what it has open
+    with suppress(KeyboardInterrupt):
+        run(host, port, out, WORKER, browser=not no_browser)

@@ -1,0 +1,109 @@
+"""The process of the page's jobs: it takes command lines from standard input, one job after the other, and runs them.
+
+A job is a line of JSON: ``id``, ``folder`` and ``commands``. What becomes of it goes to standard output, in lines of JSON
+as well: ``progress``, the end of each command with its JSON object and its complaints, and ``done``.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import queue
+import signal
+import sys
+import threading
+import time
+from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout, suppress
+from pathlib import Path
+from typing import Any
+
+from ..errors import StylobateError
+from . import signals
+
+#: Least time between two lines about progress [s].
+PACE = 0.1
+
+
+def main() -> None:
+    """Work until standard input ends."""
+    signals.listen()
+    telling = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)  # what libraries print is no line of ours
+
+    def tell(**what: Any) -> None:
+        telling.write(json.dumps(what) + "\n")
+        telling.flush()
+
+    from . import console
+
+    jobs: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
+    threading.Thread(target=listen, args=(jobs,), name="jobs", daemon=True).start()
+    with suppress(KeyboardInterrupt):
+        warm(tell)
+        while not signals.TOLD.is_set():
+            job = jobs.get()
+            console.LISTENER = listener(job["id"], tell)
+            work(job, tell)
+            console.LISTENER = None
+    signals.said()
+    signals.end_now(signals.INTERRUPTED)
+
+
+def listen(jobs: queue.SimpleQueue[dict[str, Any]]) -> None:
+    """Take jobs from standard input; where it ends, nobody waits for this process any more."""
+    for line in sys.stdin:
+        jobs.put(json.loads(line))
+    os.kill(os.getpid(), signal.SIGTERM)
+
+
+def listener(job: str, tell: Callable[..., None]) -> Callable[[str, float, float], None]:
+    """Hears of the progress of a job and passes it on, not too often."""
+    last = [0.0]
+
+    def hear(what: str, done: float, total: float) -> None:
+        now = time.monotonic()
+        if now - last[0] >= PACE or done >= total:
+            last[0] = now
+            tell(id=job, progress=[done, total], what=what)
+
+    return hear
+
+
+def warm(tell: Callable[..., None]) -> None:
+    """Load compiled code and libraries before the first job comes."""
+    from ..plots import player  # noqa: F401
+    from .main import call
+
+    with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
+        call(["run", "paper-monolithic", "--harmonic=1Hz,0.05g,0.1s", "--json"])
+    tell(ready=True)
+
+
+def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
+    """Run the commands of a job, and make the film of a run."""
+    from ..app.film import write_film
+    from .main import call
+
+    os.chdir(job["folder"])
+    for number, command in enumerate(job["commands"]):
+        said, complained = io.StringIO(), io.StringIO()
+        with redirect_stdout(said), redirect_stderr(complained):
+            code = call([*command, "--json"])
+        lines = [one.removeprefix("stylobate: ") for one in complained.getvalue().splitlines()]
+        tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines)
+        if code:
+            return
+        response = Path("result/response.nc")
+        if command[0] == "run" and response.is_file():
+            try:
+                write_film(response, Path("film.json"))
+            except StylobateError as error:
+                complaint = f"warning: there is no film: {error}"
+                tell(id=job["id"], number=number, code=0, said="", complained=[complaint])
+    tell(id=job["id"], done=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,28 @@
+"""A process of jobs that computes nothing: what the model of a job says decides what becomes of it."""
+
+import json
+import os
+import pathlib
+import sys
+import time
+
+print(json.dumps({"ready": True}), flush=True)
+for line in sys.stdin:
+    job = json.loads(line)
+    how = next(one for one in job["commands"][0] if one.startswith("--model=")).removeprefix("--model=")
+    result = pathlib.Path(job["folder"]) / "result"
+    result.mkdir(exist_ok=True)
+    (result / "made.txt").write_text("kept")
+    print("no line of ours", flush=True)
+    for k in range(3):
+        print(json.dumps({"id": job["id"], "progress": [k, 3], "what": "cells"}), flush=True)
+    if how == "slow":
+        time.sleep(30)
+    if how == "dies":
+        os._exit(7)
+    code = 2 if how == "refused" else 0
+    complained = ["warning: a doubt", "the model is 'refused'; allowed is another."] if code else ["warning: a doubt"]
+    said = {"id": job["id"], "number": 0, "code": code, "said": '{"outcome": "rocked"}', "complained": complained}
+    print(json.dumps(said), flush=True)
+    if not code:
+        print(json.dumps({"id": job["id"], "done": True}), flush=True)

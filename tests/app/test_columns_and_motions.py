@@ -1,0 +1,141 @@
+"""What the page is told of columns and motions: properties, outlines, measures, and errors at their fields."""
+
+import copy
+import re
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.app.fields import column_field, motion_field
+
+
+def test_a_column_has_the_properties_of_the_library(client, table):
+    found = client.post("/api/column", json=table).json()
+    column = st.Column.of_drums(
+        [st.Drum(one["height"], one["bottom_width"], one["top_width"], 1600.0) for one in table["drum"]],
+        st.Joint(5e10, 2.5e10, friction_coefficient=0.7),
+    )
+    assert found["facts"]["mass"] == pytest.approx(column.mass)
+    assert found["facts"]["uplift_g"] == pytest.approx(column.uplift_acceleration / st.g)
+    corners = np.array(found["outlines"]["xz"][2])
+    assert corners[:, 1].max() == pytest.approx(column.height, abs=1e-4)
+    assert np.ptp(corners[:, 0]) == pytest.approx(table["drum"][2]["bottom_width"], abs=2e-4)
+
+
+def test_offsets_move_the_outlines(client, table):
+    straight = client.post("/api/column", json=table).json()["outlines"]["xz"]
+    moved = table | {"as_found": {"drum": [{"index": 2, "offset": 0.05}]}}
+    found = client.post("/api/column", json=moved).json()["outlines"]["xz"]
+    assert np.array(found[0]) == pytest.approx(np.array(straight[0]), abs=1e-4)
+    for i in (1, 2):
+        assert np.array(found[i])[:, 0] == pytest.approx(np.array(straight[i])[:, 0] + 0.05, abs=2e-4)
+    aside = table | {"as_found": {"drum": [{"index": 2, "offset": 0.05, "offset_azimuth": 90}]}}
+    in_space = client.post("/api/column", json=aside).json()
+    assert in_space["in_space"]
+    seen = np.array(in_space["outlines"]["yz"][1])
+    assert seen[:, 0].mean() == pytest.approx(0.05, abs=1e-3)
+
+
+def put(table, path, value):
+    found = copy.deepcopy(table)
+    group, *rest = path.split(".")
+    if group == "drum":
+        found["drum"][int(rest[0]) - 1][rest[1]] = value
+    elif group == "found":
+        found["as_found"] = {"drum": [{"index": 1, "offset": 0.001}, {"index": int(rest[0]), rest[1]: value}]}
+    elif group == "override":
+        found["joint_override"] = [{"index": int(rest[0]), rest[1]: value}]
+    elif group == "joint":
+        found["joint"] = {"normal_stiffness": 5e10, "shear_stiffness": 2.5e10} | {rest[0]: value}
+    elif group.startswith("base"):
+        found["as_found"] = {group: value}
+    else:
+        found[group] = value
+    return found
+
+
+FIELDS = (
+    [("drum.2", name) for name in ("height", "bottom_width", "top_width", "density", "depth")]
+    + [("found.3", name) for name in ("offset", "tilt", "chip_left", "chip_right", "offset_azimuth", "turn")]
+    + [("joint", name) for name in ("normal_stiffness", "shear_stiffness", "friction_coefficient", "cohesion")]
+    + [("override.2", name) for name in ("normal_stiffness", "friction_coefficient", "cohesion")]
+    + [(None, "gravity"), (None, "base_tilt"), (None, "base_azimuth")]
+)
+
+
+@pytest.mark.parametrize(("where", "name"), FIELDS)
+@pytest.mark.parametrize("value", [-1e9, "abc"])
+def test_every_error_finds_its_field(client, table, where, name, value):
+    """Whatever is out of range or no number at all, in the library's words, is marked where it was typed."""
+    path = name if where is None else f"{where}.{name}"
+    answer = client.post("/api/column", json=put(table, path, value))
+    assert answer.status_code == 422
+    assert answer.json()["field"] == path, answer.json()["error"]
+
+
+def test_a_missing_value_finds_its_field(client, table):
+    del table["drum"][1]["height"]
+    found = client.post("/api/column", json=table).json()
+    assert found == {
+        "error": "the column: key 'height' is missing in [[drum]] number 2; add it.",
+        "field": "drum.2.height",
+    }
+
+
+def test_sentences_about_no_field_have_none(table):
+    assert column_field("the drums mix circular and rectangular things.", table) is None
+    assert motion_field("there is no sample of this name.") is None
+
+
+def test_a_column_file_goes_out_and_comes_back(client, table):
+    table["as_found"] = {"base_tilt": 0.2, "drum": [{"index": 2, "offset": 0.01}]}
+    text = client.post("/api/column/toml", json=table).text
+    assert "[[drum]]" in text
+    back = client.post("/api/column/file", content=text.encode()).json()["table"]
+    same = [client.post("/api/column", json=one).json()["facts"]["digest"] for one in (table, back)]
+    assert same[0] == same[1]
+    answer = client.post("/api/column/file", content=b"height = ")
+    assert answer.status_code == 422
+    assert "is not valid TOML" in answer.json()["error"]
+
+
+def test_a_sine_is_shown_with_its_measures(client, table):
+    asked = {"motion": {"kind": "harmonic", "text": "1Hz,0.3g,4s", "azimuth": "90deg"}, "column": table}
+    found = client.post("/api/motion", json=asked).json()
+    assert found["summary"]["pga_g"]["y"] == pytest.approx(0.3, abs=1e-4)
+    time, values = found["lines"]["y"]
+    assert len(time) == len(values) <= 2401
+    assert max(values) == pytest.approx(0.3, abs=1e-4)
+    assert found["relative"]["pga_over_g_tan_alpha"] < 1e-6
+
+
+@pytest.mark.parametrize(
+    ("motion", "field"),
+    [
+        ({"kind": "harmonic", "text": "-1Hz,0.3g,4s"}, "frequency"),
+        ({"kind": "harmonic", "text": "1Hz,abc,4s"}, "amplitude"),
+        ({"kind": "harmonic", "text": "1Hz,0.3g,-4s"}, "duration"),
+        ({"kind": "harmonic", "text": "1Hz,0.3g,4s", "azimuth": "400deg"}, "azimuth"),
+        ({"kind": "harmonic", "text": "1Hz,0.3g,4s", "azimuth": "xdeg"}, "azimuth"),
+    ],
+)
+def test_errors_of_motions_find_their_field(client, motion, field):
+    answer = client.post("/api/motion", json={"motion": motion})
+    assert answer.status_code == 422
+    assert answer.json()["field"] == field, answer.json()
+
+
+def test_a_record_is_uploaded_and_its_unit_asked_for(client, table):
+    lines = "\n".join(f"{0.01 * k:.2f} {0.2 * np.sin(0.3 * k):.6f}" for k in range(400)) + "\n"
+    kept = client.post("/api/records", content=lines.encode(), headers={"x-name": "my%20record.txt"}).json()
+    assert kept["name"] == "my record.txt"
+    asked = {"kind": "record", "text": kept["id"]}
+    refused = client.post("/api/motion", json={"motion": asked})
+    assert refused.status_code == 422
+    assert refused.json()["field"] == "unit"
+    found = client.post("/api/motion", json={"motion": asked | {"unit": "m/s2"}}).json()
+    assert found["summary"]["format"] == "columns of text"
+    assert re.fullmatch(r"my-record-[0-9a-f]{8}\.txt", found["summary"]["file"])
+    assert client.delete(f"/api/records/{kept['id']}").status_code == 200
+    assert "upload it again" in client.post("/api/motion", json={"motion": asked}).json()["error"]

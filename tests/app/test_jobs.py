@@ -1,0 +1,111 @@
+"""Jobs: one at a time, a visible queue, cancelled, killed, done again, kept over a restart."""
+
+import os
+import signal
+import time
+
+import pytest
+from page_server import ended, served
+
+
+def test_a_job_is_done_and_its_files_are_listed(fresh, asked):
+    made = fresh.post("/api/jobs", json=asked)
+    assert made.status_code == 201
+    job = ended(fresh, made.json()["id"])
+    assert (job["state"], job["warnings"], job["results"]) == ("done", ["a doubt"], [{"outcome": "rocked"}])
+    assert job["files"] == ["column.toml", "result/made.txt"]
+    assert job["commands"] == [
+        "stylobate run column.toml --model=dem2d --harmonic=1Hz,0.3g,2s --no-pictures --out=result"
+    ]
+
+
+def test_what_the_command_refuses_is_said_in_its_words(fresh, asked):
+    job = ended(fresh, fresh.post("/api/jobs", json=asked | {"model": "refused"}).json()["id"])
+    assert (job["state"], job["sentence"]) == ("refused", "the model is 'refused'; allowed is another.")
+
+
+def test_ten_jobs_wait_in_a_row_and_can_be_cancelled(fresh, asked):
+    jobs = [fresh.post("/api/jobs", json=asked | {"model": "slow"}).json() for _ in range(10)]
+    end = time.monotonic() + 10.0
+    while (found := fresh.get("/api/jobs").json()["jobs"])[0]["state"] != "running" and time.monotonic() < end:
+        time.sleep(0.02)
+    assert [one["state"] for one in found] == ["running"] + ["waiting"] * 9
+    assert [one["place"] for one in found] == list(range(10))
+    for one in reversed(jobs):
+        assert fresh.post(f"/api/jobs/{one['id']}/cancel").status_code == 200
+    assert {ended(fresh, one["id"])["state"] for one in jobs} == {"cancelled"}
+    after = ended(fresh, fresh.post("/api/jobs", json=asked).json()["id"])  # a new process has taken over
+    assert after["state"] == "done"
+
+
+def test_more_jobs_than_can_wait_are_refused(fresh, asked, monkeypatch):
+    monkeypatch.setattr("stylobate.app.workshop.WAIT", 2)
+    codes = [fresh.post("/api/jobs", json=asked | {"model": "slow"}).status_code for _ in range(6)]
+    assert 422 in codes
+    assert codes[:2] == [201, 201]
+
+
+@pytest.mark.parametrize("how", ["dies", "slow"])
+def test_a_killed_process_costs_one_sentence(fresh, asked, how, tmp_path):
+    job = fresh.post("/api/jobs", json=asked | {"model": how}).json()["id"]
+    if how == "slow":
+        end = time.monotonic() + 10.0
+        while fresh.get(f"/api/jobs/{job}").json()["total"] == 0 and time.monotonic() < end:
+            time.sleep(0.02)
+        os.kill(worker_of(tmp_path), signal.SIGKILL)
+    found = ended(fresh, job)
+    assert found["state"] == "failed"
+    assert found["sentence"].startswith("The process that computes was ended from outside")
+    assert found["files"] == ["column.toml", "result/made.txt"]  # what was finished is kept
+    assert ended(fresh, fresh.post("/api/jobs", json=asked).json()["id"])["state"] == "done"
+
+
+def worker_of(folder):
+    """The process whose log lies in a folder."""
+    log = os.path.realpath(folder / "worker.log")
+    for process in filter(str.isdecimal, os.listdir("/proc")):
+        try:
+            if os.readlink(f"/proc/{process}/fd/2") == log:
+                return int(process)
+        except OSError:
+            continue
+    pytest.skip("this system does not say which process writes a file")
+
+
+def test_a_job_is_done_again_and_deleted(fresh, asked, tmp_path):
+    job = fresh.post("/api/jobs", json=asked).json()["id"]
+    ended(fresh, job)
+    assert fresh.post(f"/api/jobs/{job}/again").status_code == 200
+    assert ended(fresh, job)["results"] == [{"outcome": "rocked"}]
+    assert fresh.delete(f"/api/jobs/{job}").status_code == 200
+    assert fresh.get(f"/api/jobs/{job}").status_code == 404
+    assert list((tmp_path / "jobs").iterdir()) == []
+
+
+def test_jobs_are_there_after_a_restart(tmp_path, asked):
+    with served(tmp_path) as first:
+        done = first.post("/api/jobs", json=asked).json()["id"]
+        ended(first, done)
+        slow = first.post("/api/jobs", json=asked | {"model": "slow"}).json()["id"]
+    with served(tmp_path) as second:
+        found = {one["id"]: one for one in second.get("/api/jobs").json()["jobs"]}
+        assert found[done]["state"] == "done"
+        assert second.get(f"/api/jobs/{done}").json()["results"] == [{"outcome": "rocked"}]
+        assert found[slow]["state"] in ("cancelled", "failed")
+
+
+def test_a_run_needs_a_motion_and_a_fragility_records(fresh, asked):
+    assert "no motion" in fresh.post("/api/jobs", json=asked | {"motion": None}).json()["error"]
+    assert "no record" in fresh.post("/api/jobs", json=asked | {"kind": "ida", "motion": None}).json()["error"]
+    answer = fresh.post("/api/jobs", json=asked | {"column": asked["column"] | {"gravity": -1}})
+    assert answer.json()["field"] == "gravity"
+
+
+def test_a_job_has_copies_of_its_records(fresh, asked, tmp_path):
+    kept = fresh.post("/api/records", content=b"time_s,ax_g\n0,0.1\n0.01,0.2\n", headers={"x-name": "a.csv"}).json()
+    job = fresh.post("/api/jobs", json=asked | {"motion": {"kind": "record", "text": kept["id"]}}).json()
+    fresh.delete(f"/api/records/{kept['id']}")
+    name = f"records/a-{kept['id']}.csv"
+    assert f"--motion={name}" in job["commands"][0]
+    assert name in ended(fresh, job["id"])["files"]
+    assert "a.csv" in job["title"]

@@ -1,0 +1,42 @@
+"""The page served at a free port of this machine, for its tests; with the process of its jobs, or one that only pretends."""
+
+import sys
+import threading
+import time
+from contextlib import contextmanager
+from pathlib import Path
+
+import httpx
+
+from stylobate.app.server import listening_at, server_of
+from stylobate.app.site import create_app
+
+#: Processes of jobs: one that computes nothing, and the real one.
+FAKE = (sys.executable, str(Path(__file__).parent / "app" / "fake_worker.py"))
+REAL = (sys.executable, "-m", "stylobate.cli.worker")
+
+
+@contextmanager
+def served(folder, worker=FAKE):
+    """A client of the page while it is served from a folder."""
+    with listening_at("127.0.0.1", 0) as listening:
+        server = server_of(create_app(folder, worker))
+        thread = threading.Thread(target=server.run, args=([listening],))
+        thread.start()
+        try:
+            with httpx.Client(base_url=f"http://127.0.0.1:{listening.getsockname()[1]}", timeout=30.0) as client:
+                yield client
+        finally:
+            server.should_exit = True
+            thread.join()
+
+
+def ended(client, job, limit=15.0):
+    """A job when it is over."""
+    end = time.monotonic() + limit
+    while time.monotonic() < end:
+        found = client.get(f"/api/jobs/{job}").json()
+        if found["state"] not in ("waiting", "running"):
+            return found
+        time.sleep(0.02)
+    raise AssertionError(found)
