@@ -15,6 +15,9 @@ from ..plots.view import OBLIQUE
 from ..response import Response, load_response
 from ..response.histories import ENERGY_TERMS
 
+#: Least width over height of a film: upright, for phones.
+SHAPE = 0.9
+
 #: States of all bodies together that a film holds at most, frames per second that it has at best, and at least.
 MOST, BEST, LEAST = 60_000, 30.0, 4.0
 
@@ -36,7 +39,7 @@ def film(response: Response) -> dict[str, Any]:
     indices = np.unique(np.append(wanted, len(response.time) - 1))
     return {
         "sentence": response.sentence,
-        "film": film_data(scene, indices),
+        "film": film_data(scene, indices, least=SHAPE),
         "histories": _histories(response, indices),
     }
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import time
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -77,7 +77,7 @@ class Job:
     def to_dict(self, whole: bool = True) -> dict[str, Any]:
         """For the page; less what was asked and what came of it, unless all of it is wanted."""
         left_out = ("folder", "_files") if whole else ("folder", "_files", "asked", "results")
-        plain = {key: value for key, value in asdict(self).items() if key not in left_out}
+        plain = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in left_out}
         plain["commands"] = [shown(one) for one in self.commands]
         plain["files"] = [] if self.open else self.files()
         plain["film"] = (self.folder / "film.json").is_file()

@@ -345,7 +345,7 @@ def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = ())
         OSError: _on_failure,
         404: _on_missing,
     }
-    app = Starlette(routes=routes, lifespan=lifespan, exception_handlers=handlers)  # pyright: ignore[reportArgumentType]
+    app = Starlette(routes=routes, lifespan=lifespan, exception_handlers=handlers)
     return Guard(app, hosts, {"/api/records": FILE})
 
 

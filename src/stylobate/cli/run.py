@@ -276,10 +276,10 @@ def safe_name(name: str, taken: Sequence[Path | None]) -> str:
     return next(one for one in (plain, *(f"{plain}-{i}" for i in range(2, len(used) + 3))) if one not in used)
 
 
-def write(response: Response, motion: Motion, folder: Path, drawn: bool = True) -> list[Path]:
+def write(response: Response, motion: Motion, folder: Path, figures: bool = True) -> list[Path]:
     """Histories and figures of one run."""
     files = [response.save(folder / "response.nc")]
-    if not drawn:
+    if not figures:
         return files
     from .. import plots
 

@@ -58,7 +58,7 @@ def write_player(
     return target
 
 
-def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE) -> dict[str, Any]:
+def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE, least: float = SHAPE) -> dict[str, Any]:
     """What the scripts of a page play: bodies, poses, the ground and what is seen of them at first, as plain values.
 
     Parameters
@@ -69,9 +69,11 @@ def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE) -> d
         The recorded states of the film, rising.
     seen_from : View
         From where what moved in space is seen at first; the viewer turns it.
+    least : float
+        Least width over height of what is seen [-].
     """
     response, shown = scene.response, list(scene.shown)
-    view = scene.view(indices, SHAPE)
+    view = scene.view(indices, least)
     poses = _upright(scene, response.body_position, response.body_orientation)[:, shown]
     data = {
         "time": scene.time[indices].round(4).tolist(),

@@ -156,7 +156,8 @@ function drums(table) {
     el("thead", {}, el("tr", {}, el("th", {}, "#"), shown.map(([, label, unit]) => el("th", { scope: "col" }, round && /Bottom|Top/.test(label) ? `${label} ⌀` : label, " ", el("small", {}, unit))))),
     el("tbody", {}, rows));
 }
-const tidy = given => typeof given === "number" ? +given.toPrecision(7) : given;
+// Shown with five digits; what is not edited keeps all of its own.
+const tidy = given => typeof given === "number" ? +given.toPrecision(5) : given;
 const tangent = angle => +Math.tan(angle * Math.PI / 180).toPrecision(6);
 
 // What all joints have in common, and the base.
@@ -183,8 +184,8 @@ function equal(table) {
   const make = () => {
     const n = asked.drums;
     if (!Number.isInteger(n) || n < 1 || n > 200 || !(asked.height > 0)) { notice("Give a height, two widths, and 1 to 200 drums."); return; }
-    const width = k => tidy(asked.bottom + (asked.top - asked.bottom) * k / n);
-    const drum = Array.from({ length: n }, (_, k) => ({ ...first, height: tidy(asked.height / n), bottom_width: width(k), top_width: width(k + 1) }));
+    const exact = one => +one.toPrecision(12), width = k => exact(asked.bottom + (asked.top - asked.bottom) * k / n);
+    const drum = Array.from({ length: n }, (_, k) => ({ ...first, height: exact(asked.height / n), bottom_width: width(k), top_width: width(k + 1) }));
     const rest = { ...structuredClone(state.column), drum };
     for (const key of ["joint_override", "as_found", "link"]) delete rest[key];
     replace(rest);

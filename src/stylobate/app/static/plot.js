@@ -45,7 +45,8 @@ export function plot(canvas, series, { xLabel = "", yLabel = "", zero = true, lo
   const times = drawn.length ? drawn[0].x : [0, 1];
   const [first, last] = xRange || [times[0], times[times.length - 1]];
   const marks = ticks(bottom, top, Math.max(2, height / 42)), wide = Math.max(...marks.map(one => c.measureText(said(one)).width));
-  const named = drawn.some(one => one.label), [l, r, t, b] = [wide + 26, width - 10, named ? 24 : 8, height - 34];
+  const named = drawn.filter(one => one.label), places = legend(c, named, wide + 26, width - 6), lines = places.length ? places[places.length - 1][1] + 1 : 0;
+  const [l, r, t, b] = [wide + 26, width - 10, 8 + 16 * lines, height - 34];
   const across = x => l + (x - first) / (last - first || 1) * (r - l), up = y => b - (y - bottom) / (top - bottom) * (b - t);
   c.lineWidth = 0.7; c.strokeStyle = "#cfc8ba"; c.fillStyle = INK; c.textBaseline = "middle"; c.textAlign = "right";
   for (const one of marks) {
@@ -73,17 +74,26 @@ export function plot(canvas, series, { xLabel = "", yLabel = "", zero = true, lo
   }
   c.restore();
   c.setLineDash([]);
-  if (named) {
-    let x = l;
-    c.textAlign = "left"; c.textBaseline = "middle";
-    for (const one of drawn.filter(other => other.label)) {
-      c.strokeStyle = one.color || INK; c.lineWidth = 1.6; c.setLineDash(one.dash || []);
-      c.beginPath(); c.moveTo(x, 9); c.lineTo(x + 22, 9); c.stroke(); c.setLineDash([]);
-      c.fillStyle = INK; c.fillText(one.label, x + 27, 9);
-      x += 42 + c.measureText(one.label).width;
-    }
-  }
+  c.textAlign = "left"; c.textBaseline = "middle";
+  named.forEach((one, k) => {
+    const [x, y] = [places[k][0], 9 + 16 * places[k][1]];
+    c.strokeStyle = one.color || INK; c.lineWidth = 1.6; c.setLineDash(one.dash || []);
+    c.beginPath(); c.moveTo(x, y); c.lineTo(x + 22, y); c.stroke(); c.setLineDash([]);
+    c.fillStyle = INK; c.fillText(one.label, x + 27, y);
+  });
   return { across, left: l, right: r, top: t, bottom: b, first, last };
+}
+
+// Where the names of lines stand: from the left, and in which line of text.
+function legend(c, named, left, right) {
+  let [x, line] = [left, 0];
+  return named.map(one => {
+    const long = 42 + c.measureText(one.label).width;
+    if (x + long - 14 > right && x > left) [x, line] = [left, line + 1];
+    const place = [x, line];
+    x += long;
+    return place;
+  });
 }
 
 // A figure that keeps what it has drawn, so that a cursor moves over it without drawing it anew.

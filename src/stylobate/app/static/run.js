@@ -97,6 +97,7 @@ function said(job) {
     open && el("progress", job.total ? { max: job.total, value: job.done, "aria-label": "progress" } : { "aria-label": "progress" }),
     open && el("div", { class: "row" }, el("button", { type: "button", onclick: act("cancel") }, "Cancel")),
     ["cancelled", "failed"].includes(job.state) && el("div", { class: "row" }, el("button", { type: "button", onclick: act("again") }, "Go on with it")),
+    result && !result.decided && result.outcome !== "failed" && el("div", { class: "row" }, el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
     job.state === "done" && result && measures(result), warnings(job.warnings), job.state === "done" && files(job));
 }
 export function sentence(job) {
