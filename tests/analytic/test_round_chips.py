@@ -241,3 +241,22 @@ def test_what_a_chip_leaves_is_nowhere_stiffer_than_the_whole_face():
         assert np.linalg.eigvalsh(whole - 0.5 * (less + less.T)).min() > -1e-6 * area
         # its middle has moved away from the chip
         assert less[2, 0] < 0.0
+
+
+def test_a_drum_that_only_tips_over_its_chord_has_not_slipped():
+    """Slip is read where the faces are closest: at the chord, not where the rim was."""
+    column = chipped(0.2, 0.0, cylinder(1.0, 2.0))
+    block = block_of(column)
+    block.load(0, Case(column, Motion(0.1, np.zeros(2))))
+    tilt, pivot = 0.1, np.array([0.3, 0.0, 0.0])
+    for way in (0.0, 0.02):  # about the chord, and a little beside it
+        axes = rotation(np.array([0.0, 0.0, 1.0]), way) @ rotation(np.array([0.0, 1.0, 0.0]), tilt)
+        axes = axes @ rotation(np.array([0.0, 0.0, 1.0]), -way)
+        edge = pivot if way == 0.0 else np.array([0.3, 0.4, 0.0])
+        place = edge + axes @ (np.array([0.0, 0.0, column.centroid_height]) - edge)
+        for b, name in enumerate("xyz"):
+            block.drum[name][1, 0] = place[b]
+            for a, axis in enumerate("ijk"):
+                block.drum[axis + name][1, 0] = axes[b, a]
+        _, slip, _ = block.joints(0)
+        assert np.abs(slip[0]).max() < 1e-6

@@ -154,7 +154,7 @@ class SpaceBlock(DrumBlock):
         n = len(self.drum) - 1
         opening, slip, twist = np.empty(n), np.empty((n, 2)), np.empty(n)
         self.kernel.joint_state(self.drum, self.joint, lane, opening, slip, twist)
-        return opening, slips_where_closest(self.drum, lane, slip, twist), twist
+        return opening, slips_where_closest(self.drum, lane, slip, twist, self.joint["lost"][:-1, :, lane]), twist
 
     def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Slip [m] and twist [rad] of every joint since the start, shapes (n, 2) and (n,)."""

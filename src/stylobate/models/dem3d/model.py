@@ -12,6 +12,7 @@ from ...column import Column
 from ...column.found_in_space import shares_left
 from ...column.specimen import Specimen
 from ...errors import InputError, check_range
+from ...kernels.dem3d.records import CHIPS, RINGS
 from ...motion import Motion
 from ...response import Histories, Response
 from ..base import Model, RunOptions
@@ -38,7 +39,7 @@ TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_to
 SPECIMEN, RING, CHIPPED = "specimen", "ring", "chipped"
 
 #: Numbers that the kernels need of what faces lack.
-LOST = {RING: 3, CHIPPED: 6}
+LOST = {RING: RINGS, CHIPPED: CHIPS}
 
 #: The same for rectangular faces, and their corners.
 CORNER_LAW = ("corner_forces", 2.0)

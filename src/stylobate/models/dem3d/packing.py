@@ -10,6 +10,7 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import space_geometry, upward
+from ...kernels.dem3d.records import CHIPS, RINGS
 
 #: Radius of the base, wide enough to be a half-space [m].
 BASE_RADIUS = 1.0e3
@@ -116,7 +117,7 @@ def _lost(column: Column) -> np.ndarray:
     """What the faces of every joint lack (legend of kernels), (n + 1, 1), (n + 1, 3) with rings, (n + 1, 6) with chips."""
     if column.on_rings:
         return _sunken(column)
-    lost = np.zeros((column.n + 1, 6 if chipped(column) else 1))
+    lost = np.zeros((column.n + 1, CHIPS if chipped(column) else 1))
     if chipped(column):
         lost[:-1, :3] = chip_directions(column)
         for i, drum in enumerate(column.drums):
@@ -131,7 +132,7 @@ def _sunken(column: Column) -> np.ndarray:
 
     The limit is that of two concentric rings under even pressure.
     """
-    holes = np.zeros((column.n + 1, 3))
+    holes = np.zeros((column.n + 1, RINGS))
     for j in range(column.n):
         radius = 0.5 * column.joint_widths[j]
         upper, lower = (0.5 * width for width in column.sunken_widths(j))

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...kernels.dem3d.records import CHIPS
 
-def slips_where_closest(drum: np.ndarray, lane: int, middles: np.ndarray, twists: np.ndarray) -> np.ndarray:
+
+def slips_where_closest(
+    drum: np.ndarray, lane: int, middles: np.ndarray, twists: np.ndarray, lost: np.ndarray
+) -> np.ndarray:
     """Slip of every joint in the axes of the drum below, at the place where its two faces are closest [m], shape (n, 2).
 
     The middle of a face that leans about its rim moves sideways by R (1 - cos θ), and nothing has slipped: what counts is
-    where the upper drum's stone is that was pressed there. A closed joint has the offset of its middles.
+    where the upper drum's stone is that was pressed there: on a chip the end of its chord. A closed joint has the offset of
+    its middles.
 
     Parameters
     ----------
@@ -20,6 +25,8 @@ def slips_where_closest(drum: np.ndarray, lane: int, middles: np.ndarray, twists
         Middle of each upper face along the face below [m], shape (n, 2).
     twists : array
         Turn of each upper drum about the joint's normal [rad], shape (n,).
+    lost : array
+        What the joints' faces lack (legend of the kernels), shape (n, rows).
     """
     u, v = drum[1:], drum[:-1]
 
@@ -47,6 +54,12 @@ def slips_where_closest(drum: np.ndarray, lane: int, middles: np.ndarray, twists
         each = 1.0 / np.where(flat, 1.0, sine)
         h = np.stack((np.where(flat, 1.0, normal[:, 0] * each), normal[:, 1] * each, np.zeros(n)), axis=1)
         down = np.stack((normal[:, 2] * h[:, 0], normal[:, 2] * h[:, 1], -sine), axis=1)
+        if lost.shape[1] == CHIPS:
+            toward = (turn @ lost[:, :3, None])[:, :, 0]
+            beside = np.cross(normal, toward)
+            side = np.where((down * beside).sum(axis=1) < 0.0, -1.0, 1.0)
+            end = lost[:, 4, None] * toward + (side * lost[:, 5])[:, None] * beside
+            down = np.where((down * toward).sum(axis=1, keepdims=True) > lost[:, 4, None], end, down)
         places = np.stack((middle + u["rb"][:, lane, None] * down, v["rt"][:, lane, None] * h), axis=1)
         inside = np.array([True, False])
     gaps = np.where(inside, places[..., 2], ((middle[:, None] - places) @ normal[:, :, None])[..., 0])
