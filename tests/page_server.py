@@ -1,5 +1,6 @@
 """The page served at a free port of this machine, for its tests; with the process of its jobs, or one that only pretends."""
 
+import shutil
 import sys
 import threading
 import time
@@ -40,3 +41,9 @@ def ended(client, job, limit=15.0):
             return found
         time.sleep(0.02)
     raise AssertionError(found)
+
+
+def browser():
+    """Path of Chromium; None where there is none."""
+    found = (shutil.which(name) for name in ("chromium", "chromium-browser", "google-chrome"))
+    return next((path for path in found if path), None)
