@@ -6,7 +6,7 @@ import dataclasses
 import os
 import platform
 import time
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .column import Column
@@ -36,6 +36,7 @@ def simulate(
     until_rest: bool = False,
     start: Start | Toss | None = None,
     twins: Sequence[Column] = (),
+    progress: Callable[[float, float], None] | None = None,
 ) -> Response:
     """Shake one column once and record what happens.
 
@@ -59,6 +60,8 @@ def simulate(
     twins : sequence of Column
         Columns to be computed beside this one, as many as the model carries along; what they come down to is in
         ``Response.twins``. :func:`stylobate.certainty` draws them and says what they mean.
+    progress : callable, optional
+        Called with (time so far, time of the whole run) [s], by models that step drums.
 
     Returns
     -------
@@ -70,7 +73,7 @@ def simulate(
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
     options = dataclasses.replace(
-        _options(tail, output_interval, until_end, until_rest), start=start, twins=tuple(twins)
+        _options(tail, output_interval, until_end, until_rest), start=start, twins=tuple(twins), progress=progress
     )
     if len(options.twins) > model.carries:
         raise InputError(

@@ -236,7 +236,7 @@ def certainty(
     threads : int, optional
         For twins beyond the first fifteen; all cores by default.
     **following
-        ``tail``, ``output_interval``, ``until_end``, ``until_rest``, as in :func:`stylobate.simulate`.
+        ``tail``, ``output_interval``, ``until_end``, ``until_rest``, ``progress``, as in :func:`stylobate.simulate`.
 
     Raises
     ------

@@ -20,6 +20,9 @@ from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
 from ..response.shapes import hull
 
+#: What messages about a column call it at first; on the page that goes without saying.
+SOURCE = "the column"
+
 
 def column_of(table: Mapping[str, Any]) -> Column:
     """The column that the tables of a file describe.
@@ -29,7 +32,10 @@ def column_of(table: Mapping[str, Any]) -> Column:
     InputError
         They describe none; the message names the key and the remedy.
     """
-    return made_of(Column, dict(table))
+    try:
+        return made_of(Column, dict(table), SOURCE)
+    except InputError as error:
+        raise InputError(str(error).removeprefix(f"{SOURCE}: ")) from None
 
 
 def presets() -> dict[str, dict[str, Any]]:

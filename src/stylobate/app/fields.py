@@ -18,7 +18,7 @@ _NUMBERED = {
     "found": re.compile(r"\[\[as_found\.drum\]\] number (\d+)"),
     "override": re.compile(r"\[\[joint_override\]\] with index (\d+)|joint_override index (\d+)"),
     "listed": re.compile(r"\[\[joint_override\]\] number (\d+)"),
-    "of": re.compile(r"of drum (\d+)\b|^(?:the column: )?drum (\d+)\b"),
+    "of": re.compile(r"of drum (\d+)\b|^drum (\d+)\b"),
     "joint": re.compile(r"\bjoint (\d+)\b"),
     "link": re.compile(r"\[\[link\]\] number (\d+)|\blink (\d+)\b"),
 }
@@ -53,6 +53,8 @@ def column_field(sentence: str, table: Mapping[str, Any]) -> str | None:
     if name in DRUM:
         number = numbers["drum"] or numbers["of"]
         return f"drum.{number}.{name}" if number is not None else name
+    if name is None and numbers["joint"] is not None and "offsets" in sentence:
+        return f"found.{numbers['joint']}.offset"
     number = numbers["of"]
     return f"drum.{number}.height" if name is None and number is not None else name
 
@@ -70,6 +72,8 @@ def motion_field(sentence: str, kind: str = "", text: str = "") -> str | None:
     quoted = next((parts[one] for one in re.findall(r"'([^']*)' is", sentence) if one in parts), None)
     if quoted is not None:
         return quoted
+    if "turning needs" in sentence:
+        return "azimuth"
     option = re.search(r"--(unit|dt|azimuth|scale|pga|component|across)\b", sentence)
     words = "frequency|amplitude|duration|phase|unit|azimuth|component|pga|scale|step"
     found = option or re.search(rf"\b({words})\b", sentence.lower())

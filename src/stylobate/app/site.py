@@ -99,7 +99,7 @@ class Site:
             columns.refuse_large(table)
             return JSONResponse(await run_in_threadpool(columns.describe, table))
         except InputError as error:
-            return _refused(error, column_field(str(error), table))
+            return _found_wrong(error, column_field(str(error), table))
 
     async def column_toml(self, request: Request) -> Response:
         """The column file of a column."""
@@ -133,7 +133,7 @@ class Site:
         except InputError as error:
             sentence = str(error)
             unstated = "dt" if "step" in sentence else "unit"
-            return _refused(
+            return _found_wrong(
                 error, unstated if isinstance(error, UnstatedError) else motion_field(sentence, asked.kind, asked.text)
             )
 
@@ -376,6 +376,11 @@ def _title(asked: JobAsked, column: Column, records: Records) -> str:
 
 def _event(kind: str, what: Any) -> str:
     return f"event: {kind}\ndata: {json.dumps(what)}\n\n"
+
+
+def _found_wrong(error: InputError, field: str | None) -> Response:
+    """The answer to a question that was put well, about something that cannot be."""
+    return JSONResponse({"error": str(error), "field": field})
 
 
 def _refused(error: InputError, field: str | None) -> Response:

@@ -162,7 +162,8 @@ def run_one(
     from ..simulate import simulate, simulate_assembly
 
     if not isinstance(stone, Column):
-        following.pop("until_end")
+        for one in ("until_end", "progress"):
+            following.pop(one, None)
         return simulate_assembly(stone, motion, model, **following), None
     if twins is None:
         return simulate(stone, motion, model, **following), None
@@ -174,7 +175,7 @@ def each_record(
     stone: Column | Assembly,
     motions: Sequence[Motion],
     model: Model,
-    follow: Callable[[Motion], tuple[Response, Population | None]],
+    follow: Callable[..., tuple[Response, Population | None]],
     out: Path | None,
     asked: dict[str, Any],
     quiet: bool,
@@ -220,7 +221,7 @@ def each_record(
 
 
 def conclude(
-    follow: Callable[[Motion], tuple[Response, Population | None]],
+    follow: Callable[..., tuple[Response, Population | None]],
     stone: Column | Assembly,
     motion: Motion,
     model: Model,
@@ -236,7 +237,8 @@ def conclude(
     pictures = ["histories", "filmstrip", *(["joints"] if isinstance(stone, Column) else []), "energy", "motion"]
     pictures += SPACE_PICTURES if model.axes == "xyz" else []
     with console.folder(out, "response.nc", "run.json", "replicates.csv", "median", *pictures) as folder:
-        response, population = follow(motion)
+        with console.progress("seconds of motion") as progress:
+            response, population = follow(motion, progress=progress)
         taken = model.taken(motion)
         summary, files = response.summary() | o.input_facts(taken) | direction_of(motion), []
         if population is not None:

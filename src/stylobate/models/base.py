@@ -75,6 +75,8 @@ class RunOptions:
         ``models/shared/quiet.py``); 0 steps the whole motion [-].
     twins : tuple of Column
         Columns under the same motion in the other lanes of a single run (models with ``carries``, as many at most).
+    progress : callable, optional
+        Called with (time so far, time of the whole run) [s] at every recorded state of a single run, by models of drums.
     """
 
     tail: float = 0.0
@@ -84,6 +86,7 @@ class RunOptions:
     start: Start | Toss | None = None
     quiet: float = 0.0
     twins: tuple[Any, ...] = ()
+    progress: Callable[[float, float], None] | None = None
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,13 @@ async function ask(method, path, body, headers = {}) {
 export const get = async path => (await ask("GET", path)).json();
 export const remove = async path => (await ask("DELETE", path)).json();
 export const post = async (path, body = {}) => (await ask("POST", path, JSON.stringify(body), { "content-type": "application/json" })).json();
+// Is it right? An answer with a sentence about what is wrong is no failure of the question.
+export const check = async (path, body) => {
+  try {
+    const found = await post(path, body);
+    return found.error ? new Refused(200, found) : found;
+  } catch (error) { return error; }
+};
 export const postText = async (path, body) => (await ask("POST", path, JSON.stringify(body), { "content-type": "application/json" })).text();
 export const upload = async (path, file) =>
   (await ask("POST", path, file, { "content-type": "application/octet-stream", "x-name": encodeURIComponent(file.name) })).json();

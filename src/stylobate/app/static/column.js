@@ -1,6 +1,6 @@
 // Column: presets, a file, drum by drum in a table, beside the elevation.
 
-import { latest, post, postText, upload } from "./api.js";
+import { check as ask, latest, postText, upload } from "./api.js";
 import { choice, el, facts, field, fill, find, later, length, mark, notice, number, save, select, warnings } from "./dom.js";
 import { drawElevation } from "./elevation.js";
 import { change, listen, state } from "./state.js";
@@ -67,9 +67,9 @@ function put(group, drum, key, given) {
 
 const check = later(latestCheck(), 120);
 function latestCheck() {
-  const ask = latest(table => post("/api/column", table).catch(error => error));
+  const asking = latest(table => ask("/api/column", table));
   return async () => {
-    const found = await ask(state.column);
+    const found = await asking(state.column);
     if (!found) return;
     if (found instanceof Error) {
       mark(panel, found);
@@ -157,7 +157,7 @@ function drums(table) {
     el("tbody", {}, rows));
 }
 // Shown with five digits; what is not edited keeps all of its own.
-const tidy = given => typeof given === "number" ? +given.toPrecision(5) : given;
+const tidy = given => typeof given !== "number" ? given : Math.abs(given) >= 1e7 ? given.toExponential().replace("e+", "e") : +given.toPrecision(5);
 const tangent = angle => +Math.tan(angle * Math.PI / 180).toPrecision(6);
 
 // What all joints have in common, and the base.

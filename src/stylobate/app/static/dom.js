@@ -71,7 +71,7 @@ export function mark(panel, error) {
   for (const one of panel.querySelectorAll("[aria-invalid]")) { one.removeAttribute("aria-invalid"); one.removeAttribute("aria-describedby"); }
   if (!error) return;
   const control = error.field && find(`[data-field="${CSS.escape(error.field)}"]`, panel);
-  const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error);
+  const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error[0].toUpperCase() + error.error.slice(1));
   if (!control) { (find("[data-errors]", panel) || panel).append(said); return; }
   control.setAttribute("aria-invalid", "true"); control.setAttribute("aria-describedby", said.id);
   const row = control.closest("table.drums tr");

@@ -2,6 +2,7 @@
 
 import { get, post } from "./api.js";
 import { el, field, fill, find, later, length, mark, notice, number } from "./dom.js";
+import { tell } from "./news.js";
 import { CYCLE, INK, SAND, said, sharp, ticks } from "./plot.js";
 import * as run from "./run.js";
 import { change, listen, state } from "./state.js";
@@ -84,14 +85,9 @@ async function show() {
 
 export function hear(news) {
   if (news.id !== state.domainJob) return;
-  const where = find("#domain-said", panel), open = ["waiting", "running"].includes(news.state);
-  const act = path => async () => { try { await post(`/api/jobs/${news.id}/${path}`); } catch (error) { notice(error.error); } };
+  const where = find("#domain-said", panel);
   where.hidden = false;
-  fill(where, el("p", { class: "verdict" }, news.state === "done" ? tally() : run.sentence(news)),
-    open && el("progress", news.total ? { max: news.total, value: news.done, "aria-label": "progress" } : { "aria-label": "progress" }),
-    open && el("div", { class: "row" }, el("button", { type: "button", onclick: act("cancel") }, "Cancel")),
-    ["cancelled", "failed"].includes(news.state) && el("div", { class: "row" }, el("button", { type: "button", onclick: act("again") }, "Go on with it")),
-    news.warnings.map(one => el("p", { class: "warning" }, one)), news.state === "done" && run.files(news));
+  tell(where, news, () => [news.state === "done" && el("p", { class: "verdict" }, tally()), news.warnings.map(one => el("p", { class: "warning" }, one)), news.state === "done" && run.files(news)].flat());
 }
 function tally() {
   const found = {};
@@ -105,7 +101,7 @@ export function add(id, list) {
   for (const [k, verdict, peak] of list) cells.set(k, [verdict, peak]);
   if (!waiting) waiting = requestAnimationFrame(() => { waiting = 0; paint(); });
   const head = find("#domain-said .verdict", panel);
-  if (job && head && place && cells.size === place.f.length * place.a.length) head.textContent = tally();
+  if (job && head && !head.classList.contains("sentence")) head.textContent = tally();
 }
 
 // Edges of the cells, and from there to the canvas.

@@ -2,6 +2,7 @@
 
 import { get, post, upload } from "./api.js";
 import { choice, el, facts, field, fill, find, mark, notice, number, select } from "./dom.js";
+import { tell } from "./news.js";
 import * as motion from "./motion.js";
 import * as run from "./run.js";
 import { change, listen, state } from "./state.js";
@@ -66,17 +67,18 @@ async function show() {
 export async function hear(news) {
   if (news.id !== state.fragilityJob) return;
   const job = news.state === "done" && !news.results ? await get(`/api/jobs/${news.id}`).catch(() => news) : news;
-  const open = ["waiting", "running"].includes(job.state), [analysis, curve] = job.results || [];
-  const act = path => async () => { try { await post(`/api/jobs/${job.id}/${path}`); } catch (error) { notice(error.error); } };
+  const [analysis, curve] = job.results || [], place = find("#fragility-found", panel);
   const picture = (name, alt) => (job.files || []).includes(name) && el("img", { class: "figure", alt, src: `/api/jobs/${job.id}/files/${name}` });
-  fill(find("#fragility-found", panel), el("div", { class: "card" },
-    el("p", { class: "verdict" }, curve ? said(curve) : run.sentence(job) || "It is done."),
-    open && el("progress", job.total ? { max: job.total, value: job.done, "aria-label": "progress" } : { "aria-label": "progress" }),
-    open && el("div", { class: "row" }, el("button", { type: "button", onclick: act("cancel") }, "Cancel")),
-    ["cancelled", "failed"].includes(job.state) && el("div", { class: "row" }, el("button", { type: "button", onclick: act("again") }, "Go on with it")),
+  let card = find(".card[data-key]", place);
+  if (!card || job.state === "done") card = el("div", { class: "card", "data-key": "" });
+  tell(card, job, () => [
+    curve && el("p", { class: "verdict" }, said(curve)),
     curve && facts([["median", `${number(curve.median)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
-    (job.warnings || []).map(one => el("p", { class: "warning" }, one)), analysis && job.state === "done" && run.files(job)),
+    (job.warnings || []).map(one => el("p", { class: "warning" }, one)), analysis && job.state === "done" && run.files(job),
+  ].flat());
+  if (card.isConnected) return;
+  fill(place, card,
   picture("fragility/fragility.png", "Fragility curve") && el("div", { class: "card" }, picture("fragility/fragility.png", "Fragility curve")),
   picture("result/ida.png", "Incremental dynamic analysis: response over intensity") && el("div", { class: "card" }, picture("result/ida.png", "Incremental dynamic analysis: response over intensity")));
 }

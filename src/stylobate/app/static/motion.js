@@ -1,6 +1,6 @@
 // Motion: a sine, a pulse, a sample, a record or a simulated one; its direction and size; what it looks like.
 
-import { latest, post, remove, upload } from "./api.js";
+import { check as question, latest, remove, upload } from "./api.js";
 import { dial } from "./dial.js";
 import { choice, el, facts, field, fill, find, later, mark, notice, number, select, warnings } from "./dom.js";
 import { BLUE, GREY, INK, plot } from "./plot.js";
@@ -145,7 +145,7 @@ function render() {
   paint();
 }
 
-const ask = latest((motion, column) => post("/api/motion", { motion, column }).catch(error => error));
+const ask = latest((motion, column) => question("/api/motion", { motion, column }));
 const check = later(async () => {
   find("#motion-name", panel).textContent = words();
   if (state.motion.kind === "record" && !state.motion.record) { shown = null; mark(panel, null); fill(find("#motion-facts", panel), el("p", { class: "empty" }, "Upload a record to see it here.")); paint(); return; }

@@ -20,7 +20,7 @@ export function sharp(canvas) {
 // Round steps that divide a span into about so many parts.
 export function ticks(low, high, parts) {
   const rough = (high - low) / parts || 1, decade = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map(one => one * decade).find(one => one >= rough * 0.999);
+  const step = [1, 2, 2.5, 5, 10].map(one => one * decade).find(one => one >= rough * 0.999);
   const found = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k++) found.push(+(k * step).toPrecision(12));
   return found;

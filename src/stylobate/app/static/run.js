@@ -3,6 +3,7 @@
 import { get, post } from "./api.js";
 import { choice, el, facts, field, fill, find, later, length, mark, notice, number, select, warnings } from "./dom.js";
 import * as motion from "./motion.js";
+import { tell } from "./news.js";
 import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
 import { change, listen, state } from "./state.js";
 
@@ -84,24 +85,20 @@ export async function hear(job) {
 }
 
 function waiting(job) {
-  const text = { waiting: `In the queue, ${job.place} before it.`, running: "It is computed.", cancelled: "It was cancelled.", refused: "It was not computed.", failed: "It was not computed to its end." }[job.state] || "";
-  return el("div", { class: "card empty" }, el("p", {}, text), job.state === "running" && el("progress", job.total ? { max: job.total, value: job.done, "aria-label": "progress" } : { "aria-label": "progress" }));
+  const text = { waiting: "It waits for its turn.", running: "It is computed.", cancelled: "It was cancelled.", refused: "It was not computed.", failed: "It was not computed to its end." }[job.state] || "";
+  return el("div", { class: "card empty" }, text);
 }
 
 function said(job) {
-  const place = find("#run-said", panel), open = job.state === "waiting" || job.state === "running", result = job.results && job.results[0];
+  const place = find("#run-said", panel), result = job.state === "done" && job.results && job.results[0];
   place.hidden = false;
-  const act = path => async () => { try { await post(`/api/jobs/${job.id}/${path}`); } catch (error) { notice(error.error); } };
-  fill(place,
-    job.state === "done" && result ? verdict(result, data && loaded === job.id ? data.sentence : "") : el("p", { class: "verdict" }, sentence(job)),
-    open && el("progress", job.total ? { max: job.total, value: job.done, "aria-label": "progress" } : { "aria-label": "progress" }),
-    open && el("div", { class: "row" }, el("button", { type: "button", onclick: act("cancel") }, "Cancel")),
-    ["cancelled", "failed"].includes(job.state) && el("div", { class: "row" }, el("button", { type: "button", onclick: act("again") }, "Go on with it")),
-    result && !result.decided && result.outcome !== "failed" && el("div", { class: "row" }, el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
-    job.state === "done" && result && measures(result), warnings(job.warnings), job.state === "done" && files(job));
-}
-export function sentence(job) {
-  return { waiting: `Waits: ${job.place} before it.`, running: job.total ? `${job.what || "Computed"}: ${number(job.done)} of ${number(job.total)}` : "It is computed …" }[job.state] || job.sentence;
+  if (result) place.dataset.key = "";
+  tell(place, job, () => [
+    result && verdict(result, data && loaded === job.id ? data.sentence : ""),
+    result && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
+      el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
+    result && measures(result), warnings(job.warnings), job.state === "done" && files(job),
+  ].flat());
 }
 
 function verdict(r, words) {

@@ -133,12 +133,15 @@ class SteppedDrums(Model):
         block.load(0, Case(column, motion))
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
+        whole = float(block.steps[0] * block.dt[0])
         twins = Riders(block, [Case(one, motion) for one in options.twins])
         residual = block.residual_acceleration(0)
         states = [block.snapshot(0)]
         while not block.is_over(0):
             block.follow(stride, twins.collect)
             states.append(block.snapshot(0))
+            if options.progress:
+                options.progress(float(states[-1]["time"]), whole)
         provenance = {"time_step_s": float(block.dt[0]), "residual_acceleration_at_start_m_s2": residual}
         measures = block.collect(0)
         histories = self.histories(motion, states)

@@ -1,0 +1,17 @@
+"""How far a single run is, told while it is computed."""
+
+import pytest
+
+import stylobate as st
+
+
+def test_a_run_says_how_far_it_is():
+    told = []
+    motion = st.harmonic(2.0, 0.5, 0.3)
+    heard = st.simulate(
+        st.preset("paper-monolithic"), motion, st.DistinctElement2D(), progress=lambda *one: told.append(one)
+    )
+    times, wholes = zip(*told)
+    assert list(times) == heard.time[1:].tolist()
+    assert set(wholes) == {wholes[0]}
+    assert wholes[0] == pytest.approx(times[-1]) == pytest.approx(0.3, abs=1e-3)
