@@ -2,6 +2,7 @@
 
 import math
 
+import pandas
 import pytest
 
 from stylobate.cli.main import call
@@ -106,6 +107,37 @@ def test_a_folder_of_records_goes_on_with_the_next(records, tmp_path, capsys, mo
     assert len(made) == 1
     assert capsys.readouterr().out.count("record-") >= 3
     assert {path.name for path in out.glob("[!.]*")} == {f"record-{k}.csv" for k in range(3)}
+
+
+def test_a_comparison_goes_on_with_the_next_model(tmp_path, capsys, monkeypatch):
+    from stylobate.analysis import compare as module
+
+    command = [
+        "compare",
+        "paper-monolithic",
+        "--models",
+        "housner,housner:restitution=0.9",
+        "--harmonic",
+        "1Hz,0.3g,2s",
+    ]
+    assert call([*command, "--out", str(tmp_path / "whole")]) == 0
+    real, made = module.simulate, []
+
+    def simulate(*arguments, **options):
+        if made:
+            raise KeyboardInterrupt
+        made.append(real(*arguments, **options))
+        return made[-1]
+
+    monkeypatch.setattr(module, "simulate", simulate)
+    assert call([*command, "--out", str(tmp_path / "out")]) == 130
+    assert "interrupted; 1 of 2 runs are kept" in capsys.readouterr().err
+    made.clear()
+    assert call([*command, "--out", str(tmp_path / "out")]) == 0
+    assert len(made) == 1
+    tables = [pandas.read_csv(tmp_path / one / "comparison.csv").drop(columns="wall_s") for one in ("whole", "out")]
+    assert tables[0].equals(tables[1])
+    assert not list((tmp_path / "out").glob("progress*"))
 
 
 def test_columns_do_not_rewrite_the_file_they_read(tmp_path, monkeypatch, capsys):

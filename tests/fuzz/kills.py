@@ -25,8 +25,11 @@ from .target import Fault, Target, Tried
 #: The command line, and a note of each run that it has finished.
 SCRIPT = """
 import os, sys, time
+from stylobate.cli import signals
+signals.listen()
 import stylobate.campaign.ledger as ledger
 notes, record = os.open(sys.argv.pop(1), os.O_WRONLY | os.O_APPEND | os.O_CREAT), ledger.Ledger.record
+os.utime(notes)
 def noted(self, number, row):
     record(self, number, row)
     os.write(notes, f"{time.time()} {number} {os.path.abspath(self.path)}\\n".encode())

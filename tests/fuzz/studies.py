@@ -18,6 +18,7 @@ from contextlib import closing, suppress
 from pathlib import Path
 
 from stylobate.analysis.studies import StudyResult
+from stylobate.campaign.ledger import finished_runs_in
 from stylobate.campaign.plan import RUNS_FILE
 
 from .kills import end, kill, lost, start
@@ -61,15 +62,18 @@ def one(rng: random.Random, folder: Path) -> Tried:
     """Kill a study twice, let it end, and compare."""
     if not _whole:
         with tempfile.TemporaryDirectory() as other:
-            began = time.monotonic()
             end(start(line(Path(other), []), Path(other)))
-            _whole.extend((time.monotonic() - began, StudyResult.in_folder(Path(other) / "out").table))
-    length, whole = _whole
+            _whole.append(StudyResult.in_folder(Path(other) / "out").table)
+    [whole] = _whole
     options = rng.choice([[], ["--dask", "local"]])
-    what, took, gone = [], [], []
+    what, took, gone, at = [], [], [], []
     for _ in range(2):
+        began = time.time()
         process = start(line(folder, options), folder)
-        time.sleep(rng.uniform(0.3, 1.1) * length * (1.5 if options else 1.0))
+        while process.poll() is None and not listens(folder / "notes", began):
+            time.sleep(0.01)
+        wait(process, folder, rng)
+        at.append(finished_runs_in(folder / "out" / RUNS_FILE))
         workers = of_cluster(process.pid) if options else []
         if workers and rng.random() < 0.5:  # the program goes on with another one
             with suppress(ProcessLookupError):
@@ -92,7 +96,26 @@ def one(rng: random.Random, folder: Path) -> Tried:
         raise Fault(f"another table after {what}")
     if left := [path.name for path in out.glob(".*") if path.name != ".stylobate-files"]:
         raise Fault(f"{left} were left over after {what}")
-    return Tried("2 kills", numbers={"answers to a signal [s]": took, "lost runs": gone})
+    numbers = {"answers to a signal [s]": took, "lost runs": gone, "runs at a kill": [float(one) for one in at]}
+    return Tried(f"2 kills {'of a cluster' if options else 'of threads'}", numbers=numbers)
+
+
+def listens(notes: Path, since: float) -> bool:
+    """Whether the program listens to signals: a Python that has just begun does not."""
+    return notes.exists() and notes.stat().st_mtime >= since - 0.01
+
+
+def wait(process: subprocess.Popen, folder: Path, rng: random.Random) -> None:
+    """Wait for a random moment: in the first seconds of a program, at some number of runs, or while it writes the table."""
+    share, before = rng.uniform(-0.15, 1.15), len(kept(folder))
+    if share < 0.0:
+        time.sleep(rng.uniform(0.0, 3.0))
+        return
+    while process.poll() is None and finished_runs_in(folder / "out" / RUNS_FILE) < before + share * (CASES - before):
+        if share > 1.0 and finished_runs_in(folder / "out" / RUNS_FILE) == CASES:
+            time.sleep(rng.uniform(0.0, 1.0))
+            return
+        time.sleep(0.01)
 
 
 def made(folder: Path) -> list[int]:

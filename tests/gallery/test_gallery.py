@@ -258,3 +258,14 @@ def test_fragility(run):
     severe, mild = found["stood"].probability
     assert 0.1 < severe < 0.4 < 0.8 < mild < 0.92
     assert severe == pytest.approx(mild**10.0, rel=1e-6)  # ten times the rate
+
+
+def test_study(run):
+    found = run("study")
+    assert "240 cases, 240 of them computed now" in found["printed"]
+    assert "480 cases, 240 of them computed now" in found["printed"]
+    shares = found["result"].table.groupby("im")["collapsed"].mean()
+    # Population: 80 runs a level; neither the weakest motions collapse most of the columns, nor the strongest few.
+    assert shares.iloc[0] < 0.25
+    assert shares.iloc[-1] > shares.iloc[0] + 0.25
+    assert found["curve"].median_interval[0] < found["curve"].median < found["curve"].median_interval[1]

@@ -1,6 +1,7 @@
 """Studies: nothing is computed twice or mixed; the table is the same to the bit (after kills: ``fuzz/studies.py``)."""
 
 import json
+import math
 import subprocess
 import sys
 from contextlib import closing
@@ -17,6 +18,7 @@ from stylobate.campaign.ledger import Ledger
 from stylobate.campaign.plan import RUNS_FILE
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
+from stylobate.column.files import load_column
 from stylobate.motion.intensity_specs import parse_measure
 
 COLUMN = st.Column.tapered(
@@ -154,6 +156,16 @@ def test_run_status_and_export_under_their_promised_names(folder, capsys):
     assert sorted(set(table["im"])) == pytest.approx([0.3, 0.5, 0.9])
     assert table["pga_g"].to_numpy() == pytest.approx(table["im"].to_numpy(), rel=1e-9)
     assert table["reversed"].sum() == 6
+    column = load_column(folder / "three.toml")
+    assert set(table["base_width_m"]) == {column.base_width}
+    assert set(table["joint_width_m"]) == {column.joint_widths.min()}
+    motion = read_plan(folder / "study.toml")[0].motions[0]
+    relation = math.tan(column.slenderness), column.frequency_parameter
+    for name in ("pgv", "sa:1s", "avgsa", "arias", "d5_95", "pgv_p_over_g_tan_alpha", "omega_g_over_p"):
+        measure = parse_measure(name)
+        for row in table.to_dict("records"):
+            value = measure.of(motion.scaled(row["factor"]), relation)
+            assert row[measure.key] == pytest.approx(value, rel=1e-9), name
 
 
 def test_parquet_holds_the_same_numbers_to_the_bit(tmp_path):

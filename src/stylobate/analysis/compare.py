@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..campaign.runner import Stopped
+from ..campaign.ledger import Ledger
+from ..campaign.runner import Stopped, full_key
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
-from ..response import Response
+from ..response import Response, load_response
 from ..simulate import simulate
 from . import verdicts as v
 from .domain import Domain, collapse_domain
@@ -90,6 +91,8 @@ def compare_models(
     tail: float = 0.0,
     output_interval: float = 0.01,
     progress: Callable[[int, int], None] | None = None,
+    ledger: str | Path | None = None,
+    files: Sequence[Path] = (),
 ) -> Comparison:
     """One column and one motion through several models.
 
@@ -104,14 +107,44 @@ def compare_models(
         As in :func:`stylobate.simulate`.
     progress : callable, optional
         Called with (finished, all).
+    ledger : path, optional
+        File that says which runs are finished: a call that was stopped goes on from there. It stays for the caller to
+        remove.
+    files : sequence of path
+        With a ledger, one per model: each response is saved there as soon as it is finished.
+
+    Raises
+    ------
+    Stopped
+        Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     _at_least_one(models)
-    responses = []
-    for model in models:
-        responses.append(simulate(column, motion, model, tail=tail, output_interval=output_interval))
-        if progress:
-            progress(len(responses), len(models))
-    return Comparison(responses, _labels(models, labels))
+    names = _labels(models, labels)
+    key = {"column": column.digest, "motion": motion.digest, "output_interval": output_interval, "compared": names}
+    key["models"] = [[model.name, model.parameters()] for model in models]
+    book = None if ledger is None else Ledger(ledger, full_key(models[0], tail, key), len(models))
+    responses: list[Response] = []
+    try:
+        known = dict(book.rows()) if book else {}
+        for number, model in enumerate(models):
+            if number in known and files[number].is_file():
+                found = load_response(files[number])
+            else:
+                found = simulate(column, motion, model, tail=tail, output_interval=output_interval)
+                if book:
+                    found.save(files[number])
+                    book.record(number, {"file": files[number].name})
+            responses.append(found)
+            if progress:
+                progress(len(responses), len(models))
+    except KeyboardInterrupt:
+        if book:
+            book.close()
+        raise Stopped(len(responses), len(models), ledger) from None
+    finally:
+        if book:
+            book.close()
+    return Comparison(responses, names)
 
 
 def compare_domains(

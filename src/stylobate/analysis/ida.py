@@ -22,7 +22,7 @@ from ..errors import InputError, OutOfRangeWarning, check_range
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
 from ..motion import Motion
-from ..motion.intensity_specs import IntensityMeasure, parse_measure
+from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
 from . import verdicts as v
 from .certainty import the_twins
 from .hunt import next_levels
@@ -30,12 +30,6 @@ from .ida_curves import Ida
 
 if TYPE_CHECKING:
     import pandas
-
-#: Measures of every run's motion that a table holds besides the one that is scaled.
-MEASURES = (
-    *("pga", "pgv", "pgv_over_pga", "sa:0.5s", "sa:1s", "sa:2s", "avgsa", "cav", "arias", "d5_95"),
-    *("pga_over_g_tan_alpha", "pgv_p_over_g_tan_alpha", "omega_g_over_p"),
-)
 
 #: A record that has to be multiplied by more is no longer that of an earthquake: a warning, and the end of the hunt.
 WARNED, LARGEST = 10.0, 20.0
@@ -188,10 +182,7 @@ def _scaled(one: Trace, level: float, power: int) -> Motion:
 def _facts(
     motion: Motion, measure: IntensityMeasure, relation: tuple[float, float], about: Mapping[str, float]
 ) -> dict[str, float]:
-    found = {one.key: one.of(motion, relation) for one in (parse_measure(name) for name in MEASURES)}
-    if motion.lateral is not None:
-        found |= {one.key: one.of(motion) for one in map(parse_measure, ("pga@geomean", "pgv@geomean"))}
-    return found | {measure.key: measure.of(motion, relation)} | dict(about)
+    return told(motion, [relation])[0] | {measure.key: measure.of(motion, relation)} | dict(about)
 
 
 def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
@@ -216,7 +207,7 @@ def _table(
 ) -> pandas.DataFrame:
     import pandas
 
-    powers = {one.key: one.power for one in [*map(parse_measure, (*MEASURES, "pga@geomean", "pgv@geomean")), measure]}
+    powers = told_powers() | {measure.key: measure.power}
     rows = []
     for one in traces:
         fact = facts[one.motion.name]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -11,15 +12,14 @@ import numpy as np
 
 from ..column import Column
 from ..column.scatter import Scatter, usual_scatter
-from ..constants import g
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
-from ..motion.intensity_specs import IntensityMeasure
+from ..motion.intensity_specs import IntensityMeasure, told, told_powers
 from ..version import __version__
-from .digests import LENGTH, Digests, Hasher, digest_of_samples
+from .digests import LENGTH, Digests, Hasher, digest_of_samples, samples_of
 from .kept import Group
 from .plan import Plan
 from .twins import the_twins
@@ -165,8 +165,6 @@ class Study:
             return {
                 "record": direction.get("record", motion.name),
                 "motion": motion.name,
-                "pga_g": motion.pga / g,
-                "pgv_m_s": motion.pgv,
                 "azimuth_deg": direction.get("azimuth", known),
                 "reversed": bool(direction.get("reversed", False)),
             }
@@ -178,8 +176,17 @@ class Study:
             scatter = self.scatter.given if self.scatter is not None else usual[self.columns[0].name] if same else usual
         return {
             "models": [{"model": model.name, "parameters": model.parameters()} for model in self.models],
-            "columns": [{"column": column.name, "base_width_m": column.base_width} for column in self.columns],
+            "columns": [
+                {
+                    "column": column.name,
+                    "base_width_m": column.base_width,
+                    "joint_width_m": float(column.joint_widths.min()),
+                }
+                for column in self.columns
+            ],
             "motions": [one(motion) for motion in self.motions],
+            "intensities": self._intensities(),
+            "powers": told_powers(),
             "measure": "factor" if self.im is None else self.im.name,
             "unit": "-" if self.im is None else self.im.unit,
             "levels": list(self.levels),
@@ -190,6 +197,24 @@ class Study:
             "tail_s": self.tail,
             "version": __version__,
         }
+
+    def _intensities(self) -> dict[str, list[list[float | None]]]:
+        """Measures of each motion for each column, by their names in the table, shape (motions, columns) each."""
+        relations = [(math.tan(column.slenderness), column.frequency_parameter) for column in self.columns]
+        seen: dict[tuple, list[dict[str, float]]] = {}
+        for motion in self.motions:
+            if samples_of(motion) not in seen:
+                seen[samples_of(motion)] = told(motion.replace(factor=1.0), relations)
+        found = {}
+        for name, power in told_powers().items():
+            sizes = [abs(motion.factor) ** power for motion in self.motions]
+            each = [[one.get(name) for one in seen[samples_of(motion)]] for motion in self.motions]
+            if any(value is not None for values in each for value in values):
+                found[name] = [
+                    [None if value is None else value * size for value in values]
+                    for values, size in zip(each, sizes, strict=True)
+                ]
+        return found
 
     def _factors(self, motion: Motion) -> list[float]:
         if self.im is None:

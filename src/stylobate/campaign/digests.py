@@ -55,7 +55,7 @@ class Hasher:
         """Digests of cases one by one, shape (cases, 16); samples that motions share are read once."""
         found = np.empty((len(cases), LENGTH), dtype=np.uint8)
         for number, (column, motion) in enumerate(cases):
-            key = (id(motion.samples), id(motion.y_samples), id(motion.z_samples), motion.dt)
+            key = samples_of(motion)
             if key not in self._samples:
                 self._samples[key] = motion, digest_of_samples(motion)
             end = self.of_motion(self._samples[key][1], motion.factor, quiet)
@@ -66,6 +66,11 @@ class Hasher:
 def digest_of_samples(motion: Motion) -> str:
     """The digest of a motion without its factor."""
     return motion.replace(factor=1.0).digest
+
+
+def samples_of(motion: Motion) -> tuple:
+    """What scaled copies of a motion share, as long as one of them lives."""
+    return id(motion.samples), id(motion.y_samples), id(motion.z_samples), motion.dt
 
 
 class Digests:

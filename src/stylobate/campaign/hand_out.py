@@ -21,6 +21,7 @@ from ..models.shared.lanes import not_computed
 from ..motion import Motion
 from ..response import Measures
 from .chunk import Chunk, law, pack, run_chunk, samples, unpack
+from .digests import samples_of
 
 #: A client and a future of ``distributed``, whose methods are typed for coroutines as well.
 Client = Future = Any
@@ -131,7 +132,7 @@ class HandOut:
         for number in numbers:
             column, shaking = self.cases[number]
             stone.append(stones.setdefault(id(column), (len(stones), column))[0])
-            key = _samples_of(shaking)
+            key = samples_of(shaking)
             if key not in motions:
                 motions[key] = len(motions), self._sent(key, shaking)
             motion.append(motions[key][0])
@@ -229,8 +230,3 @@ def _said(error: BaseException) -> BaseException:
     if isinstance(error, ImportError):
         return InputError(f"a worker cannot load what it needs ({error}); install the same version of stylobate there.")
     return error
-
-
-def _samples_of(motion: Motion) -> tuple:
-    """What scaled copies of a motion share."""
-    return id(motion.samples), id(motion.y_samples), id(motion.z_samples), motion.dt

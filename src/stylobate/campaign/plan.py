@@ -55,7 +55,7 @@ class Plan:
         return found
 
     def labels(self) -> pandas.DataFrame:
-        """What each case is: column, record, direction, level, factor, model and realisation."""
+        """What each case is: column, record, direction, level, factor, intensities as scaled, model and realisation."""
         import pandas
 
         axes = self.axes
@@ -65,13 +65,13 @@ class Plan:
             kept = pandas.Series(values)
             return kept.to_numpy()[index]
 
-        table = {"column": picked([one["column"] for one in axes["columns"]], column)}
+        table = {name: picked([one[name] for one in axes["columns"]], column) for name in axes["columns"][0]}
         for name in ("record", "motion", "azimuth_deg", "reversed"):
             table[name] = picked([one[name] for one in axes["motions"]], motion)
         factor = np.array(axes["factors"])[motion, level]
         table |= {"measure": axes["measure"], "im": np.array(axes["levels"])[level], "factor": factor}
-        for name in ("pga_g", "pgv_m_s"):
-            table[name] = np.array([one[name] for one in axes["motions"]])[motion] * factor
+        for name, values in axes["intensities"].items():
+            table[name] = np.array(values, dtype=float)[motion, column] * factor ** axes["powers"][name]
         table |= {"model": picked([one["model"] for one in axes["models"]], model)}
         table |= {"realisation": realisation + 1 if axes["realisations"] else np.zeros(len(self), dtype=np.int64)}
         return pandas.DataFrame(table)

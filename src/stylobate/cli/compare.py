@@ -103,8 +103,13 @@ def compare(
             console.folder(out, "comparison.csv", "comparison", *each) as folder,
             console.progress("models") as progress,
         ):
-            comparison = compare_models(stone, shaking, chosen, labels=names, tail=after, progress=progress)
-            files = [] if folder is None else _write_histories(comparison, folder)
+            ledger = console.ledger(folder)
+            places = [] if folder is None else [folder / one for one in each]
+            comparison = compare_models(
+                stone, shaking, chosen, labels=names, tail=after, progress=progress, ledger=ledger, files=places
+            )
+            files = [] if folder is None else _write_histories(comparison, folder, places)
+            console.done_with(ledger)
         runs = [
             response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}
             for one, response in zip(chosen, comparison.responses, strict=True)
@@ -145,15 +150,13 @@ def _settings_of(name: str, names: list[str], settings: list[str] | None) -> lis
     return mine
 
 
-def _write_histories(comparison: Any, folder: Path) -> list[Path]:
+def _write_histories(comparison: Any, folder: Path, responses: list[Path]) -> list[Path]:
     from .. import plots
     from . import console
 
-    files = [console.write_table(comparison.table, folder / "comparison.csv")]
-    for label, response in zip(comparison.labels, comparison.responses, strict=True):
-        files.append(response.save(folder / f"response-{_stem(label)}.nc"))
     figure = plots.draw_comparison(comparison.responses, labels=comparison.labels)
-    return files + plots.save(figure, folder / "comparison")
+    table = console.write_table(comparison.table, folder / "comparison.csv")
+    return [table, *responses, *plots.save(figure, folder / "comparison")]
 
 
 def _write_domains(comparison: Any, folder: Path) -> list[Path]:

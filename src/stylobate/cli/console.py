@@ -166,15 +166,28 @@ def progress(title: str) -> Iterator[Callable[[int, int], None] | None]:
 
 @contextmanager
 def stages() -> Iterator[Callable[[str, int, int], None]]:
-    """For work in many pieces, named "kind: piece": a bar on standard error, or a line per kind if that is no terminal."""
+    """For work in many pieces, named "kind: piece": a bar with the remaining time of the piece on standard error, or a line
+    per kind if that is no terminal.
+    """
     if sys.stderr.isatty():
         from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-        columns = (TimeElapsedColumn(), BarColumn(bar_width=20), MofNCompleteColumn(), TextColumn("{task.description}"))
+        columns = (
+            TimeRemainingColumn(),
+            BarColumn(bar_width=20),
+            MofNCompleteColumn(),
+            TextColumn("{task.description}"),
+        )
         with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
             task = bar.add_task("")
-            yield lambda what, done, total: bar.update(task, description=what, completed=done, total=total or None)
+
+            def advance(what: str, done: int, total: int) -> None:
+                if bar.tasks[0].description != what:
+                    bar.reset(task, description=what)  # its speed is another one
+                bar.update(task, completed=done, total=total or None)
+
+            yield advance
         return
     seen: list[str] = []
 

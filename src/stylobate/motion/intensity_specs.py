@@ -77,6 +77,13 @@ KINDS: dict[str, Kind] = {
     "omega_g_over_p": Kind("ω_g/p", "-", 0, _rocking("omega_g_over_p"), True),
 }
 
+#: Measures of every run's motion that tables hold, those of both components where a motion has two.
+TOLD = (
+    *("pga", "pgv", "pgv_over_pga", "sa:0.5s", "sa:1s", "sa:2s", "avgsa", "cav", "arias", "d5_95"),
+    *("pga_over_g_tan_alpha", "pgv_p_over_g_tan_alpha", "omega_g_over_p"),
+)
+TOLD_OF_TWO = ("pga@geomean", "pgv@geomean")
+
 #: What is made of the two horizontal components.
 COMPONENTS = ("x", "y", "z", "geomean", "larger", "rotd50", "rotd100")
 
@@ -214,6 +221,26 @@ def parse_measure(text: str) -> IntensityMeasure:
         example = {"sa": "sa:1.0s", "avgsa": "avgsa:0.5s-3s"}.get(kind, kind)
         raise InputError(f"intensity measure {text!r} has the wrong periods; write it as {example}.")
     return IntensityMeasure(kind, periods, component)
+
+
+def told(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
+    """The measures that tables hold, by their names there, for a motion and (tan α, p) of each column."""
+    names = TOLD if motion.y_samples is None else (*TOLD, *TOLD_OF_TWO)
+    measures = [parse_measure(name) for name in names]
+    if motion.pga == 0.0:
+        return [dict.fromkeys((one.key for one in measures), math.nan) for _ in columns]
+    own = {one.key: one.of(motion) for one in measures if not KINDS[one.kind].column}
+    found = []
+    for column in columns:
+        rocking = rocking_measures(motion, *column)
+        related = {one.key: rocking[one.kind] for one in measures if KINDS[one.kind].column}
+        found.append(own | {key: math.nan if value is None else float(value) for key, value in related.items()})
+    return found
+
+
+def told_powers() -> dict[str, int]:
+    """Powers of the factor of a motion with which these measures grow, by their columns."""
+    return {one.key: one.power for one in map(parse_measure, (*TOLD, *TOLD_OF_TWO))}
 
 
 #: Units in which a level may be typed, by the unit of the measure.
