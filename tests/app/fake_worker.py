@@ -9,7 +9,7 @@ import time
 print(json.dumps({"ready": True}), flush=True)
 for line in sys.stdin:
     job = json.loads(line)
-    how = next(one for one in job["commands"][0] if one.startswith("--model=")).removeprefix("--model=")
+    how = next((one for one in job["commands"][0] if one.startswith("--model=")), "").removeprefix("--model=")
     result = pathlib.Path(job["folder"]) / "result"
     result.mkdir(exist_ok=True)
     (result / "made.txt").write_text("kept")

@@ -94,6 +94,39 @@ def test_jobs_are_there_after_a_restart(tmp_path, asked):
         assert found[slow]["state"] in ("cancelled", "failed")
 
 
+def test_a_domain_is_a_study_file(fresh, asked, tmp_path):
+    """What is kept of a domain is what the command line takes, and says the same."""
+    from stylobate.campaign.study import read_study
+
+    grid = {"frequencies": "0.5:2:4", "amplitudes": "0.1g:0.4g:3", "duration": "3s", "tail": "1s"}
+    domain = asked | {"kind": "domain", "motion": None, "settings": {"points": "3"}} | grid
+    job = fresh.post("/api/jobs", json=domain).json()
+    assert job["commands"] == ["stylobate domain study.toml --out=result"]
+    study = read_study(tmp_path / "jobs" / job["id"] / "study.toml")
+    assert (study.frequencies.tolist(), study.duration, study.tail) == ([0.5, 1.0, 1.5, 2.0], 3.0, 1.0)
+    assert (study.column.n, study.model.name, study.model.parameters()["points"]) == (3, "dem2d", 3)
+    assert "is not a number with a unit" in fresh.post("/api/jobs", json=domain | {"duration": "long"}).json()["error"]
+    assert "no frequencies" in fresh.post("/api/jobs", json=domain | {"frequencies": None}).json()["error"]
+
+
+def test_a_report_is_a_job_on_copies(fresh, asked, tmp_path):
+    job = fresh.post("/api/jobs", json=asked).json()["id"]
+    ended(fresh, job)
+    made = fresh.post(f"/api/jobs/{job}/report").json()
+    assert made["commands"] == ["stylobate report result --out=report.html"]
+    fresh.delete(f"/api/jobs/{job}")
+    assert (tmp_path / "jobs" / made["id"] / "result" / "made.txt").read_text() == "kept"
+    slow = fresh.post("/api/jobs", json=asked | {"model": "slow"}).json()["id"]
+    assert "not over" in fresh.post(f"/api/jobs/{slow}/report").json()["error"]
+
+
+def test_few_records_give_the_analysis_alone(fresh, asked):
+    few = asked | {"kind": "ida", "motion": None, "records": [f"sample:{k}" for k in range(9)], "im": "pga"}
+    assert len(fresh.post("/api/jobs", json=few).json()["commands"]) == 1
+    many = fresh.post("/api/jobs", json=few | {"records": [f"sample:{k}" for k in range(10)], "state": "collapse"})
+    assert many.json()["commands"][1] == "stylobate fragility result --state=collapse --out=fragility"
+
+
 def test_a_run_needs_a_motion_and_a_fragility_records(fresh, asked):
     assert "no motion" in fresh.post("/api/jobs", json=asked | {"motion": None}).json()["error"]
     assert "no record" in fresh.post("/api/jobs", json=asked | {"kind": "ida", "motion": None}).json()["error"]

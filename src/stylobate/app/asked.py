@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import Field
 
 from ..column.toml import Table
 from ..errors import InputError
+from ..motion.specs import parse_time
 
-#: Files of a job: its column, where its records lie, and where its commands write.
-COLUMN, RECORDS, RESULT = "column.toml", "records", "result"
+#: Files of a job: its column, the study of a domain, where its records lie, and where its commands write.
+COLUMN, STUDY, RECORDS, RESULT, FRAGILITY, REPORT = (
+    *("column.toml", "study.toml", "records", "result", "fragility", "report.html"),
+)
 
 
 class MotionAsked(Table):
@@ -100,13 +104,47 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
             ]
         ]
     if asked.kind == "domain":
-        grid = _options(frequencies=asked.frequencies, amplitudes=asked.amplitudes, duration=asked.duration)
-        return [["domain", *common, *grid, *end]]
+        return [["domain", STUDY, f"--out={RESULT}"]]
+    from ..analysis.fragility import FEWEST
+
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
     files = [path for one in asked.records for path in _files(one, records)]
     analysis = ["ida", *common, *files, *_options(im=asked.im, runs=asked.runs), *end]
-    return [analysis, ["fragility", RESULT, *_options(state=asked.state), "--out=fragility"]]
+    if len(asked.records) < FEWEST:
+        return [analysis]
+    return [analysis, ["fragility", RESULT, *_options(state=asked.state), f"--out={FRAGILITY}"]]
+
+
+def study(asked: JobAsked) -> dict[str, Any]:
+    """The study file of a domain, as TOML gives it.
+
+    Raises
+    ------
+    InputError
+        A time cannot be read.
+    """
+    found = {"column": COLUMN, "model": asked.model, "frequencies": asked.frequencies, "amplitudes": asked.amplitudes}
+    found |= {name: parse_time(text) for name in ("duration", "tail") if (text := getattr(asked, name))}
+    settings = {name: value for name, value in asked.settings.items() if value}
+    missing = next((name for name, value in found.items() if value is None), None)
+    if missing is not None:
+        raise InputError(f"a domain has no {missing}; give them, such as 0.33:4:24 and 0.05g:0.6g:32.")
+    return found | ({"set": settings} if settings else {})
+
+
+def report_of(folder: Path) -> list[list[str]]:
+    """The command line of a report on what lies in the folder of a job.
+
+    Raises
+    ------
+    InputError
+        Nothing has been computed there.
+    """
+    found = [name for name in (RESULT, FRAGILITY) if (folder / name).is_dir()]
+    if not found:
+        raise InputError("there is no result to report on; run the job first.")
+    return [["report", *found, f"--out={REPORT}"]]
 
 
 def shown(command: Sequence[str]) -> str:

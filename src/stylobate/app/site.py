@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import shutil
 import tempfile
 from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
 from contextlib import asynccontextmanager
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
 
+import tomli_w
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
@@ -25,7 +27,7 @@ from ..motion.readers.component import UnstatedError
 from ..motion.readers.samples import samples
 from ..version import __version__
 from . import columns, motions
-from .asked import COLUMN, RECORDS, JobAsked, MotionAsked, commands
+from .asked import COLUMN, FRAGILITY, RECORDS, RESULT, STUDY, JobAsked, MotionAsked, commands, report_of, study
 from .cells import new_cells
 from .fields import column_field, motion_field
 from .guard import Guard, TooLarge
@@ -43,7 +45,7 @@ PAGES = {f"/static/{one.name}": one for one in STATIC.iterdir() if one.suffix in
 }
 
 #: Files of jobs that a browser shows, by the end of their names; it saves the others.
-PICTURES = {"png": "image/png", "svg": "image/svg+xml"}
+PICTURES = {"png": "image/png", "svg": "image/svg+xml", "html": "text/html"}
 
 #: Time between two looks at jobs that are followed, and longest silence on that line [s]; most that listen.
 LOOK, SILENCE, LISTENERS = 0.15, 10.0, 24
@@ -177,6 +179,8 @@ class Site:
         def prepare(folder: Path) -> None:
             write_column(column, folder / COLUMN)
             self.records.copy(wanted, folder / RECORDS)
+            if asked.kind == "domain":
+                (folder / STUDY).write_text(tomli_w.dumps(study(asked)), encoding="utf-8")
 
         title = _title(asked, column, self.records)
         job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
@@ -192,11 +196,26 @@ class Site:
         job = self._job(request)
         if job is None:
             return _missing("job")
+        if request.path_params["act"] == "report":
+            return JSONResponse(self._shown(await run_in_threadpool(self._report, job)), 201)
         act = {"cancel": self.workshop.cancel, "again": self.workshop.again}.get(request.path_params["act"])
         if act is None:
             return _missing("action")
         await run_in_threadpool(act, job)
         return JSONResponse(self._shown(job))
+
+    def _report(self, job: Job) -> Job:
+        """A job that makes the report of another one, of copies of its results."""
+        if job.open:
+            raise InputError("the job is not over; its report comes after it.")
+        lines = report_of(job.folder)
+
+        def prepare(folder: Path) -> None:
+            for name in (RESULT, FRAGILITY):
+                if (job.folder / name).is_dir():
+                    shutil.copytree(job.folder / name, folder / name, ignore=shutil.ignore_patterns("*.sqlite*"))
+
+        return self.workshop.submit("report", f"report: {job.title}", lines, {}, prepare)
 
     async def job_remove(self, request: Request) -> Response:
         """Cancel and forget a job."""
@@ -229,7 +248,7 @@ class Site:
         if job is None or name not in job.files():
             return _missing("file")
         ending = name.rpartition(".")[2]
-        headers = {"content-security-policy": "sandbox; default-src 'none'; style-src 'unsafe-inline'"}
+        headers = {"content-security-policy": "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}
         kind, disposition = (
             (PICTURES[ending], "inline") if ending in PICTURES else ("application/octet-stream", "attachment")
         )

@@ -38,7 +38,7 @@ function render() {
     el("div", { class: "row" }, field("Intensity", select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
       field("Runs of a record", el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", onchange: event => set({ runs: event.target.value.trim() }) }))),
     choice("state", "Limit state", STATES, s.state, one => set({ state: one })),
-    el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records`)));
+    el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`)));
   find(".pick", place).scrollTop = down;
   if (focused) { const again = find(`[data-key="${CSS.escape(focused)}"]`, place); if (again) again.focus(); }
 }

@@ -29,7 +29,7 @@ function follow() {
   line = new EventSource("/api/events" + (state.domainJob ? `?job=${encodeURIComponent(state.domainJob)}` : ""));
   const on = (name, hear) => line.addEventListener(name, event => hear(JSON.parse(event.data)));
   on("ready", now => { ready = now; status(); });
-  on("job", job => { jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); status(); });
+  on("job", job => { document.dispatchEvent(new CustomEvent("news", { detail: job })); jobs.hear(job); run.hear(job); domain.hear(job); fragility.hear(job); status(); });
   on("gone", jobs.gone);
   on("cells", ({ job, cells }) => domain.add(job, cells));
   line.onerror = () => { find("#status").textContent = "not connected"; };

@@ -30,5 +30,5 @@ export function tell(place, job, rest = () => []) {
   const buttons = actions(job);
   fill(place, isOpen(job) || job.sentence ? el("p", { class: "verdict sentence" }, sentence(job)) : null,
     isOpen(job) && el("progress", { "aria-label": "progress", ...(job.total ? { max: job.total } : {}), ...(job.total ? { value: job.done } : {}) }),
-    buttons.length > 0 && el("div", { class: "row" }, buttons), rest());
+    buttons.length > 0 && el("div", { class: "row" }, buttons), [rest()].flat(9));
 }

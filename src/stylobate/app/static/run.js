@@ -3,7 +3,7 @@
 import { get, post } from "./api.js";
 import { choice, el, facts, field, fill, find, later, length, mark, notice, number, select, warnings } from "./dom.js";
 import * as motion from "./motion.js";
-import { tell } from "./news.js";
+import { isOpen, tell } from "./news.js";
 import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
 import { change, listen, state } from "./state.js";
 
@@ -123,8 +123,27 @@ function measures(r) {
 
 export function files(job) {
   const link = name => el("li", {}, el("a", { href: `/api/jobs/${job.id}/files/${name.split("/").map(encodeURIComponent).join("/")}`, download: name.split("/").pop() }, name));
-  return el("details", {}, el("summary", {}, "Command line and files"),
-    job.commands.map(one => el("code", { class: "command" }, one)), el("ul", {}, (job.files || []).map(link)));
+  return [report(job), el("details", {}, el("summary", {}, "Command line and files"),
+    job.commands.map(one => el("code", { class: "command" }, one)), el("ul", {}, (job.files || []).map(link)))];
+}
+
+// A button that has the report made, and becomes a link to it.
+function report(job) {
+  const made = job.kind === "report" ? job : null, link = one => el("a", { class: "button", href: `/api/jobs/${one.id}/files/report.html`, target: "_blank", rel: "noopener" }, "Open the report");
+  const place = el("div", { class: "row" });
+  if (made) return fill(place, link(made));
+  if (!(job.files || []).some(name => name.startsWith("result/"))) return null;
+  const wait = asked => {
+    fill(place, el("small", { class: "hint" }, "The report is made …"));
+    const hear = event => {
+      const news = event.detail;
+      if (news.id !== asked.id || isOpen(news)) return;
+      document.removeEventListener("news", hear);
+      fill(place, news.state === "done" ? link(news) : el("p", { class: "error" }, news.sentence));
+    };
+    document.addEventListener("news", hear);
+  };
+  return fill(place, el("button", { type: "button", onclick: async () => { try { wait(await post(`/api/jobs/${job.id}/report`)); } catch (error) { notice(error.error); } } }, "Report"));
 }
 
 function film({ film: shown, histories: h }) {
