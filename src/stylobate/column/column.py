@@ -23,6 +23,7 @@ from .found_geometry import check_as_found, uplift_accelerations
 from .found_in_space import smallest_uplift
 from .joint import Joint, without_unsaid
 from .link_checks import check_links
+from .link_loads import is_pretensioned
 from .links import Layer, Link
 from .materials import material
 
@@ -93,7 +94,7 @@ class Column:
         self._check_rings()
         if self.links:
             check_links(self)
-        if self.as_found:
+        if self.as_found or is_pretensioned(self):
             check_as_found(self)
         wide = [i + 1 for i, drum in enumerate(self.drums) if drum.top_width > drum.bottom_width * (1 + 1e-12)]
         if wide:

@@ -10,6 +10,7 @@ import numpy as np
 from ..constants import DEGREE
 from ..errors import InputError
 from .found_in_space import inside_overlap, space_geometry, space_load
+from .link_loads import is_pretensioned, pull_on_part
 
 if TYPE_CHECKING:
     from .column import Column
@@ -94,10 +95,29 @@ def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
     arm = mass @ at.centroid[joint:] / mass.sum() - at.origin[joint]
     along = np.array([math.cos(at.lean[joint]), math.sin(at.lean[joint])])
     normal = np.array([-along[1], along[0]])
+    if is_pretensioned(column):
+        return _pulled_load(column, at, joint, weight, along)
     pressing = -float(weight @ normal)
     if pressing <= 0.0:
         return JointLoad(pressing, float(weight @ along), math.nan)
     return JointLoad(pressing, float(weight @ along), float(arm @ along + (arm @ normal) * (weight @ along) / pressing))
+
+
+def _pulled_load(column: Column, at: Geometry, joint: int, weight: np.ndarray, along: np.ndarray) -> JointLoad:
+    """As :func:`joint_load`, with the pull of pretensioned links."""
+    angle = at.lean + at.tilt
+    c, s, none, one = np.cos(angle), np.sin(angle), np.zeros(column.n), np.ones(column.n)
+    axes = np.stack((c, none, -s, none, one, none, s, none, c), axis=1).reshape(-1, 3, 3)
+    centroids = np.stack((at.centroid[:, 0], none, at.centroid[:, 1]), axis=1)
+    force, moment = pull_on_part(column, centroids, axes, joint)
+    mass, origin = column.masses[joint:], at.origin[joint]
+    arm = mass @ at.centroid[joint:] / mass.sum() - origin
+    total = weight + force[[0, 2]]
+    turning = arm[0] * weight[1] - arm[1] * weight[0] - moment[1] - origin[0] * force[2] + origin[1] * force[0]
+    pressing = float(along[1] * total[0] - along[0] * total[1])
+    if pressing <= 0.0:
+        return JointLoad(pressing, float(total @ along), math.nan)
+    return JointLoad(pressing, float(total @ along), -float(turning) / pressing)
 
 
 def uplift_accelerations(column: Column) -> np.ndarray:
@@ -126,6 +146,8 @@ def uplift_accelerations(column: Column) -> np.ndarray:
 
 def check_as_found(column: Column) -> None:
     """Refuse what cannot stand: the weight above each joint must pass through its contact, and not slide on it.
+
+    Pretensioned links pull with it.
 
     Raises
     ------

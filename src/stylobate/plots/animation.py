@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from ..atomic import replacing
 from ..errors import InputError, check_range
 from ..response import Response
+from .link_marks import draw_links
 from .scene import Scene, draw_bodies, scale_bar, scene_of, seen
 from .solid_frame import draw_solids, paint
 from .style import BLACK, BLUE, GREY, RED, plain, styled
@@ -72,6 +73,7 @@ def draw_frame(scene: Scene, index: int, limits: tuple[float, float, float, floa
         draw_bodies(above, scene, scene.outlines(index), 0.8)
     else:
         draw_solids(above, scene, index)
+    draw_links(above, scene, index)
     above.set_xlim(low, high)
     above.set_ylim(bottom, top)
     above.set_title(_words(scene, index), fontsize=9.5, loc="left")
@@ -120,6 +122,7 @@ def _turn_to(figure: Figure, scene: Scene, index: int) -> None:
             patch.set_xy(corners)  # pyright: ignore[reportAttributeAccessIssue]
     else:
         paint(above, scene, index)
+    draw_links(above, scene, index)
     above.set_title(_words(scene, index), fontsize=9.5, loc="left")
     below.lines[-1].set_xdata([scene.time[index]] * 2)
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure, SubFigure
 from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, telling_states
+from .link_marks import draw_links
 from .scene import Scene, describe, draw_bodies, scene_of
 from .style import WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y
@@ -65,6 +66,7 @@ def draw_filmstrip(
     shown = [(one, i, shapes) for one, strip in zip(scenes, outlines) for i, shapes in zip(frames, strip)]
     for axes, (one, index, shapes) in zip(panels, shown, strict=True):
         draw_bodies(axes, one, shapes)
+        draw_links(axes, one, index, factor)
         far = f"{round(size * one.way[index], digits) + 0.0:{sign}.{digits}f}".replace("-", "−")
         along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
         axes.set_title(f"{scene.time[index]:.2f} s\n{along}{far} {unit}", fontsize=8.5, loc="center")

@@ -4,6 +4,7 @@ from pathlib import Path
 
 from .collapse import Collapse, Touch
 from .histories import ENERGY_TERMS, Histories
+from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures, SpaceMeasures
 from .response import Response
 
@@ -12,6 +13,8 @@ __all__ = [
     "BlockMeasures",
     "Collapse",
     "Histories",
+    "LinkHistories",
+    "LinkMeasures",
     "Measures",
     "Response",
     "SpaceMeasures",

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .links import LinkHistories
 from .poses import PlanePoses, SpacePoses
 
 #: Terms of the energy ledger, in order: input = kinetic + gravitational + elastic + friction + viscous + impact + imbalance.
@@ -36,6 +37,8 @@ class Histories:
         ``input``, ``friction``, ``viscous`` and ``impact`` are sums since the start, the others changes since the start.
     base, top : array, optional
         Horizontal displacement of the middle of the lowest and of the topmost face [m], shape (T,), in space (T, 2).
+    links : LinkHistories, optional
+        Of the links of a column that has some.
     """
 
     time: np.ndarray
@@ -48,6 +51,7 @@ class Histories:
     energy: dict[str, np.ndarray]
     base: np.ndarray | None = None
     top: np.ndarray | None = None
+    links: LinkHistories | None = None
 
     # -- made from -----------------------------------------------------------------------------------------------
 

@@ -25,6 +25,8 @@ from ..outcome import Outcome
 from .assembly_measures import recorded_blocks
 from .collapse import Collapse
 from .histories import Histories
+from .links import NAMES as LINKS
+from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures, SpaceMeasures
 from .mechanism import Mechanism
 from .poses import PlanePoses
@@ -66,6 +68,10 @@ _REST = {
     "ground_displacement": ("m", "displacement of the base"),
     "ground_acceleration_z": ("m s-2", "vertical acceleration of the base"),
     "ground_displacement_z": ("m", "vertical displacement of the base"),
+    "link_shear": ("N", "force of the link across its joint"),
+    "link_tension": ("N", "tension of the link, along it or against the opening of its joint"),
+    "link_slip": ("m", "slip of the joint at the link's place"),
+    "link_elongation": ("m", "elongation of the link, or lift of the joint at its place"),
 }
 _MEANINGS = _BODY | _REST
 
@@ -116,6 +122,8 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
         "mechanism": None if response.mechanism is None else dataclasses.asdict(response.mechanism),
         "followed": response.followed,
     }
+    if m.links:
+        facts["links"] = [link.row() for link in m.links]
     kind = next(name for name, one in KINDS.items() if isinstance(response.structure, one))
     labelled[kind] = ((), store.as_json(response.structure.to_dict()))
     labelled |= {"facts": ((), store.as_json(facts)), "provenance": ((), store.as_json(response.provenance))}
@@ -134,6 +142,8 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
         )
     else:
         coordinates["drum"] = ("drum", numbers, {"long_name": "drum, numbered from the bottom"})
+    if h.links is not None:
+        coordinates["link"] = ("link", [link.name for link in m.links], {"long_name": "name of the link"})
     if any("axis" in entry[0] for entry in labelled.values()):
         coordinates["axis"] = ("axis", ["x", "y", "z"], {"long_name": "axis: x, y horizontal, z up"})
     attributes: dict[str, Any] = {"model": response.model, "dims": h.dims, "wall_s": float(response.wall_time)}
@@ -181,6 +191,8 @@ def _recorded(response: Recorded, of: str) -> list[tuple[str, tuple[str, ...], n
     found.append(("joint_slip", joint if h.dims == "xz" else (*joint, "direction"), h.joint_slip))
     if h.base is not None and h.top is not None:
         found += [("base_displacement", along, h.base), ("top_displacement", along, h.top)]
+    if h.links is not None:
+        found += [(f"link_{name}", ("time", "link"), getattr(h.links, name)) for name in LINKS]
     ground = ("time",) if h.dims == "xz" else ("time", "axis")
     found += [
         ("ground_acceleration", ground, h.ground_acceleration),
@@ -211,6 +223,7 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
         "collapse": None if collapse is None else Collapse.from_dict(collapse),
         "space": None if space is None else SpaceMeasures(**_tuples(space)),
         "blocks": None if blocks is None else BlockMeasures(**blocks),
+        "links": tuple(LinkMeasures.from_row(row) for row in facts.get("links", ())),
     }
     mechanism = facts["mechanism"]
     return Recorded(
@@ -266,6 +279,7 @@ def _histories(data: xarray.Dataset, structure: Column | Assembly | Specimen) ->
         return data[name].to_numpy()
 
     steps, energy = len(data["time"]), _energy(data)
+    links = LinkHistories(*(get(f"link_{name}") for name in LINKS)) if "link_shear" in data else None
     bodies = len(structure.bodies) if isinstance(structure, Assembly) else structure.n
     joint = {"joint_opening": get("joint_opening"), "joint_slip": get("joint_slip")}
     if "body_orientation" in data:
@@ -274,7 +288,7 @@ def _histories(data: xarray.Dataset, structure: Column | Assembly | Specimen) ->
         position, orientation, twist = map(get, names)
         _check(position, (steps, bodies, 3))
         _check(orientation, (steps, bodies, 4))
-        return Histories.in_space(
+        found = Histories.in_space(
             get("time"),
             position,
             orientation,
@@ -283,6 +297,7 @@ def _histories(data: xarray.Dataset, structure: Column | Assembly | Specimen) ->
             **{name: get(name) for name in ends},
             energy=energy,
         )
+        return dataclasses.replace(found, links=links)
     ground = {}
     for name in ("ground_acceleration", "ground_displacement"):
         ground[name] = get(name)
@@ -297,7 +312,7 @@ def _histories(data: xarray.Dataset, structure: Column | Assembly | Specimen) ->
         found = Histories.of_blocks(get("time"), **body, **joint, **ground, energy=energy)
     for values in body.values():
         _check(values, (steps, bodies))
-    return found
+    return dataclasses.replace(found, links=links)
 
 
 def _energy(data: xarray.Dataset) -> dict[str, np.ndarray]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from ..outcome import Outcome
 from .collapse import Collapse
+from .links import LinkMeasures, row_of
 
 
 @dataclass(frozen=True)
@@ -107,6 +108,8 @@ class Measures:
         Of an assembly.
     stepped : (float, float, float), optional
         Where the quiet of the motion was left out: times from and to which it was stepped, and how much of it [s].
+    links : tuple of LinkMeasures
+        Of the links that act, in the column's order.
     """
 
     outcome: Outcome
@@ -125,13 +128,17 @@ class Measures:
     space: SpaceMeasures | None = None
     blocks: BlockMeasures | None = None
     stepped: tuple[float, float, float] | None = None
+    links: tuple[LinkMeasures, ...] = ()
 
     def __eq__(self, other: object) -> bool:
         """Equal to the bit, one missing number (NaN) like another; left alone, Python 3.13 tells NaN from NaN."""
         if not isinstance(other, Measures):
             return NotImplemented
-        pairs = zip(vars(self).values(), vars(other).values(), strict=True)
+        pairs = zip(self._compared().values(), other._compared().values(), strict=True)
         return all(mine == theirs or (mine != mine and theirs != theirs) for mine, theirs in pairs)
+
+    def _compared(self) -> dict:
+        return vars(self) | {"links": [link.row() for link in self.links]}
 
     @property
     def collapsed(self) -> bool:
@@ -160,4 +167,6 @@ class Measures:
             row |= self.space.row() | {"collapse_azimuth_deg": None if azimuth is None else math.degrees(azimuth)}
         if self.stepped is not None:
             row |= dict(zip(("stepped_from_s", "stepped_to_s", "stepped_s"), map(float, self.stepped), strict=True))
+        if self.links:
+            row |= row_of(self.links)
         return row

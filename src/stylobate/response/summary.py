@@ -33,6 +33,8 @@ def _of_column(response: Recorded) -> dict:
                 row[name] = [one if i + 1 < first else None for i, one in enumerate(row[name])]
         if m.collapse is not None:
             row["collapse"] = m.collapse.to_dict() | {"side": m.collapse.side}
+    if m.links:
+        row["links"] = [link.row() for link in m.links]
     if response.mechanism is not None:
         row["mechanism"] = asdict(response.mechanism) | {"sentence": response.mechanism.describe()}
     return row

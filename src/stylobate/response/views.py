@@ -7,6 +7,7 @@ import numpy as np
 from ..outcome import Outcome
 from .collapse import Collapse
 from .histories import Histories
+from .links import LinkHistories
 from .measures import Measures
 from .mechanism import Mechanism
 from .poses import PlanePoses, SpacePoses
@@ -30,6 +31,13 @@ class Views:
     def time(self) -> np.ndarray:
         """Times of the recorded states [s], shape (T,)."""
         return self.histories.time
+
+    @property
+    def links(self) -> LinkHistories:
+        """Forces, slips and elongations of the links over time."""
+        if self.histories.links is None:
+            raise AttributeError("what stood has no links that act; give the column some (links=…).")
+        return self.histories.links
 
     @property
     def drum_x(self) -> np.ndarray:

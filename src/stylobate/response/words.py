@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from ..column import Column
 from ..outcome import Outcome
+from .links import sentence_of as sentence_of_links
 
 if TYPE_CHECKING:
     from .recorded import Recorded
@@ -24,9 +25,10 @@ def sentence_of(response: Recorded) -> str:
     if response.measures.blocks is not None:
         return _of_blocks(response)
     m = response.measures
+    links = sentence_of_links(m.links)
     if m.collapsed:
-        return _of_collapse(response)
-    words = [m.outcome.sentence]
+        return f"{_of_collapse(response)} {links}".rstrip()
+    words = [m.outcome.sentence, *([links] if links else [])]
     if m.reason:
         words.append(f"Reason: {m.reason}.")
     if not m.decided and m.outcome is not Outcome.FAILED:

@@ -37,6 +37,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                free           1; 0 holds the motion in the plane of x and z
                work shear visc  work of the input, of the friction springs on their surroundings reversed, of dampers [J]
                p[3]           momentum of all drums [kg m/s]
+               m…             links, see drums/link_records.py
     ground[k]  a[3]           acceleration of the base at step k of the chunk [m/s²]
     feed       x y z          addresses of the samples of the lane's motion (0: no such component)
                last step end  index of the last sample, step now, last step
@@ -56,10 +57,12 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                going          1 while some part is beyond its support and moves outward
                ktop … kspin   the peaks as they were when last no part was on its way out
                m x y z px py  running sums over the drums above a joint
+               hold           what links hold, see drums/link_records.py
 """
 
 import numpy as np
 
+from ..drums.link_records import hold_field, link_fields
 from ..run_codes import LANES
 
 #: Rows of ``lost``.
@@ -69,7 +72,9 @@ RINGS, CHIPS = 3, 6
 PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")
 
 
-def block_types(damped: bool, corners: int = 1, lost: int = 1, rolling: bool = False) -> tuple[np.dtype, ...]:
+def block_types(
+    damped: bool, corners: int = 1, lost: int = 1, rolling: bool = False, links: bool = False
+) -> tuple[np.dtype, ...]:
     """Record types (drum, joint, lane, ground, feed, watch).
 
     Whether there are dashpots (``d`` of more than one row), corners (``px``), rings or chips (``lost``, so many rows) and
@@ -109,12 +114,16 @@ def block_types(damped: bool, corners: int = 1, lost: int = 1, rolling: bool = F
                 w=22 if corners > 1 else 1,
             )
         ),
-        np.dtype(fields("dt beta alpha local pivot free work shear visc", g=3, p=3, roll=2 if rolling else 1)),
+        np.dtype(
+            fields("dt beta alpha local pivot free work shear visc", g=3, p=3, roll=2 if rolling else 1)
+            + link_fields(links)
+        ),
         np.dtype(fields("", a=3)),
         np.dtype(counts("x y z last step end") + fields("ratio factor", r=9)),
         np.dtype(
             counts("status follow when which parted about")
             + fields("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
             + fields(" ".join(PEAKS) + " k" + " k".join(PEAKS))
+            + hold_field(links)
         ),
     )

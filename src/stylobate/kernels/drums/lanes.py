@@ -25,6 +25,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                xi[p] sh[p]    place (−1 … 1) and share of the area of contact point p
                work shear visc  work of the input, of the shear springs on their surroundings reversed, of the dampers [J]
                px pz          momentum of all drums [kg m/s]
+               m…             links, see link_records.py
     ground[k]  ax az          acceleration of the base at step k of the chunk [m/s²]
     feed       x z            addresses of the samples of the lane's motion (z 0: no vertical component)
                last step end  index of the last sample, step now, last step
@@ -39,6 +40,7 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                when which side      collapse: step, joint, side (±1); −1 while there is none
                stood          where the middle of the topmost face stood [m]
                m x z px       running sums over the drums above a joint
+               hold           what links hold, see link_records.py
 """
 
 import numpy as np
@@ -47,12 +49,13 @@ from ..ground import MEAN, sample
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, COLLAPSED, ENDED, FAILED, LANES, RUNNING, SUPPORT_MARGIN
 from . import contact as ct
+from .link_records import hold_field, link_fields
 
 #: A lane whose positions are larger has failed [m].
 FAR = 1.0e6
 
 
-def block_types(points, damped):
+def block_types(points, damped, links=False):
     """Record types (drum, joint, lane, ground, feed, watch).
 
     The types carry the number of contact points per joint and whether there are dashpots (``dn``, ``ds`` of more than one
@@ -71,12 +74,13 @@ def block_types(points, damped):
         np.dtype(
             fields("kn ks co mu over fx fz mu_ ml", "fs fn") + [(name, np.float64, dashpots) for name in ("dn", "ds")]
         ),
-        np.dtype(fields("dt g gx beta alpha local work shear visc px pz", "xi sh")),
+        np.dtype(fields("dt g gx beta alpha local work shear visc px pz", "xi sh") + link_fields(links)),
         np.dtype(fields("ax az")),
         np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor bc bs")),
         np.dtype(
             [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side", "parted", "about")]
             + fields("amax vmax stood top open turn wmax wide going ktop kopen kturn m x z px")
+            + hold_field(links)
         ),
     )
 
@@ -138,6 +142,7 @@ def observe(drum, joint, lane, feed, watch):
     o = lane[0]
     f = feed[0]
     w = watch[0]
+    tied = w.hold.shape[0] > LANES
     top = drum[drums]
     for l in range(LANES):
         # peaks of a column that stands: they end with its collapse
@@ -188,7 +193,8 @@ def observe(drum, joint, lane, feed, watch):
             outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
             down = max(o.g[l] - w.vmax[l], 0.0)
             against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
-            lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up)
+            held = w.hold[j * LANES + l] * each if tied else 0.0
+            lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + held)
             w.going[l] = 1.0 if (out > 0.0) & (outward > 0.0) else w.going[l]
             parted = hi <= lo
             hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -9,13 +10,15 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...column import Column
+from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Response
 from ..assembly.engine import Contacts
 from ..base import Case, RunOptions
-from ..drums.block import PackedColumn, drum_fields, lane_fields
+from ..drums.block import DrumBlock, PackedColumn, drum_fields, lane_fields
 from ..drums.joints import contact_points, joint_stiffnesses
+from ..drums.links import kind_of, plane_links, with_links
 from ..drums.stepped import SteppedDrums
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled
@@ -85,6 +88,7 @@ class DistinctElement2D(SteppedDrums):
     takes_as_found: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
+    takes_links: ClassVar[bool] = True
 
     points: int = 2
     block_modulus: float | None = None
@@ -108,15 +112,22 @@ class DistinctElement2D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kernel(self) -> Any:
-        """Module of kernels."""
-        from ...kernels.dem2d import step as distinct_element_2d
+    def kind(self, column: Column) -> tuple:
+        """Number of drums, and the links if there are some."""
+        return (column.n, *kind_of(column))
 
-        return distinct_element_2d
+    def kernel(self, links: int = 0) -> Any:
+        """Module of kernels, for so many links."""
+        return importlib.import_module(f"...kernels.dem2d.{'linked' if links else 'step'}", __package__)
 
-    def record_types(self) -> tuple:
+    def record_types(self, links: int = 0) -> tuple:
         """Record types of the kernel's arrays."""
-        return self.kernel().block_types(self.points, self.damped)
+        return self.kernel(links).block_types(self.points, self.damped, links > 0)
+
+    def make_block(self, drums: int, options: RunOptions, links: int = 0, which: tuple = ()) -> DrumBlock:
+        """A block of lanes for columns of so many drums, and of so many links which these are."""
+        kernel, types = self.kernel(links), self.record_types(links)
+        return DrumBlock(kernel, types, self.pack, drums, options, self.cost(drums), links)
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it, settled if asked for."""
@@ -125,7 +136,8 @@ class DistinctElement2D(SteppedDrums):
             return packed
         drum, joint, lane = packed.fields
         state = _settled(column, self)
-        return replace(packed, fields=(drum | state["drum"], joint | state["joint"], lane))
+        drum = drum | state["drum"]
+        return replace(packed, fields=(drum, joint | state["joint"], lane), links=plane_links(column, drum))
 
     def stable_step(self, column: Column) -> float:
         """Largest stable time step of the closed column [s]."""
@@ -134,6 +146,7 @@ class DistinctElement2D(SteppedDrums):
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories; what comes loose is followed to the ground if asked for."""
         if options.until_end or options.until_rest:
+            column.must_be_without_links("a run that is followed to the ground")
             from .collapse import follow
 
             return follow(column, motion, self.followed(column, options), options)
@@ -191,12 +204,12 @@ def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
         "over": np.zeros(n + 1),
     }
     drums = drum_fields(column, column.joint_weights / (kn * area))
-    if column.as_found:
+    if column.as_found or is_pretensioned(column):
         found, joint_fields["fs"] = found_start(column, kn * area / width, xi, share)
         drums |= found
     lanes = lane_fields(column, model.stiffness_damping, model.mass_damping) | {"xi": xi, "sh": share}
     toes = point_toes(column, kn, float(share[-1]))
-    return PackedColumn((drums, joint_fields, lanes), model.step_for(column), toes)
+    return PackedColumn((drums, joint_fields, lanes), model.step_for(column), toes, plane_links(column, drums))
 
 
 #: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.
@@ -207,7 +220,7 @@ SETTLED, SETTLE_CHUNKS = 1e-7, 20_000
 def _settled(column: Column, model: DistinctElement2D) -> dict[str, dict[str, np.ndarray]]:
     """Fields of the drums and of the joints after settling under gravity with local damping."""
     damped = replace(model, start="static", mass_damping=max(model.mass_damping, 1e-300))
-    block = damped.make_block(column.n, RunOptions())
+    block = damped.block_for(damped.kind(column), RunOptions())
     block.load(0, Case(column, Motion(1e3, np.zeros(2))))
     block.lane["local"][0, 0] = LOCAL_DAMPING
     if not settled(block.advance, lambda: block.residual_acceleration(0), SETTLED, SETTLE_CHUNKS):
@@ -243,4 +256,6 @@ def _stable_step(column: Column, model: DistinctElement2D) -> float:
             area = part * column.joint_areas[j]
             stiffness += kn[j] * area * np.outer(normal, normal) + ks[j] * area * np.outer(shear, shear)
     inverse = 1.0 / np.stack((column.masses, column.masses, column.inertias), axis=1).ravel()
-    return shared.stable_step(shared.highest_frequency(stiffness, inverse), model.stiffness_damping)
+    return shared.stable_step(
+        *with_links(column, shared.highest_frequency(stiffness, inverse), model.stiffness_damping)
+    )

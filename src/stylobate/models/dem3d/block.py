@@ -19,6 +19,7 @@ from ...response.measures import SpaceMeasures
 from ...response.poses import quaternions
 from ..base import Case
 from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_steps
+from ..drums.links import put_links, with_link_histories
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
 from ..start import check_in_plane
@@ -68,6 +69,10 @@ class SpaceBlock(DrumBlock):
         watch["amax"][lane] = along + slope * high
         watch["vmax"][lane] = level * high + slope * along
         self.lane["dt"][0, lane] = self.dt[lane] = dt
+        if self.tied:
+            links = self.pack(case.column).links
+            assert links is not None
+            put_links(self.lane, links, lane, dt)
         watch["sx"][lane], watch["sy"][lane] = self.top_place(lane)
         self.mark_start(lane)
         self.steps[lane] = steps
@@ -210,7 +215,7 @@ class SpaceBlock(DrumBlock):
             "base": np.array([drum[c][1, lane] for c in "xy"]) + (axes[0] @ foot)[:2],
             "top": self.top_place(lane) - [self.watch[c][0, lane] for c in ("sx", "sy")],
             "energy": self.energies(lane),
-        }
+        } | self.links_now(lane)
 
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run is over."""
@@ -226,7 +231,7 @@ class SpaceBlock(DrumBlock):
         failed = watch["status"][lane] == FAILED or bool(ledger.out_of_balance(imbalance))
         widths = column.joint_widths
         outcome = classify(collapsed, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max()))
-        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane])
+        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
         return Measures(
             outcome=outcome,
             decided=outcome is Outcome.COLLAPSED or (not failed and self.stays(column, lane, slip, mechanical)),
@@ -242,6 +247,7 @@ class SpaceBlock(DrumBlock):
             reason=self.reason(lane, outcome, imbalance),
             collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
             stepped=self.spans.stepped(lane, int(self.feed["step"][0, lane]), float(self.dt[lane])),
+            links=self.links_done(lane),
             space=SpaceMeasures(
                 peak_top_x=self.peak(lane, "topx"),
                 peak_top_y=self.peak(lane, "topy"),
@@ -276,10 +282,10 @@ class SpaceBlock(DrumBlock):
 
 def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories from the snapshots of a run."""
-    stack = {key: np.array([state[key] for state in states]) for key in states[0]}
+    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     energy = stack["energy"]
     acceleration, displacement = ground_histories(motion, stack["time"])
-    return Histories.in_space(
+    found = Histories.in_space(
         time=stack["time"],
         position=stack["position"],
         orientation=quaternions(stack["axes"]),
@@ -292,3 +298,4 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         ground_displacement=displacement,
         energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(ledger.TERMS)},
     )
+    return with_link_histories(found, states)

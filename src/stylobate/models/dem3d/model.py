@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 from ...column import Column
 from ...column.found_in_space import shares_left
+from ...column.link_loads import is_pretensioned
 from ...column.specimen import Specimen
 from ...errors import InputError, check_range
 from ...kernels.dem3d.records import CHIPS, RINGS
@@ -18,6 +19,7 @@ from ...response import Histories, Response
 from ..base import Model, RunOptions
 from ..drums.block import PackedColumn
 from ..drums.joints import joint_stiffnesses
+from ..drums.links import kind_of, space_links, with_links
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
@@ -108,6 +110,7 @@ class DistinctElement3D(SteppedDrums):
     takes_specimens: ClassVar[bool] = True
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
+    takes_links: ClassVar[bool] = True
 
     law: str = "rim"
     pivot_friction: float = 1.0
@@ -141,7 +144,7 @@ class DistinctElement3D(SteppedDrums):
         """Stiffness damping β for a column [s]: as given, or as its restitution asks for."""
         if self.restitution is None:
             return self.stiffness_damping
-        return damping_for(column, replace(self, restitution=None), self.restitution)
+        return damping_for(column.replace(links=()), replace(self, restitution=None), self.restitution)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories; says what damping a restitution has led to."""
@@ -196,27 +199,31 @@ class DistinctElement3D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kind(self, column: Column | Specimen) -> tuple[int, str]:
-        """Columns of one kind can share a block of lanes: number of drums and section; specimens with as many rows."""
+    def kind(self, column: Column | Specimen) -> tuple:
+        """Columns of one kind share blocks of lanes: number of drums, section and links; specimens with as many rows."""
         if isinstance(column, Specimen):
             return rows_for(column), SPECIMEN
-        return column.n, RING if column.on_rings else CHIPPED if chipped(column) else column.section
+        section = RING if column.on_rings else CHIPPED if chipped(column) else column.section
+        return (column.n, section, *kind_of(column))
 
-    def kernel(self, section: str = "circular") -> Any:
-        """Module of kernels."""
+    def kernel(self, section: str = "circular", links: int = 0) -> Any:
+        """Module of kernels, for so many links."""
         if section == SPECIMEN:
             return importlib.import_module("...kernels.dem3d.vertex_forces", __package__)
         others = {"rectangular": CORNER_LAW[0], CHIPPED: "chipped_forces"}
         name = others.get(section, LAWS[self.law][0])
+        if links:
+            return importlib.import_module("...kernels.dem3d.linked", __package__).LAWS[name]
         return importlib.import_module(f"...kernels.dem3d.{name}", __package__)
 
-    def record_types(self, section: str = "circular") -> tuple:
+    def record_types(self, section: str = "circular", links: int = 0) -> tuple:
         """Record types of the kernel's arrays."""
         if section == SPECIMEN:
             return self.kernel(section).block_types()
         corners = len(CORNERS) if section == "rectangular" else 1
         rolling = self.rolling_resistance > 0.0
-        return self.kernel(section).block_types(self.damped, corners, LOST.get(section, 1), rolling)
+        kernel = self.kernel(section, links)
+        return kernel.block_types(self.damped, corners, LOST.get(section, 1), rolling, links > 0)
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it."""
@@ -228,16 +235,18 @@ class DistinctElement3D(SteppedDrums):
             return stable_step(top_frequency(column), self.stiffness_damping)
         return _stable_step(column, self)
 
-    def make_block(self, drums: int, options: RunOptions, section: str = "circular") -> SpaceBlock:
-        """A block of lanes for columns of so many drums with a section."""
-        kernel, types = self.kernel(section), self.record_types(section)
+    def make_block(
+        self, drums: int, options: RunOptions, section: str = "circular", links: int = 0, which: tuple = ()
+    ) -> SpaceBlock:
+        """A block of lanes for columns of so many drums with a section, and of so many links which these are."""
+        kernel, types = self.kernel(section, links), self.record_types(section, links)
         if section == SPECIMEN:
             damping, cost = (self.stiffness_damping, self.mass_damping), self.cost(drums // 32)
             return SpecimenBlock(
                 drums, damping, self.step_for, kernel, types, self.pack, 1, options, cost, planar=self.planar
             )
         cost = self.cost(drums)
-        return SpaceBlock(kernel, types, self.pack, drums, options, cost, planar=self.planar)
+        return SpaceBlock(kernel, types, self.pack, drums, options, cost, links, planar=self.planar)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
@@ -255,18 +264,18 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
     drums, joints = drum_fields(column, closure), joint_fields(column, kn, ks)
     options = model.pivot_friction, model.planar, model.rolling_resistance
     lane = lane_fields(column, model.damping(column), model.mass_damping, *options)
-    if column.as_found:
+    if column.as_found or is_pretensioned(column):
         section = model.kind(column)[1]
         kernel, types = model.kernel(section), model.record_types(section)
         found, friction = found_start(column, kernel, types, (drums, joints, lane), closure)
         drums, joints = drums | found, joints | friction
     law = model.law if column.section == "circular" else "corners"
     toes = TOES[law](column, kn * shares_left(column))
-    return PackedColumn((drums, joints, lane), model.step_for(column), toes)
+    return PackedColumn((drums, joints, lane), model.step_for(column), toes, space_links(column, drums))
 
 
 @lru_cache(maxsize=4096)
 def _stable_step(column: Column, model: DistinctElement3D) -> float:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     share = (LAWS[model.law] if column.section == "circular" else CORNER_LAW)[1]
-    return stable_step(highest_frequency(column, kn, ks, share), model.damping(column))
+    return stable_step(*with_links(column, highest_frequency(column, kn, ks, share), model.damping(column)))

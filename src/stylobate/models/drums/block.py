@@ -16,7 +16,7 @@ from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
 from ...motion import Motion
 from ...outcome import Outcome, classify
-from ...response import Collapse, Histories, Measures
+from ...response import Collapse, Histories, LinkMeasures, Measures
 from ...response.collapse import SLID_OFF, in_plane
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
@@ -24,6 +24,7 @@ from ..shared.ground import along_base, ground_histories
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..shared.soft_joints import resolving
 from ..start import Start, check_in_plane
+from .links import PackedLinks, held_at_start, link_measures, link_snapshot, put_links, with_link_histories
 from .pose import leans_right, placed
 from .standing import lowest_barrier, stands_for_good
 
@@ -41,6 +42,7 @@ class PackedColumn:
     fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
     step: float
     toes: np.ndarray
+    links: PackedLinks | None = None
 
 
 def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
@@ -110,6 +112,8 @@ class DrumBlock:
     options : RunOptions
     cost : float
         About what a step of a run costs [s].
+    links : int
+        Number of links of every column in this block.
     """
 
     def __init__(
@@ -120,13 +124,15 @@ class DrumBlock:
         drums: int,
         options: RunOptions,
         cost: float,
+        links: int = 0,
     ) -> None:
         self.kernel, self.pack, self.options = kernel, pack, options
         self.lanes = LANES
         self.chunk = CHUNK
+        self.tied = links > 0
         self.drum = aligned_zeros(drums + 1, types[0])
         self.joint = aligned_zeros(drums + 1, types[1])
-        self.lane = aligned_zeros(1, types[2])
+        self.lane = aligned_zeros(1 + links, types[2])
         self.ground = aligned_zeros(CHUNK + 1, types[3])
         self.feed = aligned_zeros(1, types[4])
         self.watch = aligned_zeros(1, types[5])
@@ -154,6 +160,8 @@ class DrumBlock:
         dt, chunks = whole_steps(motion, self.options.tail, packed.step)
         steps = chunks * self.chunk
         self.lane["dt"][0, lane] = dt
+        if packed.links is not None:
+            put_links(self.lane, packed.links, lane, dt)
         x, z = motion.samples, motion.z_samples
         feed, watch = self.feed[0], self.watch[0]
         feed["x"][lane] = x.ctypes.data
@@ -208,6 +216,7 @@ class DrumBlock:
             raise InputError(
                 f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
             )
+        column.must_be_without_links("a start from a pose")
 
     def take_pose(self, lane: int, column: Any, start: Any) -> None:
         """Tilt a column that stands in a lane."""
@@ -367,7 +376,23 @@ class DrumBlock:
             "base": bottom["x"][lane] + bottom["s"][lane] * bottom["hb"][lane],
             "top": self.top(lane) - self.watch["stood"][0, lane],
             "energy": self.energies(lane),
-        }
+        } | self.links_now(lane)
+
+    def links_now(self, lane: int) -> dict[str, Any]:
+        """What a snapshot keeps of the links, where there are some."""
+        return {"links": link_snapshot(self.lane, lane)} if self.tied else {}
+
+    def links_done(self, lane: int) -> tuple[LinkMeasures, ...]:
+        """What a lane's run has come to for each link."""
+        case = self.cases[lane]
+        assert case is not None
+        return link_measures(case.column, self.lane, lane, float(self.dt[lane])) if self.tied else ()
+
+    def held_by_links(self, lane: int) -> float:
+        """Energy that pretensioned links had at the start, and may set free [J]."""
+        case = self.cases[lane]
+        assert case is not None
+        return held_at_start(case.column) if self.tied else 0.0
 
     def toes(self, column: Column) -> np.ndarray:
         """What a column's joints give with their load on their edge [J], shape (n,)."""
@@ -401,7 +426,7 @@ class DrumBlock:
         outcome = classify(
             collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
         )
-        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane])
+        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
         return Measures(
             outcome=outcome,
             decided=outcome is Outcome.COLLAPSED
@@ -418,6 +443,7 @@ class DrumBlock:
             reason=self.reason(lane, outcome, imbalance),
             collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
             stepped=self.spans.stepped(lane, int(self.feed["step"][0, lane]), float(self.dt[lane])),
+            links=self.links_done(lane),
         )
 
     def collapse(self, lane: int) -> Collapse:
@@ -466,10 +492,10 @@ def ledger_imbalance(change: np.ndarray, work: float, start: float, column: Colu
 
 def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories from the snapshots of a run."""
-    stack = {key: np.array([state[key] for state in states]) for key in states[0]}
+    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     energy = stack["energy"]
     acceleration, displacement = ground_histories(motion, stack["time"])
-    return Histories.of_drums(
+    found = Histories.of_drums(
         time=stack["time"],
         drum_x=stack["x"],
         drum_z=stack["z"],
@@ -485,6 +511,7 @@ def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
             for k, name in enumerate(ledger.TERMS)
         },
     )
+    return with_link_histories(found, states)
 
 
 def _peak(values: np.ndarray) -> float:

@@ -1,0 +1,261 @@
+"""Links of a column as the kernels want them, their part in the stable step, and what they have done in a run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...column import Column
+from ...column.found_geometry import geometry
+from ...column.found_in_space import space_geometry
+from ...column.link_laws import LinkProperties, properties
+from ...column.link_loads import own_places
+from ...kernels.drums.link_records import OWN
+from ...response import Histories, LinkHistories, LinkMeasures
+from ..shared.stable_step import highest_frequency
+
+
+class PackedLinks(NamedTuple):
+    """Links as the kernel wants them: what all lanes share, by name, shape (m,); and what a lane has, last axis left out."""
+
+    shared: dict[str, np.ndarray]
+    own: dict[str, np.ndarray]
+
+
+def acting(column: Column) -> tuple[LinkProperties, ...]:
+    """Links that do anything besides lowering friction."""
+    return tuple(one for one in properties(column) if one.acts) if column.links else ()
+
+
+def kind_of(column: Column) -> tuple[Any, ...]:
+    """What tells whose links can share a block of lanes: how many act, and all of them; nothing where none acts."""
+    count = len(acting(column))
+    return (count, column.links) if count else ()
+
+
+def pack_links(column: Column, joint: np.ndarray, line: np.ndarray, ends: np.ndarray) -> PackedLinks | None:
+    """Links of a column at rest.
+
+    Parameters
+    ----------
+    column : Column
+    joint : array
+        Where the upper place of what crosses a joint stands at the start, along the joint below and over it [m], shape
+        (m, 3), and unused for lines.
+    line : array
+        Length of a straight line at the start [m], shape (m,).
+    ends : array
+        Places on the lower and on the upper body as the kernel wants them [m], shape (2, m, 3).
+    """
+    links = acting(column)
+    if not links:
+        return None
+
+    def of(name: str) -> np.ndarray:
+        return np.array([getattr(one, name) for one in links], dtype=float)
+
+    straight, stiffness, axial = np.array([one.straight for one in links]), of("shear_stiffness"), of("axial_stiffness")
+    with np.errstate(divide="ignore", invalid="ignore"):
+        yields = np.where(stiffness > 0.0, of("shear_capacity") / stiffness, math.inf)
+        stretch = np.where(axial > 0.0, of("pretension") / axial, 0.0)
+    failure, start = [one.failure for one in links], np.where(straight, line, joint[:, 2])
+    count = len(links)
+    none = dict.fromkeys(OWN.split(), np.zeros(count))
+    shared = {
+        "mlow": np.array([one.lower for one in links]),
+        "mup": np.array([one.upper for one in links]),
+        "mline": straight.astype(int),
+        "mten": ((axial > 0.0) & ~straight).astype(int),
+        "mnear": np.ones(count, dtype=int),
+        "mks": stiffness,
+        "my": yields,
+        "mcr": np.array([float(one == "crushing") for one in failure]),
+        "mbr": np.array([float(one == "brittle") for one in failure]),
+        "mdeep": of("lift"),
+        "mreach": of("reach"),
+        "mus": of("ultimate_slip"),
+        "mc": of("damping"),
+    }
+    own = none | {
+        "mka": axial,
+        "mfa": of("axial_capacity"),
+        "mua": of("ultimate_elongation"),
+        "mgap": of("clearance"),
+        "mh": start,
+        "ml0": start - stretch,
+        "mon": np.ones(count),
+        "mft": of("pretension"),
+        "msx": joint[:, 0],
+        "msy": joint[:, 1],
+        "mpx": joint[:, 0],
+        "mpy": joint[:, 1],
+        "mwhen": np.full(count, -1),
+        "mhold": np.array([_hold(column, one) for one in links]),
+    }
+    own |= {f"m{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
+    return PackedLinks(shared, own)
+
+
+def plane_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | None:
+    """Links of a column in the plane whose drums stand as these fields of the kernel's records say."""
+    links = acting(column)
+    if not links:
+        return None
+    foot = geometry(column).foot if column.as_found else np.zeros(column.n)
+    joint, line, ends = np.zeros((len(links), 3)), np.zeros(len(links)), np.zeros((2, len(links), 3))
+    x, z, c, s = (drum[name] for name in ("x", "z", "c", "s"))
+    faces = (c * drum["fc"] - s * drum["fs"], s * drum["fc"] + c * drum["fs"])
+
+    def placed(body: int, place: np.ndarray) -> np.ndarray:
+        cosine, sine = faces[0][body], faces[1][body]
+        return np.array(
+            [x[body] + cosine * place[0] - sine * place[2], place[1], z[body] + sine * place[0] + cosine * place[2]]
+        )
+
+    for m, link in enumerate(links):
+        low, up = link.lower, link.upper
+        if link.straight:
+            ends[:, m] = own_places(column, link)
+            line[m] = math.dist(placed(low, ends[0, m]), placed(up, ends[1, m]))
+            continue
+        ends[1, m, 0] = along = link.high[0] - foot[up - 1]
+        dx, dz = x[up] - x[low], z[up] - z[low]
+        cl, sl = faces[0][low], faces[1][low]
+        cr, sr = c[up] * cl + s[up] * sl, s[up] * cl - c[up] * sl
+        hb = drum["hb"][up]
+        joint[m, 0] = cl * dx + sl * dz + sr * hb + cr * along
+        joint[m, 2] = cl * dz - sl * dx - drum["ht"][low] - cr * hb + sr * along
+    return pack_links(column, joint, line, ends)
+
+
+def space_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | None:
+    """Links of a column in space whose drums stand as these fields of the kernel's records say."""
+    links = acting(column)
+    if not links:
+        return None
+    joint, line, ends = np.zeros((len(links), 3)), np.zeros(len(links)), np.zeros((2, len(links), 3))
+    axes = np.stack([np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
+    centroids, foot = (np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in ("", "f"))
+    beds = space_geometry(column).bed if column.as_found else np.repeat(np.eye(3)[None], column.n, axis=0)
+    for m, link in enumerate(links):
+        low, up = link.lower, link.upper
+        if link.straight:
+            ends[:, m] = own_places(column, link)
+            one, other = (centroids[body] + axes[body] @ end for body, end in ((low, ends[0, m]), (up, ends[1, m])))
+            line[m] = math.dist(one, other)
+            continue
+        ends[1, m] = foot[up] + beds[up - 1] @ (*link.high[:2], 0.0)
+        joint[m] = axes[low].T @ (centroids[up] + axes[up] @ ends[1, m] - centroids[low]) - (0.0, 0.0, drum["ht"][low])
+    return pack_links(column, joint, line, ends)
+
+
+def _hold(column: Column, link: LinkProperties) -> float:
+    """Largest moment that a link can set against overturning about a joint that it crosses [N m]."""
+    if not link.axial_stiffness:
+        return 0.0
+    lever = 0.0
+    for j in range(link.lower, link.upper):
+        above, below = column.drums[j], column.drums[j - 1] if j else column.drums[j]
+        half = 0.5 * max(above.bottom_width, below.top_width if j else 0.0)
+        if not above.circular:
+            half = math.hypot(half, 0.5 * max(above.depth, below.upper_depth))
+        height = float(column.joint_heights[j])
+        ends = (math.hypot(math.hypot(*end[:2]) + half, end[2] - height) for end in (link.low, link.high))
+        lever = max(lever, min(ends))
+    return link.axial_capacity * lever
+
+
+class LinkStiffness(NamedTuple):
+    """Highest circular frequency of the links alone [rad/s], and the largest rate of their dashpots [1/s]."""
+
+    frequency: float
+    rate: float
+
+
+def link_stiffness(column: Column) -> LinkStiffness:
+    """How stiff the links are against the drums' masses: an upper bound of what they add to any state of the joints."""
+    links, n = acting(column), column.n
+    if not links:
+        return LinkStiffness(0.0, 0.0)
+    cross = np.array([drum.cross_inertia for drum in column.drums])
+    axial = np.array([drum.axial_inertia for drum in column.drums])
+    mass = column.masses
+    inverse = 1.0 / np.stack((mass, mass, mass, cross, column.inertias, axial), axis=1).ravel()
+    springs, dashpots = np.zeros((6 * n, 6 * n)), np.zeros((6 * n, 6 * n))
+    for link in links:
+        if link.straight:
+            way = (np.array(link.high) - link.low) / link.length
+            springs += link.axial_stiffness * _square(column, link, way)
+            continue
+        for axis in np.eye(3)[:2]:
+            square = _square(column, link, axis)
+            springs += link.shear_stiffness * square
+            dashpots += link.damping * square
+        springs += link.axial_stiffness * _square(column, link, np.eye(3)[2])
+    return LinkStiffness(highest_frequency(springs, inverse), highest_frequency(dashpots, inverse) ** 2)
+
+
+def _square(column: Column, link: LinkProperties, way: np.ndarray) -> np.ndarray:
+    """What a unit of stiffness along a direction adds to the stiffness of the drums."""
+    row = np.zeros(6 * column.n)
+    for body, end, sign in ((link.upper, link.high, 1.0), (link.lower, link.low, -1.0)):
+        if body:
+            arm = np.array(end) - (0.0, 0.0, float(column.centroid_heights[body - 1]))
+            row[6 * body - 6 : 6 * body] = sign * np.concatenate((way, np.cross(arm, way)))
+    return np.outer(row, row)
+
+
+def with_links(column: Column, omega: float, stiffness_damping: float) -> tuple[float, float]:
+    """Highest circular frequency [rad/s] and stiffness damping [s] of closed joints and links together, at most."""
+    added = link_stiffness(column)
+    if added == LinkStiffness(0.0, 0.0):
+        return omega, stiffness_damping
+    whole = math.hypot(omega, added.frequency)
+    return whole, (stiffness_damping * omega**2 + added.rate) / whole**2
+
+
+def put_links(records: np.ndarray, packed: PackedLinks, lane: int, step: float) -> None:
+    """Write links into the rows of a lane behind its own; ``step`` is that of time [s]."""
+    for name, values in packed.shared.items():
+        records[name][1:] = values
+    for name, values in packed.own.items():
+        records[name][1:, ..., lane] = values
+    records["mdt"][1:, lane] = step
+
+
+def held_at_start(column: Column) -> float:
+    """Elastic energy of pretensioned links [J]."""
+    return sum(0.5 * one.pretension**2 / one.axial_stiffness for one in acting(column) if one.pretension)
+
+
+def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
+    """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
+    one = records[1:]
+    shear = np.hypot(one["mfx"][:, lane], one["mfy"][:, lane])
+    return np.stack((shear, *(one[name][:, lane] for name in ("mft", "mslip", "mlong"))))
+
+
+def link_measures(column: Column, records: np.ndarray, lane: int, step: float) -> tuple[LinkMeasures, ...]:
+    """What a run has come to for each link that acts; ``step`` is that of time [s]."""
+    one, found = records[1:], []
+    for m, link in enumerate(acting(column)):
+        when = int(one["mwhen"][m, lane])
+        peaks = (float(one[name][m, lane]) for name in ("mpeak", "mpull", "mfar", "mmost"))
+        found.append(
+            LinkMeasures(
+                link.name, link.kind, link.joint, math.nan if when < 0 else when * step, *peaks,
+                link.shear_capacity, link.axial_capacity,
+            )
+        )  # fmt: skip
+    return tuple(found)
+
+
+def with_link_histories(found: Histories, states: Sequence[dict[str, Any]]) -> Histories:
+    """Histories with those of the links, where the states of a run hold them."""
+    if "links" not in states[0]:
+        return found
+    return replace(found, links=LinkHistories(*np.array([state["links"] for state in states]).transpose(1, 0, 2)))

@@ -1,0 +1,136 @@
+"""What the links of a column have done: their forces, slips and elongations over time, and when which of them broke."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+#: Names of the histories of links, in the order in which models record them.
+NAMES = ("shear", "tension", "slip", "elongation")
+
+
+@dataclass(frozen=True, eq=False)
+class LinkHistories:
+    """Histories of all links that act, in the column's order.
+
+    Parameters
+    ----------
+    shear, tension : array
+        Force across the joint, and along a line or against opening [N], shape (T, m).
+    slip : array
+        Of the joint at the link's place since the start [m], shape (T, m); 0 of ties and cores.
+    elongation : array
+        Of a line, or lift of the joint at the link's place, since the start [m], shape (T, m).
+    """
+
+    shear: np.ndarray
+    tension: np.ndarray
+    slip: np.ndarray
+    elongation: np.ndarray
+
+
+@dataclass(frozen=True)
+class LinkMeasures:
+    """What a run has come to for one link.
+
+    Parameters
+    ----------
+    name, kind : str
+    joint : int
+        That it crosses, from 1; 0 of a tie or core.
+    broken_at : float
+        When it broke [s]; NaN if it is whole.
+    peak_shear, peak_tension : float
+        [N]
+    peak_slip, peak_elongation : float
+        [m]
+    shear_capacity, axial_capacity : float
+        [N], infinite without limit.
+    """
+
+    name: str
+    kind: str
+    joint: int
+    broken_at: float
+    peak_shear: float
+    peak_tension: float
+    peak_slip: float
+    peak_elongation: float
+    shear_capacity: float
+    axial_capacity: float
+
+    @property
+    def broken(self) -> bool:
+        """Whether it broke."""
+        return not math.isnan(self.broken_at)
+
+    @property
+    def utilisation(self) -> float:
+        """Largest force over capacity, the larger one of shear and tension [-]."""
+        return max(self.peak_shear / self.shear_capacity, self.peak_tension / self.axial_capacity)
+
+    def row(self) -> dict[str, Any]:
+        """Plain values under the names that scripts rely on; None for what has no limit or did not happen."""
+        return {
+            "name": self.name,
+            "kind": self.kind,
+            "joint": self.joint or None,
+            "broken_s": self.broken_at if self.broken else None,
+            "peak_shear_n": self.peak_shear,
+            "peak_tension_n": self.peak_tension,
+            "peak_slip_m": self.peak_slip,
+            "peak_elongation_m": self.peak_elongation,
+            "shear_capacity_n": self.shear_capacity if math.isfinite(self.shear_capacity) else None,
+            "axial_capacity_n": self.axial_capacity if math.isfinite(self.axial_capacity) else None,
+        }
+
+    @classmethod
+    def from_row(cls, row: dict[str, Any]) -> LinkMeasures:
+        """The measures that :meth:`row` described."""
+
+        def number(name: str, missing: float) -> float:
+            return missing if row[name] is None else float(row[name])
+
+        return cls(
+            row["name"], row["kind"], row["joint"] or 0, number("broken_s", math.nan),
+            *(number(name, 0.0) for name in ("peak_shear_n", "peak_tension_n", "peak_slip_m", "peak_elongation_m")),
+            shear_capacity=number("shear_capacity_n", math.inf), axial_capacity=number("axial_capacity_n", math.inf),
+        )  # fmt: skip
+
+
+def row_of(links: Sequence[LinkMeasures]) -> dict[str, Any]:
+    """What a row of a run holds of its links: how many broke, the first one when, and each in their order."""
+    times = [one.broken_at for one in links if one.broken]
+    return {
+        "links_broken": len(times),
+        "first_link_broken_s": min(times, default=None),
+        "link_broken_s": [one.broken_at if one.broken else None for one in links],
+        "link_utilisation": [float(one.utilisation) for one in links],
+    }
+
+
+def sentence_of(links: Sequence[LinkMeasures]) -> str:
+    """How many links broke, and the first of them, in a sentence; empty without links."""
+    kinds = {one.kind for one in links if one.kind != "layer" or one.broken}
+    if not kinds:
+        return ""
+    counted = [one for one in links if one.kind in kinds]
+    many = kinds.pop() + "s" if len(kinds) == 1 else "links"
+    broken = sorted((one for one in counted if one.broken), key=lambda one: one.broken_at)
+    if not broken:
+        most = max(counted, key=lambda one: one.utilisation)
+        all_of_them = {1: f"The {most.kind} is", 2: f"Both {many} are"}.get(
+            len(counted), f"All {len(counted)} {many} are"
+        )
+        share = f"; the {most.name} bore {100.0 * most.utilisation:.0f} % of what it can" if most.utilisation else ""
+        return f"{all_of_them} whole{share}."
+    first = broken[0]
+    where = f" in joint {first.joint}" if first.joint else f", the {first.name}"
+    which = (
+        f"The {first.kind} broke" if len(counted) == 1 else f"{len(broken)} of {len(counted)} {many} broke, the first"
+    )
+    return f"{which} at {first.broken_at:.2f} s{where}."
