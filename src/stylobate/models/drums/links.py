@@ -244,10 +244,10 @@ def link_measures(column: Column, records: np.ndarray, lane: int, step: float) -
     one, found = records[1:], []
     for m, link in enumerate(acting(column)):
         when = int(one["mwhen"][m, lane])
-        peaks = (float(one[name][m, lane]) for name in ("mpeak", "mpull", "mfar", "mmost"))
+        shear, pull, far, most = (float(one[name][m, lane]) for name in ("mpeak", "mpull", "mfar", "mmost"))
         found.append(
             LinkMeasures(
-                link.name, link.kind, link.joint, math.nan if when < 0 else when * step, *peaks,
+                link.name, link.kind, link.joint, math.nan if when < 0 else when * step, shear, pull, far, most,
                 link.shear_capacity, link.axial_capacity,
             )
         )  # fmt: skip
