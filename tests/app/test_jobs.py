@@ -105,7 +105,14 @@ def test_a_domain_is_a_study_file(fresh, asked, tmp_path):
     study = read_study(tmp_path / "jobs" / job["id"] / "study.toml")
     assert (study.frequencies.tolist(), study.duration, study.tail) == ([0.5, 1.0, 1.5, 2.0], 3.0, 1.0)
     assert (study.column.n, study.model.name, study.model.parameters()["points"]) == (3, "dem2d", 3)
-    assert "is not a number with a unit" in fresh.post("/api/jobs", json=domain | {"duration": "long"}).json()["error"]
+    for wrong, field in (
+        ({"duration": "long"}, "duration"),
+        ({"frequencies": "4:1:5"}, "f0"),
+        ({"amplitudes": "0.1:0.4:3"}, "a0"),
+        ({"frequencies": "0.5:2:9000"}, "fn"),
+    ):
+        answer = fresh.post("/api/jobs", json=domain | wrong)
+        assert (answer.status_code, answer.json()["field"]) == (422, field), answer.json()
     assert "no frequencies" in fresh.post("/api/jobs", json=domain | {"frequencies": None}).json()["error"]
 
 

@@ -11,12 +11,17 @@ from pydantic import Field
 
 from ..column.toml import Table
 from ..errors import InputError
+from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_time
 
 #: Files of a job: its column, the study of a domain, where its records lie, and where its commands write.
 COLUMN, STUDY, RECORDS, RESULT, FRAGILITY, REPORT = (
     *("column.toml", "study.toml", "records", "result", "fragility", "report.html"),
 )
+
+
+#: Most cells of a domain.
+CELLS = 20_000
 
 
 class MotionAsked(Table):
@@ -130,6 +135,9 @@ def study(asked: JobAsked) -> dict[str, Any]:
     missing = next((name for name, value in found.items() if value is None), None)
     if missing is not None:
         raise InputError(f"a domain has no {missing}; give them, such as 0.33:4:24 and 0.05g:0.6g:32.")
+    cells = len(frequency_range(str(asked.frequencies))) * len(amplitude_range(str(asked.amplitudes)))
+    if cells > CELLS:
+        raise InputError(f"the domain has {cells} cells; the page takes up to {CELLS}: give fewer frequencies.")
     return found | ({"set": settings} if settings else {})
 
 

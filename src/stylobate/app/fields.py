@@ -80,6 +80,12 @@ def motion_field(sentence: str, kind: str = "", text: str = "") -> str | None:
     return {"step": "dt"}.get(found[1], found[1]) if found else None
 
 
+def domain_field(sentence: str) -> str | None:
+    """The field that a sentence about the grid of a domain is about; None if it is about none."""
+    names = {"cells": "fn", "frequenc": "f0", "amplitude": "a0", "acceleration": "a0", "Hz": "f0", "time": "duration"}
+    return next((field for word, field in names.items() if word in sentence), None)
+
+
 def _index(rows: Any, place: int | None) -> Any:
     """The index that a row of a list states; None where there is no such row."""
     return rows[place - 1].get("index") if place is not None and rows and place <= len(rows) else None

@@ -29,7 +29,7 @@ from ..version import __version__
 from . import columns, motions
 from .asked import COLUMN, FRAGILITY, RECORDS, RESULT, STUDY, JobAsked, MotionAsked, commands, report_of, study
 from .cells import new_cells
-from .fields import column_field, motion_field
+from .fields import column_field, domain_field, motion_field
 from .guard import Guard, TooLarge
 from .job import Job
 from .records import FILE, Records
@@ -170,6 +170,10 @@ class Site:
             column = columns.column_of(asked.column)
         except InputError as error:
             return _refused(error, column_field(str(error), asked.column))
+        try:
+            tables = study(asked) if asked.kind == "domain" else None
+        except InputError as error:
+            return _refused(error, domain_field(str(error)))
         wanted = [one for one in asked.records if not one.startswith("sample:")]
         if asked.motion is not None and asked.motion.kind == "record":
             wanted.append(asked.motion.text)
@@ -179,8 +183,8 @@ class Site:
         def prepare(folder: Path) -> None:
             write_column(column, folder / COLUMN)
             self.records.copy(wanted, folder / RECORDS)
-            if asked.kind == "domain":
-                (folder / STUDY).write_text(tomli_w.dumps(study(asked)), encoding="utf-8")
+            if tables is not None:
+                (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
 
         title = _title(asked, column, self.records)
         job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
