@@ -160,7 +160,6 @@ function film({ film: shown, histories: h }) {
       el("p", { class: "hint" }, `Drag to ${shown.space ? "turn" : "move"}, wheel or two fingers to zoom, double click to return; or arrows, + − and 0.${shown.space ? " The blue mark is on the same side of every drum." : ""}`)),
     el("div", { class: "card" }, el("h2", {}, "Top"), top, el("h2", {}, "Joints"), joints(h, opening), el("h2", {}, "Energy"), energy));
   const x = shown.time;
-  const peak = values => values.reduce((most, one) => one !== null && Math.abs(one) > most ? Math.abs(one) : most, 0);
   const widest = h.opening.map((values, i) => [peak(values), i]).sort((a, b) => b[0] - a[0]).slice(0, 4).map(one => one[1]).sort((a, b) => a - b);
   const kind = { name: "opening" };
   const many = (list, each) => list.map((i, k) => ({ x, y: each[i], label: `joint ${i + 1}`, color: CYCLE[k][0], dash: CYCLE[k][1] }));
@@ -176,8 +175,16 @@ function film({ film: shown, histories: h }) {
   if (player) player.end();
   plots.forEach(one => one.redraw());
   player = filmPlayer(shown, parts);
+  player.seek(beginning(h.top, x));
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches && state.tab === "run") player.toggle();
 }
+// A second before the column begins to move: records are quiet for long at first.
+const beginning = (top, time) => {
+  if (!top) return time[0];
+  const most = peak(top.x), first = top.x.findIndex(one => one !== null && Math.abs(one) > 0.02 * most);
+  return most > 0 ? Math.max(time[0], time[Math.max(first, 0)] - 1) : time[0];
+};
+const peak = values => values.reduce((most, one) => one !== null && Math.abs(one) > most ? Math.abs(one) : most, 0);
 // Debris lies metres away: the axis ends where the column itself does.
 const limits = (top, shown) => {
   const tall = 1000 * (shown.view[3] - shown.view[2]), most = Math.max(...Object.values(top).flat().map(one => one === null ? 0 : Math.abs(one)));
