@@ -73,6 +73,14 @@ def test_every_error_finds_its_field(client, table, where, name, value):
     assert answer.json()["field"] == path, answer.json()["error"]
 
 
+def test_an_error_of_a_link_finds_its_row(client, table):
+    dowel = {"kind": "dowel", "joint": 2, "diameter": 0.03, "embedment": 0.1, "material": "titanium"}
+    whole = client.post("/api/column", json=table | {"link": [dowel]}).json()
+    assert "error" not in whole
+    wrong = client.post("/api/column", json=table | {"link": [dowel, dowel | {"diameter": -1}]}).json()
+    assert wrong["field"] == "link.2"
+
+
 def test_a_missing_value_finds_its_field(client, table):
     del table["drum"][1]["height"]
     found = client.post("/api/column", json=table).json()

@@ -195,8 +195,20 @@ function equal(table) {
       el("button", { type: "button", onclick: make }, "Make them")));
 }
 
-// Strengthening: dowels, bars, ties … as in a column file with [[link]].
-const LINKS = { kind: "Kind", joint: "Joint", diameter: "Diameter [m]", material: "Material" };
+// Strengthening: dowels, bars, ties … as in a column file with [[link]]; what else a file says of a link is kept.
+const WORDS = { joint: "Joint", from_drum: "From drum", to_drum: "To drum", at: "At x, y [m]", to: "To x, y [m]", diameter: "Diameter [m]", embedment: "Embedment [m]", material: "Material", friction_coefficient: "Friction [tan φ]" };
+const LINKS = {
+  dowel: ["joint", "at", "diameter", "embedment", "material"], bar: ["joint", "at", "diameter", "embedment", "material"],
+  tie: ["from_drum", "to_drum", "at", "to", "diameter", "material"], core: ["from_drum", "to_drum", "diameter", "material"], layer: ["joint", "friction_coefficient"],
+};
+function fresh(kind) {
+  const { drum } = state.column, n = drum.length, aside = tidy(0.5 * Math.max(...drum.map(one => Math.max(one.bottom_width, one.top_width))) + 0.05);
+  const whole = { joint: Math.min(2, n), from_drum: 1, to_drum: n, diameter: 0.03, embedment: 0.15, material: "titanium", friction_coefficient: 0.6 };
+  const shown = Object.fromEntries(LINKS[kind].filter(key => key in whole).map(key => [key, whole[key]]));
+  return { kind, ...shown, ...(kind === "tie" ? { at: [aside, 0], to: [aside, 0] } : {}) };
+}
+const pair = text => text.trim() === "" ? undefined : text.split(",").map(value);
+
 function links(table) {
   const rows = table.link || [];
   const set = (k, key, given) => {
@@ -204,14 +216,17 @@ function links(table) {
     if (given === undefined) delete list[k][key]; else list[k][key] = given;
     edit({ ...structuredClone(state.column), link: list });
   };
-  const drop = k => { const rest = structuredClone(state.column); rest.link.splice(k, 1); if (!rest.link.length) delete rest.link; replace(rest); };
+  const all = list => { const rest = structuredClone(state.column); if (list.length) rest.link = list; else delete rest.link; replace(rest); };
+  const box = (one, k, key) => field(WORDS[key], el("input", {
+    value: Array.isArray(one[key]) ? one[key].join(", ") : one[key] ?? "",
+    oninput: event => set(k, key, key === "at" || key === "to" ? pair(event.target.value) : key === "material" ? event.target.value.trim() || undefined : value(event.target.value)),
+  }));
   return el("details", { open: rows.length > 0 }, el("summary", {}, "Strengthening"),
-    rows.map((one, k) => el("div", { class: "row", "data-field": `link.${k + 1}` },
-      Object.entries(LINKS).map(([key, label]) => field(label, key === "kind"
-        ? select(["dowel", "bar", "tie", "core", "layer"].map(kind => [kind, kind]), one.kind, kind => set(k, "kind", kind))
-        : el("input", { value: one[key] ?? "", oninput: event => set(k, key, key === "material" ? event.target.value || undefined : value(event.target.value)) }))),
-      el("button", { type: "button", class: "quiet", "aria-label": `remove link ${k + 1}`, onclick: () => drop(k) }, "Remove"))),
-    el("div", { class: "row" }, el("button", { type: "button", onclick: () => replace({ ...structuredClone(state.column), link: [...rows, { kind: "dowel", joint: 2, diameter: 0.03, material: "titanium" }] }) }, "Add a dowel")));
+    rows.map((one, k) => el("div", { class: "row tight link", "data-field": `link.${k + 1}` },
+      field("Kind", select(Object.keys(LINKS).map(kind => [kind, kind]), one.kind, kind => all(rows.map((other, i) => i === k ? fresh(kind) : other)))),
+      (LINKS[one.kind] || []).map(key => box(one, k, key)),
+      el("button", { type: "button", class: "quiet", "aria-label": `remove link ${k + 1}`, onclick: () => all(rows.filter((_, i) => i !== k)) }, "Remove"))),
+    el("div", { class: "row" }, el("button", { type: "button", onclick: () => all([...rows, fresh("dowel")]) }, "Add a link")));
 }
 
 function section(given) {

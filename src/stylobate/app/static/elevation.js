@@ -61,7 +61,7 @@ function labels(c, outlines, found, table, across, up, right) {
   const about = new Map(((table.as_found || {}).drum || []).map(one => [one.index, one]));
   const laws = new Map((table.joint_override || []).map(one => [one.index, one]));
   const linked = new Map();
-  for (const link of table.link || []) if (typeof link.joint === "number") linked.set(link.joint, link.kind);
+  for (const link of table.link || []) if (typeof link.joint === "number") linked.set(link.joint, link.kind); else if (typeof link.to_drum === "number") linked.set(link.to_drum, link.kind);
   c.textAlign = "left"; c.textBaseline = "middle";
   let last = Infinity;
   outlines.forEach((corners, i) => {
