@@ -10,12 +10,14 @@ import os
 import subprocess
 import sys
 import tempfile
+import threading
+import time
 from contextlib import suppress
 from typing import Any
 
 from ..errors import StylobateError
 
-#: Time until they end by force [s].
+#: Time until they end by force, and between looks at whether they live [s].
 _PATIENCE = 0.5
 
 
@@ -80,6 +82,7 @@ def serve(count: int) -> None:
             how: dict[str, Any] = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
             cluster = LocalCluster(n_workers=count, local_directory=place, **how)
         print(cluster.scheduler_address, flush=True)
+        threading.Thread(target=_keep_alive, args=(cluster,), daemon=True).start()
         nothing = os.open(os.devnull, os.O_WRONLY)
         for stream in (1, 2):
             os.dup2(nothing, stream)
@@ -88,6 +91,21 @@ def serve(count: int) -> None:
             with suppress(Exception):
                 nanny.process.process._process.kill()  # at once: a compiled loop does not listen
     os._exit(0)
+
+
+def _keep_alive(cluster: Any) -> None:
+    """Start again what died while it was being started: its nanny waits for it for ever, and so would the runs."""
+    seen: set[str] = set()
+    while True:
+        time.sleep(_PATIENCE)
+        dead = set()
+        for nanny in list(cluster.workers.values()):
+            if nanny.process is not None and nanny.process.status.name in ("stopped", "failed"):
+                dead.add(nanny.id)
+                if nanny.id in seen:  # twice in a row: it is not on its way
+                    with suppress(Exception):
+                        cluster.sync(nanny.instantiate)
+        seen = dead
 
 
 if __name__ == "__main__":
