@@ -11,6 +11,8 @@ from sphinx_gallery.scrapers import figure_rst
 
 #: From one column and one run to many, then what else there is.
 ORDER = (
+    "plot_notebook_survey.py",
+    "plot_notebook_fragility.py",
     "plot_survey.py",
     "plot_own_record.py",
     "plot_critical_amplitude.py",

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from contextlib import closing
+from pathlib import Path
 
 import pytest
 
@@ -104,3 +105,19 @@ def kept(path):
             return ledger.execute("SELECT count(*) FROM runs").fetchone()[0]
     except sqlite3.OperationalError:  # not made yet
         return 0
+
+
+@pytest.mark.parametrize(
+    ("line", "offered"),
+    [
+        ("stylobate rep", {"report", "reproduce"}),
+        ("stylobate run paper-m", {"paper-monolithic"}),
+        ("stylobate run paper-monolithic --model dem", {"dem2d", "dem3d"}),
+        ("stylobate run gallery/assemblies/por", {"gallery/assemblies/portal.toml"}),
+    ],
+)
+def test_the_tab_key_completes(line, offered):
+    words = {"COMP_WORDS": line, "COMP_CWORD": str(len(line.split()) - 1), "_STYLOBATE_COMPLETE": "complete_bash"}
+    root = Path(__file__).parents[2]
+    done = subprocess.run(STYLOBATE, env=os.environ | words, capture_output=True, text=True, cwd=root, check=True)
+    assert set(done.stdout.split()) == offered

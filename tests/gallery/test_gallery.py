@@ -269,3 +269,29 @@ def test_study(run):
     assert shares.iloc[0] < 0.25
     assert shares.iloc[-1] > shares.iloc[0] + 0.25
     assert found["curve"].median_interval[0] < found["curve"].median < found["curve"].median_interval[1]
+
+
+def test_notebook_survey(run):
+    # The survey's column stands a pulse of about twice its uplift acceleration, and so does every column like it.
+    found = run("notebook_survey")
+    response, population = found["response"], found["sure"].population
+    assert not response.collapsed
+    assert population.counts["collapsed"] == 0
+    assert "Collapses in 0 of 15" in found["printed"]
+    # the film and the response show themselves, with nothing of a network and no script outside the film's frame
+    assert "<script" not in response._repr_html_()
+    film = response.animate(window=(0.0, 0.5))
+    assert film._repr_html_().startswith('<iframe sandbox="allow-scripts" srcdoc="&lt;!doctype html&gt;')
+    assert "<script" not in film._repr_html_()
+    assert "<script" in film.page
+
+
+def test_notebook_fragility(run):
+    found = run("notebook_fragility")
+    assert len(found["motions"]) == 10
+    assert set(found["found"].runs["record"]) == {f"record-{seed}.csv" for seed in range(10)}
+    # the curve's median lies among the capacities that it is fitted to
+    capacities = found["found"].capacities
+    low, high = capacities["stands_until"].min(), capacities["collapses_from"].max()
+    assert low < found["curve"].median < high
+    assert len(found["figure"].axes) >= 2

@@ -21,17 +21,44 @@ REQUEST = (
     *("condition", "scale", "pga", "vertical"),
 )
 
-ColumnName = Annotated[str, typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).")]
+
+def _models(incomplete: str) -> list[str]:
+    """Names of models that begin so, for the completion of a shell."""
+    from ..models.registry import MODELS
+
+    return [name for name in MODELS if name.startswith(incomplete)]
+
+
+def _columns(incomplete: str) -> list[str]:
+    """Presets and column files that begin so, for the completion of a shell."""
+    from ..column.presets import PRESETS
+
+    folder, _, start = incomplete.rpartition("/")
+    there = Path(folder or ("/" if incomplete.startswith("/") else "."))
+    files = sorted(one for one in there.glob("*") if one.is_dir() or one.suffix == ".toml") if there.is_dir() else []
+    found = [f"{folder}/{one.name}" if "/" in incomplete else one.name for one in files if one.name.startswith(start)]
+    return [*(name for name in PRESETS if name.startswith(incomplete)), *found]
+
+
+ColumnName = Annotated[
+    str,
+    typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).", autocompletion=_columns),
+]
 StructureName = Annotated[
     str,
     typer.Argument(
-        metavar="COLUMN", help="Name of a preset, or a file (TOML) of a column or of an assembly of blocks."
+        metavar="COLUMN",
+        help="Name of a preset, or a file (TOML) of a column or of an assembly of blocks.",
+        autocompletion=_columns,
     ),
 ]
 ModelName = Annotated[
     str,
     typer.Option(
-        "--model", metavar="MODEL", help="How it is computed: dem2d, dem3d, rigid-block, rigid-beam, housner."
+        "--model",
+        metavar="MODEL",
+        help="How it is computed: dem2d, dem3d, rigid-block, rigid-beam, housner.",
+        autocompletion=_models,
     ),
 ]
 Settings = Annotated[

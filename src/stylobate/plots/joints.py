@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..response import Response
 from .scene import describe, seen
-from .style import BLACK, BROWN, GREY, SAND, WIDTH, in_lines, page, styled
+from .style import BLACK, BROWN, GREY, SAND, WIDTH, in_lines, only_panel, styled
 
 
 @styled
@@ -19,6 +20,7 @@ def draw_joints(
     *,
     window: tuple[float, float] | None = None,
     figure: Figure | SubFigure | None = None,
+    ax: Axes | None = None,
 ) -> Figure:
     """Largest opening of each joint over time, each drawn to its own peak, which stands beside it.
 
@@ -32,6 +34,8 @@ def draw_joints(
         Beginning and end of what is drawn [s]; all by default.
     figure : Figure or SubFigure, optional
         To draw in; a new one by default.
+    ax : Axes, optional
+        To draw in, instead of a figure.
     """
     h, n = response.histories, response.opening.shape[1]
     opening = np.nan_to_num(np.abs(h.joint_opening))
@@ -41,8 +45,7 @@ def draw_joints(
     if not math.isnan(time):  # gaps of a fallen column are far larger and would flatten every other curve
         opening = np.where((h.time <= time)[:, None], opening, np.nan)
     largest = float(np.nanmax(opening)) if np.isfinite(opening).any() else 0.0
-    figure = page(figure, (WIDTH, 1.4 + 0.32 * max(n, 3)))
-    axes = figure.subplots()
+    figure, axes = only_panel(ax, figure, (WIDTH, 1.4 + 0.32 * max(n, 3)))
     for i in reversed(range(n)):
         peak = float(np.nanmax(opening[:, i])) if np.isfinite(opening[:, i]).any() else 0.0
         scale = 0.8 / max(peak, 0.01 * largest) if largest > 0.0 else 0.0

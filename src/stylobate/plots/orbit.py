@@ -6,6 +6,7 @@ import math
 import textwrap
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Ellipse, Patch, Rectangle
 
@@ -13,14 +14,16 @@ from ..response import Response
 from ..response.shapes import CircularFrustum
 from .panels import until_collapse
 from .scene import describe
-from .style import BLACK, BLUE, BROWN, RED, SAND, page, styled
+from .style import BLACK, BLUE, BROWN, RED, SAND, only_panel, styled
 
 #: Width and height of the picture [inch]: a column of a journal.
 SIZE = (3.4, 3.75)
 
 
 @styled
-def draw_orbit(response: Response, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
+def draw_orbit(
+    response: Response, title: str | None = None, *, figure: Figure | SubFigure | None = None, ax: Axes | None = None
+) -> Figure:
     """Displacement of the middle of the top face in plan, relative to the base, in equal scales; the base behind it.
 
     A square marks the start, a circle the end, and a cross where collapse became certain.
@@ -32,9 +35,10 @@ def draw_orbit(response: Response, title: str | None = None, *, figure: Figure |
     title : str, optional
     figure : Figure or SubFigure, optional
         To draw in; a new one by default.
+    ax : Axes, optional
+        To draw in, instead of a figure.
     """
-    figure = page(figure, SIZE)
-    axes = figure.subplots()
+    figure, axes = only_panel(ax, figure, SIZE)
     top, time = response.top_displacement, response.time
     fallen = not math.isnan(response.collapse_time)
     kept = until_collapse(response)
@@ -66,8 +70,13 @@ def draw_orbit(response: Response, title: str | None = None, *, figure: Figure |
     axes.set_aspect("equal")
     axes.set_xlabel(f"top, along x [{unit}]")
     axes.set_ylabel(f"top, along y [{unit}]")
+    words = textwrap.fill(title or describe(response), 52)
+    if ax is not None:
+        axes.legend(handles, labels, loc="best", handletextpad=0.4)
+        axes.set_title(words, fontsize=9.0)
+        return figure
     figure.legend(handles, labels, loc="outside lower center", ncols=3, columnspacing=1.0, handletextpad=0.4)
-    figure.suptitle(textwrap.fill(title or describe(response), 52), x=0.02, ha="left", fontsize=9.0)
+    figure.suptitle(words, x=0.02, ha="left", fontsize=9.0)
     return figure
 
 

@@ -123,6 +123,14 @@ def panel(given: Axes | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
     return figure, figure.subplots()
 
 
+def only_panel(ax: Axes | None, figure: Figure | SubFigure | None, size: tuple[float, float]) -> tuple[Figure, Axes]:
+    """As :func:`panel`, for pictures that may be given a figure, or part of one, instead of axes."""
+    if ax is not None:
+        return panel(ax, size)
+    given = page(figure, size)
+    return given, given.subplots()
+
+
 def in_lines(title: str) -> str:
     """A title in as many lines as the width of a page needs."""
     return textwrap.fill(title, 82)

@@ -16,6 +16,8 @@ from .words import describe, sentence_of
 if TYPE_CHECKING:
     import xarray
 
+    from ..plots.inline import Film
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Response(Recorded):
@@ -70,6 +72,34 @@ class Response(Recorded):
     def citation(self) -> str:
         """What to cite for this run: the package, the sources of its model, and where its motion comes from."""
         return cite_run(self.provenance).text
+
+    def animate(
+        self,
+        *,
+        frames_per_second: float = 30.0,
+        speed: float = 1.0,
+        window: tuple[float, float] | None = None,
+    ) -> Film:
+        """A film that plays where a notebook shows it; ``.save(path)`` writes it as a page of its own.
+
+        Parameters
+        ----------
+        frames_per_second : float
+            Frames that are shown in a second [1/s].
+        speed : float
+            At which that many are shown: 0.5 keeps twice as many states. The viewer chooses how fast it plays.
+        window : (float, float), optional
+            Beginning and end of what is shown [s]; all by default.
+
+        Returns
+        -------
+        stylobate.plots.inline.Film
+        """
+        from ..plots.inline import (
+            Film,
+        )  # pictures stand above responses: a film is at hand here, and loaded when asked for
+
+        return Film(self, frames_per_second, speed, window)
 
     def with_provenance(self, provenance: dict, wall_time: float) -> Response:
         """A copy with provenance and wall time filled in (done once, by ``simulate``)."""
