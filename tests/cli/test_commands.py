@@ -62,7 +62,7 @@ def test_run_writes_its_files_and_says_which(command, tmp_path):
         for name in ("histories", "filmstrip", "joints", "energy", "motion")
         for ending in ("png", "svg")
     }
-    assert names == pictures | {"response.nc", "run.json"}
+    assert names == pictures | {"response.nc", "run.json", "motion.csv", "asked-run.json"}
     assert json.loads((folder / "run.json").read_text()) == result
     response = st.Response.load(folder / "response.nc")
     assert response.peak_top_displacement == result["peak_top_displacement_m"]
@@ -125,6 +125,7 @@ def test_critical_states_its_grid_and_how_verdicts_alternate(command, tmp_path):
     assert {path.name for path in tmp_path.glob("[!.]*")} == {
         "critical.csv",
         "critical.json",
+        "asked-critical.json",
         "critical.png",
         "critical.svg",
     }
@@ -153,7 +154,7 @@ def test_domain_counts_cells_and_writes_table_file_and_figure(command, tmp_path)
     assert (result["cells"], result["runs"]) == (12, 12)
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 12
     names = {path.name for path in tmp_path.glob("[!.]*")}
-    assert names == {"domain.nc", "domain.csv", "domain.png", "domain.svg", "domain.json"}
+    assert names == {"domain.nc", "domain.csv", "domain.png", "domain.svg", "domain.json", "asked-domain.json"}
     assert sorted(result["files"]) == sorted(str(tmp_path / name) for name in names)
     text = command("domain", "paper-monolithic", *DOMAIN)
     assert f"{result['collapsed']} of 12 cells collapse" in text
@@ -182,7 +183,8 @@ def test_compare_models_under_one_motion_and_over_a_domain(command, tmp_path):
     peaks = [run["peak_top_displacement_m"] for run in result["runs"]]
     assert peaks[1] == pytest.approx(peaks[0], rel=0.03)
     names = {path.name for path in (tmp_path / "motion").glob("[!.]*")}
-    assert names == {"comparison.csv", "comparison.png", "comparison.svg", "response-housner.nc", "response-dem2d.nc"}
+    histories = {"response-housner.nc", "response-dem2d.nc"}
+    assert names == histories | {"comparison.csv", "comparison.png", "comparison.svg", "asked-compare.json"}
     grid = ["--frequencies", "0.5:2:2", "--amplitudes", "0.1g:0.5g:3", "--duration", "4s"]
     result = command(
         "compare", "paper-monolithic", "--models", "housner,dem2d", *grid, "--json", "--set", "housner.restitution=0.9"

@@ -42,7 +42,7 @@ def test_fragility_risk_and_survival(place, capsys):
     assert set(one) >= PROMISED
     assert (one["unit"], one["state"], one["records"], one["runs"], one["undecided"]) == ("m/s", "collapse", 12, 96, 1)
     assert {file.rpartition("/")[2] for file in one["files"]} == {
-        "fragility.csv", "fragility.png", "fragility.svg", "fragility.json"}  # fmt: skip
+        "fragility.csv", "fragility.png", "fragility.svg", "fragility.json", "asked-fragility.json"}  # fmt: skip
     risk = said(capsys, "risk", place / "runs.csv", "--im", "pgv", "--hazard", place / "A.csv", "--json")
     assert risk["annual_rate"] * risk["return_period_y"] == pytest.approx(1.0)
     both = said(

@@ -189,7 +189,7 @@ def test_what_a_command_wrote_it_may_write_again_until_somebody_changes_it(tmp_p
     command = ["limit", "paper-monolithic", "--out", str(tmp_path)]
     assert call(command) == call(command) == 0
     listed = [line.split("  ")[1] for line in (tmp_path / LIST).read_text().splitlines() if line]
-    assert set(listed) == {"limit.json", "limit.png", "limit.svg"}
+    assert set(listed) == {"limit.json", "limit.png", "limit.svg", "asked-limit.json"}
     with (tmp_path / "limit.json").open("a") as file:
         file.write("a note of mine\n")
     capsys.readouterr()

@@ -15,7 +15,7 @@ def test_pushover_writes_curve_and_figure(tmp_path, capsys):
     assert found["governing_joint"] == 1
     assert len(found["mechanism"]) == 12
     assert len(found["curve"]["multiplier_g"]) == found["steps"]
-    names = {"pushover.csv", "pushover.json", "pushover.png", "pushover.svg"}
+    names = {"pushover.csv", "pushover.json", "pushover.png", "pushover.svg", "asked-pushover.json"}
     assert {file.name for file in tmp_path.glob("[!.]*")} == names
 
 

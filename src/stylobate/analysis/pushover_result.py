@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..atomic import replacing
+
 if TYPE_CHECKING:
     import pandas
 
@@ -151,7 +153,8 @@ class PushoverResult:
         return pandas.DataFrame(table)
 
     def save(self, path: str | Path) -> Path:
-        """Write the path as CSV; returns where."""
+        """Write the path as CSV, whole or not at all; returns where."""
         target = Path(path)
-        self.to_frame().to_csv(target, index=False)
+        with replacing(target) as partial:
+            self.to_frame().to_csv(partial, index=False)
         return target

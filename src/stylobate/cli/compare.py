@@ -85,7 +85,7 @@ def compare(
         o.the_engine(context, dask, count)
         each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with (
-            console.folder(out, "comparison.csv", "comparison", *each) as folder,
+            console.folder(out, "comparison.csv", "comparison", "asked-compare.json", *each) as folder,
             console.progress("cells") as progress,
         ):
             ledgers = [console.ledger(folder, _stem(name)) for name in names]
@@ -93,6 +93,9 @@ def compare(
                 stone, chosen, *grid, labels=names, tail=after, threads=count, progress=progress, ledgers=ledgers
             )
             files = [] if folder is None else _write_domains(domains, folder)
+            if folder is not None:
+                what = {"structures": [stone], "models": chosen}
+                files.append(console.asked(folder, "compare", **what, labels=names, duration_s=grid[2], tail_s=after))
             console.done_with(*ledgers)
         table = domains.table
         result |= {"domains": [one.summary() for one in domains.domains], "differences": table.to_dict("records")}
@@ -100,7 +103,7 @@ def compare(
         shaking = o.the_request(context).motion(stone.frequency_parameter)
         each = [f"response-{_stem(name)}.nc" for name in names]
         with (
-            console.folder(out, "comparison.csv", "comparison", *each) as folder,
+            console.folder(out, "comparison.csv", "comparison", "asked-compare.json", *each) as folder,
             console.progress("models") as progress,
         ):
             ledger = console.ledger(folder)
@@ -109,6 +112,9 @@ def compare(
                 stone, shaking, chosen, labels=names, tail=after, progress=progress, ledger=ledger, files=places
             )
             files = [] if folder is None else _write_histories(comparison, folder, places)
+            if folder is not None:
+                what = {"structures": [stone], "models": chosen, "motions": [shaking]}
+                files.append(console.asked(folder, "compare", **what, labels=names, tail_s=after))
             console.done_with(ledger)
         runs = [
             response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}

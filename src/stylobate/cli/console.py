@@ -15,6 +15,10 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas
 
+#: The command line that is run, as typed, and what was warned of since it began.
+COMMAND: list[str] = []
+WARNED: list[str] = []
+
 #: Widest line of a table [characters], and what stands where there is no value.
 WIDEST, MISSING = 100, "-"
 
@@ -44,6 +48,23 @@ def as_json(value: Any, indent: int | None = None) -> str:
 def write_json(path: Path, value: Any) -> Path:
     """Write a JSON file, whole or not at all."""
     return write_text(path, as_json(value, indent=2))
+
+
+def asked(folder: Path, command: str, **what: Any) -> Path:
+    """Write what a command was asked beside its results, with the command line and its warnings.
+
+    Parameters
+    ----------
+    folder : path
+    command : str
+        Its name.
+    **what
+        ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them.
+    """
+    from ..results.asked import Asked, asked_file
+
+    found = Asked.of(COMMAND, warnings=WARNED, **what)
+    return write_json(folder / asked_file(command), found.to_dict())
 
 
 def write_text(path: Path, text: str) -> Path:

@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from ..models.base import Model
     from ..motion import Motion, Suite
 
+#: Files that every run of the command writes.
+WRITES = ("critical.csv", "critical.json", "critical", "asked-critical.json")
+
 
 def critical(
     context: typer.Context,
@@ -80,7 +83,7 @@ def critical(
     # the amplitude of a formula is that of its sine; of a record, or once it is conditioned, the peak that it has along x
     nominal = 1.0 if (harmonic or pulse) and not condition else None
     o.the_engine(context, dask, count)
-    with console.folder(out, "critical.csv", "critical.json", "probability.csv", "probability", "critical") as folder:
+    with console.folder(out, *WRITES, "probability.csv", "probability") as folder:
         with console.progress("amplitudes") as progress:
             ledger = console.ledger(folder)
             result = critical_amplitude(
@@ -99,6 +102,8 @@ def critical(
         summary, files = result.summary() | o.input_facts(how.taken(shaking)), []
         if folder is not None:
             files = write(result, summary, folder)
+            what = {"structures": [stone], "models": [how], "motions": [how.taken(shaking)]}
+            files.append(console.asked(folder, "critical", **what, tail_s=after))
             summary["files"] = [str(file) for file in files]
             console.done_with(ledger)
     if as_json:
@@ -123,7 +128,7 @@ def over_suite(
     from ..analysis.critical_suite import critical_suite
     from . import console
 
-    with console.folder(out, "critical.csv", "runs.csv", "critical.json", "directions", "critical") as folder:
+    with console.folder(out, *WRITES, "runs.csv", "directions") as folder:
         with console.progress("runs") as progress:
             ledger = console.ledger(folder)
             result = critical_suite(
@@ -152,6 +157,9 @@ def over_suite(
                 title = f"{column.name}, {model.name}"
                 drawn = plots.draw_directions(result.compass, title, worst="smallest")
                 files += plots.save(drawn, folder / "directions")
+            taken = [model.taken(one) for one in suite.motions]
+            what = {"structures": [column], "models": [model], "motions": taken}
+            files.append(console.asked(folder, "critical", **what, tail_s=tail))
             summary["files"] = [str(file) for file in files]
             console.done_with(ledger)
     if as_json:

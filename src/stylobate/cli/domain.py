@@ -82,7 +82,7 @@ def domain(
                 f"{option} is for variations of the column; give --replicates as well, e.g. --replicates 20."
             )
     o.the_engine(context, dask, count)
-    with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain") as folder:
+    with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain", "asked-domain.json") as folder:
         ledger, half = console.ledger(folder), console.ledger(folder, "half-step")
         with console.progress("cells") as progress:
             result = collapse_domain(
@@ -110,6 +110,8 @@ def domain(
                 )  # fmt: skip
             summary["half_step"] = pair.summary()
         files = [] if folder is None else write(result, folder, summary)
+        if folder is not None:
+            files.append(asked(folder, study))
         console.done_with(ledger, half)
     if as_json:
         console.emit(summary | {"files": [str(file) for file in files]})
@@ -118,6 +120,14 @@ def domain(
     if half_step:
         step = summary["half_step"]
         print(f"With half of the time step {step['differing']} of {step['comparable']} verdicts are different ones.")
+
+
+def asked(folder: Path, study: Study) -> Path:
+    """What was asked for, beside the results."""
+    from . import console
+
+    what = {"structures": [study.column], "models": [study.model]}
+    return console.asked(folder, "domain", **what, duration_s=study.duration, tail_s=study.tail)
 
 
 def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
@@ -139,7 +149,9 @@ def run_probability(study: Study, population: dict, threads: int, out: Path | No
     from ..campaign.runner import Stopped
     from . import console
 
-    with console.folder(out, "probability.nc", "probability.csv", "probability.json", "probability") as folder:
+    with console.folder(
+        out, *(f"probability{end}" for end in (".nc", ".csv", ".json", "")), "asked-domain.json"
+    ) as folder:
         with console.progress("runs") as progress:
             result = collapse_probability(
                 study.column,
@@ -165,6 +177,7 @@ def run_probability(study: Study, population: dict, threads: int, out: Path | No
                 folder / "probability.csv",
                 *plots.save(plots.draw_probability(result), folder / "probability"),
                 console.write_json(folder / "probability.json", summary),
+                asked(folder, study),
             ]
     if as_json:
         console.emit(summary | {"files": [str(file) for file in files]})

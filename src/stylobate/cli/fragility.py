@@ -62,7 +62,7 @@ def fragility(
     summaries = [one.summary() for one in found]
     result = summaries[0] | ({"curves": summaries} if len(found) > 1 else {})
     files: list[Path] = []
-    with console.folder(out, "fragility.csv", "fragility.json", "fragility") as folder:
+    with console.folder(out, "fragility.csv", "fragility.json", "fragility", "asked-fragility.json") as folder:
         if folder is not None:
             import pandas
 
@@ -74,6 +74,7 @@ def fragility(
             files = [
                 console.write_table(pandas.DataFrame(rows), folder / "fragility.csv"),
                 *plots.save(plots.draw_fragility(found), folder / "fragility"),
+                console.asked(folder, "fragility", sources=[str(one) for one in sources], state=state, im=im),
                 folder / "fragility.json",
             ]
             result["files"] = [str(file) for file in files]

@@ -72,8 +72,17 @@ def ida(
     stripes = None if levels is None else parse_levels(levels, measure)
     records = o.the_request(context, motion=sources, separate=True).expand()
     known = the_facts(about, sources, [one.name for one in records.motions])
-    names = ("runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures")
     o.the_engine(context, dask, workers)
+    names = (
+        "runs.csv",
+        "capacities.csv",
+        "fractiles.csv",
+        "measures.csv",
+        "ida.json",
+        "ida",
+        "measures",
+        "asked-ida.json",
+    )
     with console.folder(out, *names) as folder:
         ledger = console.ledger(folder)
         with console.progress("runs") as progress:
@@ -102,6 +111,9 @@ def ida(
             if len(best):
                 files.append(console.write_table(best, folder / "measures.csv"))
                 files += plots.save(plots.draw_efficiency(best), folder / "measures")
+            taken = [how.taken(motion) for motion in records.motions]
+            what = {"structures": [stone], "models": [how], "motions": taken}
+            files.append(console.asked(folder, "ida", **what, im=measure.name, edp=edp, tail_s=after))
             files.append(folder / "ida.json")
             result["files"] = [str(file) for file in files]
             console.write_json(files[-1], result)

@@ -56,7 +56,7 @@ def limit(
             "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
             "--directions out for a column found in the plane."
         )
-    with console.folder(out, "limit.json", "limit", "directions") as folder:
+    with console.folder(out, "limit.json", "limit", "directions", "asked-limit.json") as folder:
         all_round = limit_directions(stone, azimuths, **loads) if around else None
         plane = all_round is None or all_round.dims == "xz"
         weakest = 0.0 if all_round is None else all_round.weakest.azimuth
@@ -73,6 +73,7 @@ def limit(
                 files += plots.save(plots.draw_mechanism(towards(stone, weakest), found), folder / "limit")
             if all_round is not None:
                 files += plots.save(plots.draw_limit_directions(all_round, stone.name), folder / "directions")
+            files.append(console.asked(folder, "limit", structures=[stone], flow=flow, **loads))
             summary["files"] = [str(file) for file in files]
     if as_json:
         console.emit(summary)

@@ -20,6 +20,7 @@ from . import (
     cite,
     columns,
     compare,
+    console,
     critical,
     domain,
     experiments,
@@ -29,6 +30,7 @@ from . import (
     materials,
     motion,
     pushover,
+    report,
     reproduce,
     risk,
     run,
@@ -48,7 +50,6 @@ _UsageError: type[Exception] = next(one for one in typer.BadParameter.__mro__ if
 app = typer.Typer(
     name="stylobate",
     help="Will this freestanding ancient column stand the shaking?",
-    add_completion=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -81,7 +82,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 for _room in (
     run, critical, domain, pushover, limit, compare, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, materials, animate, serve, reproduce, experiments, cite, bench
+    spectrum, columns, materials, animate, report, serve, reproduce, experiments, cite, bench
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name)(_passing_on(getattr(_room, _name)))
@@ -122,6 +123,7 @@ def call(arguments: Sequence[str]) -> int:
         0 when the command did its work (a collapse is a result), 2 for bad input, 1 for a failure of ours, 130 after
         an interrupt.
     """
+    console.COMMAND[:], console.WARNED[:] = list(map(str, arguments)), []
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", OutOfRangeWarning)
@@ -170,13 +172,10 @@ def _version(
 class _Warner:
     """Prints each warning once, in one line, on standard error."""
 
-    def __init__(self) -> None:
-        self.said: set[str] = set()
-
     def __call__(self, message: Any, *_: Any, **__: Any) -> None:
         text = str(message)
-        if text not in self.said:
-            self.said.add(text)
+        if text not in console.WARNED:
+            console.WARNED.append(text)
             print(f"stylobate: warning: {text}", file=sys.stderr)
 
 

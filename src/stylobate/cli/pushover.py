@@ -72,7 +72,7 @@ def pushover(
         loads["direction"] = number("--direction", direction)
     elif stone.as_found and stone.as_found.in_plane:
         loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
-    with console.folder(out, "pushover.csv", "pushover.json", "pushover") as folder:
+    with console.folder(out, "pushover.csv", "pushover.json", "pushover", "asked-pushover.json") as folder:
         path = follow(stone, control=control, geometric=not linear, to=far, **loads)
         summary, files = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}, []
         if folder is not None:
@@ -86,6 +86,8 @@ def pushover(
                 console.write_json(folder / "pushover.json", summary),
                 *plots.save(figure, folder / "pushover"),
             ]
+            options = {"control": control, "linear": linear, "limit_analysis_g": limit} | loads
+            files.append(console.asked(folder, "pushover", structures=[stone], **options))
             summary["files"] = [str(file) for file in files]
     if as_json:
         console.emit(summary)

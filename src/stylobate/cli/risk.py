@@ -46,7 +46,7 @@ def risk(
     curve = read_hazard(hazard, the_site(site))
     found = rate_of(one_curve(source, im, state, of, records_are_one, seed), curve)
     result, files = found.summary(), []
-    with console.folder(out, "risk.csv", "risk.json", "risk") as folder:
+    with console.folder(out, "risk.csv", "risk.json", "risk", "asked-risk.json") as folder:
         if folder is not None:
             import pandas
 
@@ -55,6 +55,7 @@ def risk(
             files = [
                 console.write_table(pandas.DataFrame(result["deaggregation"]), folder / "risk.csv"),
                 *plots.save(plots.draw_risk(found), folder / "risk"),
+                console.asked(folder, "risk", sources=[str(source)], hazards=[str(hazard)], state=state),
                 folder / "risk.json",
             ]
             result["files"] = [str(file) for file in files]

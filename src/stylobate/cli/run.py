@@ -232,11 +232,14 @@ def conclude(
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..analysis.directions import direction_of
     from ..column import Column
+    from ..motion.writing import write_csv
+    from ..results.asked import asked_file
     from . import console
 
     pictures = ["histories", "filmstrip", *(["joints"] if isinstance(stone, Column) else []), "energy", "motion"]
     pictures += SPACE_PICTURES if model.axes == "xyz" else []
-    with console.folder(out, "response.nc", "run.json", "replicates.csv", "median", *pictures) as folder:
+    names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "median", asked_file("run"))
+    with console.folder(out, *names, *pictures) as folder:
         with console.progress("seconds of motion") as progress:
             response, population = follow(motion, progress=progress)
         taken = model.taken(motion)
@@ -244,9 +247,10 @@ def conclude(
         if population is not None:
             summary |= population.summary()
         if folder is not None:
-            files = write(response, taken, folder, drawn.all)
+            files = [*write(response, taken, folder, drawn.all), write_csv(taken, folder / "motion.csv")]
             if population is not None:
                 files += write_population(population, motion, model, response, folder, drawn.median)
+            files += [console.asked(folder, "run", structures=[stone], models=[model], motions=[taken])]
             files.append(folder / "run.json")
             summary["files"] = [str(file) for file in files]
             console.write_json(files[-1], summary)

@@ -36,7 +36,7 @@ def run(
     count = o.the_threads(threads)
     study, refused = read_plan(file)
     o.the_engine(context, dask, count)
-    with console.folder(out, "study.parquet", "study.csv", "study.json") as folder:
+    with console.folder(out, "study.parquet", "study.csv", "study.json", "asked-study.json") as folder:
         assert folder is not None
         console.ledger(folder)
         with console.progress("runs") as progress:
@@ -45,6 +45,8 @@ def run(
         with console.progress("histories") as progress:
             files = keep_histories(study, result, folder, progress)
         files.append(write_table(result.table, folder / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
+        what = {"structures": study.columns, "models": study.models, "motions": study.motions}
+        files.append(console.asked(folder, "study", **what, tail_s=study.tail))
         files.append(folder / "study.json")
         summary = result.summary() | {"refused": refused, "files": [str(one) for one in files]}
         console.write_json(files[-1], summary)

@@ -82,7 +82,7 @@ def suite(
     records = o.the_request(context, motion=sources, separate=True).expand()
     twins = o.the_population(replicates, scatter, seed) or {}
     o.the_engine(context, dask, workers)
-    with console.folder(out, "suite.csv", "suite.json", "suite", "directions") as folder:
+    with console.folder(out, "suite.csv", "suite.json", "suite", "directions", "asked-suite.json") as folder:
         ledger = console.ledger(folder)
         with console.progress("runs") as progress:
             table = suite_table(
@@ -119,6 +119,9 @@ def suite(
             if swept:
                 drawn = plots.draw_directions(compass_of_shares(result["runs"]), f"{', '.join(names)}, {how.name}")
                 files += plots.save(drawn, folder / "directions")
+            taken = [how.taken(motion) for motion in records.motions]
+            what = {"structures": stones, "models": [how], "motions": taken}
+            files.append(console.asked(folder, "suite", **what, against=against, tail_s=after))
             result["files"] = [str(file) for file in files]
             console.done_with(ledger)
     if as_json:

@@ -45,7 +45,7 @@ def survival(
         )
     found = survive(one_curve(source, im, state, of, records_are_one, seed), years, hazards)
     result, files = found.summary(), []
-    with console.folder(out, "survival.csv", "survival.json", "survival") as folder:
+    with console.folder(out, "survival.csv", "survival.json", "survival", "asked-survival.json") as folder:
         if folder is not None:
             import pandas
 
@@ -54,6 +54,14 @@ def survival(
             files = [
                 console.write_table(pandas.DataFrame(result["hazards"]), folder / "survival.csv"),
                 *plots.save(plots.draw_survival(found), folder / "survival"),
+                console.asked(
+                    folder,
+                    "survival",
+                    sources=[str(source)],
+                    hazards=[str(one) for one in hazard],
+                    state=state,
+                    age_y=years,
+                ),
                 folder / "survival.json",
             ]
             result["files"] = [str(file) for file in files]

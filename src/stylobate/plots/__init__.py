@@ -6,6 +6,7 @@ from .collapse_over_amplitude import draw_collapse_over_amplitude
 from .directions import draw_directions
 from .domain import draw_boundaries, draw_domain
 from .domain_panels import draw_domain_panels, draw_doubt
+from .elevation import draw_elevation
 from .energy import draw_energy
 from .filmstrip import draw_filmstrip
 from .fragility import draw_fragility
@@ -39,6 +40,7 @@ __all__ = [
     "draw_domain_panels",
     "draw_doubt",
     "draw_efficiency",
+    "draw_elevation",
     "draw_energy",
     "draw_filmstrip",
     "draw_fragility",

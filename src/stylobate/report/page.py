@@ -1,4 +1,4 @@
-"""One self-contained HTML page: text, tables and figures, readable on a desk and on a phone, without any network."""
+"""Self-contained HTML pages: text, tables and figures as items, rendered by templates with everything escaped."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup, escape
 
 from ..atomic import replacing
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 
 @dataclass(frozen=True)
@@ -21,13 +24,28 @@ class Picture:
 
     Parameters
     ----------
-    file : path
+    file : path or bytes
         PNG; it is copied into the page.
     caption : str
+    dots_per_inch : int
+        Resolution of the PNG, from which its width on paper follows; 0 for as wide as it is on a screen.
     """
 
-    file: Path
+    file: Path | bytes
     caption: str
+    dots_per_inch: int = 0
+
+    @property
+    def content(self) -> bytes:
+        """The PNG."""
+        return self.file if isinstance(self.file, bytes) else self.file.read_bytes()
+
+    @property
+    def width(self) -> int:
+        """Width on paper, in the 96 parts of an inch of HTML; 0 where it does not matter."""
+        if not self.dots_per_inch:
+            return 0
+        return round(96 * int.from_bytes(self.content[16:20], "big") / self.dots_per_inch)  # the PNG's own width
 
 
 @dataclass(frozen=True)
@@ -63,8 +81,38 @@ class Points:
     texts: Sequence[str]
 
 
+@dataclass(frozen=True)
+class Facts:
+    """Names and values, a line for each."""
+
+    pairs: Sequence[tuple[str, str]]
+    caption: str = ""
+
+
+@dataclass(frozen=True)
+class Note:
+    """Paragraphs that stand out: a verdict, a warning.
+
+    Parameters
+    ----------
+    texts : sequence of str
+    look : str
+        ``verdict``, ``fair`` (a warning), ``bad``; several in one text. Plain if left out.
+    """
+
+    texts: Sequence[str]
+    look: str = ""
+
+
+@dataclass(frozen=True)
+class Code:
+    """What is typed."""
+
+    text: str
+
+
 #: What a page is made of; a text is a paragraph.
-Item = str | Picture | Rows | Points
+Item = str | Picture | Rows | Points | Facts | Note | Code
 
 
 @dataclass(frozen=True)
@@ -77,6 +125,16 @@ class Section:
 
 #: How a marked cell looks, and the sign before its text.
 _SIGNS = {"good": "✓ ", "fair": "≈ ", "bad": "✗ ", "": ""}
+
+_KINDS = {
+    str: "text",
+    Points: "points",
+    Picture: "picture",
+    Rows: "rows",
+    Facts: "facts",
+    Note: "note",
+    Code: "code",
+}
 
 
 def write_page(path: Path, title: str, lead: Sequence[Item], sections: Sequence[Section]) -> Path:
@@ -91,6 +149,30 @@ def write_page(path: Path, title: str, lead: Sequence[Item], sections: Sequence[
         At the top.
     sections : sequence of Section
     """
+    parts = [part(one) for one in sections]
+    return write_html(path, "page.html", title=title, lead=kinds(lead), sections=parts)
+
+
+def write_html(path: Path, template: str, **values: Any) -> Path:
+    """Render a template of this room and write the page, whole or not at all."""
+    text = _pages().get_template(template).render(**values)
+    with replacing(path) as partial_file:
+        # what is no text (bytes of a file's name) is shown as such
+        partial_file.write_bytes(text.encode("utf-8", "backslashreplace"))
+    return path
+
+
+def part(section: Section) -> dict[str, Any]:
+    """A section as the templates take it."""
+    return {"title": section.title, "entries": kinds(section.items)}
+
+
+def kinds(items: Sequence[Item]) -> list[dict[str, Any]]:
+    """Items as the templates take them, each with its kind."""
+    return [{"kind": _KINDS[type(one)], "value": one} for one in items]
+
+
+def _pages() -> Environment:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     pages = Environment(
@@ -99,21 +181,12 @@ def write_page(path: Path, title: str, lead: Sequence[Item], sections: Sequence[
         undefined=StrictUndefined,
         keep_trailing_newline=True,
     )
-    pages.filters |= {"prose": _prose, "base64": lambda file: base64.b64encode(file.read_bytes()).decode()}
+    pages.filters |= {"prose": _prose, "base64": lambda content: base64.b64encode(content).decode()}
     pages.globals |= {"zip": partial(zip, strict=True), "signs": _SIGNS}
-    parts = [{"title": one.title, "entries": _kinds(one.items)} for one in sections]
-    text = pages.get_template("page.html").render(title=title, lead=_kinds(lead), sections=parts)
-    with replacing(path) as partial_file:
-        partial_file.write_text(text, encoding="utf-8")
-    return path
-
-
-def _kinds(items: Sequence[Item]) -> list[dict[str, Any]]:
-    names = {str: "text", Points: "points", Picture: "picture", Rows: "rows"}
-    return [{"kind": names[type(one)], "value": one} for one in items]
+    return pages
 
 
 def _prose(text: str) -> Markup:
     """Escaped; no line break between a number and its unit, and indices as such."""
-    kept = re.sub(r"(?<=\d) (?=(?:%|g|Hz|m|mm|s|ms)(?!\w))", "\N{NO-BREAK SPACE}", str(escape(text)))
+    kept = re.sub(r"(?<=\d) (?=(?:%|g|Hz|m|mm|s|ms|kg|t|rad|kN)(?!\w))", "\N{NO-BREAK SPACE}", str(escape(text)))
     return Markup(re.sub(r"\b([A-Za-z])_([A-Za-z])\b", r"\1<sub>\2</sub>", kept))

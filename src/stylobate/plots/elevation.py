@@ -1,0 +1,311 @@
+"""A dimensioned elevation: what stands, with heights, widths, drums and joints by number, and what is as found in red."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..column import Column
+from ..column.as_found import FoundDrum
+from ..column.assembly import FAR_AWAY, Assembly
+from ..column.found_in_space import base_axes, space_geometry
+from ..column.link_laws import line_ends
+from ..column.links import Bar, Dowel, Layer, Tie
+from ..constants import DEGREE
+from ..response.bodies import bodies_of
+from ..response.poses import PlanePoses
+from ..response.shapes import hull
+from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, panel, styled
+
+#: Height of the picture of a column, and most of an assembly's [inch].
+TALL = 5.6
+
+#: Most drums whose dimensions are all written; of more, every second, third … is.
+WRITTEN = 24
+
+#: Most blocks of an assembly that are named in the picture.
+NAMED = 40
+
+#: Size of the words [points].
+WORDS = 7.5
+
+
+@styled
+def draw_elevation(structure: Column | Assembly, title: str | None = None, *, ax: Axes | None = None) -> Figure:
+    """A column or an assembly as it stands before the motion, seen along y, in true proportion, with its dimensions in m.
+
+    Of a column: heights of drums and of all, widths (diameters, with ⌀) of both faces of each drum, numbers of drums and
+    joints, joints whose friction differs, links in blue. What is as found is red: the drums that are not where they were
+    built, over dashed outlines of the column as built, with what was measured.
+
+    Parameters
+    ----------
+    structure : Column or Assembly
+    title : str, optional
+        None by default.
+    ax : Axes, optional
+        To draw in; those of a new figure by default.
+    """
+    if isinstance(structure, Assembly):
+        return _assembly(structure, title, ax)
+    outlines = outlines_of(structure)
+    built = outlines_of(structure.replace(as_found=type(structure.as_found)())) if structure.as_found else outlines
+    figure, axes = panel(ax, (WIDTH, TALL))
+    corners = np.concatenate([*outlines, *built])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    sheet = _Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
+    slope = _slope(structure)
+    axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
+    marked = {one.drum for one in structure.as_found.drums if _said(one)}
+    for i, shape in enumerate(outlines):
+        red = i + 1 in marked
+        axes.fill(*shape.T, facecolor="#f7e3df" if red else SAND, edgecolor=RED if red else BROWN, linewidth=0.9)
+    if structure.as_found:
+        for shape in built:
+            axes.fill(*shape.T, facecolor="none", edgecolor=GREY, linewidth=0.6, linestyle=(0, (3, 2)))
+    _links(axes, sheet, structure)
+    _heights(axes, sheet, structure, low[0])
+    _words_beside(axes, sheet, structure, outlines, high[0])
+    _width(axes, sheet, structure.drums[0].bottom_width, _bottom(outlines[0]), -26.0, structure.section)
+    _width(axes, sheet, structure.drums[-1].top_width, _top(outlines[-1]), 12.0, structure.section)
+    if slope:
+        words = f"base rises by {abs(structure.as_found.base_tilt):g}° to the {'right' if slope > 0.0 else 'left'}"
+        axes.annotate(words, (low[0], sheet.up(low[1], -40.0)), color=RED, fontsize=WORDS, ha="left")
+    if title:
+        axes.set_title(title)
+    return figure
+
+
+def outlines_of(structure: Column | Assembly) -> list[np.ndarray]:
+    """Outlines of all bodies as they stand before the motion, seen along y [m], each of shape (k, 2)."""
+    if isinstance(structure, Assembly):
+        return [block.corners for block in structure.bodies]
+    bodies = bodies_of(structure)
+    if not structure.as_found.in_plane:
+        at, turn = space_geometry(structure), base_axes(structure)
+        return [
+            hull((shape.mesh().vertices @ (turn @ at.axes[i]).T + turn @ at.centroid[i])[:, [0, 2]])
+            for i, shape in enumerate(bodies.shapes)
+        ]
+    still = np.zeros((1, structure.n))
+    found = []
+    for shape, (x, z, angle) in zip(bodies.shapes, bodies.reference.plane(PlanePoses(still, still, still))[0]):
+        c, s = math.cos(angle), math.sin(angle)
+        found.append(shape.outline @ np.array([[c, s], [-s, c]]) + (x, z))
+    return found
+
+
+@dataclass(frozen=True)
+class _Sheet:
+    """The paper around what is drawn: how many metres a point of it is."""
+
+    metres: float
+
+    @classmethod
+    def around(
+        cls, axes: Axes, low: np.ndarray, high: np.ndarray, *, left: float, right: float, below: float, above: float
+    ) -> _Sheet:
+        """Limits with room for words on each side [points], in true proportion."""
+        figure = axes.get_figure(root=True)
+        assert figure is not None
+        place = axes.get_position()
+        wide, tall = figure.get_figwidth() * place.width * 72.0, figure.get_figheight() * place.height * 72.0
+        size = high - low
+        metres = max(size[0] / max(wide - left - right, 40.0), size[1] / max(tall - below - above, 40.0))
+        axes.set_aspect("equal")
+        axes.set_axis_off()
+        spare = 0.5 * max(wide - left - right - size[0] / metres, 0.0)
+        axes.set_xlim(low[0] - metres * (left + spare), high[0] + metres * (right + spare))
+        axes.set_ylim(low[1] - metres * below, high[1] + metres * above)
+        return cls(metres)
+
+    def up(self, z: float, points: float) -> float:
+        """A place so many points above a height, or right of a place [m]."""
+        return z + self.metres * points
+
+
+def _heights(axes: Axes, sheet: _Sheet, column: Column, edge: float) -> None:
+    """Two chains of dimensions to the left: the drums', and that of all."""
+    levels = [*column.joint_heights.tolist(), column.height]
+    chain, whole = sheet.up(edge, -26.0), sheet.up(edge, -66.0)
+    for z in levels:
+        axes.plot([sheet.up(chain, -4.0), sheet.up(edge, -4.0)], [z, z], color=GREY, linewidth=0.4)
+        _tick(axes, chain, z)
+    axes.plot([chain, chain], [0.0, column.height], color=BLACK, linewidth=0.6)
+    every = math.ceil(column.n / WRITTEN)
+    for i, drum in enumerate(column.drums):
+        if i % every == 0:
+            middle = levels[i] + 0.5 * drum.height
+            axes.text(sheet.up(chain, -3.0), middle, f"{drum.height:.3f}", fontsize=WORDS, ha="right", va="center")
+    for z in (0.0, column.height):
+        axes.plot([sheet.up(whole, -4.0), sheet.up(chain, -4.0)], [z, z], color=GREY, linewidth=0.4)
+        _tick(axes, whole, z)
+    axes.plot([whole, whole], [0.0, column.height], color=BLACK, linewidth=0.6)
+    words = {"fontsize": 8.5, "ha": "right", "va": "center", "rotation": 90}
+    axes.text(sheet.up(whole, -3.0), 0.5 * column.height, f"{column.height:.3f} m", **words)
+
+
+def _tick(axes: Axes, x: float, z: float) -> None:
+    axes.plot(x, z, marker=(2, 0, -45), color=BLACK, markersize=6, linestyle="none", markeredgewidth=0.9)
+
+
+def _words_beside(axes: Axes, sheet: _Sheet, column: Column, outlines: list[np.ndarray], edge: float) -> None:
+    """Numbers of drums in them; widths, and what is as found, to the right; joints by number at their levels."""
+    round_ = "⌀ " if column.section == "circular" else ""
+    every = math.ceil(column.n / WRITTEN)
+    friction = column.friction.tolist()
+    usual = max(dict.fromkeys(friction), key=friction.count)
+    near, far = sheet.up(edge, 12.0), sheet.up(edge, 62.0)
+    tight = column.n > 9
+    head = sheet.up(column.height, 4.0)
+    axes.text(far, head, "width below – above [m]", fontsize=6.5, ha="left", va="bottom", color=GREY)
+    for i, (drum, shape) in enumerate(zip(column.drums, outlines)):
+        if i % every:
+            continue
+        middle = shape.mean(axis=0)
+        axes.text(float(middle[0]), float(middle[1]), str(i + 1), fontsize=8.0, ha="center", va="center", weight="bold")
+        level = float(column.joint_heights[i])
+        said = f"joint {i + 1}"
+        if abs(friction[i] - usual) > 1e-9:
+            said += f", μ = {friction[i]:.3g}"
+        if column.joints[i].ring_width is not None:
+            said += f", ring {column.joints[i].ring_width:g} m"
+        axes.plot([edge, sheet.up(near, -2.0)], [level, level], color=GREY, linewidth=0.4, linestyle=(0, (1, 1.5)))
+        axes.text(near, level, said, fontsize=6.5, ha="left", va="center" if i else "bottom", color=GREY)
+        if drum.circular or drum.top_depth is None:
+            wide = f"{round_}{drum.bottom_width:.3f} – {drum.top_width:.3f}"
+        else:
+            wide = f"{drum.bottom_width:.3f} × {drum.depth:.3f} – {drum.top_width:.3f} × {drum.upper_depth:.3f}"
+        height = level + 0.5 * drum.height
+        found = _said(column.as_found.of(i + 1))
+        axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found and not tight else "center")
+        if found:
+            place = (sheet.up(far, 76.0), height) if tight else (far, height)
+            axes.text(*place, found, fontsize=7.0, ha="left", va="center" if tight else "top", color=RED)
+
+
+def _links(axes: Axes, sheet: _Sheet, column: Column) -> None:
+    """Dowels and bars across their joints, ties and cores from end to end, layers along theirs; at their true x."""
+
+    def draw(x: list[float], z: list[float], marker: str = "", style: Any = "-") -> None:
+        axes.plot(x, z, color=BLUE, linewidth=1.8, linestyle=style, marker=marker, markersize=4, zorder=6)
+
+    for link in column.links:
+        if isinstance(link, Layer):
+            level, half = float(column.joint_heights[link.joint - 1]), 0.5 * float(column.joint_widths[link.joint - 1])
+            draw([-half, half], [level, level], style=(0, (3, 1.5)))
+        elif isinstance(link, Dowel):
+            level = float(column.joint_heights[link.joint - 1])
+            reach = link.embedment or 12.0 * sheet.metres
+            draw([link.at[0], link.at[0]], [level - reach, level + reach], "_" if isinstance(link, Bar) else "")
+        elif isinstance(link, Tie):
+            (x, _, z), (to, _, top) = line_ends(link, column)
+            draw([x, to], [z, top], "s")
+
+
+def _width(axes: Axes, sheet: _Sheet, width: float, ends: np.ndarray, away: float, section: str) -> None:
+    """A horizontal dimension so many points over or under a face, which runs between two ends [m]."""
+    level = sheet.up(float(ends[:, 1].mean()), away)
+    for x, z in ends:
+        axes.plot([x, x], [z, sheet.up(level, math.copysign(4.0, away))], color=GREY, linewidth=0.4)
+        _tick(axes, float(x), level)
+    axes.plot(ends[:, 0], [level, level], color=BLACK, linewidth=0.6)
+    said = f"{'⌀ ' if section == 'circular' else ''}{width:.3f} m"
+    axes.text(float(ends[:, 0].mean()), sheet.up(level, 3.0), said, fontsize=WORDS, ha="center", va="bottom")
+
+
+def _bottom(shape: np.ndarray) -> np.ndarray:
+    return _ends(shape, shape[:, 1] <= shape[:, 1].min() + 0.25 * np.ptp(shape[:, 1]))
+
+
+def _top(shape: np.ndarray) -> np.ndarray:
+    return _ends(shape, shape[:, 1] >= shape[:, 1].max() - 0.25 * np.ptp(shape[:, 1]))
+
+
+def _ends(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
+    face = shape[at]
+    return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
+
+
+def _said(one: FoundDrum) -> str:
+    """What is not as built at a drum, in words."""
+    towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
+    parts = []
+    if one.offset:
+        parts.append(f"offset {1000.0 * one.offset:+.0f} mm{towards(one.offset_azimuth)}")
+    if one.tilt:
+        parts.append(f"lean {one.tilt:+g}°{towards(one.tilt_azimuth)}")
+    if one.turn:
+        parts.append(f"turned {one.turn:+g}°")
+    parts += [
+        f"chip {side} {1000.0 * width:.0f} mm"
+        for side, width in (("left", one.chip_left), ("right", one.chip_right))
+        if width
+    ]
+    return ", ".join(parts).replace("-", "−")
+
+
+def _slope(column: Column) -> float:
+    """Of the ground in the picture, rising to the right [rad]."""
+    if column.as_found.in_plane:
+        return column.as_found.base_tilt * DEGREE
+    normal = base_axes(column)[:, 2]
+    return math.atan2(-float(normal[0]), float(normal[2]))
+
+
+def _assembly(structure: Assembly, title: str | None, ax: Axes | None) -> Figure:
+    """Blocks by name, with width and height of all that can move."""
+    shapes = outlines_of(structure)
+    near = [shape for shape in shapes if np.ptp(shape, axis=0).max() <= FAR_AWAY]
+    corners = np.concatenate(near)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    size = high - low
+    tall = min(TALL, max(2.6, 0.75 * WIDTH * size[1] / size[0] + 1.2))
+    figure, axes = panel(ax, (WIDTH, tall))
+    sheet = _Sheet.around(axes, low, high, left=60.0, right=24.0, below=40.0, above=18.0)
+    if structure.ground is not None:
+        axes.axhline(structure.ground, color=BLACK, linewidth=1.4)
+    many = len(shapes) > NAMED
+    for k, (block, shape) in enumerate(zip(structure.bodies, shapes), 1):
+        if np.ptp(shape, axis=0).max() > FAR_AWAY:
+            continue
+        face, edge = ("#dcdcdc", GREY) if block.fixed else (SAND, BROWN)
+        axes.fill(*shape.T, facecolor=face, edgecolor=edge, linewidth=0.9)
+        wide, high_ = np.ptp(shape, axis=0) / sheet.metres
+        name = str(k) if many else block.name
+        turned = wide < 4.2 * len(name) and high_ > wide
+        words = {"fontsize": 6.5 if many else WORDS, "ha": "center", "va": "center", "rotation": 90 if turned else 0}
+        middle = _middle(shape)
+        axes.text(float(middle[0]), float(middle[1]), name, **words)
+    for along, start, end in ((0, low, high), (1, low, high)):
+        _dimension(axes, sheet, along, start, end)
+    if title:
+        axes.set_title(title)
+    return figure
+
+
+def _middle(shape: np.ndarray) -> np.ndarray:
+    return 0.5 * (shape.min(axis=0) + shape.max(axis=0))
+
+
+def _dimension(axes: Axes, sheet: _Sheet, along: int, low: np.ndarray, high: np.ndarray) -> None:
+    """Width under the picture (0), or height to its left (1)."""
+    if along == 0:
+        level = sheet.up(float(low[1]), -20.0)
+        axes.plot([low[0], high[0]], [level, level], color=BLACK, linewidth=0.6)
+        for x in (float(low[0]), float(high[0])):
+            _tick(axes, x, level)
+        said = f"{high[0] - low[0]:.3f} m"
+        axes.text(0.5 * float(low[0] + high[0]), sheet.up(level, -3.0), said, fontsize=8.5, ha="center", va="top")
+        return
+    place = sheet.up(float(low[0]), -22.0)
+    axes.plot([place, place], [low[1], high[1]], color=BLACK, linewidth=0.6)
+    for z in (float(low[1]), float(high[1])):
+        _tick(axes, place, z)
+    words = {"fontsize": 8.5, "ha": "right", "va": "center", "rotation": 90}
+    axes.text(sheet.up(place, -3.0), 0.5 * float(low[1] + high[1]), f"{high[1] - low[1]:.3f} m", **words)

@@ -1,0 +1,125 @@
+"""The report of somebody's own cases: one self-contained page for A4 from any folders of results."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+from ..atomic import output_folder
+from ..errors import InputError, StylobateError
+from ..results import Result, RunResult, SeveralRuns, read_results
+from ..version import __version__
+from . import page
+from .others import sections_of
+from .pdf import print_pdf
+from .runs import run_sections, several_sections
+
+#: What each kind of result is called.
+TITLES = {
+    "run": "run in time",
+    "runs": "runs in time",
+    "critical": "critical amplitude",
+    "domain": "safe–unsafe domain",
+    "probability": "probability of collapse",
+    "pushover": "pushover",
+    "limit": "limit analysis",
+    "compare": "models compared",
+    "suite": "suite of records",
+    "ida": "incremental dynamic analysis",
+    "fragility": "fragility",
+    "risk": "risk",
+    "survival": "survival",
+    "study": "study",
+}
+
+
+def write_report(
+    results: Iterable[Result | str | Path], out: str | Path, *, title: str | None = None, pdf: bool = False
+) -> list[Path]:
+    """Write the report of any results as one HTML file; each file appears whole or not at all.
+
+    A file that is there already is replaced only if stylobate wrote it and nobody has changed it since.
+
+    Parameters
+    ----------
+    results : iterable of Result or path
+        Results (:func:`stylobate.results.read_results`), or folders that commands wrote; in the order of the report.
+    out : path
+        The HTML file.
+    title : str, optional
+        What stands, by default.
+    pdf : bool
+        Print it to a PDF file of the same name as well.
+
+    Returns
+    -------
+    list of Path
+        The files.
+
+    Raises
+    ------
+    InputError
+        A folder that holds no result, or a place that cannot be written.
+    StylobateError
+        There is no Chromium to print with, or it fails.
+    """
+    target = Path(out)
+    if target.suffix.lower() not in (".html", ".htm"):
+        raise InputError(f"{target} ends in {target.suffix!r}; a report is an HTML file: name it such as report.html.")
+    found = [one for given in results for one in ([given] if isinstance(given, Result) else read_results([given]))]
+    if not found:
+        raise InputError("no result is given to report; give the folder that a command wrote with --out.")
+    names = [target.name, *([target.with_suffix(".pdf").name] if pdf else [])]
+    with output_folder(target.parent, names) as folder:
+        return _write(found, folder / target.name, title, pdf)
+
+
+def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) -> list[Path]:
+    told: set[str] = set()
+    cases = [_case(one, told, found) for one in found]
+    names = ", ".join(dict.fromkeys(one.name for one in found))
+    kinds = ", ".join(dict.fromkeys(TITLES[one.kind.value] for one in found))
+    lead = [f"{kinds[:1].upper()}{kinds[1:]}. Written on {date.today().isoformat()} by stylobate {__version__}."]
+    values = {"version": __version__, "day": date.today().isoformat(), "lead": page.kinds(lead), "cases": cases}
+    files = [page.write_html(target, "case.html", title=title or f"Report: {names}", **values)]
+    if pdf:
+        files.append(print_pdf(target, target.with_suffix(".pdf")))
+    return files
+
+
+def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, Any]:
+    """A case as the template takes it; its verdict is the first text that stands out."""
+    sections = _told(result, told, all_)
+    verdict = next((one.texts[0] for part in sections for one in part.items if isinstance(one, page.Note)), "")
+    return {"title": _title(result), "verdict": verdict, "parts": [page.part(one) for one in sections]}
+
+
+def _told(result: Result, told: set[str], all_: Sequence[Result]) -> list[page.Section]:
+    """Sections of a result; values that cannot have been written by stylobate are bad input, not a fault of it."""
+    try:
+        return _sections(result, told, all_)
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        if isinstance(error, StylobateError):
+            raise
+        raise InputError(
+            f"{result.folder} does not hold what 'stylobate {result.kind.value}' of this version writes "
+            f"({type(error).__name__}: {str(error)[:100]}); run again."
+        ) from error
+
+
+def _sections(result: Result, told: set[str], all_: Sequence[Result]) -> list[page.Section]:
+    if isinstance(result, RunResult):
+        return run_sections(result, told)
+    if isinstance(result, SeveralRuns):
+        return several_sections(result, told)
+    mine = {one.digest for one in result.structures}
+    runs = [one for one in all_ if isinstance(one, RunResult) and one.response.structure.digest in mine]
+    return sections_of(result, told, next((one for one in runs if one.motion is not None), None))
+
+
+def _title(result: Result) -> str:
+    if isinstance(result, RunResult):
+        return f"{result.name}: {result.response.provenance.get('motion', 'run')}, {result.response.model}"
+    return f"{result.name}: {TITLES[result.kind.value]}"

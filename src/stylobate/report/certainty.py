@@ -1,0 +1,91 @@
+"""How sure a verdict is, in words and in a table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from . import numbers as n
+from .page import Facts, Item, Section
+
+#: What scatters, in words.
+PARTS = {
+    "friction": "friction of each joint",
+    "joint_stiffness": "stiffness of each joint",
+    "density": "density of each drum",
+    "width": "width of each drum",
+    "height": "height of each drum",
+    "offset": "place of each drum on the one below, over the width",
+}
+
+
+def certainty_sentence(summary: Mapping[str, Any]) -> str:
+    """How sure the verdict of a run is, in one or two sentences."""
+    known = summary.get("certainty")
+    if not isinstance(known, Mapping):
+        return (
+            "How sure this verdict is was not computed: it is that of exactly this geometry, these properties and this "
+            "motion, and near collapse small differences decide."
+        )
+    fell, stood, open_ = (int(known.get(key, 0)) for key in ("collapsed", "stands", "undecided"))
+    number = fell + stood + open_
+    if not number:
+        return "How sure this verdict is, is not known: none of the columns like this one could be computed."
+    low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
+    level = n.percent(known.get("confidence", 0.95))
+    how_many = "none" if not fell else "all" if fell == number else str(fell)
+    said = f"Of {number} columns like this one, {how_many} collapse{'s' if fell == 1 else ''}"
+    if low is not None and high is not None:
+        said += f" ({n.percent(fell / number)}): the probability of collapse lies between {n.percent(low)} and "
+        said += f"{n.percent(high)}, with {level} confidence"
+    said += f". {open_} of them had not come to rest and are not counted as either." if open_ else "."
+    most_fall, falls = fell > stood, bool(summary.get("collapsed"))
+    if known.get("failed"):
+        said += f" {known['failed']} more could not be computed."
+    if fell + stood and most_fall != falls and fell != stood:
+        said += (
+            f" The column as measured {'collapses' if falls else 'stands'}, while most columns like it "
+            f"{'collapse' if most_fall else 'stand'}: take the share, not the single run."
+        )
+    return said
+
+
+def certainty_section(summary: Mapping[str, Any]) -> Section | None:
+    """What columns like this one are, and what became of them; None where none were computed."""
+    known = summary.get("certainty")
+    if not isinstance(known, Mapping):
+        return None
+    low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
+    pairs = [
+        (
+            "collapse / stand / undecided / failed",
+            " / ".join(str(known.get(one, 0)) for one in ("collapsed", "stands", "undecided", "failed")),
+        ),
+        ("probability of collapse", n.plain(summary.get("collapse_probability"))),
+    ]
+    if low is not None and high is not None:
+        pairs.append((f"interval, {n.percent(known.get('confidence', 0.95))}", f"{low:.3f} to {high:.3f}"))
+    for key, words in (
+        ("peak_top_displacement_m", "peak displacement of the top, 16 / 50 / 84 %"),
+        ("residual_top_displacement_m", "residual displacement of the top, 16 / 50 / 84 %"),
+        ("peak_rotation_rad", "peak rotation [rad], 16 / 50 / 84 %"),
+    ):
+        spread = known.get(key)
+        if isinstance(spread, list):
+            shown = [
+                "collapse" if one is None else n.length(one) if key.endswith("_m") else f"{one:.4f}" for one in spread
+            ]
+            pairs.append((words, " / ".join(shown)))
+    scatter = known.get("scatter") or {}
+    sizes = [f"{PARTS.get(key, key)}: {100.0 * float(size):g} %" for key, size in scatter.items() if size]
+    pairs.append(("what varies (coefficient of variation)", "\n".join(sizes) or "nothing"))
+    if known.get("left_out"):
+        pairs.append(("does not vary, because the model does not take it", ", ".join(map(str, known["left_out"]))))
+    pairs.append(("seed", n.plain(known.get("seed"))))
+    items: list[Item] = [
+        "Nobody knows a column to the last digit. The same motion was computed for columns that differ from this one by as "
+        "much as a survey leaves open; the share of them that collapses says how far the verdict can be relied on. It does "
+        "not say how probable this earthquake is, nor how well the model fits nature.",
+        Facts(pairs),
+    ]
+    return Section("How sure the verdict is", items)

@@ -1,0 +1,327 @@
+"""Results of many runs, and of forces at rest, in a report: each kind with its sentence, numbers, picture and limits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from ..analysis import verdicts as v
+from ..bibliography import cite, cite_run
+from ..column import Column
+from ..constants import g
+from ..results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
+from ..results.kinds import Grid
+from . import numbers as n
+from .page import Facts, Item, Note, Rows, Section
+from .pictures import kept
+from .record import asked_section, known_model, model_section, record_section, sources_section, versions_of, warnings_of
+from .runs import once
+from .statics import code_check, limit_result, pushover_result, static_model, statics_section
+from .structure import structure_section
+
+#: Most rows of a table of a result; the CSV file in the folder holds them all.
+MOST = 40
+
+
+def sections_of(result: Result, told: set[str], run: RunResult | None = None) -> list[Section]:
+    """All sections of a result that is not a run.
+
+    Parameters
+    ----------
+    result : Result
+    told : set of str
+        As in :func:`stylobate.report.runs.run_sections`.
+    run : RunResult, optional
+        Of the same column in the same report: its motion is the demand in the code check of a pushover.
+    """
+    verdict, body = _TELL[result.kind](result)
+    asked = result.asked
+    parts = [Section("Result", [Note(verdict[:1], f"verdict{verdict[1]}"), *warnings_of(result)])]
+    parts.append(asked_section(result))
+    for one in result.structures[:5]:
+        parts.append(once(structure_section(one), one.digest, told))
+    parts.append(Section("What was found", body))
+    columns = [one for one in result.structures if isinstance(one, Column)]
+    if result.kind is Kind.PUSHOVER and columns:
+        parts.append(code_check(columns[0], result, run))
+    if columns and result.kind not in (Kind.LIMIT, Kind.PUSHOVER):
+        parts.append(once(statics_section(columns[0], None), f"statics {columns[0].digest}", told))
+    models = [str(one["name"]) for one in asked.models] if asked is not None else []
+    models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
+    if result.kind in (Kind.PUSHOVER, Kind.LIMIT):
+        parts.append(once(static_model(), "model of statics", told))
+    elif models:
+        parts.append(once(model_section(models), f"model {models}", told))
+    parameters = asked.models[0]["parameters"] if asked is not None and len(asked.models) == 1 else {}
+    parts.append(record_section(result, parameters, versions_of(result)))
+    keys = [key for name in models if (kind := known_model(name)) for key in kind.references]
+    if isinstance(result, Grid) and result.data.provenance:
+        parts.append(sources_section(cite_run(result.data.provenance)))
+    else:
+        keys += [key for one in (asked.motions if asked is not None else ()) for key in one.get("references", ())]
+        keys += ["baraldi"] if result.kind in (Kind.PUSHOVER, Kind.LIMIT) else []
+        parts.append(sources_section(cite(keys)))
+    return parts
+
+
+# -- many runs -----------------------------------------------------------------------------------------------------
+
+
+def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    s = result.summary
+    first, above = s.get("first_collapse_g", s.get("critical_g")), s.get("all_collapse_above_g")
+    if first is None:
+        sentence = "No amplitude of the grid collapses the column."
+    else:
+        sentence = f"The smallest amplitude of the grid that collapses the column is {first:.4g} g"
+        sentence += (
+            f"; from {above:.4g} g on every amplitude does."
+            if above is not None
+            else "; above it some amplitudes do and some do not."
+        )
+    sentence += _open(s)
+    pairs = [
+        ("runs", n.plain(s["runs"])),
+        ("collapsed / stands", f"{n.plain(s.get('collapsed'))} / {n.plain(s.get('stands'))}"),
+    ]
+    if s.get("critical_factor") is not None:
+        pairs.append(("as a factor of the record", f"{s['critical_factor']:.3g}"))
+    items: list[Item] = [Facts(pairs)]
+    if s.get("alternation"):
+        rows = [
+            [f"{one['from_g']:.4g}", f"{one['to_g']:.4g}", one["verdict"], str(one["runs"])] for one in s["alternation"]
+        ]
+        items.append(
+            Rows(
+                ["from [g]", "to [g]", "verdict", "runs"],
+                rows[:MOST],
+                "How verdicts follow one another with growing amplitude.",
+                numbers=True,
+            )
+        )
+    if isinstance(s.get("records"), list):
+        rows = [[n.plain(one.get(key)) for key in list(s["records"][0])[:7]] for one in s["records"][:MOST]]
+        items.append(
+            Rows([key.replace("_", " ") for key in list(s["records"][0])[:7]], rows, "By record.", numbers=True)
+        )
+    items += kept(result.pictures, "critical", "Verdict and response at every amplitude of the grid.")
+    items += kept(
+        result.pictures,
+        "probability",
+        "Share of columns like this one that collapse, over the amplitude, with its interval.",
+    )
+    items += kept(result.pictures, "directions", "By direction of the motion.")
+    return (sentence, " bad" if first is not None else ""), items
+
+
+def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
+    s, data = result.summary, result.data
+    if result.kind is Kind.DOMAIN:
+        sentence = (
+            f"{s['collapsed']} of {s['cells']} cells of frequency and amplitude collapse the column, {s['stands']} leave it "
+            "standing."
+        )
+        caption = "Safe–unsafe domain: verdict of each cell over frequency and amplitude."
+    else:
+        sentence = (
+            f"Of {s['cells']} cells, all {s['replicates']} variations of the column stand in {s['all_stand']} and all "
+            f"collapse in {s['all_collapse']}; in {s['some_collapse']} it hangs on small differences."
+        )
+        caption = f"Probability of collapse from {s['replicates']} variations of the column in every cell."
+    f, a = data.frequencies, data.amplitudes / g
+    pairs = [
+        ("frequencies", f"{f[0]:g} to {f[-1]:g} Hz, {len(f)}"),
+        ("amplitudes", f"{a[0]:g} to {a[-1]:g} g, {len(a)}"),
+        ("motion of each cell", f"harmonic from rest, {float(data.provenance['duration']):g} s"),
+        ("undecided / failed", f"{s.get('undecided', 0)} / {s.get('failed', 0)}"),
+        ("static acceleration that opens the first joint", f"{float(s['uplift_g']):.4g} g"),
+    ]
+    text = "The motions are harmonic. They show how the column answers to frequency and amplitude; they are no earthquakes."
+    return (sentence + _open(s), ""), [Facts(pairs), *kept(result.pictures, result.kind.value, caption), text]
+
+
+def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    verdicts = result.summary["verdicts"]
+    said = [
+        f"{name}: {', '.join(f'{count} {one}' for one, count in found.items())}" for name, found in verdicts.items()
+    ]
+    fell = any(found.get("collapsed") for found in verdicts.values())
+    keys = ["column", "record", "pga_g", "pgv_m_s", "verdict", "collapse_probability", "peak_top_displacement_m"]
+    items: list[Item] = [
+        _table(result.summary["runs"], keys, "One row per record; all measures are in suite.csv.", "verdict")
+    ]
+    items += kept(result.pictures, "suite", "Peak response against a measure of the records.")
+    items += kept(result.pictures, "directions", "Share of collapses by direction.")
+    return (f"Under the records of the suite: {'; '.join(said)}.", " bad" if fell else ""), items
+
+
+def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    s = result.summary
+    fell = sum(one.get("collapses_from") is not None for one in s["capacities"])
+    sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
+    half = s.get("capacity_50")
+    sentence += f"; half of them up to {n.plain(half)} ({n.plain(s.get('im'))})." if isinstance(half, float) else "."
+    items: list[Item] = [
+        _table(s["capacities"], list(s["capacities"][0])[:6] if s["capacities"] else [], "Capacity under each record.")
+    ]
+    items += kept(result.pictures, "ida", "Response over the intensity, a curve for each record.")
+    if s.get("measures"):
+        items.append(
+            _table(
+                s["measures"],
+                list(s["measures"][0])[:6],
+                "Which measure of the motions tells most: the smaller its dispersion β, the more.",
+            )
+        )
+        items += kept(result.pictures, "measures", "Dispersion of the capacities in each measure.")
+    return (sentence + _open(s), ""), items
+
+
+def _fragility(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    curves = result.summary.get("curves") or [result.summary]
+    one = curves[0]
+    unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
+    sentence = (
+        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval "
+        f"{n.plain(one.get('median_low'))} to {n.plain(one.get('median_high'))}{unit})."
+    )
+    keys = ["name", "im", "median", "median_low", "median_high", "beta", "records", "runs", "undecided", "p_value"]
+    items: list[Item] = [
+        _table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")
+    ]
+    items += kept(result.pictures, "fragility", "Probability over the intensity, with its interval over records.")
+    if float(one.get("p_value") or 1.0) < 0.05:
+        items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
+    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
+    return (sentence + _open(one), ""), items
+
+
+def _risk(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    s = result.summary
+    period = s.get("return_period_y")
+    sentence = f"{s.get('name', 'The column')}: {s.get('state', 'collapse')} " + (
+        f"once in {period:.3g} years on average." if isinstance(period, float) else "never, under this hazard."
+    )
+    low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
+    pairs = [
+        ("annual rate", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
+        ("hazard", n.plain(s.get("hazard"))),
+    ]
+    items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]
+    return (sentence, ""), [*items, *map(str, s.get("warnings", ()))]
+
+
+def _survival(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    s = result.summary
+    keys = [
+        "hazard",
+        "annual_rate",
+        "survival_probability",
+        "survival_probability_low",
+        "survival_probability_high",
+        "weight",
+    ]
+    said = ", ".join(f"{one['hazard']}: {float(one['survival_probability']):.2g}" for one in s["hazards"])
+    sentence = (
+        f"Probability that the column would still stand after {n.plain(s.get('age_y'))} years, by hazard curve: {said}."
+    )
+    items: list[Item] = [_table(s["hazards"], keys, "Hazard curves compared.")]
+    items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
+    return (sentence, ""), [*items, *map(str, s.get("warnings", ()))]
+
+
+def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
+    rows = result.table.astype(object).where(result.table.notna(), None).to_dict("records")
+    if result.responses:
+        said = ", ".join(f"{one['model']} {str(one.get('outcome', '')).replace('_', ' ')}" for one in rows)
+        sentence, caption = f"Models under one motion: {said}.", "Top displacement of each model under the same motion."
+        keys = [
+            "model",
+            "outcome",
+            "collapse_time_s",
+            "peak_top_displacement_m",
+            "residual_top_displacement_m",
+            "energy_imbalance",
+        ]
+    else:
+        said = ", ".join(
+            f"{one.get('first')} and {one.get('second')} differ in {one.get('differing')} of {one.get('comparable')} cells"
+            for one in rows
+        )
+        sentence, caption = f"Models over one domain: {said}.", "Boundaries of the domains."
+        keys = list(rows[0])[:6] if rows else []
+    text = "Where models differ, the difference says how far a verdict hangs on the model; none of them is nature."
+    return (sentence, ""), [
+        _table(rows, keys, "Measures side by side."),
+        *kept(result.pictures, "comparison", caption),
+        text,
+    ]
+
+
+def _study(result: StudyFolder) -> tuple[tuple[str, str], list[Item]]:
+    from .. import plots
+    from .pictures import picture
+
+    s = result.summary
+    sentence = f"{s['finished']} of {s['cases']} cases of the study are finished: "
+    sentence += f"{s['collapsed']} collapse, {s['stands']} stand."
+    axes = result.study.plan.axes
+    pairs = [(name, str(len(axes[name]))) for name in ("columns", "motions", "levels", "models")]
+    pairs.append(("realisations of each column", str(axes["realisations"] or "none: each column as given")))
+    items: list[Item] = [Facts(pairs)]
+    table = result.study.table
+    if len(table):
+        groups = table.groupby([one for one in ("column", "model", "im") if one in table], sort=True)
+        rows = []
+        for key, found in groups:
+            counts = v.count(np.asarray(found["verdict"], dtype=object))
+            fell, stood = counts[v.COLLAPSED], counts[v.STANDS]
+            shown = f"{fell / (fell + stood):.3f}" if fell + stood else n.NONE
+            rows.append([*map(n.plain, key if isinstance(key, tuple) else (key,)), str(len(found)), shown])
+        unit = axes.get("measure")
+        items.append(
+            Rows(
+                ["column", "model", f"level ({unit})", "cases", "share that collapses"],
+                rows[:MOST],
+                "Share of collapses among the cases with a verdict.",
+                numbers=True,
+            )
+        )
+    for name, response in result.histories.items():
+        items.append(picture(plots.draw_filmstrip(response), f"Film strip of the {name} case: {response.sentence}"))
+    return (sentence + _open(s), ""), items
+
+
+def _open(s: dict[str, Any]) -> str:
+    found = [
+        f"{s[one]} runs {word}" for one, word in (("undecided", "are undecided"), ("failed", "failed")) if s.get(one)
+    ]
+    return f" {' and '.join(found)}; they are not counted as collapse." if found else ""
+
+
+def _table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | None = None) -> Rows:
+    there = [key for key in keys if any(row.get(key) not in (None, "") for row in rows)]
+    left_out = f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
+    body = [[n.plain(row.get(key)) for key in there] for row in rows[:MOST]]
+    place = there.index(mark) if mark in there else None
+    looks = {"stands": "good", "collapsed": "bad"}
+    header = [key.replace("_", " ") for key in there]
+    return Rows(header, body, caption + left_out, mark=place, looks=looks, numbers=True)
+
+
+_TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
+    Kind.PUSHOVER: pushover_result,
+    Kind.LIMIT: limit_result,
+    Kind.CRITICAL: _critical,
+    Kind.DOMAIN: _grid,
+    Kind.PROBABILITY: _grid,
+    Kind.SUITE: _suite,
+    Kind.IDA: _ida,
+    Kind.FRAGILITY: _fragility,
+    Kind.RISK: _risk,
+    Kind.SURVIVAL: _survival,
+    Kind.COMPARE: _compare,
+    Kind.STUDY: _study,
+}

@@ -1,0 +1,120 @@
+"""The end of each case in a report: what the model assumes, parameters, versions, digests, and what to cite."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+from ..bibliography import Citation
+from ..errors import InputError
+from ..models.base import Model
+from ..models.registry import model_class
+from ..results import Result
+from ..version import __version__
+from . import numbers as n
+from .page import Code, Facts, Item, Note, Points, Rows, Section
+
+
+def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Section:
+    """What was asked: the command as typed, and what else was chosen."""
+    items: list[Item] = []
+    asked = result.asked
+    if asked is not None and asked.command:
+        items.append(Code(" ".join(["stylobate", *(_typed(word) for word in asked.command)])))
+    pairs = list(more)
+    if asked is not None:
+        if asked.models and not any(name == "model" for name, _ in more):
+            pairs.append(("model", ", ".join(_titled(one["name"]) for one in asked.models)))
+        options = {key: value for key, value in asked.options.items() if value not in (None, [], "", False)}
+        pairs += [(_option(key), n.plain(value)) for key, value in options.items()]
+        if asked.day:
+            pairs.append(("computed on", asked.day))
+    else:
+        items.append("The folder does not hold the command line: it was written by a version that did not keep it.")
+    return Section("What was asked", [*items, *([Facts(pairs)] if pairs else [])])
+
+
+def model_section(names: Iterable[str]) -> Section:
+    """What models assume, and where they end."""
+    items: list[Item] = []
+    for name in dict.fromkeys(names):
+        kind = known_model(name)
+        if kind is None:
+            items.append(f"This version of stylobate does not know the model {name}.")
+            continue
+        items += [f"{kind.title[:1].upper()}{kind.title[1:]} ({name}) assumes:", Points(kind.assumptions)]
+        items += ["It ends here:", Points(kind.limits)]
+    return Section("What the model assumes, and where it ends", items)
+
+
+def known_model(name: str) -> type[Model] | None:
+    """The class of a model; None if this version has none of that name."""
+    try:
+        return model_class(name)
+    except InputError:
+        return None
+
+
+def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
+    """A note with everything that the reader must know before relying on the result; none if there is nothing."""
+    found = list(more)
+    if result.asked is not None:
+        found += result.asked.warnings
+        if result.asked.version != __version__:
+            found.append(f"Computed by version {result.asked.version}; this report is written by {__version__}.")
+    changed = [one.name for one in result.files if one.unchanged is False]
+    if changed:
+        found.append(
+            f"Changed by somebody since stylobate wrote {'it' if len(changed) == 1 else 'them'}: {', '.join(changed)}."
+        )
+    return [Note([f"Note: {text}" for text in dict.fromkeys(found)], "fair")] if found else []
+
+
+def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapping[str, Any]) -> Section:
+    """Parameters of the computation, versions, and the files with their digests."""
+    items: list[Item] = []
+    if parameters:
+        items.append(Facts([(key, n.plain(value)) for key, value in parameters.items()], "Parameters of the model"))
+    known = {key: str(value) for key, value in versions.items() if value not in (None, "")}
+    items.append(Facts([*known.items(), ("folder", str(result.folder))], "Versions and inputs"))
+    state = {True: "as written", False: "changed since", None: "no list to check by"}
+    body = [[one.name, one.digest, state[one.unchanged]] for one in result.files]
+    items.append(Rows(["file", "SHA-256", "state"], body, "Files this report rests on", numbers=True))
+    return Section("Parameters, versions and digests", items)
+
+
+def sources_section(citation: Citation) -> Section:
+    """What to cite."""
+    package, *_ = [one for one in citation.text.splitlines() if one.startswith("  ")]
+    items: list[Item] = [Points([package.strip(), *(one.text for one in citation.references)])]
+    if citation.motion:
+        items.append(f"And the source of the ground motion: {'; '.join(citation.motion.values())}.")
+    return Section("Sources to cite", items)
+
+
+def versions_of(result: Result) -> dict[str, str]:
+    """Of the package, Python and the machine, as far as the folder tells."""
+    asked = result.asked
+    if asked is None:
+        return {}
+    found = {"stylobate": asked.version, "Python": asked.python, "machine": asked.machine}
+    digests = [str(one.get("digest", "")) for one in asked.structures]
+    return found | ({"digest of what stood": "\n".join(digests)} if digests else {})
+
+
+def _option(name: str) -> str:
+    """An option by its name, the unit behind: ``tail_s`` is ``tail [s]``."""
+    stem, _, unit = name.rpartition("_")
+    return f"{stem.replace('_', ' ')} [{unit}]" if stem and unit in ("s", "g", "m", "y") else name.replace("_", " ")
+
+
+def _titled(name: str) -> str:
+    kind = known_model(name)
+    return name if kind is None else f"{kind.title} ({name})"
+
+
+def _typed(word: str) -> str:
+    """A word as a shell takes it."""
+    import shlex
+
+    return shlex.quote(word)

@@ -1,0 +1,291 @@
+"""Runs in a report: verdict, motion, histories, film strip, statics and energy of one; a table of several."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from .. import plots
+from ..analysis.directions import harm
+from ..bibliography import cite_run
+from ..column import Column
+from ..constants import g
+from ..outcome import Outcome
+from ..response import Response
+from ..results import RunResult, SeveralRuns
+from . import numbers as n
+from .certainty import certainty_section, certainty_sentence
+from .page import Facts, Item, Note, Rows, Section
+from .pictures import picture
+from .record import asked_section, model_section, record_section, sources_section, versions_of, warnings_of
+from .shaking import motion_section
+from .statics import statics_section
+from .structure import structure_section
+
+#: An imbalance of the ledger beyond which a report warns [-].
+IMBALANCE = 0.05
+
+#: How outcomes are marked.
+LOOKS = {"at_rest": "good", "rocked": "good", "displaced": "fair", "collapsed": "bad", "failed": "bad"}
+
+
+def run_sections(run: RunResult, told: set[str]) -> list[Section]:
+    """All sections of one run.
+
+    Parameters
+    ----------
+    run : RunResult
+    told : set of str
+        Digests of structures and names of models that the report has shown already; what is shown now is added.
+    """
+    r, summary = run.response, run.summary
+    column = r.structure if isinstance(r.structure, Column) else None
+    asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
+    parts = [Section("Verdict", [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
+    parts.append(once(structure_section(r.structure), r.structure.digest, told))
+    parts.append(motion_section(run.motion, r, asked, column))
+    parts += _motion_of_what_stood(r, summary)
+    sure = certainty_section(summary)
+    parts += [sure] if sure is not None else []
+    parts += [statics_section(column, run)] if column is not None else []
+    parts.append(_energy(r))
+    parts.append(once(model_section([r.model]), f"model {r.model}", told))
+    parts.append(record_section(run, r.provenance.get("parameters", {}), _versions(run)))
+    parts.append(sources_section(cite_run(r.provenance)))
+    return parts
+
+
+def once(section: Section, key: str, told: set[str]) -> Section:
+    """A section that a report of several cases shows once, and refers to afterwards."""
+    if key in told:
+        return Section(section.title, ["As in the case above."])
+    told.add(key)
+    return section
+
+
+# -- parts ---------------------------------------------------------------------------------------------------------
+
+
+def verdict_look(response: Response) -> str:
+    """How a verdict stands out."""
+    if response.outcome in (Outcome.COLLAPSED, Outcome.FAILED):
+        return "verdict bad"
+    return "verdict" if response.decided else "verdict fair"
+
+
+def _verdict(run: RunResult) -> Note:
+    r = run.response
+    texts = [" ".join([r.sentence, *_how_far(r)])]
+    if isinstance(r.structure, Column):
+        if r.outcome is not Outcome.FAILED:
+            texts.append(certainty_sentence(run.summary))
+    else:
+        texts.append(
+            "How sure this verdict is was not computed: assemblies have no columns like them to compare with. It is that of "
+            "exactly this geometry, these joints and this motion."
+        )
+    texts.append(_scope(run))
+    return Note(texts, verdict_look(r))
+
+
+def _how_far(r: Response) -> list[str]:
+    """When it fell, or how far it moved and where it rests."""
+    m = r.measures
+    if m.collapsed:
+        return [f"The collapse was certain {m.collapse_time:.2f} s after the start."]
+    if r.outcome is Outcome.FAILED or not isinstance(r.structure, Column):
+        return []
+    share = m.peak_top_displacement / r.structure.base_width
+    return [
+        f"Its top moved by up to {n.length(m.peak_top_displacement)}, {share:.2f} of the width of the base, and rests "
+        f"{n.length(m.residual_top_displacement)} from where it stood."
+    ]
+
+
+def _scope(run: RunResult) -> str:
+    return (
+        f"This is the verdict of the model {run.response.model} under the one motion below. It is no statement about other "
+        "earthquakes."
+    )
+
+
+def _doubts(run: RunResult) -> list[str]:
+    r, found = run.response, []
+    if not r.decided and r.outcome is not Outcome.FAILED:
+        found.append("the run ended before the verdict was certain; go on with --tail 5s before relying on it.")
+    if abs(r.energy_imbalance) > IMBALANCE:
+        found.append(
+            f"the energy balance misses {n.percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
+            "(--set step_factor=…) and compare."
+        )
+    if left_out := [str(one) for one in r.provenance.get("left_out", ())]:
+        found.append(f"left out of the motion, which the model does not take: {'; '.join(left_out)}.")
+    return found
+
+
+def _asked(r: Response) -> list[tuple[str, str]]:
+    p = r.provenance
+    pairs = [("what stands", r.structure.name), ("motion", str(p.get("motion", n.NONE)))]
+    pairs.append(("model", f"{r.model}, step {r.time_step:.3g} s, {r.steps} steps"))
+    pairs.append(("computed after the end of the motion", f"{float(p.get('tail_s', 0.0)):g} s"))
+    if p.get("until_rest"):
+        pairs.append(("followed", "until everything lies still"))
+    return pairs
+
+
+def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]:
+    items: list[Item] = [Facts(_measures(r), "Measures of the response")]
+    space = r.dims == "xyz"
+    until = f" The dotted line is where the collapse became certain, at {r.collapse_time:.2f} s." if r.collapsed else ""
+    what = (
+        "displacement of top and base relative to the ground"
+        if r.histories.top is not None
+        else "displacement of the blocks"
+    )
+    items.append(
+        picture(plots.draw_histories(r, " "), f"Histories: {what}, over the acceleration of the ground.{until}")
+    )
+    views = ", seen along y (x to the right) and against x (y to the right)" if space else ""
+    items.append(
+        picture(
+            plots.draw_filmstrip(r, title=" "),
+            f"Film strip: what stood, at chosen instants{views}, in true proportion unless the title says a factor.",
+        )
+    )
+    if r.histories.top is not None:
+        items.append(picture(plots.draw_joints(r, " "), "Opening of every joint over time, each to its own peak."))
+    if space and r.histories.top is not None:
+        items.append(picture(plots.draw_orbit(r, " "), "Orbit of the top in plan, relative to the base."))
+        items.append(picture(plots.draw_uplift(r, " "), "Largest uplift along the rim of each joint, by direction."))
+        items.append(
+            picture(
+                plots.draw_residuals(r, " "),
+                "Each drum over what it stands on, in plan, at the end or where the collapse became certain. "
+                "Offsets and twists may be drawn larger; the numbers are true.",
+            )
+        )
+    joints = _joints(r, summary)
+    return [Section("What it did", [*items, *joints])]
+
+
+def _measures(r: Response) -> list[tuple[str, str]]:
+    m = r.measures
+    until = " until the collapse" if m.collapsed else ""
+    pairs = [("outcome", r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided"))]
+    if m.collapsed:
+        pairs.append(("collapse certain at", f"{m.collapse_time:.2f} s"))
+    if not math.isnan(m.peak_top_displacement):
+        base = r.structure.base_width if isinstance(r.structure, Column) else math.nan
+        share = "" if math.isnan(base) else f" ({m.peak_top_displacement / base:.2f} base widths)"
+        pairs.append((f"peak displacement of the top{until}", n.length(m.peak_top_displacement) + share))
+    if m.blocks is not None:
+        pairs.append((f"peak displacement of a block{until}", n.length(m.blocks.peak_displacement)))
+        if r.fell_at:
+            pairs.append(("fell", ", ".join(f"{name} ({when:.2f} s)" for name, when in r.fell_at.items())))
+    if not m.collapsed:
+        if not math.isnan(m.residual_top_displacement):
+            pairs.append(("residual displacement of the top", n.length(m.residual_top_displacement)))
+        if m.blocks is not None:
+            pairs.append(("residual displacement of a block", n.length(m.blocks.residual_displacement)))
+        pairs.append(("largest residual slip of a joint", n.length(m.residual_joint_slip)))
+    pairs.append((f"peak rotation{until}", n.angle(m.peak_rotation)))
+    pairs.append((f"peak opening of a joint{until}", n.length(m.peak_joint_opening)))
+    if m.space is not None:
+        pairs.append((f"peak tilt{until}", n.angle(m.space.peak_tilt)))
+        pairs.append((f"peak twist of a joint{until}", n.angle(m.space.peak_twist)))
+    return pairs
+
+
+def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
+    opening = summary.get("peak_opening_per_joint_m")
+    if not isinstance(opening, list):
+        return []
+    slip, twist = summary.get("residual_slip_per_joint_m"), summary.get("residual_twist_per_joint_rad")
+    header = ["joint", "peak opening [mm]", "residual slip [mm]"] + (["residual twist [°]"] if twist else [])
+    body = []
+    for i, gap in enumerate(opening):
+        row = [str(i + 1), n.NONE if gap is None else f"{1000.0 * gap:.2f}"]
+        one = slip[i] if isinstance(slip, list) and i < len(slip) else None
+        row.append(n.NONE if one is None else f"{1000.0 * one:.2f}")
+        if twist:
+            row.append(n.NONE if twist[i] is None else f"{math.degrees(twist[i]):.2f}")
+        body.append(row)
+    fallen = (
+        f" Openings are the largest recorded until the collapse was certain, the beginning of the fall included, which the "
+        f"measures above leave out. {n.NONE}: of what was lost."
+        if r.collapsed
+        else ""
+    )
+    return [Rows(header, body, f"Joints, from the base up.{fallen}", numbers=True)]
+
+
+def _energy(r: Response) -> Section:
+    share = abs(r.energy_imbalance)
+    text = (
+        f"The energy that the motion put in is found again in motion, height, elastic joints and what friction, dashpots "
+        f"and impacts took, but for {100.0 * share:.2g} % of the energy at stake."
+    )
+    return Section(
+        "Energy balance",
+        [text, picture(plots.draw_energy(r, " "), "Energy over time, and below what the ledger misses.")],
+    )
+
+
+def _versions(run: RunResult) -> dict[str, Any]:
+    p = run.response.provenance
+    known = versions_of(run)
+    return {
+        "stylobate": p.get("version"),
+        "Python": p.get("python"),
+        "machine": p.get("machine"),
+        "digest of what stood": p.get("column_digest") or p.get("assembly_digest") or known.get("digest of what stood"),
+        "digest of the motion": p.get("motion_digest"),
+        "states recorded every": f"{float(p.get('output_interval_s', math.nan)):g} s",
+    }
+
+
+# -- several -------------------------------------------------------------------------------------------------------
+
+
+def worst_of(runs: Sequence[RunResult]) -> int:
+    """Number of the run with the most harm."""
+    return max(range(len(runs)), key=lambda i: harm(runs[i].response.measures.row()))
+
+
+def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
+    """A table of all runs, and the one with the most harm in full."""
+    runs = found.runs
+    fell = sum(one.response.collapsed for one in runs)
+    open_ = sum(not one.response.decided for one in runs)
+    name = runs[0].response.structure.name
+    sentence = f"{name} collapses under {fell} of {len(runs)} motions." + (
+        f" {open_} runs are undecided." if open_ else ""
+    )
+    header = ["motion", "PGA [g]", "outcome", "probability of collapse", "peak displacement", "folder"]
+    body = []
+    for one in runs:
+        r, s = one.response, one.summary
+        m = r.measures
+        moved = m.peak_top_displacement if m.blocks is None else m.blocks.peak_displacement
+        peak = n.NONE if one.motion is None else f"{one.motion.pga / g:.3f}"
+        share = s.get("collapse_probability")
+        outcome = r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided")
+        body.append(
+            [str(r.provenance.get("motion", "")), peak, outcome, n.plain(share), n.length(moved), one.folder.name]
+        )
+    looks = {name.replace("_", " "): look for name, look in LOOKS.items()}
+    worst = worst_of(runs)
+    lead = Section(
+        "All runs",
+        [
+            Note([sentence], "verdict bad" if fell else "verdict"),
+            Rows(header, body, "One row per motion.", mark=2, looks=looks, numbers=True),
+        ],
+    )
+    title = f"The run with the most harm: {runs[worst].response.provenance.get('motion', '')}"
+    return [
+        lead,
+        Section(title, ["Every other run has a folder of its own, which can be reported by itself."]),
+        *run_sections(runs[worst], told),
+    ]

@@ -1,0 +1,116 @@
+"""The ground motion in a report: what it is, its measures, its course and its spectrum."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from ..column import Column
+from ..constants import g
+from ..motion import Motion
+from ..motion.intensity import motion_summary
+from ..plots import draw_motion, draw_spectra
+from ..response import Response
+from .page import Facts, Item, Rows, Section
+from .pictures import picture
+
+#: What a record says of itself, in words.
+SAID = ("station", "station_name", "network", "event", "start_time", "stage", "terms")
+
+
+def motion_section(
+    motion: Motion | None, response: Response | None, asked: Mapping[str, Any] | None, column: Column | None
+) -> Section:
+    """The section on the motion of a run.
+
+    Parameters
+    ----------
+    motion : Motion or None
+        What acted; None where the folder does not hold it.
+    response : Response
+        Whose recorded ground is taken where there is no motion.
+    asked : mapping or None
+        What is known of the motion.
+    column : Column or None
+        What it is compared with.
+    """
+    if motion is not None:
+        note: list[Item] = []
+    elif response is not None:
+        motion = recorded_ground(response)
+        note = [
+            "The folder does not hold the motion: what is told here is the ground as the run recorded it, "
+            f"{motion.duration:.2f} s in steps of {1000.0 * motion.dt:.3g} ms, which cuts short peaks."
+        ]
+    else:
+        return Section("The ground motion", ["It is not kept with these results."])
+    known = dict(asked or {})
+    facts = [("motion", str(known.get("name") or motion.name))]
+    facts.append(("duration and step", f"{motion.duration:.2f} s, {motion.dt:.4g} s"))
+    metadata = known.get("metadata") or {}
+    facts += [
+        (key.replace("_", " "), str(metadata[key])) for key in SAID if metadata.get(key) not in (None, "", "None")
+    ]
+    done = [str(one) for one in (known.get("processing") or motion.processing)]
+    facts.append(("processing", "\n".join(done) if done else "none: as recorded, or a formula"))
+    if left_out := [str(one) for one in known.get("left_out") or ()]:
+        facts.append(("left out", "\n".join(left_out)))
+    items: list[Item] = [*note, Facts(facts), _measures(motion)]
+    if column is not None and motion.pga > 0.0:
+        items.append(_beside(motion, column))
+    items.append(picture(draw_motion(motion, " "), "Acceleration and velocity of the ground, as they acted."))
+    if motion.pga > 0.0:
+        caption = (
+            "Response spectra of a linear oscillator, 5 % of critical damping. A rocking column is none: see the text."
+        )
+        items.append(picture(draw_spectra(motion, title=" "), caption))
+    return Section("The ground motion", items)
+
+
+def recorded_ground(response: Response) -> Motion:
+    """The ground of a run as it was recorded, in equal steps."""
+    time, values = response.time, response.histories.acceleration
+    count = max(len(time), 2)
+    even = np.linspace(float(time[0]), float(time[-1]) or 1.0, count)
+    axes = [np.interp(even, time, values[:, k]) for k in range(3)]
+    y, z = (axes[k] if axes[k].any() else None for k in (1, 2))
+    return Motion(float(even[1] - even[0]), axes[0], y, z, name=str(response.provenance.get("motion", "motion")))
+
+
+def _measures(motion: Motion) -> Rows:
+    s = motion_summary(motion, spectrum=False)
+    parts = (
+        ("peak acceleration [g]", "pga_g", ".3f"),
+        ("peak velocity [m/s]", "pgv_m_s", ".3f"),
+        ("Arias intensity [m/s]", "arias_m_s", ".3g"),
+        ("CAV [m/s]", "cav_m_s", ".3g"),
+        ("duration 5–95 % [s]", "duration_5_95_s", ".2f"),
+    )
+    body = [[axis, *(format(s[key][axis], form) for _, key, form in parts)] for axis in s["components"]]
+    pulse = (
+        f" The strongest pulse in x has a period of {s['pulse_period_s']:.2f} s."
+        if s.get("pulse_period_s") and math.isfinite(s["pulse_period_s"])
+        else ""
+    )
+    caption = f"Measures of each component, z is vertical. CAV is the cumulative absolute velocity.{pulse}"
+    return Rows(["component", *(name for name, _, _ in parts)], body, caption, numbers=True)
+
+
+def _beside(motion: Motion, column: Column) -> str:
+    """The motion beside what opens the column."""
+    peak = max(float(np.abs(values).max()) for axis, values in motion.components.items() if axis != "z")
+    opens = column.uplift_acceleration
+    much = peak / opens
+    said = (
+        f"The largest horizontal component peaks at {peak / g:.3f} g; {opens / g:.3f} g would open the first joint if it "
+        f"acted steadily, so the column "
+    )
+    if much <= 1.0:
+        return said + "is not set rocking by the horizontal shaking alone."
+    return said + (
+        f"rocks: the peak is {much:.1f} times that. Whether it overturns depends on how long and in what order the "
+        "shaking acts, which neither this ratio nor the spectrum tells."
+    )

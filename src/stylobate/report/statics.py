@@ -1,0 +1,185 @@
+"""Forces at rest in a report: uplift, pushover with its code check, limit analysis, and what they assume."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..analysis.capacity_spectrum import CapacityCheck, capacity_spectrum_check
+from ..analysis.limit import limit_analysis, towards
+from ..analysis.limit_directions import limit_directions
+from ..analysis.pushover import pushover
+from ..column import Column
+from ..errors import StylobateError
+from ..results import Numbers, Result, RunResult
+from . import numbers as n
+from .page import Facts, Item, Note, Points, Rows, Section
+from .pictures import kept
+
+#: What is told of a link in a limit analysis.
+_LINK = ("link", "action", "force_n", "capacity_n", "yields")
+
+
+def statics_section(column: Column, run: RunResult | None) -> Section:
+    """What horizontal forces at rest would do: uplift and limit analysis."""
+    opens = column.uplift_acceleration
+    joint = int(column.joint_uplift_accelerations.argmin()) + 1
+    pairs = [("opens the first joint", f"{n.acceleration(opens)} (joint {joint})")]
+    try:
+        pairs += _around(column) if column.as_found else _in_plane(column)
+    except StylobateError as error:
+        pairs.append(("limit analysis", f"does not apply: {error}"))
+    if run is not None and run.motion is not None:
+        peak = max(float(np.abs(v).max()) for axis, v in run.motion.components.items() if axis != "z")
+        pairs.append(("peak of the motion over the first of these", f"{peak / opens:.2f}"))
+    text = (
+        "Steady horizontal forces, proportional to the masses. Beyond these values a joint opens or the column becomes a "
+        "mechanism; under an earthquake it then rocks and need not overturn."
+    )
+    return Section("Statics", [text, Facts(pairs)])
+
+
+def _in_plane(column: Column) -> list[tuple[str, str]]:
+    found = limit_analysis(column)
+    return [
+        ("limit analysis: becomes a mechanism at", f"{found.multiplier:.4g} g"),
+        ("bounds from below and from above", f"{found.lower:.5g} and {found.upper:.5g} g"),
+        ("mechanism", "; ".join(f"joint {one.joint} {one.mode}" for one in found.active[:4])),
+    ]
+
+
+def _around(column: Column) -> list[tuple[str, str]]:
+    weak = limit_directions(column).weakest
+    return [
+        ("limit analysis: becomes a mechanism at", f"{weak.multiplier:.4g} g, pushed towards {weak.azimuth:g}°"),
+        ("mechanism", f"joint {weak.joint} {weak.mode}"),
+    ]
+
+
+def pushover_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """Sentence and body of a pushover."""
+    s = result.summary
+    if s["peaked"]:
+        sentence = (
+            f"Under steady horizontal forces the column gives way at {s['collapse_multiplier_g']:.4g} times its weight; no "
+            f"force is left when its top has moved by {n.length(s['ultimate_displacement_m'])}."
+        )
+    else:
+        sentence = (
+            f"The column bears {s['largest_multiplier_g']:.4g} times its weight, and more: "
+            "the path ends before it gives way."
+        )
+    pairs = [
+        ("largest multiplier", f"{s['largest_multiplier_g']:.4g} g"),
+        ("displacement of the top at the peak", n.length(s.get("peak_displacement_m"))),
+        ("displacement of the top where no force is left", n.length(s.get("ultimate_displacement_m"))),
+        ("governing joint", n.plain(s.get("governing_joint"))),
+        ("steps of the path", n.plain(s.get("steps"))),
+        ("end of the path", n.plain(s.get("stop"))),
+    ]
+    limit = result.asked.options.get("limit_analysis_g") if result.asked is not None else None
+    if isinstance(limit, float):
+        pairs.insert(1, ("limit analysis, independently", f"{limit:.4g} g"))
+    caption = "Pushover curve, and the column half way along it; red is the joint that governs."
+    return (sentence, " plain"), [Facts(pairs), *kept(result.pictures, "pushover", caption)]
+
+
+def code_check(column: Column, result: Result, run: RunResult | None) -> Section:
+    """The capacity spectrum check of a pushover against the motion of a run of the same column."""
+    title = "Code check of the pushover"
+    if run is None or run.motion is None:
+        return Section(
+            title,
+            [
+                "No spectrum is known to check against: report the pushover together with a run of the same column, whose "
+                "motion then is the demand, or make the check in Python (stylobate.analysis.capacity_spectrum)."
+            ],
+        )
+    asked = result.asked.options if result.asked is not None else {}
+    loads = {
+        key: asked[key]
+        for key in ("pattern", "base_tilt", "compressive_strength", "direction")
+        if asked.get(key) is not None
+    }
+    try:
+        check = capacity_spectrum_check(
+            towards(column, loads.get("direction", 0.0)), pushover(column, **loads), run.motion
+        )
+    except StylobateError as error:
+        return Section(title, [f"The capacity spectrum check does not apply: {error}"])
+    return Section(title, check_items(check, str(run.response.provenance.get("motion", "the motion of the run"))))
+
+
+def check_items(check: CapacityCheck, demand: str) -> list[Item]:
+    """A capacity spectrum check in words and numbers."""
+    much = f"{check.factor:.2f} times the demand" if check.demand > 0.0 else "without any demand"
+    sentence = (
+        f"The check is {'passed' if check.passed else 'not passed'}: the usable displacement of "
+        f"{n.length(check.usable_displacement)} is {much} of {n.length(check.demand)}."
+    )
+    pairs = [
+        ("demand", f"elastic displacement spectrum of {demand}, 5 % damping"),
+        ("participating mass M*", f"{check.mass:.0f} kg (e* = {check.participation:.3f})"),
+        ("spectral acceleration that sets the mechanism off, a₀*", n.acceleration(check.acceleration)),
+        ("displacement of no capacity, d₀*", n.length(check.zero_displacement)),
+        ("usable displacement d_u* = 0.4 d₀*", n.length(check.usable_displacement)),
+        ("secant period T_s", f"{check.period:.2f} s"),
+        ("displacement demand at T_s", n.length(check.demand)),
+        ("usable over demand", f"{check.factor:.3f}"),
+    ]
+    end = (
+        "Nonlinear kinematic analysis of Circolare 617/2009, C8A.4.2.2 and C8A.4.2.3, for an element on the ground. It "
+        "takes a rocking column for an oscillator with a secant period, which it is not: a convention, to be read beside "
+        "the run in time, never instead of it."
+    )
+    return [Note([sentence], "" if check.passed else "fair"), Facts(pairs), end]
+
+
+def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """Sentence and body of a limit analysis."""
+    s = result.summary
+    to = f", pushed towards {s['weakest_azimuth_deg']:g}°" if "weakest_azimuth_deg" in s else ""
+    sentence = (
+        f"Under steady horizontal forces the column becomes a mechanism at {s['collapse_multiplier_g']:.4g} times its "
+        f"weight{to}."
+    )
+    modes = "; ".join(f"joint {one['joint']} {one['mode']}" for one in s.get("active_joints", ()))
+    pairs = [
+        ("mechanism", modes or n.NONE),
+        ("joints at their strength", n.plain(s.get("joints_at_strength"))),
+        ("flow rule of friction", n.plain(s.get("flow"))),
+    ]
+    if "lower_bound_g" in s:
+        pairs.insert(0, ("kinematic bound, from above", f"{s['upper_bound_g']:.6g} g"))
+        pairs.insert(0, ("static bound, from below", f"{s['lower_bound_g']:.6g} g"))
+    items: list[Item] = [Facts([(name, value) for name, value in pairs if value != n.NONE])]
+    items += kept(result.pictures, "limit", "Mechanism: velocities drawn as displacements.")
+    items += kept(result.pictures, "directions", "The multiplier by the direction in which the forces push.")
+    if held := [one for one in s.get("links", ()) if one.get("force_n")]:
+        body = [[str(one[key]) if key in ("link", "action") else n.plain(one[key]) for key in _LINK] for one in held]
+        items.append(
+            Rows([key.replace("_", " ") for key in _LINK], body, "Links: force [N] and capacity [N].", numbers=True)
+        )
+    return (sentence, " plain"), items
+
+
+def static_model() -> Section:
+    """What statics assume, and where they end."""
+    items: list[Item] = [
+        "Pushover and limit analysis assume:",
+        Points(
+            [
+                "Drums are rigid and joints take no tension; friction is Mohr–Coulomb.",
+                "Forces are horizontal, proportional to the masses unless a pattern was given, and steady.",
+                "A column as found is pushed where it is weakest.",
+                "A circular column is taken by the diameters of its faces; crushing counts only where a strength was given.",
+            ]
+        ),
+        "They end here:",
+        Points(
+            [
+                "The multiplier is where rocking begins, not where an earthquake overturns: for that, run it in time.",
+                "Neither size nor duration, frequency or order of the shaking enters.",
+            ]
+        ),
+    ]
+    return Section("What the analysis assumes, and where it ends", items)

@@ -1,0 +1,167 @@
+"""What stands, in a report: elevation, drums and joints in tables, properties, and what is as found."""
+
+from __future__ import annotations
+
+from ..column import Column
+from ..column.assembly import FAR_AWAY, Assembly
+from ..column.specimen import Specimen
+from ..constants import g
+from ..plots import draw_elevation
+from . import numbers as n
+from .page import Facts, Item, Rows, Section
+from .pictures import picture
+
+#: Most rows of a table of drums or blocks in a report; the column file holds them all.
+MOST = 60
+
+
+def structure_section(structure: Column | Assembly | Specimen) -> Section:
+    """The section on what stands."""
+    if isinstance(structure, Column):
+        return Section("The column", _column(structure))
+    if isinstance(structure, Assembly):
+        return Section("The assembly", _assembly(structure))
+    return Section("The body", [Facts([("name", structure.name), ("mass", f"{structure.mass:.4g} kg")])])
+
+
+def _column(column: Column) -> list[Item]:
+    round_ = column.section == "circular"
+    state = "as found" if column.as_found else "as built"
+    words = "diameters (⌀)" if round_ else "widths in the plane of motion"
+    caption = f"Elevation of {column.name}, {state}, seen along y with x to the right: heights and {words} in m."
+    if column.links:
+        caption += " Blue: links."
+    if column.as_found:
+        caption += " Red: drums that are not where they were built, over the column as built (dashed)."
+    found: list[Item] = [Facts(_properties(column), "Properties"), picture(draw_elevation(column), caption)]
+    found.append(_drums(column, round_))
+    if column.as_found:
+        found.append(_as_found(column))
+    if column.links:
+        found.append(_links(column))
+    if doubts := sorted({text for joint in column.joints for text in joint.doubts}):
+        found += [f"Beyond what was measured on stone: {text}." for text in doubts]
+    return found
+
+
+def _properties(column: Column) -> list[tuple[str, str]]:
+    first = int(column.joint_uplift_accelerations.argmin()) + 1
+    return [
+        ("section", column.section),
+        ("drums", str(column.n) if column.n > 1 else "1, a monolith"),
+        ("height", f"{column.height:.3f} m"),
+        ("width of the base in contact", f"{column.base_width:.3f} m"),
+        ("mass", f"{column.mass:.0f} kg"),
+        ("centroid above the base", f"{column.centroid_height:.3f} m"),
+        ("half diagonal R", f"{column.radius:.3f} m"),
+        ("slenderness α", n.angle(column.slenderness)),
+        ("frequency parameter p, as one block", f"{column.frequency_parameter:.3f} rad/s"),
+        (
+            "static acceleration that opens the first joint",
+            f"{n.acceleration(column.uplift_acceleration)} (joint {first})",
+        ),
+    ]
+
+
+def _drums(column: Column, round_: bool) -> Rows:
+    header = ["drum", "height [m]", "⌀ below [m]" if round_ else "width below [m]"]
+    header += ["⌀ above [m]" if round_ else "width above [m]", *([] if round_ else ["depth [m]"])]
+    header += ["density [kg/m³]", "mass [kg]", "joint below: μ [–]", "k_n [N/m³]", "k_s [N/m³]", "opens at [g]"]
+    cohesive = any(joint.cohesion for joint in column.joints)
+    header += ["cohesion [Pa]"] if cohesive else []
+    body = []
+    for i in reversed(range(min(column.n, MOST))):
+        drum, joint = column.drums[i], column.joints[i]
+        depth = f"{drum.depth:.3f}" + ("" if drum.top_depth is None else f" – {drum.upper_depth:.3f}")
+        row = [str(i + 1), f"{drum.height:.3f}", f"{drum.bottom_width:.3f}", f"{drum.top_width:.3f}"]
+        row += [] if round_ else [depth]
+        row += [f"{drum.density:.0f}", f"{drum.mass:.0f}", f"{column.friction[i]:.3f}"]
+        row += [f"{joint.normal_stiffness:.3g}", f"{joint.shear_stiffness:.3g}"]
+        row.append(f"{column.joint_uplift_accelerations[i] / g:.3f}")
+        body.append(row + ([f"{joint.cohesion:.3g}"] if cohesive else []))
+    left_out = f"; of {column.n} drums the lowest {MOST}" if column.n > MOST else ""
+    caption = (
+        "Drums and the joints under them, from the top down"
+        f"{left_out}. μ is the friction coefficient, k_n and k_s the stiffness per area; “opens at” is the horizontal "
+        "acceleration that would open the joint if it acted steadily."
+    )
+    return Rows(header, body, caption, numbers=True)
+
+
+def _links(column: Column) -> Rows:
+    body = []
+    for link in column.links:
+        values = link.to_dict()
+        where = [f"joint {values.pop('joint')}"] if "joint" in values else []
+        where += [f"{end} drum {values.pop(f'{end}_drum')}" for end in ("from", "to") if f"{end}_drum" in values]
+        at = " / ".join(f"{one:g}" for one in values.pop("at", (0.0, 0.0)))
+        kind, name = values.pop("kind"), values.pop("name", "")
+        rest = ", ".join(f"{key.replace('_', ' ')} {n.plain(value)}" for key, value in values.items())
+        body.append([f"{name} ({kind})" if name else kind, ", ".join(where) or n.NONE, at, rest or n.NONE])
+    caption = (
+        "Links that strengthen the column; lengths in m, forces in N, stiffness in N/m. What is not given follows from the "
+        "material."
+    )
+    return Rows(["link", "where", "at x / y [m]", "properties"], body, caption, numbers=True)
+
+
+def _as_found(column: Column) -> Rows:
+    found = column.as_found
+    body = [
+        [
+            str(one.drum),
+            f"{1000.0 * one.offset:+.1f}" if one.offset else n.NONE,
+            f"{one.offset_azimuth:g}" if one.offset else n.NONE,
+            f"{one.tilt:+.3g}" if one.tilt else n.NONE,
+            f"{one.tilt_azimuth:g}" if one.tilt else n.NONE,
+            f"{one.turn:+.3g}" if one.turn else n.NONE,
+            f"{1000.0 * one.chip_left:.0f} / {1000.0 * one.chip_right:.0f}"
+            if one.chip_left or one.chip_right
+            else n.NONE,
+        ]
+        for one in found.drums
+    ]
+    header = [
+        "drum",
+        "offset [mm]",
+        "to azimuth [°]",
+        "lean [°]",
+        "azimuth [°]",
+        "turned [°]",
+        "chips left / right [mm]",
+    ]
+    base = f" The base rises by {found.base_tilt:g}°" + (
+        f" to azimuth {found.base_azimuth:g}°." if found.base_azimuth else "."
+    )
+    caption = (
+        "As found: each drum over the joint under it; what stands on it goes along. Azimuths are from x towards y."
+        + (base if found.base_tilt else "")
+    )
+    return Rows(header, body, caption, numbers=True)
+
+
+def _assembly(assembly: Assembly) -> list[Item]:
+    caption = f"Elevation of {assembly.name}, with the size of all of it in m; supports that are held are grey."
+    moving = [one for one in assembly.bodies if not one.fixed]
+    facts = [
+        ("blocks", f"{len(moving)} that can move, {len(assembly.bodies) - len(moving)} held"),
+        ("joints", str(len(assembly.joints))),
+        ("ground", "none" if assembly.ground is None else f"level at z = {assembly.ground:g} m"),
+    ]
+    body = []
+    for one in [one for one in assembly.bodies if one.size <= FAR_AWAY][:MOST]:
+        size = one.corners.max(axis=0) - one.corners.min(axis=0)
+        kind = "held" if one.fixed else f"{one.properties[0]:.0f}"
+        body.append([one.name, f"{size[0]:.3f}", f"{size[1]:.3f}", f"{one.depth:.3f}", kind])
+    rows = Rows(["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"], body, "Blocks", numbers=True)
+    laws = [
+        [
+            f"{assembly.bodies[joint.lower].name} – {assembly.bodies[joint.upper].name}",
+            f"{joint.law.tan_phi:.3f}",
+            f"{joint.law.normal_stiffness:.3g}",
+            f"{joint.law.shear_stiffness:.3g}",
+        ]
+        for joint in assembly.joints[:MOST]
+    ]
+    joints = Rows(["joint", "μ [–]", "k_n [N/m³]", "k_s [N/m³]"], laws, "Joints", numbers=True)
+    return [picture(draw_elevation(assembly), caption), Facts(facts), rows, joints]

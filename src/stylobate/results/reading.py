@@ -1,0 +1,256 @@
+"""Reads folders of results: what a folder holds is told by the files that commands leave there."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..analysis.domain import Domain
+from ..analysis.probability import CollapseProbability
+from ..analysis.studies import StudyResult
+from ..campaign.plan import PLAN_FILE, RUNS_FILE
+from ..errors import InputError, OutOfRangeWarning
+from ..motion import Motion
+from ..motion.readers import read_motion
+from ..own_files import LIST, OwnFiles, digest
+from ..reading import check_file, shown
+from ..response import load_response
+from .asked import Asked, asked_file
+from .json_files import read_json
+from .kinds import Comparison, FileFact, Grid, Kind, Numbers, Result, RunResult, SeveralRuns, StudyFolder
+
+#: Largest table that is read [bytes].
+MOST = 500_000_000
+
+#: Most folders in a folder of runs.
+MOST_RUNS = 10_000
+
+#: What a JSON object of each kind must hold; a folder with such an object of other keys was not written by stylobate.
+KEYS = {
+    Kind.RUN: ("outcome", "collapsed", "decided", "energy_imbalance"),
+    Kind.CRITICAL: ("runs",),
+    Kind.DOMAIN: ("cells", "collapsed"),
+    Kind.PROBABILITY: ("cells", "replicates"),
+    Kind.PUSHOVER: ("collapse_multiplier_g", "peaked", "curve"),
+    Kind.LIMIT: ("collapse_multiplier_g", "active_joints"),
+    Kind.SUITE: ("runs", "verdicts"),
+    Kind.IDA: ("runs", "records", "capacities"),
+    Kind.FRAGILITY: ("median", "beta", "im", "state"),
+    Kind.RISK: ("annual_rate", "return_period_y"),
+    Kind.SURVIVAL: ("hazards",),
+}
+
+#: Tables beside an object.
+TABLES = {
+    Kind.CRITICAL: ("critical",),
+    Kind.SUITE: ("suite",),
+    Kind.IDA: ("capacities", "fractiles", "measures"),
+    Kind.RISK: ("risk",),
+}
+
+#: Pictures by kind, besides the one that has its name.
+PICTURES = {
+    Kind.CRITICAL: ("probability", "directions"),
+    Kind.SUITE: ("directions",),
+    Kind.LIMIT: ("directions",),
+    Kind.IDA: ("measures",),
+    Kind.RUNS: ("directions",),
+}
+
+
+def read_results(folders: Iterable[str | Path]) -> list[Result]:
+    """Everything that folders of results hold, in the order given.
+
+    Raises
+    ------
+    InputError
+        A folder is missing, empty, or holds no result of this package; or a result that is damaged or of a later version.
+    """
+    found = [one for folder in folders for one in read_folder(folder)]
+    if not found:
+        raise InputError("no folder of results is given; give one that a command wrote with --out.")
+    return found
+
+
+def read_folder(folder: str | Path) -> list[Result]:
+    """Everything that one folder holds: usually one result, several where commands wrote into the same folder.
+
+    Raises
+    ------
+    InputError
+        As :func:`read_results`.
+    """
+    place = Path(folder)
+    if not place.exists():
+        raise InputError(f"there is no folder {shown(place)}; give one that a command wrote with --out.")
+    if not place.is_dir():
+        raise InputError(f"{shown(place)} is a file; give the folder of a result, as a command wrote it with --out.")
+    found: list[Result] = [read(place) for marker, read in _READERS.items() if (place / marker).is_file()]
+    if not found and (runs := _runs_in(place)):
+        found = [_several(place, runs)]
+    if not found:
+        raise InputError(_foreign(place))
+    return found
+
+
+def _foreign(place: Path) -> str:
+    if not any(place.iterdir()):
+        return f"folder {shown(place)} is empty; give one that a command wrote with --out."
+    if (place / "data" / "study.json").is_file() or (place / "index.html").is_file():
+        return f"{shown(place)} holds no result of a command, but a page or the paper's study; open its HTML file."
+    if any((place / one).name.startswith("progress") for one in place.glob("progress*.sqlite")):
+        return f"{shown(place)} holds a command's work that is not finished; give the same command again, then report."
+    return f"{shown(place)} holds no result of stylobate; give a folder that a command wrote with --out."
+
+
+# -- kinds ---------------------------------------------------------------------------------------------------------
+
+
+def _read_run(place: Path) -> RunResult:
+    response = load_response(place / "response.nc")
+    summary = _object(place, "run.json", Kind.RUN) if (place / "run.json").is_file() else response.summary()
+    names = ("response.nc", "run.json", "motion.csv", "replicates.csv")
+    record = place / "motion.csv"
+    return RunResult(
+        **_common(place, Kind.RUN, "run", names, summary),
+        response=response,
+        motion=_motion(record) if record.is_file() else None,
+        replicates=_table(place / "replicates.csv") if (place / "replicates.csv").is_file() else None,
+    )
+
+
+def _motion(path: Path) -> Motion:
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", OutOfRangeWarning)  # they were given when it was run
+        return read_motion(path)
+
+
+def _runs_in(place: Path) -> list[Path]:
+    found = sorted(one for one in place.iterdir() if one.is_dir() and not one.is_symlink())
+    if len(found) > MOST_RUNS:
+        raise InputError(f"{shown(place)} holds {len(found)} folders; allowed is up to {MOST_RUNS} runs.")
+    return [one for one in found if (one / "response.nc").is_file()]
+
+
+def _several(place: Path, runs: Sequence[Path]) -> SeveralRuns:
+    read = tuple(_read_run(one) for one in runs)
+    if len({one.response.structure.digest for one in read}) > 1:
+        raise InputError(
+            f"the runs in {shown(place)} are not all of one column; name their folders one by one to report them together."
+        )
+    facts: dict[str, Any] = _common(place, Kind.RUNS, "run", PICTURES[Kind.RUNS], {}) | {"asked": read[0].asked}
+    return SeveralRuns(**facts, runs=read)
+
+
+def _read_grid(kind: Kind, load: Callable[[Path], Any]) -> Callable[[Path], Grid]:
+    def read(place: Path) -> Grid:
+        data, stem = load(place / f"{kind.value}.nc"), kind.value
+        written = place / f"{stem}.json"
+        summary = data.summary() | (_object(place, written.name, kind) if written.is_file() else {})
+        return Grid(**_common(place, kind, "domain", (f"{stem}.nc", f"{stem}.json", stem), summary), data=data)
+
+    return read
+
+
+def _read_numbers(kind: Kind) -> Callable[[Path], Numbers]:
+    def read(place: Path) -> Numbers:
+        stem = kind.value
+        summary = _object(place, f"{stem}.json", kind)
+        tables = {one: _table(place / f"{one}.csv") for one in TABLES.get(kind, ()) if (place / f"{one}.csv").is_file()}
+        names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{one}.csv" for one in tables), *PICTURES.get(kind, ())]
+        return Numbers(**_common(place, kind, stem, names, summary), tables=tables)
+
+    return read
+
+
+def _read_study(place: Path) -> StudyFolder:
+    study = StudyResult.in_folder(place)
+    summary = study.summary()
+    if (place / "study.json").is_file():
+        summary |= {"wall_s": read_json(place / "study.json").get("wall_s")}
+    ranked, kept, names = study.ranked(), {}, [PLAN_FILE, "study.json", "study.csv", "study.parquet"]
+    for name, number in {"median": (len(ranked) - 1) // 2, "worst": -1}.items() if ranked else ():
+        file = f"histories/{study.plan.digests[ranked[number]]}.nc"
+        if (place / file).is_file():
+            kept[name] = load_response(place / file)
+            names.append(file)
+    return StudyFolder(**_common(place, Kind.STUDY, "study", names, summary), study=study, histories=kept)
+
+
+def _read_comparison(place: Path) -> Comparison:
+    table = _table(place / "comparison.csv")
+    files = sorted(one.name for one in place.glob("response-*.nc"))
+    responses = {name.removeprefix("response-").removesuffix(".nc"): load_response(place / name) for name in files}
+    names = ["comparison.csv", "comparison", *files, *(one.name for one in sorted(place.glob("domain-*.nc")))]
+    return Comparison(**_common(place, Kind.COMPARE, "compare", names, {}), table=table, responses=responses)
+
+
+#: The file that tells a kind, and its reader.
+_READERS: dict[str, Callable[[Path], Result]] = {
+    "response.nc": _read_run,
+    "critical.json": _read_numbers(Kind.CRITICAL),
+    "domain.nc": _read_grid(Kind.DOMAIN, Domain.load),
+    "probability.nc": _read_grid(Kind.PROBABILITY, CollapseProbability.load),
+    "limit.json": _read_numbers(Kind.LIMIT),
+    "pushover.json": _read_numbers(Kind.PUSHOVER),
+    "comparison.csv": _read_comparison,
+    "suite.json": _read_numbers(Kind.SUITE),
+    "ida.json": _read_numbers(Kind.IDA),
+    PLAN_FILE: _read_study,
+    "fragility.json": _read_numbers(Kind.FRAGILITY),
+    "risk.json": _read_numbers(Kind.RISK),
+    "survival.json": _read_numbers(Kind.SURVIVAL),
+}
+
+
+# -- parts ---------------------------------------------------------------------------------------------------------
+
+
+def _common(place: Path, kind: Kind, command: str, names: Iterable[str], summary: dict[str, Any]) -> dict[str, Any]:
+    """Fields that every result has; a name without an ending is a picture."""
+    asked = place / asked_file(command)
+    files = [one if "." in one else f"{one}.png" for one in (*names, asked.name)]
+    return {
+        "kind": kind,
+        "folder": place,
+        "asked": Asked.read(asked) if asked.is_file() else None,
+        "files": _facts(place, dict.fromkeys(files)),
+        "summary": summary,
+    }
+
+
+def _facts(place: Path, names: Iterable[str]) -> tuple[FileFact, ...]:
+    listed = (place / LIST).is_file()
+    own = OwnFiles(place)
+    found = []
+    for name in names:
+        path = place / name
+        if path.is_file() and name != RUNS_FILE:
+            unchanged = own.holds(path) if listed and own.lists(path) else None
+            found.append(FileFact(name, digest(path), unchanged))
+    return tuple(found)
+
+
+def _object(place: Path, name: str, kind: Kind) -> dict[str, Any]:
+    found = read_json(place / name)
+    missing = [key for key in KEYS[kind] if key not in found]
+    if missing:
+        raise InputError(
+            f"{shown(place / name)} is not what 'stylobate {kind.value}' of this version writes: it has no {missing[0]!r}; "
+            "run again."
+        )
+    return found
+
+
+def _table(path: Path) -> Any:
+    import pandas
+
+    check_file(path, MOST)
+    try:
+        return pandas.read_csv(path)
+    except (ValueError, OSError, pandas.errors.ParserError) as error:
+        raise InputError(
+            f"{shown(path)} is no table that can be read ({str(error).splitlines()[0]}); run again."
+        ) from None
