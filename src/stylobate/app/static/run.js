@@ -85,7 +85,7 @@ export async function hear(job) {
 }
 
 function waiting(job) {
-  const text = { waiting: "It waits for its turn.", running: "It is computed.", cancelled: "It was cancelled.", refused: "It was not computed.", failed: "It was not computed to its end." }[job.state] || "";
+  const text = { waiting: "It waits for its turn.", running: "It is computed. The first run of a model after an update takes up to a minute more, for its code to be compiled.", cancelled: "It was cancelled.", refused: "It was not computed.", failed: "It was not computed to its end." }[job.state] || "";
   return el("div", { class: "card empty" }, text);
 }
 
