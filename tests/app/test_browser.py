@@ -110,6 +110,16 @@ def test_the_whole_story(open_page, tmp_path):
     expect(page.locator("#film")).to_be_visible()
     expect(page.locator("#run-case")).to_contain_text("shaking <b>.txt")
 
+    # its report, in a tab of its own, where nothing of it can run
+    page.click("text=Report")
+    report = page.locator("text=Open the report")
+    expect(report).to_be_visible(timeout=25_000)
+    with page.expect_popup() as opened:
+        report.click()
+    expect(opened.value.locator("body")).to_contain_text("paper-12-drums")
+    assert opened.value.evaluate("window.origin") == "null"
+    opened.value.close()
+
     # a domain streams in; by keyboard to a cell, and to its film
     page.click("[data-tab=domain]")
     for name, value in (("f1", "1"), ("fn", "3"), ("an", "4"), ("duration", "2")):
@@ -132,7 +142,7 @@ def test_the_whole_story(open_page, tmp_path):
     page.locator("#domain-said button").click()
     expect(page.locator("#domain-said .verdict")).to_contain_text("Cancelled")
     page.click("[data-tab=jobs]")
-    expect(page.locator("#jobs li[data-job]")).to_have_count(4)
+    expect(page.locator("#jobs li[data-job]")).to_have_count(5)
 
 
 @pytest.mark.parametrize("width", [1440, 390])
