@@ -13,16 +13,13 @@ import numpy as np
 from ..campaign.runner import Progress, Stopped, run_campaign
 from ..column.specimen import Specimen
 from ..constants import g
-from ..errors import InputError
 from ..models.base import Case
 from ..models.dem3d.model import DistinctElement3D
 from ..motion import Motion
 from . import choices as c
 from . import scores
-from .granite_files import NAMES, OTHER_SCAN, Granite, Scan, Test
-
-#: Draws of a footprint until one carries the body.
-DRAWS = 20
+from .footprint import mean_of, registered
+from .granite_files import NAMES, Granite, Test
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,23 +50,17 @@ def variants(granite: Granite, realisations: int, calibrate: bool, seed: int = 1
             found.append(Variant("grid", name, granite.scans[name].specimen(friction, restitution)))
     for name in names:
         rng = np.random.default_rng((seed, NAMES.index(name)))
-        for one in range(realisations):
-            other = granite.scans.get(OTHER_SCAN) if name == NAMES[0] and one % 2 else None
+        mine = granite.scans[name]
+        scans = [mine, *(registered(one, mine) for one in granite.scans.values() if one is not mine)] * (
+            realisations > 0
+        )
+        for _ in range(realisations):
             friction, restitution = rng.uniform(*c.FRICTIONS), rng.uniform(*c.RESTITUTIONS)
             azimuth = rng.uniform(-c.AZIMUTH, c.AZIMUTH)
-            body = _seated(other or granite.scans[name], friction, restitution, rng)
+            mean = mean_of(scans, rng.dirichlet(np.ones(len(scans))))
+            body = mean.specimen(friction, restitution, like=found[names.index(name)].body)
             found.append(Variant("realisation", name, body, azimuth))
     return found
-
-
-def _seated(scan: Scan, friction: float, restitution: float, rng: np.random.Generator) -> Specimen:
-    """The body with another relief, on the face that then carries it; reliefs that carry it nowhere near are drawn again."""
-    for _ in range(DRAWS):
-        try:
-            return scan.specimen(friction, restitution, rng.normal(0.0, c.RELIEF, len(scan.vertices)))
-        except InputError:
-            continue
-    raise InputError(f"no relief of {c.RELIEF:g} m lets {scan.name!r} stand; check its vertices and its centroid.")
 
 
 def motion_of(test: Test, azimuth: float) -> Motion:

@@ -6,7 +6,7 @@ import csv
 import json
 import math
 import zipfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -27,25 +27,27 @@ SAME_UNIT = 1.2
 
 @dataclass(frozen=True, eq=False)
 class Scan:
-    """A specimen as scanned: mass [kg], inertia about the centroid [kg m²], vertices from the centroid, z up [m]."""
+    """A specimen as scanned: mass [kg], inertia about the centroid [kg m²], vertices and centroid, z up [m].
+
+    The centroid is the origin, but for a scan in the frame of another one.
+    """
 
     name: str
     mass: float
     inertia: np.ndarray
     vertices: np.ndarray
+    centroid: np.ndarray = field(default_factory=lambda: np.zeros(3))
 
     def specimen(
-        self,
-        friction: float = c.FRICTION,
-        restitution: float = c.RESTITUTION,
-        shift: np.ndarray | None = None,
+        self, friction: float = c.FRICTION, restitution: float = c.RESTITUTION, like: Specimen | None = None
     ) -> Specimen:
-        """The body on the table; ``shift`` is added to the heights of its vertices [m]."""
-        vertices = self.vertices.copy()
-        if shift is not None:
-            vertices[:, 2] += shift
+        """The body on the table; its vertices as stiff as those of another one, if given, that stands on as many."""
         joint = Joint(c.STIFFNESS, 0.5 * c.STIFFNESS, friction_coefficient=friction)
-        return Specimen(self.mass, self.inertia, vertices, self.name, joint, restitution)
+        body = Specimen(self.mass, self.inertia, self.vertices - self.centroid, self.name, joint, restitution)
+        if like is None:
+            return body
+        kn = like.joint.normal_stiffness * like.resting.area / body.resting.area
+        return replace(body, joint=Joint(kn, 0.5 * kn, friction_coefficient=friction))
 
 
 @dataclass(frozen=True, eq=False)
