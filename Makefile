@@ -1,4 +1,4 @@
-# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | docs | lock | clean
+# make install | demo | test | test-cpus | test-pythons | test-wheel | wheel | fuzz | check | format | bench | peers | thresholds | docs | lock | clean
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3 || echo python3)
 BIN := .venv/bin
@@ -15,7 +15,7 @@ ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
 .PHONY: $(STAMP)
 endif
 
-.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers docs lock clean
+.PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers thresholds docs lock clean
 
 install: $(STAMP)
 	@:
@@ -85,6 +85,10 @@ $(PEERS_STAMP): requirements/peers.lock
 # The same cases with MuJoCo, PyBullet and LMGC90; renews the table that the page on other codes is written from.
 peers: install $(PEERS_STAMP)
 	@$(BIN)/python peers/gather.py
+
+# The thresholds of the tapered column that the page on other codes shows beside the published ones.
+thresholds: install
+	@PYTHONPATH=tests $(BIN)/python -m validation.tapered_column
 
 docs: $(DOCS_STAMP)
 	@echo "Running the examples and the validation cases, then writing the pages (two minutes)"

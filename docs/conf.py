@@ -54,7 +54,9 @@ sphinx_gallery_conf = {
 
 html_theme = "furo"
 html_title = f"stylobate {release}"
-html_static_path = ["_static"]
+COMPUTED = BUILT / "computed" / "static"  # films, made where the measurements lie beside the project
+COMPUTED.mkdir(parents=True, exist_ok=True)
+html_static_path = ["_static", str(COMPUTED)]
 html_css_files = ["site.css"]
 html_show_sphinx = False
 html_copy_source = False

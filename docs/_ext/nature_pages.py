@@ -7,6 +7,8 @@ from pathlib import Path
 from stylobate.errors import InputError
 from stylobate.experiments import study
 from stylobate.experiments.choices import CHOICES
+from stylobate.experiments.granite import again
+from stylobate.plots.player import write_player
 
 HERE = Path(__file__).parent
 
@@ -17,23 +19,60 @@ BESIDE, STORED = HERE.parents[2] / "shared" / "experiments", HERE.parent / "natu
 def computed(out):
     """The tables of the page."""
     stored = json.loads(STORED.read_text(encoding="utf-8"))
-    summary, said = (
-        stored["summary"],
-        f"Computed on {stored['summary']['date']}; digest of the tables {stored['digest'][:12]}.",
-    )
+    summary, wrong = stored["summary"], stored["worst"]
+    said = f"Computed on {summary['date']}; digest of the tables {stored['digest'][:12]}."
+    shown = "Their films are on the page where the files lie beside the project when it is built."
     try:
         found = study.read(BESIDE)
         results = study.compute(found, calibrate=False, bars=lambda _: nullcontext(), ledgers=lambda _: None)
         if {"granite", "cube"} <= set(results.summary):
             summary, said = results.summary, "Computed when this page was built, from the files beside the project."
+            wrong = results.tables["granite_worst"].to_dict("records")
+            shown = films(found.granite, wrong, out / "static" / "films")
     except InputError:
         pass
     return [
         (out / "nature_choices.md", choices()),
         (out / "nature_granite.md", granite(summary) + f"\n{said}\n"),
         (out / "nature_cube.md", cube(summary) + f"\n{said}\n"),
-        (out / "nature_worst.md", worst(stored["worst"])),
+        (out / "nature_worst.md", worst(wrong) + f"\n{shown}\n"),
+        (out / "nature_probabilities.md", probabilities(stored["probabilities"])),
     ]
+
+
+def films(granite, rows, folder):
+    """Films of some tests as they are computed, and the text that shows them."""
+    folder.mkdir(parents=True, exist_ok=True)
+    lines = ["```{raw} html"]
+    for row in rows:
+        name, number = row["specimen"], row["test"]
+        file = f"{name}_{number}.html"
+        write_player(again(granite, name, number), folder / file, frames_per_second=20.0)
+        verdicts = ["toppled" if row[key] else "stood" for key in ("observed", "computed")]
+        lines += [
+            f"<details><summary>Film: {name}, test {number}, computed ({verdicts[1]}; the stone {verdicts[0]})</summary>",
+            f'<iframe src="_static/films/{file}" loading="lazy" width="100%" height="520" '
+            f'title="{name}, test {number}"></iframe></details>',
+        ]
+    return "\n".join([*lines, "```"])
+
+
+def probabilities(stored):
+    """Scores of the probabilities, and how they stand to what was observed."""
+    lines = ["| | Brier score | of the mean share | of the logistic fit |", "| --- | --- | --- | --- |"]
+    for name in ("SP1", "SP2"):
+        lines.append(f"| {name} | {' | '.join(f'{one:.3f}' for one in stored['brier'][name])} |")
+    lines += [
+        "",
+        "| computed probability | SP1: tests | toppled | SP2: tests | toppled |",
+        "| --- | --- | --- | --- | --- |",
+    ]
+    for k, (low, high) in enumerate(zip((0, 0.2, 0.4, 0.6, 0.8), (0.2, 0.4, 0.6, 0.8, 1))):
+        cells = [cell for name in ("SP1", "SP2") for cell in stored["reliability"][name][k]]
+        shown = [str(one) if isinstance(one, int) else "–" if one is None else f"{one:.2f}" for one in cells]
+        lines.append(f"| {low:g} to {high:g} | {' | '.join(shown)} |")
+    said = f"{stored['realisations']} realisations of all 252 tests, computed on {stored['date']}."
+    return "\n".join([*lines, "", said]) + "\n"
 
 
 def choices():

@@ -223,3 +223,14 @@ def test_a_body_that_leans_has_not_slipped():
     assert np.abs(slip).max() < 1e-6  # the edge had sunk by some micrometres
     assert opening[0] == pytest.approx(SIDE * s, rel=1e-4)
     assert twist == pytest.approx(0.0, abs=1e-12)
+
+
+def test_a_body_whose_weight_is_next_to_an_edge_lies_where_it_is_stable():
+    """0.4 mm from the edge the springs of its face give way; it comes to lie on the next face too, 0.2 mm higher there."""
+    base = [(x, y, z) for x, z in ((-0.2, 0.0), (4e-4, 0.0), (0.2, 2e-4)) for y in (-0.1, 0.1)]
+    top = [(x, y, 0.6) for x in (-0.2, 0.2) for y in (-0.1, 0.1)]
+    stone = st.Specimen(350.0, (12.0, 15.0, 6.0), np.array(base + top) - (0.0, 0.0, 0.3))
+    seen = st.simulate(stone, st.Motion(0.01, np.zeros(51)), st.DistinctElement3D(), output_interval=0.05)
+    assert np.ptp(seen.tilt) < 1e-9
+    assert 1e-5 < seen.tilt[0, 0] < math.atan(1e-3)
+    assert np.ptp(seen.body_position, axis=0).max() < 1e-9

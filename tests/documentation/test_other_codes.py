@@ -8,8 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 from validation import other_engines as engines
+from validation import tapered_column as tapered
 from validation.space import cylinder, rolling
 
+from stylobate.analysis import verdicts
 from stylobate.column import Drum
 
 REPOSITORY = Path(__file__).parents[2]
@@ -34,6 +36,17 @@ def test_the_stored_table_has_date_versions_and_every_part():
         assert set(one["parts"]) == {"passes"} if name in engines.EXPERIMENTS else {"plane"} < set(one["parts"])
     assert set(engines.passing()) == {*engines.LINES, *engines.EXPERIMENTS} - {"LMGC90"}
     assert not re.search(r"://|/home/|/tmp/|/work/", engines.FILE.read_text(encoding="utf-8"))
+
+
+def test_stored_thresholds_are_those_of_this_code():
+    """Long pulses overturn the column before its first impact: 0.02 g below a threshold it stands, 0.01 g above it falls."""
+    assert tapered.stored()["case"] == tapered.case_digest(), "renew tapered_column.json with: make thresholds"
+    assert all(len(rows) == len(tapered.LENGTHS) for rows in tapered.stored()["thresholds"].values())
+    for name, (model, square, _) in tapered.MODELS.items():
+        found = tapered.thresholds(name)
+        sides = [(length, found[length][0] + aside) for length in (0.8, 1.0) for aside in (-0.02, 0.01)]
+        seen = tapered.verdicts([(tapered.column(square=square), *one) for one in sides], model)
+        assert [one == verdicts.COLLAPSED for one in seen] == [False, True] * 2, name
 
 
 def test_what_the_page_says_of_statics_and_of_free_rocking():

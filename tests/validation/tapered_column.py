@@ -1,7 +1,14 @@
-"""The tapered column of eight blocks under which other codes published the smallest amplitudes that collapse it."""
+"""The tapered column of eight blocks for which other codes published the smallest amplitudes that collapse it.
 
+What takes minutes, the table of thresholds and the map, is kept in ``tapered_column.json``; ``make thresholds`` renews it.
+"""
+
+import hashlib
+import json
+from datetime import date
 from functools import cache
 from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
 
@@ -16,6 +23,9 @@ from .case import AtMost, Case, Near, collected
 
 CASES: list[Case] = []
 case = collected("other codes", CASES)
+
+#: What is kept.
+FILE = Path(__file__).with_suffix(".json")
 
 #: Where the column, the motion and the rows of the other codes are.
 SOURCE = "public repository `thlgrs/HybriDFEM-3.1`, example *Dimitri_Column_TrueDisp*"
@@ -109,29 +119,80 @@ def bounds(columns: list[Column], model, step: float) -> dict[float, list[tuple[
     return found
 
 
-@cache
-def thresholds(name: str) -> dict[float, tuple[float | None, float | None]]:
-    """Smallest amplitude that collapses the column, and from which on every one does, by length [g]."""
+def computed_thresholds(name: str) -> list[tuple[float | None, float | None]]:
+    """Smallest amplitude that collapses the column, and from which on every one does, of each length [g]."""
     model, square, step = MODELS[name]
-    return {length: one for length, (one,) in bounds([column(square=square)], model, step).items()}
+    return [one for (one,) in bounds([column(square=square)], model, step).values()]
 
 
-@cache
-def replicates() -> dict[float, list[float]]:
-    """First collapse of every slightly different column in the plane, by length [g]."""
+def computed_replicates() -> list[list[float]]:
+    """First collapse of every slightly different column in the plane, of each length [g]."""
     columns = list(imperfect_columns(column(), Imperfection(), REPLICATES, seed=0))
     found = bounds(columns, DistinctElement2D(), 0.02)
-    return {length: [first for first, _ in each if first is not None] for length, each in found.items()}
+    return [[first for first, _ in each if first is not None] for each in found.values()]
+
+
+#: Lengths [s] and amplitudes [g] of the map, and the letters of its verdicts.
+MAP_LENGTHS = np.concatenate((np.arange(0.15, 0.45, 0.01), np.arange(0.45, 1.01, 0.05)))
+MAP_SIZES = np.geomspace(0.18, 2.5, 48)
+LETTERS = {v.COLLAPSED: "c", v.STANDS: "s"}
+
+
+def computed_map() -> list[str]:
+    """Verdicts in the plane: a row of letters for each amplitude, c, s, or ? for what is undecided."""
+    runs = [(column(), t, a) for a in MAP_SIZES for t in MAP_LENGTHS]
+    letters = [LETTERS.get(one, "?") for one in verdicts(runs, DistinctElement2D(), 8.0)]
+    return ["".join(letters[k : k + MAP_LENGTHS.size]) for k in range(0, len(letters), MAP_LENGTHS.size)]
+
+
+def case_digest() -> str:
+    """Digest of what is computed: column, motions, grids, models."""
+    models = {name: [model.title, model.damped, square, step] for name, (model, square, step) in MODELS.items()}
+    grids = [*(amplitudes(length, 0.02) for length in LENGTHS), MAP_LENGTHS, MAP_SIZES]
+    grids = [[f"{one:.6f}" for one in row] for row in grids]
+    stones = [one.digest for one in (column(), column(square=True), motion(1.0))]
+    told = [stones, models, grids, TAIL, REPLICATES]
+    return hashlib.sha256(json.dumps(told).encode()).hexdigest()[:12]
+
+
+def renew() -> None:
+    """Compute everything that is kept, and write it."""
+
+    def short(value):
+        return round(float(value), 6) if value is not None else None
+
+    kept = {
+        "date": date.today().isoformat(),
+        "case": case_digest(),
+        "thresholds": {name: [list(map(short, one)) for one in computed_thresholds(name)] for name in MODELS},
+        "replicates": [list(map(short, one)) for one in computed_replicates()],
+        "map": computed_map(),
+    }
+    fresh = FILE.with_suffix(".new")
+    fresh.write_text(json.dumps(kept, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    fresh.replace(FILE)
 
 
 @cache
+def stored() -> dict:
+    """What is kept."""
+    return json.loads(FILE.read_text(encoding="utf-8"))
+
+
+def thresholds(name: str) -> dict[float, tuple[float | None, float | None]]:
+    """Smallest amplitude that collapses the column, and from which on every one does, by length [g]."""
+    return {length: (first, last) for length, (first, last) in zip(LENGTHS, stored()["thresholds"][name], strict=True)}
+
+
+def replicates() -> dict[float, list[float]]:
+    """First collapse of every slightly different column in the plane, by length [g]."""
+    return dict(zip(LENGTHS, stored()["replicates"], strict=True))
+
+
 def plane_map() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Lengths [s], amplitudes [g] and whether the column collapses in the plane (NaN: undecided), for the picture."""
-    lengths = np.concatenate((np.arange(0.15, 0.45, 0.01), np.arange(0.45, 1.01, 0.05)))
-    sizes = np.geomspace(0.18, 2.5, 48)
-    value = {v.COLLAPSED: 1.0, v.STANDS: 0.0}
-    seen = verdicts([(column(), t, a) for a in sizes for t in lengths], DistinctElement2D(), 8.0)
-    return lengths, sizes, np.array([value.get(one, np.nan) for one in seen]).reshape(sizes.size, lengths.size)
+    value = {"c": 1.0, "s": 0.0, "?": np.nan}
+    return MAP_LENGTHS, MAP_SIZES, np.array([[value[one] for one in row] for row in stored()["map"]])
 
 
 @case(
@@ -164,3 +225,7 @@ def plane_thresholds():
 )
 def static_uplift():
     return [column(square=square).uplift_acceleration / g for square in (False, True)]
+
+
+if __name__ == "__main__":
+    renew()

@@ -75,7 +75,7 @@ def table() -> str:
         some = firsts[length]
         cells.append(f"{min(some):.2f} – {np.median(some):.2f} – {max(some):.2f}")
         lines.append(f"| {length:.2f} | {' | '.join(cells)} |\n")
-    return "".join(lines)
+    return "".join(lines) + f"\nOurs computed on {column.stored()['date']}.\n"
 
 
 def mixed(first: float | None, all_from: float | None) -> str:

@@ -115,18 +115,14 @@ def _write(results: Results, found: Found, place: Path, films: bool) -> list[Pat
 def _worst(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
     """Strips, and films, of the worst tests as they are computed."""
     from .. import plots
-    from ..experiments.granite import motion_of
-    from ..models.dem3d.model import DistinctElement3D
+    from ..experiments.granite import again
     from ..plots.animation import write_gif
-    from ..simulate import simulate
 
     files: list[Path] = []
     assert found.granite is not None
-    tests = {test.number: test for test in found.granite.tests}
     for rank, row in enumerate(results.tables["granite_worst"].itertuples(), 1):
         one: Any = row
-        body, motion = found.granite.scans[one.specimen].specimen(), motion_of(tests[one.test], 0.0)
-        response = simulate(body, motion, DistinctElement3D(), output_interval=0.05)
+        response = again(found.granite, one.specimen, one.test)
         observed, computed = ("toppled" if verdict else "stood" for verdict in (one.observed, one.computed))
         title = f"{one.specimen}, test {one.test} ({one.record}): {observed}; computed: {computed}"
         stem = place / f"worst_{rank:02d}_{one.specimen}_{one.test}"

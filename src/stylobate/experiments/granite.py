@@ -16,6 +16,8 @@ from ..constants import g
 from ..models.base import Case
 from ..models.dem3d.model import DistinctElement3D
 from ..motion import Motion
+from ..response import Response
+from ..simulate import simulate
 from . import choices as c
 from . import scores
 from .footprint import mean_of, registered
@@ -69,6 +71,13 @@ def motion_of(test: Test, azimuth: float) -> Motion:
     if azimuth == 0.0:
         return Motion(test.dt, a, name=name)
     return Motion(test.dt, math.cos(azimuth) * a, ay=math.sin(azimuth) * a, name=name)
+
+
+def again(granite: Granite, name: str, number: int, interval: float = 0.05) -> Response:
+    """A test of a specimen as fixed beforehand, with a state every so many seconds."""
+    test = next(one for one in granite.tests if one.number == number)
+    body = granite.scans[name].specimen()
+    return simulate(body, motion_of(test, 0.0), DistinctElement3D(), output_interval=interval)
 
 
 def run(

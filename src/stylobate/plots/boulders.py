@@ -136,16 +136,19 @@ def draw_reliability(table: Any, *, ax: Any = None) -> Figure:
 
     figure, axes = panel(ax, (4.6, 4.6))
     axes.plot([0, 1], [0, 1], color=GREY, linewidth=0.8)
-    for (name, rows), (color, marker, aside) in zip(
-        table.groupby("specimen"), ((BROWN, "o", -0.012), (BLUE, "s", 0.012))
-    ):
+    # numbers of the two specimens on either side of their marks: bins often hold the same share
+    looks = ((BROWN, "o", -0.012, "right"), (BLUE, "s", 0.012, "left"))
+    for (name, rows), (color, marker, aside, side) in zip(table.groupby("specimen"), looks):
         x, y = rows["probability"].to_numpy() + aside, rows["observed"].to_numpy()
         ends = [y - rows["observed_low"], rows["observed_high"] - y]
         axes.errorbar(x, y, ends, fmt=marker, color=color, markersize=5, linewidth=0.9, label=str(name))
         for one in zip(x, y, rows["tests"]):
-            axes.annotate(str(one[2]), one[:2], xytext=(6, -9), textcoords="offset points", fontsize=7.5, color=color)
-    axes.set_xlim(-0.03, 1.03)
-    axes.set_ylim(-0.03, 1.03)
+            place = (-5 if side == "right" else 5, -9)
+            axes.annotate(
+                str(one[2]), one[:2], xytext=place, textcoords="offset points", ha=side, fontsize=7.5, color=color
+            )
+    axes.set_xlim(-0.09, 1.09)
+    axes.set_ylim(-0.06, 1.04)
     axes.set_aspect("equal")
     axes.grid()
     axes.set_xlabel("computed probability of toppling [-]")

@@ -23,6 +23,7 @@ from ..shared import ledger
 from ..shared.stable_step import highest_frequency
 from ..start import Toss
 from .block import SpaceBlock
+from .lying import lying, potential
 
 #: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
 ROUND_UP = 64
@@ -87,6 +88,10 @@ def top_frequency(specimen: Specimen) -> float:
             stiffness += rows.T @ spring @ rows
         highest = max(highest, highest_frequency(stiffness, inverse))
     return highest
+
+
+#: Force that may be left where a body has sunk into its footprint, as a share of its weight.
+SUNK = 1e-9
 
 
 class SpecimenBlock(SpaceBlock):
@@ -165,23 +170,33 @@ class SpecimenBlock(SpaceBlock):
                 self.drum[axis + name][1, lane] = turn[c, a]
 
     def _settle(self, lane: int, turn: np.ndarray, specimen: Specimen) -> None:
-        """Sink and tilt the body until its footprint carries it: Newton's method on depth and two small rotations."""
+        """Sink and tilt the body until its footprint carries it; where that is not stable, let it lie where it is."""
+        kn, weight = vertex_stiffness(specimen)[0], specimen.mass * specimen.gravity
         arms = (specimen.vertices @ specimen.resting.rotation.T)[specimen.resting.footprint]
         rows = np.stack((np.ones(len(arms)), arms[:, 1], -arms[:, 0]), axis=1)  # rise of a vertex per z, θx, θy
-        stiffness = vertex_stiffness(specimen)[0] * rows.T @ rows
-        weight = specimen.mass * specimen.gravity
-        force = np.array([weight, 0.0, 0.0])
-        for _ in range(8):
+        found = self._sunk(lane, turn, kn * rows.T @ rows, weight)
+        vertices, height = specimen.vertices @ principal(specimen)[1], float(self.drum["z"][1, lane])
+        if found is not None and np.linalg.eigvalsh(potential(vertices, found, height, kn, weight)[2])[0] > 0.0:
+            return
+        turn, height = lying(vertices, turn, specimen.resting.height, kn, weight)
+        self.drum["z"][1, lane] = height
+        self._turn(lane, turn)
+        self._sunk(lane, turn, potential(vertices, turn, height, kn, weight)[2], weight)
+
+    def _sunk(self, lane: int, turn: np.ndarray, stiffness: np.ndarray, weight: float) -> np.ndarray | None:
+        """Newton's method on depth and two small rotations with one stiffness; the turn it ends with, None without end."""
+        for _ in range(9):
+            carried, moment = self.net(lane)
+            force = np.array([weight - carried[0, 2], -moment[0, 0], -moment[0, 1]])
+            if np.abs(force).max() < 1e-12 * weight:
+                break
             step = -np.linalg.lstsq(stiffness, force, rcond=1e-12)[0]
             self.drum["z"][1, lane] += step[0]
             angle = math.hypot(step[1], step[2])
             if angle > 0.0:
                 turn = rotation(np.array([step[1], step[2], 0.0]) / angle, angle) @ turn
             self._turn(lane, turn)
-            carried, moment = self.net(lane)
-            force = np.array([weight - carried[0, 2], -moment[0, 0], -moment[0, 1]])
-            if np.abs(force).max() < 1e-12 * weight:
-                break
+        return turn if np.abs(force).max() < SUNK * weight else None
 
     def check_start(self, column: Any) -> None:
         """Refuse a start that is not one for a specimen."""
