@@ -59,7 +59,7 @@ def variants(granite: Granite, realisations: int, calibrate: bool, seed: int = 1
         for _ in range(realisations):
             friction, restitution = rng.uniform(*c.FRICTIONS), rng.uniform(*c.RESTITUTIONS)
             azimuth = rng.uniform(-c.AZIMUTH, c.AZIMUTH)
-            mean = mean_of(scans, rng.dirichlet(np.ones(len(scans))))
+            mean = mean_of(scans, rng.dirichlet(np.ones(len(scans))).tolist())
             body = mean.specimen(friction, restitution, like=found[names.index(name)].body)
             found.append(Variant("realisation", name, body, azimuth))
     return found

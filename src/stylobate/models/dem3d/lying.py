@@ -45,6 +45,12 @@ def potential(
     return 0.5 * spring * float(depth @ depth) + weight * height, slope, curvature
 
 
+def turned(turn: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """A turn followed by the two small rotations of a step."""
+    angle = math.hypot(step[1], step[2])
+    return rotation(np.array([step[1], step[2], 0.0]) / angle, angle) @ turn if angle > 0.0 else turn
+
+
 def lying(
     vertices: np.ndarray, turn: np.ndarray, height: float, spring: float, weight: float
 ) -> tuple[np.ndarray, float]:
@@ -64,9 +70,9 @@ def lying(
         step *= min(
             1.0, LARGEST / max(float(np.hypot(step[1], step[2])), 1e-300), LARGEST * size / max(abs(step[0]), 1e-300)
         )
+        there, found = turn, (energy, slope, curvature)
         for _ in range(40):
-            angle = math.hypot(step[1], step[2])
-            there = rotation(np.array([step[1], step[2], 0.0]) / angle, angle) @ turn if angle > 0.0 else turn
+            there = turned(turn, step)
             found = potential(vertices, there, height + float(step[0]), spring, weight)
             if found[0] <= energy:
                 break

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from ...column.found_in_space import rotation
 from ...column.specimen import Specimen
 from ...errors import InputError
 from ...kernels.run_codes import COLLAPSED, FAILED
@@ -23,7 +22,7 @@ from ..shared import ledger
 from ..shared.stable_step import highest_frequency
 from ..start import Toss
 from .block import SpaceBlock
-from .lying import lying, potential
+from .lying import lying, potential, turned
 
 #: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
 ROUND_UP = 64
@@ -185,6 +184,7 @@ class SpecimenBlock(SpaceBlock):
 
     def _sunk(self, lane: int, turn: np.ndarray, stiffness: np.ndarray, weight: float) -> np.ndarray | None:
         """Newton's method on depth and two small rotations with one stiffness; the turn it ends with, None without end."""
+        force = np.full(3, np.inf)
         for _ in range(9):
             carried, moment = self.net(lane)
             force = np.array([weight - carried[0, 2], -moment[0, 0], -moment[0, 1]])
@@ -192,9 +192,7 @@ class SpecimenBlock(SpaceBlock):
                 break
             step = -np.linalg.lstsq(stiffness, force, rcond=1e-12)[0]
             self.drum["z"][1, lane] += step[0]
-            angle = math.hypot(step[1], step[2])
-            if angle > 0.0:
-                turn = rotation(np.array([step[1], step[2], 0.0]) / angle, angle) @ turn
+            turn = turned(turn, step)
             self._turn(lane, turn)
         return turn if np.abs(force).max() < SUNK * weight else None
 
