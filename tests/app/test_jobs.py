@@ -116,6 +116,34 @@ def test_a_domain_is_a_study_file(fresh, asked, tmp_path):
     assert "no frequencies" in fresh.post("/api/jobs", json=domain | {"frequencies": None}).json()["error"]
 
 
+def test_a_run_is_done_before_a_map_that_pauses_for_it(fresh, asked):
+    grid = {"frequencies": "0.5:2:4", "amplitudes": "0.1g:0.4g:3", "motion": None, "kind": "domain"}
+    maps = [fresh.post("/api/jobs", json=asked | grid | {"model": "slow"}).json()["id"] for _ in range(2)]
+    end = time.monotonic() + 10.0
+    while fresh.get(f"/api/jobs/{maps[0]}").json()["total"] == 0 and time.monotonic() < end:
+        time.sleep(0.02)
+    runs = [fresh.post("/api/jobs", json=asked).json()["id"] for _ in range(2)]
+    assert [ended(fresh, one)["state"] for one in runs] == ["done", "done"]
+    while fresh.get(f"/api/jobs/{maps[0]}").json()["state"] != "running" and time.monotonic() < end:
+        time.sleep(0.02)
+    assert [fresh.get(f"/api/jobs/{one}").json()["state"] for one in maps] == ["running", "waiting"]
+    for one in maps:
+        fresh.post(f"/api/jobs/{one}/cancel")
+    assert {ended(fresh, one)["state"] for one in maps} == {"cancelled"}
+
+
+def test_a_run_is_not_given_to_a_process_that_is_ending(fresh, asked):
+    """It has said that the map is interrupted, and is gone a little later."""
+    grid = {"frequencies": "0.5:2:4", "amplitudes": "0.1g:0.4g:3", "motion": None, "kind": "domain"}
+    late = fresh.post("/api/jobs", json=asked | grid | {"model": "late"}).json()["id"]
+    end = time.monotonic() + 10.0
+    while fresh.get(f"/api/jobs/{late}").json()["total"] == 0 and time.monotonic() < end:
+        time.sleep(0.02)
+    run = fresh.post("/api/jobs", json=asked).json()["id"]
+    assert ended(fresh, run)["state"] == "done"
+    fresh.post(f"/api/jobs/{late}/cancel")
+
+
 def test_a_report_is_a_job_on_copies(fresh, asked, tmp_path):
     job = fresh.post("/api/jobs", json=asked).json()["id"]
     ended(fresh, job)

@@ -24,6 +24,9 @@ WAIT, KEEP = 50, 300
 #: What the process says beside its jobs, beside their folder.
 LOG = "worker.log"
 
+#: Kinds of jobs that can be stopped and go on later where they were.
+LONG = ("domain", "ida")
+
 #: Time between two looks at an idle process [s].
 LOOK = 0.5
 
@@ -110,6 +113,7 @@ class Workshop:
             self.jobs[job.id] = job
             self._forget_old()
         self._enqueue(job)
+        self._make_room()
         return job
 
     def again(self, job: Job, commands: list[list[str]] | None = None) -> None:
@@ -152,10 +156,32 @@ class Workshop:
 
     def _enqueue(self, job: Job) -> None:
         with self._wake:
-            self._queue.append(job.id)
+            self._queue.insert(self._turn(job), job.id)
             self._wake.notify()
         self._changed(job)
         job.save()
+
+    def _turn(self, job: Job) -> int:
+        """Where a job comes in the queue: after all others, but before the long ones where it is none of them."""
+        return len(self._queue) if job.kind in LONG else self._before_long()
+
+    def _before_long(self) -> int:
+        kinds = [self.jobs[one].kind if one in self.jobs else "" for one in self._queue]
+        return next((k for k, kind in enumerate(kinds) if kind in LONG), len(kinds))
+
+    def _make_room(self) -> None:
+        """Let the long job that is computed pause, where a short one waits: its ledger keeps what is finished."""
+        with self._lock:
+            current = self.jobs.get(self._current or "")
+            first = self.jobs.get(self._queue[0]) if self._queue else None
+            if current is None or first is None or current.state != RUNNING:
+                return
+            if current.kind not in LONG or first.kind in LONG:
+                return
+            current.state = WAITING
+            self._queue.insert(self._before_long(), current.id)
+            self._changed(current)
+            self._stop_process()
 
     def _work(self) -> None:
         while not self._closing:
@@ -165,10 +191,13 @@ class Workshop:
             if self._closing or process.poll() is not None or not self._queue:
                 continue
             with self._lock:
+                if not self._queue or process.poll() is not None:  # it was stopped while this waited for the lock
+                    continue
                 job = self.jobs.get(self._queue.popleft())
                 if job is None or job.state != WAITING:
                     continue
                 self._current, job.state, job.started = job.id, RUNNING, time.time()
+                job.results, job.warnings = [], []
                 self._changed(job)
             try:
                 self._follow(job, process)
@@ -204,6 +233,8 @@ class Workshop:
             if what.get("id") == job.id and self._hear(job, what):
                 return
         code = process.wait()
+        if job.state == WAITING:  # it makes room for another one
+            return
         if job.state == CANCELLED:
             self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
         else:
@@ -231,6 +262,8 @@ class Workshop:
         if what["code"] == 0:
             self._changed(job)
             return False
+        if job.state == WAITING:
+            return True
         if what["code"] == INTERRUPTED or job.state == CANCELLED:
             self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
             return True
