@@ -111,8 +111,8 @@ def test_the_whole_story(open_page, tmp_path):
     expect(page.locator("#run-case")).to_contain_text("shaking <b>.txt")
 
     # its report, in a tab of its own, where nothing of it can run
-    page.click("text=Report")
-    report = page.locator("text=Open the report")
+    page.click("#run-said button:has-text('Report')")
+    report = page.locator("#run-said a:has-text('Open the report')")
     expect(report).to_be_visible(timeout=25_000)
     with page.expect_popup() as opened:
         report.click()
