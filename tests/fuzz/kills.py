@@ -29,7 +29,6 @@ from stylobate.cli import signals
 signals.listen()
 import stylobate.campaign.ledger as ledger
 notes, record = os.open(sys.argv.pop(1), os.O_WRONLY | os.O_APPEND | os.O_CREAT), ledger.Ledger.record
-os.utime(notes)
 def noted(self, number, row):
     record(self, number, row)
     os.write(notes, f"{time.time()} {number} {os.path.abspath(self.path)}\\n".encode())
@@ -39,6 +38,7 @@ if "reproduce" in sys.argv:
     import tiny_study
     tiny_study.play()
 from stylobate.cli.start import main
+os.utime(notes)
 main()
 """
 

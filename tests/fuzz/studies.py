@@ -102,7 +102,7 @@ def one(rng: random.Random, folder: Path) -> Tried:
 
 def listens(notes: Path, since: float) -> bool:
     """Whether the program listens to signals: a Python that has just begun does not."""
-    return notes.exists() and notes.stat().st_mtime >= since - 0.01
+    return notes.exists() and notes.stat().st_mtime > since
 
 
 def wait(process: subprocess.Popen, folder: Path, rng: random.Random) -> None:
