@@ -198,7 +198,7 @@ def test_chunks_are_about_as_long_as_they_should_be():
     client = Client()
     handed_out(client, 5_000)
     sizes = [len(one) for one in client.chunks]
-    assert sizes[0] == 64
+    assert sizes[0] == 128
     assert max(sizes) <= 20_000
     assert all(after <= 8 * max(sizes[: k + 1]) for k, after in enumerate(sizes[1:]))
     few = Client(threads=30)

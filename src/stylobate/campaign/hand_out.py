@@ -1,4 +1,7 @@
-"""Cases handed out to Dask workers in chunks of about ten seconds, and what is done when workers are lost.
+"""Cases handed out to Dask workers in chunks, and what is done when workers are lost.
+
+At the end of a chunk the lanes of its worker run empty one after the other: a chunk must fill them several times. What has
+finished is sent at once, so that a long chunk costs nothing but the computing of a lost worker.
 
 The scheduler computes a lost worker's chunks again by itself. A chunk that was on too many workers when they died is cut
 into parts, down to the one case. A single case is handed out once more alone, when nothing else is under way: only what
@@ -27,13 +30,17 @@ from .digests import samples_of
 Client = Future = Any
 
 #: A chunk takes about so long [s], and is at most so many times as large as what has been timed.
-LENGTH, GROWTH = 10.0, 8
+LENGTH, GROWTH = 20.0, 8
 
-#: Cases of a chunk before anything has been timed, fewest while there are enough for all, and most.
-FIRST, FEWEST, MOST = 64, 16, 20_000
+#: Cases of a chunk before anything has been timed, and most.
+FIRST, MOST = 128, 20_000
 
-#: Chunks on their way for each thread of the cluster, and parts that a chunk is cut into.
-AHEAD, PARTS = 2, 8
+#: Fewest cases of a chunk while there are enough for all: of long runs, of short ones, and the time that decides [s].
+FEWEST_LONG, FEWEST, NOT_LONGER = 32, 128, 60.0
+
+#: Chunks on their way for each thread of the cluster; share of what is left for all threads that one chunk takes; and parts
+#: that a chunk is cut into.
+AHEAD, SHARE, PARTS = 2, 0.8, 8
 
 #: Motions that the cluster keeps.
 MOTIONS = 512
@@ -119,9 +126,13 @@ class HandOut:
         left = len(self.cases) - self._next
         if not left:
             return []
-        fair = max(math.ceil(left / (AHEAD * self._threads)), min(FEWEST, math.ceil(left / self._threads)))
-        timed = FIRST if math.isnan(self._each) else math.ceil(LENGTH / max(self._each, 1e-9))
-        count = max(1, min(left, fair, max(timed, 1), GROWTH * self._largest, MOST))
+        fewest, timed = FEWEST, FIRST
+        if not math.isnan(self._each):
+            fewest = int(min(max(NOT_LONGER / self._each, FEWEST_LONG), FEWEST))
+            timed = max(int(LENGTH / self._each), fewest)
+        each = left / self._threads
+        fair = max(math.ceil(SHARE * each), min(fewest, math.ceil(each)))
+        count = max(1, min(left, fair, timed, GROWTH * self._largest, MOST))
         self._next += count
         return list(range(self._next - count, self._next))
 
@@ -214,7 +225,7 @@ class HandOut:
 
     def _time(self, took: float, count: int) -> None:
         """A chunk of so many cases took so long [s]."""
-        self._each, self._largest = took / count, max(self._largest, count)
+        self._each, self._largest = max(took / count, 1e-9), max(self._largest, count)
 
     def _check(self) -> None:
         if self.client.status != "running":
