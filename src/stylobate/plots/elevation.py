@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -111,8 +111,7 @@ class _Sheet:
         cls, axes: Axes, low: np.ndarray, high: np.ndarray, *, left: float, right: float, below: float, above: float
     ) -> _Sheet:
         """Limits with room for words on each side [points], in true proportion."""
-        figure = axes.get_figure(root=True)
-        assert figure is not None
+        figure = cast(Figure, cast(Figure, axes.figure).figure)  # the whole one, where axes stand in a part of it
         place = axes.get_position()
         wide, tall = figure.get_figwidth() * place.width * 72.0, figure.get_figheight() * place.height * 72.0
         size = high - low
