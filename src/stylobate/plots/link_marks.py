@@ -37,7 +37,7 @@ def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.n
         if link.straight:
             ends = seen(link.lower, low), seen(link.upper, high)
         else:
-            half = min(link.lift, STROKE * float(column.heights[link.upper - 1]))
+            half = link.lift if np.isfinite(link.lift) else STROKE * float(column.heights[link.upper - 1])
             up = np.array([0.0, 0.0, half])
             ends = seen(link.lower, low - up), seen(link.lower, low + up)
         marks.append((np.array(ends), response.time[index] >= broken.get(link.name, np.inf)))

@@ -8,7 +8,7 @@ import math
 from ..drums import contact as ct
 from ..drums.body import move
 from ..drums.frame import run_chunks
-from ..drums.lanes import block_types, check_finite, fill_ground, joint_state, upper_face
+from ..drums.lanes import check_finite, fill_ground, joint_state, upper_face
 from ..drums.lanes import observe as observe_drums
 from ..drums.links import add_to_ledger, look_at_links, note_slack, pulled, shear, some_leaves
 from ..jit import apart, kernel, strict
@@ -16,7 +16,7 @@ from ..run_codes import CHUNK, LANES
 from . import step
 
 #: The models read these here.
-__all__ = ["advance", "block_types", "forces", "joint_state", "ledger"]
+__all__ = ["advance", "forces", "joint_state", "ledger"]
 
 forces_of_joints, ledger_of_joints = step.forces, step.ledger
 

@@ -17,7 +17,6 @@ from .look import observe as observe_drums
 from .move import ledger as ledger_of_joints
 from .move import move
 from .pose import cross, in_body, in_space
-from .records import block_types
 
 #: The models read these here.
 __all__ = ["LAWS"]
@@ -283,9 +282,7 @@ def advance_chips(drum, joint, lane, ground, feed, watch, chunks):
 
 
 def _law(forces, advance):
-    return SimpleNamespace(
-        forces=forces, advance=advance, ledger=ledger, joint_state=joint_state, block_types=block_types
-    )
+    return SimpleNamespace(forces=forces, advance=advance, ledger=ledger, joint_state=joint_state)
 
 
 #: What a model asks of the module of a law, by that module's name.

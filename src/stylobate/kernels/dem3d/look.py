@@ -107,7 +107,6 @@ def observe(drum, joint, lane, feed, watch):
     """
     drums = drum.shape[0] - 1
     o = lane[0]
-    tied = watch[0].hold.shape[0] > LANES
     f = feed[0]
     w = watch[0]
     for l in range(LANES):
@@ -186,7 +185,7 @@ def observe(drum, joint, lane, feed, watch):
             about = math.sqrt(u.wx[l] * u.wx[l] + u.wy[l] * u.wy[l] + u.wz[l] * u.wz[l])
             tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
             gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
-            held = w.hold[j * LANES + l] * each if tied else 0.0
+            held = w.hold[j * LANES + l] * each  # by links
             lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + gyro + held)
             w.going[l] = 1.0 if (out > 0.0) & (outward > 0.0) else w.going[l]
             hit = (lost | parted | is_lying(u, l)) & standing

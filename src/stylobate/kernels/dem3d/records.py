@@ -72,9 +72,7 @@ RINGS, CHIPS = 3, 6
 PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")
 
 
-def block_types(
-    damped: bool, corners: int = 1, lost: int = 1, rolling: bool = False, links: bool = False
-) -> tuple[np.dtype, ...]:
+def block_types(damped: bool, corners: int = 1, lost: int = 1, rolling: bool = False) -> tuple[np.dtype, ...]:
     """Record types (drum, joint, lane, ground, feed, watch).
 
     Whether there are dashpots (``d`` of more than one row), corners (``px``), rings or chips (``lost``, so many rows) and
@@ -115,8 +113,7 @@ def block_types(
             )
         ),
         np.dtype(
-            fields("dt beta alpha local pivot free work shear visc", g=3, p=3, roll=2 if rolling else 1)
-            + link_fields(links)
+            fields("dt beta alpha local pivot free work shear visc", g=3, p=3, roll=2 if rolling else 1) + link_fields()
         ),
         np.dtype(fields("", a=3)),
         np.dtype(counts("x y z last step end") + fields("ratio factor", r=9)),
@@ -124,6 +121,6 @@ def block_types(
             counts("status follow when which parted about")
             + fields("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
             + fields(" ".join(PEAKS) + " k" + " k".join(PEAKS))
-            + hold_field(links)
+            + hold_field()
         ),
     )

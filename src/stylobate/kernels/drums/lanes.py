@@ -55,7 +55,7 @@ from .link_records import hold_field, link_fields
 FAR = 1.0e6
 
 
-def block_types(points, damped, links=False):
+def block_types(points, damped):
     """Record types (drum, joint, lane, ground, feed, watch).
 
     The types carry the number of contact points per joint and whether there are dashpots (``dn``, ``ds`` of more than one
@@ -74,13 +74,13 @@ def block_types(points, damped, links=False):
         np.dtype(
             fields("kn ks co mu over fx fz mu_ ml", "fs fn") + [(name, np.float64, dashpots) for name in ("dn", "ds")]
         ),
-        np.dtype(fields("dt g gx beta alpha local work shear visc px pz", "xi sh") + link_fields(links)),
+        np.dtype(fields("dt g gx beta alpha local work shear visc px pz", "xi sh") + link_fields()),
         np.dtype(fields("ax az")),
         np.dtype([(name, np.int64, row) for name in ("x", "z", "last", "step", "end")] + fields("ratio factor bc bs")),
         np.dtype(
             [(name, np.int64, row) for name in ("status", "follow", "when", "which", "side", "parted", "about")]
             + fields("amax vmax stood top open turn wmax wide going ktop kopen kturn m x z px")
-            + hold_field(links)
+            + hold_field()
         ),
     )
 
@@ -142,7 +142,6 @@ def observe(drum, joint, lane, feed, watch):
     o = lane[0]
     f = feed[0]
     w = watch[0]
-    tied = w.hold.shape[0] > LANES
     top = drum[drums]
     for l in range(LANES):
         # peaks of a column that stands: they end with its collapse
@@ -193,7 +192,7 @@ def observe(drum, joint, lane, feed, watch):
             outward = side * (w.px[l] * each - (v.vx[l] - v.w[l] * (end_z - v.z[l])))
             down = max(o.g[l] - w.vmax[l], 0.0)
             against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
-            held = w.hold[j * LANES + l] * each if tied else 0.0
+            held = w.hold[j * LANES + l] * each  # by links
             lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + held)
             w.going[l] = 1.0 if (out > 0.0) & (outward > 0.0) else w.going[l]
             parted = hi <= lo

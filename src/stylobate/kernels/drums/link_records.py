@@ -24,14 +24,15 @@ Legend of ``lane[1 + m]``, link m (row 0 is the lane itself; one number for all 
     mwhen          step after which it was found broken; −1
     mhold          largest moment that it can set, whole, against overturning about a joint that it crosses [N m]
 
-Of ``watch``: hold, the same of all whole links by joint, one joint after the other [N m]; of LANES numbers without links.
+Of ``watch``: hold, the same of all whole links by joint, one joint after the other [N m]; 0 without links. The records are
+those of columns without links too, so that what both share is compiled once.
 """
 
 import numpy as np
 
 from ..run_codes import LANES
 
-#: Most joints of a column with links.
+#: Most joints of a column.
 MOST_JOINTS = 200
 
 #: What all lanes share, whole numbers and others, and what each lane has of its own.
@@ -43,10 +44,8 @@ OWN = (
 )
 
 
-def link_fields(links: bool) -> list[tuple]:
-    """Fields that the records of lanes have besides where there are links; their rows behind the first are links then."""
-    if not links:
-        return []
+def link_fields() -> list[tuple]:
+    """Fields that the records of lanes have besides: their rows behind the first, where there are some, are links."""
     return [
         *((name, np.int64) for name in NUMBERS.split()),
         *((name, np.float64) for name in SHARED.split()),
@@ -55,6 +54,6 @@ def link_fields(links: bool) -> list[tuple]:
     ]
 
 
-def hold_field(links: bool) -> list[tuple]:
+def hold_field() -> list[tuple]:
     """Field that the records of what is watched have besides."""
-    return [("hold", np.float64, (MOST_JOINTS * LANES if links else LANES,))]
+    return [("hold", np.float64, (MOST_JOINTS * LANES,))]

@@ -120,13 +120,13 @@ class DistinctElement2D(SteppedDrums):
         """Module of kernels, for so many links."""
         return importlib.import_module(f"...kernels.dem2d.{'linked' if links else 'step'}", __package__)
 
-    def record_types(self, links: int = 0) -> tuple:
+    def record_types(self) -> tuple:
         """Record types of the kernel's arrays."""
-        return self.kernel(links).block_types(self.points, self.damped, links > 0)
+        return self.kernel().block_types(self.points, self.damped)
 
     def make_block(self, drums: int, options: RunOptions, links: int = 0, which: tuple = ()) -> DrumBlock:
         """A block of lanes for columns of so many drums, and of so many links which these are."""
-        kernel, types = self.kernel(links), self.record_types(links)
+        kernel, types = self.kernel(links), self.record_types()
         return DrumBlock(kernel, types, self.pack, drums, options, self.cost(drums), links)
 
     def pack(self, column: Column) -> PackedColumn:

@@ -216,14 +216,13 @@ class DistinctElement3D(SteppedDrums):
             return importlib.import_module("...kernels.dem3d.linked", __package__).LAWS[name]
         return importlib.import_module(f"...kernels.dem3d.{name}", __package__)
 
-    def record_types(self, section: str = "circular", links: int = 0) -> tuple:
+    def record_types(self, section: str = "circular") -> tuple:
         """Record types of the kernel's arrays."""
         if section == SPECIMEN:
             return self.kernel(section).block_types()
         corners = len(CORNERS) if section == "rectangular" else 1
         rolling = self.rolling_resistance > 0.0
-        kernel = self.kernel(section, links)
-        return kernel.block_types(self.damped, corners, LOST.get(section, 1), rolling, links > 0)
+        return self.kernel(section).block_types(self.damped, corners, LOST.get(section, 1), rolling)
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it."""
@@ -239,7 +238,7 @@ class DistinctElement3D(SteppedDrums):
         self, drums: int, options: RunOptions, section: str = "circular", links: int = 0, which: tuple = ()
     ) -> SpaceBlock:
         """A block of lanes for columns of so many drums with a section, and of so many links which these are."""
-        kernel, types = self.kernel(section, links), self.record_types(section, links)
+        kernel, types = self.kernel(section, links), self.record_types(section)
         if section == SPECIMEN:
             damping, cost = (self.stiffness_damping, self.mass_damping), self.cost(drums // 32)
             return SpecimenBlock(

@@ -1,0 +1,38 @@
+"""``stylobate run`` on a column file with links: words, JSON, and what is refused."""
+
+from __future__ import annotations
+
+import json
+
+import stylobate as st
+from stylobate.cli.main import call
+from stylobate.column.files import write_column
+
+COLUMN = st.Column.of_drums(
+    [st.Drum(0.6, 0.5, 0.5, 2500.0)] * 2,
+    st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.2),
+)
+DOWELS = """
+[[link]]
+kind = "dowel"
+joints = "all"
+shear_stiffness = 1e7
+shear_capacity = 100.0
+failure = "brittle"
+"""
+
+
+def test_run_tells_which_links_broke_and_models_without_links_refuse(tmp_path, capsys) -> None:
+    path = write_column(COLUMN, tmp_path / "column.toml")
+    path.write_text(path.read_text() + DOWELS)
+    line = ["run", str(path), "--harmonic", "2Hz,0.4g,0.5s", "--replicates", "1"]
+    assert call([*line, "--model", "dem2d", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    broken = [one for one in found["links"] if one["broken_s"] is not None]
+    assert found["links_broken"] == len(broken) == 2
+    assert found["first_link_broken_s"] == min(one["broken_s"] for one in broken) == min(found["link_broken_s"])
+    assert [one["joint"] for one in found["links"]] == [1, 2]
+    assert call([*line, "--model", "rigid-block"]) == 2
+    said = capsys.readouterr().err
+    assert "knows no links" in said
+    assert "Traceback" not in said

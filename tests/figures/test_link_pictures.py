@@ -1,0 +1,44 @@
+"""Marks of links: where they are in a picture, and what becomes of them when they break."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.plots.animation import draw_frame
+from stylobate.plots.filmstrip import draw_filmstrip
+from stylobate.plots.link_marks import link_marks
+from stylobate.plots.scene import scene_of
+
+JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.2)
+LINKS = (
+    st.Dowel(joint=2, at=(0.1, 0.0), shear_stiffness=1e7, shear_capacity=100.0, failure="brittle", embedment=0.1),
+    st.Tie(at=(0.3, 0.0), from_height=0.0, to_height=1.1, axial_stiffness=1e5),
+    st.Layer(joint=1, damping=1.0),
+)
+
+
+@pytest.fixture(scope="module")
+def response() -> st.Response:
+    column = st.Column.of_drums([st.Drum(0.6, 0.5, 0.5, 2500.0)] * 2, JOINT).replace(links=LINKS)
+    return st.simulate(column, st.harmonic(frequency=2.0, amplitude=4.0, duration=0.5), st.DistinctElement2D())
+
+
+def test_marks_stand_where_the_links_are_and_know_which_are_broken(response) -> None:
+    first, last = (link_marks(scene_of(response), index) for index in (0, len(response.time) - 1))
+    assert len(first) == len(last) == 2  # a layer has no mark
+    assert first[0][0] == pytest.approx(np.array([(0.1, 0.5), (0.1, 0.7)]), abs=1e-4)
+    assert first[1][0] == pytest.approx(np.array([(0.3, 0.0), (0.3, 1.1)]), abs=1e-4)
+    assert [broken for _, broken in first] == [False, False]
+    assert [broken for _, broken in last] == [True, False]
+
+
+def test_strips_and_frames_draw_them(response) -> None:
+    strip = draw_filmstrip(response)
+    panels = [axes for axes in strip.axes if any(line.get_gid() == "link" for line in axes.lines)]
+    assert len(panels) > 1
+    styles = {line.get_linestyle() for line in panels[-1].lines if line.get_gid() == "link"}
+    assert styles == {"-", ":"}
+    frame = draw_frame(scene_of(response), 0)
+    assert sum(line.get_gid() == "link" for line in frame.axes[0].lines) == 2
