@@ -284,18 +284,10 @@ def test_columns_that_cannot_be_as_found(found, words, refused, tmp_path):
     assert all(word in sentence for word in words), sentence
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
-        *(["run", "--model", model, "--harmonic", "1Hz,0.1g,1s"] for model in ("housner", "rigid-beam", "rigid-block")),
-        ["pushover"],
-        ["limit"],
-    ],
-    ids=" ".join,
-)
-def test_what_knows_columns_as_built_only(command, refused, tmp_path):
+@pytest.mark.parametrize("model", ["housner", "rigid-beam", "rigid-block"])
+def test_what_knows_columns_as_built_only(model, refused, tmp_path):
     column = write_found(tmp_path, "base_tilt = 1.0\n")
-    sentence = refused(command[0], column, *command[1:])
+    sentence = refused("run", column, "--model", model, "--harmonic", "1Hz,0.1g,1s")
     assert "as found" in sentence
     assert "dem2d" in sentence
 
