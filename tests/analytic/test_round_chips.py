@@ -8,6 +8,7 @@ from validation.space import cylinder, round_column
 
 import stylobate as st
 from stylobate.column.found_in_space import rotation
+from stylobate.kernels.dem3d.chipped import press_chord
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.motion import Motion
@@ -124,6 +125,23 @@ def test_the_law_is_that_of_points_round_the_rim():
         assert np.abs(turned - moment).max() < 1e-3 * scale * ru, lane
         loaded += np.linalg.norm(force) > 0.0
     assert loaded > 12
+
+
+def test_a_chord_without_pressure_has_no_moments_either():
+    """Rounding must not leave a spread of a pressure that is none: friction would grow beyond all bounds on landing."""
+    rng = np.random.default_rng(1)
+    empty = 0
+    for _ in range(2000):
+        low, high = np.sort(rng.uniform(-0.5, 0.5, 2))
+        slope = rng.choice((-1.0, 1.0)) * 10.0 ** rng.uniform(-16.0, -1.0)
+        depth = -slope * rng.choice((low, high)) * (1.0 + rng.choice((0.0, 1e-15, 1e-3, -1e-3)))
+        _, n, first, second, square = press_chord(depth, slope, low, high)
+        far = max(abs(low), abs(high))
+        assert abs(first) <= far * n
+        assert 0.0 <= second <= far * far * n
+        assert square >= 0.0
+        empty += n == 0.0
+    assert empty > 100
 
 
 def pushed(column, azimuths, levels):

@@ -130,8 +130,10 @@ def press_chord(d, slope, low, high):
     p2, q2 = p * p, q * q
     n = max((q - p) * (d + 0.5 * slope * (p + q)), 0.0)
     first = 0.5 * d * (q2 - p2) + slope * (q2 * q - p2 * p) * (1.0 / 3.0)
-    first = min(max(first, low * n), high * n)  # the middle of pressure lies on the chord
-    second = max(d * (q2 * q - p2 * p) * (1.0 / 3.0) + 0.25 * slope * (q2 * q2 - p2 * p2), 0.0)
+    second = d * (q2 * q - p2 * p) * (1.0 / 3.0) + 0.25 * slope * (q2 * q2 - p2 * p2)
+    # pressure lies on the chord, whatever rounding leaves of one that is none
+    first = min(max(first, low * n), high * n)
+    second = min(max(second, 0.0), max(low * low, high * high) * n)
     return q - p, n, first, second, max(d * n + slope * first, 0.0)
 
 
