@@ -8,7 +8,8 @@ its own, and the capacity spectrum check against a code spectrum.
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis import capacity_spectrum
+from stylobate.analysis.capacity_spectrum import capacity_spectrum_check
+from stylobate.analysis.code_spectra import EurocodeSpectrum
 from stylobate.models.rigid_block.block_stack import BlockStack
 
 # %%
@@ -27,8 +28,8 @@ print(f"no force is left where the top has moved by {path.ultimate_displacement:
 # runs in time under records are the better evidence.
 
 stack = BlockStack.of_column(column)
-spectrum = capacity_spectrum.EurocodeSpectrum(0.35 * st.g, "B")
-check = capacity_spectrum.capacity_spectrum_check(stack, path, spectrum)
+spectrum = EurocodeSpectrum(0.35 * st.g, "B")
+check = capacity_spectrum_check(stack, path, spectrum)
 print(f"demand {check.demand:.2f} m, usable {check.usable_displacement:.2f} m")
 print("passed" if check.passed else "not passed")
 

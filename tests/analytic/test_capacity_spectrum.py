@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from stylobate.analysis.capacity_spectrum import EurocodeSpectrum, capacity_spectrum_check
+from stylobate.analysis.capacity_spectrum import capacity_spectrum_check
+from stylobate.analysis.code_spectra import EurocodeSpectrum
 from stylobate.analysis.pushover import pushover
 from stylobate.column import preset
 from stylobate.errors import InputError

@@ -81,7 +81,7 @@ def capacity_spectrum_check(
         With geometric nonlinearity, followed to zero multiplier.
     spectrum : Motion or callable
         A record, whose elastic displacement spectrum is taken, or the spectral displacement [m] as a function of the
-        period [s], such as :class:`EurocodeSpectrum`.
+        period [s], such as those of :mod:`stylobate.analysis.code_spectra`.
     confidence_factor : float
         FC, at least 1: divides the capacity.
     damping : float
@@ -152,66 +152,3 @@ def _demand(spectrum: Motion | Callable[[float], float], period: float, damping:
 
         return float(response_spectrum(spectrum, [period], damping).sd[0])
     return float(spectrum(period))
-
-
-#: Ground types of EN 1998-1:2004, Table 3.2 (type 1 spectrum): S, T_B, T_C, T_D [s].
-GROUND_TYPES = {
-    "A": (1.0, 0.15, 0.4, 2.0),
-    "B": (1.2, 0.15, 0.5, 2.0),
-    "C": (1.15, 0.20, 0.6, 2.0),
-    "D": (1.35, 0.20, 0.8, 2.0),
-    "E": (1.4, 0.15, 0.5, 2.0),
-}
-
-
-@dataclass(frozen=True)
-class EurocodeSpectrum:
-    """Elastic displacement spectrum of EN 1998-1:2004, type 1: S_De(T) = S_e(T) (T/2π)², Eq. 3.2 to 3.5 and 3.7.
-
-    Parameters
-    ----------
-    ground_acceleration : float
-        a_g, design acceleration on ground type A [m/s²].
-    ground_type : {"A", "B", "C", "D", "E"}
-    damping : float
-        Share of the critical damping [-].
-
-    Notes
-    -----
-    Up to T = 4 s, as 3.2.2.2; Annex A for longer periods is not implemented.
-    """
-
-    ground_acceleration: float
-    ground_type: str = "A"
-    damping: float = 0.05
-
-    def __post_init__(self) -> None:
-        check_range("ground_acceleration", self.ground_acceleration, 0.0, 100.0, unit="m/s²")
-        check_range("damping", self.damping, 0.0, 0.5)
-        if self.ground_type not in GROUND_TYPES:
-            raise InputError(f"ground_type is {self.ground_type!r}; allowed are {', '.join(GROUND_TYPES)}.")
-
-    def acceleration(self, period: float) -> float:
-        """S_e(T) [m/s²].
-
-        Raises
-        ------
-        InputError
-            A period outside 0 to 4 s.
-        """
-        t = check_range("period", period, 0.0, 4.0, unit="s", remedy="EN 1998-1, 3.2.2.2 ends there")
-        soil, tb, tc, td = GROUND_TYPES[self.ground_type]
-        eta = max(math.sqrt(10.0 / (5.0 + 100.0 * self.damping)), 0.55)
-        if t <= tb:
-            shape = 1.0 + t / tb * (2.5 * eta - 1.0)
-        elif t <= tc:
-            shape = 2.5 * eta
-        elif t <= td:
-            shape = 2.5 * eta * tc / t
-        else:
-            shape = 2.5 * eta * tc * td / t**2
-        return self.ground_acceleration * soil * shape
-
-    def __call__(self, period: float) -> float:
-        """S_De(T) [m]."""
-        return self.acceleration(period) * (period / (2.0 * math.pi)) ** 2

@@ -120,7 +120,7 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
         vertical=table.motions.vertical,
     )
     suite = request.expand()
-    im, levels = (None, [1.0]) if table.scale is None else _levels(table.scale.im, table.scale.levels)
+    im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
     scatter = table.scatter
     study = Study(
         [load_column(folder / one if (folder / one).is_file() else one) for one in names],
@@ -178,7 +178,8 @@ def _azimuths(asked: Any) -> tuple[float, ...]:
     return tuple(azimuth_range(text).tolist())
 
 
-def _levels(im: str, given: Any) -> tuple[IntensityMeasure | None, list[float]]:
+def levels_of(im: str, given: Any) -> tuple[IntensityMeasure | None, list[float]]:
+    """Intensity measure (None: factors) and levels of it, as typed: a list, one, or ``first:last:number``."""
     measure = None if im == "factor" else parse_measure(im)
     unit = "-" if measure is None else measure.unit
     if isinstance(given, str) and given.count(":") == 2:

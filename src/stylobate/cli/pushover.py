@@ -46,6 +46,14 @@ def pushover(
             "--direction", metavar="0|180", help="Forces to the right or to the left; the weaker one by default."
         ),
     ] = None,
+    check: Annotated[
+        str | None,
+        typer.Option(
+            "--check",
+            metavar="CODE,…",
+            help="By a code: ec8,ag=0.25g,soil=B,type=1,knowledge=KL2, or ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,….",
+        ),
+    ] = None,
     pattern: Pattern = None,
     tilt: Tilt = "0",
     compressive_strength: Strength = None,
@@ -58,6 +66,7 @@ def pushover(
     Its weight, then horizontal forces, over the peak and down to zero. To the right; of a column as found in the direction
     in which the limit analysis finds it weaker.
     """
+    from ..analysis.code_checks import CodeSite, code_check
     from ..analysis.limit import limit_analysis, towards
     from ..analysis.limit_directions import limit_directions
     from ..analysis.pushover import pushover as follow
@@ -68,6 +77,7 @@ def pushover(
     stone = load_column(column)
     loads = the_loads(pattern, tilt, compressive_strength)
     far = None if to is None else number("--to", to)
+    site = None if check is None else CodeSite.typed(check)
     if direction is not None:
         loads["direction"] = number("--direction", direction)
     elif stone.as_found and stone.as_found.in_plane:
@@ -75,6 +85,9 @@ def pushover(
     with console.folder(out, "pushover.csv", "pushover.json", "pushover", "asked-pushover.json") as folder:
         path = follow(stone, control=control, geometric=not linear, to=far, **loads)
         summary, files = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}, []
+        checked = None if site is None else code_check(towards(stone, summary["direction_deg"]), path, site)
+        if checked is not None:
+            summary["check"] = checked.summary()
         if folder is not None:
             from .. import plots
 
@@ -108,7 +121,12 @@ def pushover(
         sentence = (
             f"The column bears {path.largest_multiplier:.4g} g, and more: the path ends before it gives way; {remedy}."
         )
-    console.say(sentence, facts | {"end of the path": path.stop}, files)
+    facts["end of the path"] = path.stop
+    if checked is not None:
+        sentence += f" {checked.sentence}"
+        facts |= {one.name: f"{one.value:.4g} ({one.source})" for one in checked.coefficients}
+        facts["left out"] = "; ".join(checked.left_out)
+    console.say(sentence, facts, files)
 
 
 def summarize(path: PushoverResult) -> dict:

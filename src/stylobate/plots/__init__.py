@@ -24,6 +24,7 @@ from .residuals import draw_residuals
 from .risk import draw_risk, draw_survival
 from .rocking_spectrum import draw_rocking_spectrum
 from .spectra import draw_spectra
+from .states import draw_states
 from .style import save
 from .suite import draw_suite
 from .tosses import draw_toss_errors
@@ -60,6 +61,7 @@ __all__ = [
     "draw_risk",
     "draw_rocking_spectrum",
     "draw_spectra",
+    "draw_states",
     "draw_suite",
     "draw_survival",
     "draw_toss_errors",

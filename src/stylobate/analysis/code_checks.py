@@ -1,0 +1,193 @@
+"""Checks by a code: a rocking mechanism against the spectrum of a site, every coefficient with its source."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from ..errors import InputError, suggest
+from ..models.rigid_block.block_stack import BlockStack
+from ..motion.specs import parse_acceleration, parse_time
+from .capacity_spectrum import SECANT, USABLE, CapacityCheck, capacity_spectrum_check
+from .code_spectra import Coefficient, EurocodeSpectrum, NtcSpectrum
+from .pushover import PushoverResult
+
+#: Confidence factors by how well a structure is known, and where they stand.
+KNOWLEDGE = {
+    "ec8": ({"KL1": 1.35, "KL2": 1.20, "KL3": 1.00}, "EN 1998-3:2005, Table 3.1"),
+    "ntc2018": ({"LC1": 1.35, "LC2": 1.20, "LC3": 1.00}, "Circolare 7/2019, C8.5.4"),
+}
+
+#: q of a mechanism that is checked by its acceleration alone.
+BEHAVIOUR = 2.0
+
+#: What a person types, by code: names, and how they are written in an example.
+_KEYS = {
+    "ec8": ("ag", "soil", "type", "knowledge"),
+    "ntc2018": ("ag", "F0", "Tc*", "soil", "topography", "knowledge"),
+}
+_EXAMPLES = {
+    "ec8": "ec8,ag=0.25g,soil=B,type=1,knowledge=KL2",
+    "ntc2018": "ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,topography=T1,knowledge=LC2",
+}
+
+
+@dataclass(frozen=True)
+class CodeCheck:
+    """Result of :func:`code_check`.
+
+    Parameters
+    ----------
+    code : str
+    displacement : CapacityCheck
+        Nonlinear kinematic analysis: usable displacement against the demand of the spectrum.
+    demand_acceleration : float
+        a_g S / q, which the acceleration that sets the mechanism off is held against [m/s²].
+    coefficients : tuple of Coefficient
+        All that was taken from codes.
+    left_out : tuple of str
+        What the code has besides, in sentences.
+    """
+
+    code: str
+    displacement: CapacityCheck
+    demand_acceleration: float
+    coefficients: tuple[Coefficient, ...]
+    left_out: tuple[str, ...]
+
+    @property
+    def acceleration_factor(self) -> float:
+        """Acceleration of the mechanism over the demand: passed from 1 on [-]."""
+        return self.displacement.acceleration / self.demand_acceleration
+
+    @property
+    def passed(self) -> bool:
+        """Whether one of both checks is passed: the linear one is the simpler and safer of the two."""
+        return self.acceleration_factor >= 1.0 or self.displacement.passed
+
+    @property
+    def sentence(self) -> str:
+        """What it comes to, in a sentence."""
+        d = self.displacement
+        return (
+            f"By {self.code} the mechanism {'passes' if self.passed else 'does not pass'}: acceleration "
+            f"{self.acceleration_factor:.2f} and displacement {d.factor:.2f} times what is demanded."
+        )
+
+    def summary(self) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate pushover --check``."""
+        d = self.displacement
+        return {
+            "code": self.code,
+            "passed": self.passed,
+            "acceleration_m_s2": d.acceleration,
+            "demand_acceleration_m_s2": self.demand_acceleration,
+            "acceleration_factor": self.acceleration_factor,
+            "usable_displacement_m": d.usable_displacement,
+            "demand_displacement_m": d.demand,
+            "displacement_factor": d.factor,
+            "secant_period_s": d.period,
+            "participation": d.participation,
+            "coefficients": [one._asdict() for one in self.coefficients],
+            "left_out": list(self.left_out),
+            "sentence": self.sentence,
+        }
+
+
+@dataclass(frozen=True)
+class CodeSite:
+    """A code, the spectrum of a site by it, and how well the column is known.
+
+    Parameters
+    ----------
+    code : {"ec8", "ntc2018"}
+    spectrum : EurocodeSpectrum or NtcSpectrum
+    knowledge : str
+        ``KL1`` to ``KL3``, or ``LC1`` to ``LC3``.
+    """
+
+    code: str
+    spectrum: EurocodeSpectrum | NtcSpectrum
+    knowledge: str
+
+    @classmethod
+    def typed(cls, text: str) -> CodeSite:
+        """As typed, such as ``ec8,ag=0.25g,soil=B,type=1,knowledge=KL2``.
+
+        Raises
+        ------
+        InputError
+            A code or a name that is not known, a value that is missing or not allowed.
+        """
+        code, *parts = (part.strip() for part in text.split(","))
+        if code not in _KEYS:
+            raise InputError(f"there is no check by {code!r}; {suggest(code, _KEYS)}codes are {', '.join(_KEYS)}.")
+        given: dict[str, str] = {}
+        for part in parts:
+            key, sign, value = (one.strip() for one in part.partition("="))
+            if not sign or key not in _KEYS[code]:
+                raise InputError(f"{part!r} says nothing to a check by {code}; write it as {_EXAMPLES[code]}.")
+            given[key] = value
+        needed = ("ag",) if code == "ec8" else ("ag", "F0", "Tc*")
+        missing = next((key for key in needed if key not in given), None)
+        if missing is not None:
+            raise InputError(f"a check by {code} needs {missing}; write it as {_EXAMPLES[code]}.")
+        levels = KNOWLEDGE[code][0]
+        level = given.get("knowledge", next(iter(levels)))
+        if level not in levels:
+            raise InputError(f"knowledge is {level!r}; allowed by {code} are {', '.join(levels)}.")
+        ag, soil = parse_acceleration(given["ag"]), given.get("soil", "A")
+        if code == "ec8":
+            kind = given.get("type", "1")
+            if kind not in ("1", "2"):
+                raise InputError(f"type of the spectrum is {kind!r}; allowed are 1 and 2.")
+            return cls(code, EurocodeSpectrum(ag, soil, kind=int(kind)), level)
+        try:
+            amplification = float(given["F0"])
+        except ValueError:
+            raise InputError(f"F0 is {given['F0']!r}; allowed is a number from 2.2.") from None
+        corner = parse_time(given["Tc*"])
+        return cls(code, NtcSpectrum(ag, amplification, corner, soil, given.get("topography", "T1")), level)
+
+
+def code_check(stack: BlockStack, path: PushoverResult, site: CodeSite) -> CodeCheck:
+    """Check the mechanism of a pushover path by a code.
+
+    Parameters
+    ----------
+    stack : BlockStack
+        Of the column, as pushed (:func:`stylobate.analysis.limit.towards`).
+    path : PushoverResult
+        With geometric nonlinearity, followed to zero multiplier.
+    site : CodeSite
+
+    Notes
+    -----
+    Kinematic analysis of a local mechanism, linear and nonlinear, of Circolare 617/2009, C8A.4.2; EN 1998-3 has no clause
+    for rocking blocks, so that with ``ec8`` only the spectrum and the confidence factor are the Eurocode's.
+    """
+    levels, table = KNOWLEDGE[site.code]
+    factor = levels[site.knowledge]
+    found = capacity_spectrum_check(stack, path, site.spectrum, confidence_factor=factor)
+    kinematic = "Circolare 617/2009, C8A.4.2.3"
+    coefficients = (
+        *site.spectrum.coefficients,
+        Coefficient("confidence factor", factor, f"{table}, {site.knowledge}"),
+        Coefficient("q", BEHAVIOUR, kinematic),
+        Coefficient("d_u*/d_0*", USABLE, kinematic),
+        Coefficient("d_s*/d_u*", SECANT, kinematic),
+    )
+    left_out = [
+        "the clause for elements high up in a building (the column stands on the ground)",
+        "partial factors and importance: a_g is taken as given",
+    ]
+    if site.code == "ec8":
+        left_out.append("EN 1998-3 has no clause for rocking blocks: the kinematic check is the Italian one")
+    else:
+        left_out += [
+            "the displacement shares and secant periods of Circolare 7/2019, C8.7.1.2.1, which could not be checked against "
+            "its print: those of 617/2009 stand in for them",
+            "the grid of a_g, F0 and Tc*: give those of your site",
+        ]
+    demand = site.spectrum.ground_acceleration * site.spectrum.soil_factor / BEHAVIOUR
+    return CodeCheck(site.code, found, demand, coefficients, tuple(left_out))

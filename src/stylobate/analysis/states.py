@@ -1,0 +1,275 @@
+"""Was it worth it? Several states of one column under the same records: fragility, paired differences, what links bore."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..campaign.cases import Study
+from ..campaign.runner import Progress
+from ..column import Column
+from ..column.scatter import Scatter
+from ..errors import InputError
+from ..models.base import Model
+from ..motion import Motion
+from ..motion.intensity_specs import IntensityMeasure
+from .evidence import Evidence, evidence
+from .fragility import SAMPLES, Fragility, bootstrap, fragility, intervals
+from .limit_states import EXCEEDED, OPEN
+from .studies import StudyResult, run_study
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Smallest number of states that can be compared.
+FEWEST_STATES = 2
+
+
+@dataclass(frozen=True)
+class Difference:
+    """What a state differs by from the first one, the same records, levels and twins against one another.
+
+    Parameters
+    ----------
+    state, against : str
+        Labels.
+    pairs : int
+        Pairs of runs that both have a verdict.
+    saved, harmed : int
+        Pairs in which only the other state exceeds the limit state, and only this one.
+    share, share_low, share_high : float
+        Share of the pairs that exceed it, less that of the other state, and its interval over records [-].
+    ratio, ratio_low, ratio_high : float
+        Median capacity over that of the other state, and its interval over records [-]; NaN where a curve is missing.
+    """
+
+    state: str
+    against: str
+    pairs: int
+    saved: int
+    harmed: int
+    share: float
+    share_low: float
+    share_high: float
+    ratio: float
+    ratio_low: float
+    ratio_high: float
+
+    @property
+    def sentence(self) -> str:
+        """What it comes to, in a sentence."""
+        sure = "" if self.share_low > 0.0 or self.share_high < 0.0 else ", which may be chance"
+        word = "more" if self.share > 0.0 else "fewer"
+        interval = f"{100.0 * self.share_low:+.0f} to {100.0 * self.share_high:+.0f} %"
+        said = (
+            f"{self.state}: {100.0 * abs(self.share):.0f} % {word} of the runs than {self.against} ({interval}){sure}"
+        )
+        if self.share == 0.0:
+            said = f"{self.state}: as many of the runs as {self.against} ({interval})"
+        return f"{said}; it saves {self.saved} of {self.pairs} and harms {self.harmed}."
+
+
+@dataclass(frozen=True, eq=False)
+class StateComparison:
+    """Several states of a column under the same motions.
+
+    Parameters
+    ----------
+    labels : tuple of str
+        The first one is what the others are compared with.
+    columns : tuple of Column
+    result : StudyResult
+        All runs.
+    table : pandas.DataFrame
+        One row per run, ``state`` its label.
+    curves : tuple of Fragility or None
+        None where every run exceeds the limit state, or none does.
+    differences : tuple of Difference
+        Of every state after the first.
+    state : str
+        The limit state.
+    """
+
+    labels: tuple[str, ...]
+    columns: tuple[Column, ...]
+    result: StudyResult
+    table: pandas.DataFrame
+    curves: tuple[Fragility | None, ...]
+    differences: tuple[Difference, ...]
+    state: str
+
+    @property
+    def links(self) -> pandas.DataFrame:
+        """One row per link that acts: state, link, runs, in how many it broke, largest force over capacity."""
+        import pandas
+
+        from ..column.link_laws import properties
+
+        rows: list[dict[str, Any]] = []
+        for label, column in zip(self.labels, self.columns, strict=True):
+            mine = self.table[self.table["state"] == label]
+            if "link_broken_s" not in mine:
+                continue
+            names = [one.name for one in properties(column) if one.acts]
+            told = [(b, u) for b, u in zip(mine["link_broken_s"], mine["link_utilisation"]) if isinstance(b, list)]
+            for k, name in enumerate(names):
+                broke = [b[k] for b, _ in told if b[k] is not None]
+                used = [u[k] for _, u in told]
+                rows.append(
+                    {
+                        "state": label,
+                        "link": name,
+                        "runs": len(told),
+                        "broken": len(broke),
+                        "largest_over_capacity": max(used, default=math.nan),
+                        "median_over_capacity": float(np.median(used)) if used else math.nan,
+                    }
+                )
+        return pandas.DataFrame(rows)
+
+    def summary(self) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate compare``."""
+        links = self.links
+        return {
+            "state": self.state,
+            "states": [
+                {
+                    "label": label,
+                    "column": column.name,
+                    "runs": int((self.table["state"] == label).sum()),
+                    "collapsed": int(self.table.loc[self.table["state"] == label, "collapsed"].fillna(0).sum()),
+                    "fragility": None if curve is None else curve.summary(),
+                    "links_broken": int(links.loc[links["state"] == label, "broken"].sum()) if len(links) else 0,
+                }
+                for label, column, curve in zip(self.labels, self.columns, self.curves, strict=True)
+            ],
+            "differences": [dataclasses.asdict(one) | {"sentence": one.sentence} for one in self.differences],
+            "links": links.astype(object).where(links.notna(), None).to_dict("records"),
+        }
+
+
+def compare_states(
+    states: Mapping[str, Column],
+    motions: Sequence[Motion],
+    model: Model,
+    levels: Sequence[float] = (1.0,),
+    im: IntensityMeasure | None = None,
+    *,
+    realisations: int = 0,
+    scatter: Scatter | None = None,
+    seed: int = 0,
+    state: str = "collapse",
+    tail: float = 0.0,
+    samples: int = SAMPLES,
+    confidence: float = 0.95,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    out: str | Path | None = None,
+) -> StateComparison:
+    """Shake several states of a column with the same motions at the same levels, and compare what becomes of them.
+
+    Parameters
+    ----------
+    states : mapping of str to Column
+        By label; the first one is what the others are compared with.
+    motions : sequence of Motion
+        At least ten records for curves; fewer give shares only.
+    model : Model
+    levels : sequence of float
+        Of the intensity measure, or factors without one.
+    im : IntensityMeasure, optional
+        That motions are scaled to.
+    realisations, scatter, seed
+        Twins of every state, as of a study; the same seed draws the same deviations for each.
+    state : str
+        Limit state, as of ``stylobate fragility``.
+    tail, threads, progress
+        As of :func:`stylobate.run_study`.
+    samples, confidence
+        Of the bootstrap over records. All states take the same samples of the records, so that differences are paired.
+    out : path, optional
+        Folder that keeps the runs.
+
+    Raises
+    ------
+    InputError
+        Fewer than two states, or input that the model refuses.
+    """
+    labels = tuple(states)
+    if len(labels) < FEWEST_STATES:
+        raise InputError(f"{len(labels)} state of a column is given; give at least {FEWEST_STATES} to compare.")
+    named = tuple(column.replace(name=label) for label, column in states.items())
+    study = Study(
+        named, motions, [model], levels, im, realisations=realisations, scatter=scatter, seed=seed, tail=tail
+    )  # fmt: skip
+    result = run_study(study, out, threads=threads, progress=progress)
+    table = result.table.rename(columns={"column": "state"})
+    table["state"] = np.repeat(labels, len(table) // len(labels))
+    told = [evidence(table[table["state"] == label], im, state, label, "-") for label in labels]
+    curves = tuple(_curve(one, samples, seed, confidence) for one in told)
+    differences = tuple(
+        _difference(told[0], one, curves[0], curve, samples, seed, confidence)
+        for one, curve in zip(told[1:], curves[1:], strict=True)
+    )
+    return StateComparison(labels, named, result, table, curves, differences, state)
+
+
+def _curve(one: Evidence, samples: int, seed: int, confidence: float) -> Fragility | None:
+    try:
+        return fragility(one, samples=samples, seed=seed, confidence=confidence)
+    except InputError:  # too few records, or all runs say the same: shares are told without a curve
+        return None
+
+
+def _difference(
+    first: Evidence,
+    other: Evidence,
+    first_curve: Fragility | None,
+    other_curve: Fragility | None,
+    samples: int,
+    seed: int,
+    confidence: float,
+) -> Difference:
+    """Pair by pair: the runs of both states come in the same order of record, level and twin."""
+    known = (first.codes >= 0) & (other.codes >= 0)
+    was, now = first.codes[known] == EXCEEDED, other.codes[known] == EXCEEDED
+    names, owner = np.unique(first.records, return_inverse=True)
+    change, mine = now.astype(float) - was, owner[known]
+    share = float(change.mean()) if len(change) else math.nan
+    weight = np.random.default_rng(seed).multinomial(len(names), np.full(len(names), 1.0 / len(names)), samples)
+    sums, runs = np.bincount(mine, change, len(names)), np.bincount(mine, minlength=len(names))
+    drawn = (weight @ sums) / np.maximum(weight @ runs, 1)
+    tail = 0.5 - 0.5 * confidence
+    low, high = np.quantile(drawn, [tail, 1.0 - tail]) if len(change) else (math.nan, math.nan)
+    ratio = (math.nan, math.nan, math.nan)
+    if first_curve is not None and other_curve is not None:
+        ratio = _ratio(first, other, first_curve, other_curve, samples, seed)
+    return Difference(
+        other.name, first.name, int(known.sum()), int((was & ~now).sum()), int((now & ~was).sum()), share, float(low),
+        float(high), *ratio,
+    )  # fmt: skip
+
+
+def _ratio(
+    first: Evidence, other: Evidence, first_curve: Fragility, other_curve: Fragility, samples: int, seed: int
+) -> tuple[float, float, float]:
+    """Ratio of the medians and its interval: both curves fitted to the same samples of the records."""
+    drawn = []
+    known = (first.codes >= 0) & (other.codes >= 0)
+    for one in (first, other):  # what both know, so that both draw the same records
+        low, high, owner = intervals(one, np.where(known, one.codes, OPEN), "runs")
+        drawn.append(bootstrap(low, high, owner, samples, np.random.default_rng(seed))[:, 0])
+    best = other_curve.log_median - first_curve.log_median
+    with np.errstate(invalid="ignore"):
+        change = drawn[1] - drawn[0]
+    change = change[np.isfinite(change)]
+    if len(change) < samples // 2:
+        return math.exp(best), math.nan, math.nan
+    low, high = first_curve.limits(best, change)
+    return math.exp(best), float(np.exp(low)), float(np.exp(high))

@@ -1,0 +1,106 @@
+"""``stylobate compare --as-built … --with …``: was a measure worth it, under the same records."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..errors import InputError
+
+if TYPE_CHECKING:
+    from ..analysis.states import StateComparison
+    from ..models.base import Model
+    from ..motion.request import MotionRequest
+
+
+def the_states(as_built: str | None, as_found: str | None, strengthened: list[str] | None) -> dict[str, str]:
+    """Columns to be compared, by label; those with a measure are called after their files."""
+    found = {name: text for name, text in (("as built", as_built), ("as found", as_found)) if text is not None}
+    for text in strengthened or ():
+        label = Path(text).stem
+        if label in found:
+            raise InputError(f"two of the states are called {label!r}; rename one of the files.")
+        found[label] = text
+    if len(found) == 1:
+        raise InputError(
+            f"only the state {next(iter(found))!r} is given; give one to compare it with (--as-built, --as-found, --with)."
+        )
+    return found
+
+
+def run(
+    states: dict[str, str],
+    request: MotionRequest,
+    model: Model,
+    im: str | None,
+    levels: str | None,
+    state: str,
+    twins: dict[str, Any] | None,
+    tail: float,
+    threads: int,
+    out: Path | None,
+    as_json: bool,
+) -> None:
+    """Compare states of a column and tell what came of it."""
+    from ..analysis.limit_states import parse_state
+    from ..analysis.states import compare_states
+    from ..campaign.study_files import levels_of
+    from ..column.files import load_column
+    from . import console
+
+    if (im is None) != (levels is None):
+        raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
+                         "0.2m/s:1.6m/s:8.")  # fmt: skip
+    parse_state(state)
+    columns = {label: load_column(text) for label, text in states.items()}
+    measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
+    motions = request.expand()
+    how = (
+        {}
+        if twins is None
+        else {"realisations": twins["replicates"], "scatter": twins["scatter"], "seed": twins["seed"]}
+    )
+    with console.folder(out, "states.csv", "links.csv", "states.json", "states") as folder:
+        if folder is not None:
+            console.ledger(folder)
+        with console.progress("runs") as progress:
+            found = compare_states(
+                columns, motions.motions, model, sizes, measure, **how, state=state, tail=tail, threads=threads,
+                progress=progress, out=folder,
+            )  # fmt: skip
+        summary = found.summary() | {"model": model.name, "refused": motions.refused, "files": []}
+        if folder is not None:
+            from .. import plots
+
+            files = [
+                console.write_table(found.table, folder / "states.csv"),
+                console.write_table(found.links, folder / "links.csv"),
+                *plots.save(plots.draw_states(found), folder / "states"),
+                folder / "states.json",
+            ]
+            summary["files"] = [str(one) for one in files]
+            console.write_json(files[-1], summary)
+    if as_json:
+        console.emit(summary)
+        return
+    describe(found)
+    console.print_refused(motions.refused)
+    if summary["files"]:
+        print(f"{len(summary['files'])} files in {out}")
+
+
+def describe(found: StateComparison) -> None:
+    """Print the answer for people."""
+    from . import console
+
+    facts = {}
+    for one in found.summary()["states"]:
+        curve = one["fragility"]
+        median = "" if curve is None else f", median {curve['median']:.3g} {curve['unit']}, β {curve['beta']:.2f}"
+        broken = f", {one['links_broken']} links broken in all" if one["links_broken"] else ""
+        facts[one["label"]] = f"{one['collapsed']} of {one['runs']} runs collapse{median}{broken}"
+    console.say(" ".join(one.sentence for one in found.differences), facts)
+    links = found.links
+    if len(links):
+        worst = links.sort_values(["broken", "largest_over_capacity"], ascending=False).groupby("state", sort=False)
+        console.print_table(worst.head(3), digits=3)

@@ -1,0 +1,84 @@
+"""Was it worth it: states of a column under the same motions, paired."""
+
+import json
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate import plots
+from stylobate.analysis.states import compare_states
+from stylobate.cli.main import call
+from stylobate.column.files import write_column
+
+JOINT = st.Joint(1e9, 5e8, friction_coefficient=0.7)
+
+
+def block(width):
+    return st.Column.of_drums([st.Drum(3.0, width, width, 2500.0)], JOINT, name=f"{width} m")
+
+
+@pytest.fixture(scope="module")
+def found():
+    motions = [st.ricker(frequency, st.g) for frequency in np.linspace(0.6, 1.5, 10)]
+    states = {"as built": block(0.6), "the same": block(0.6), "wider": block(0.9)}
+    return compare_states(states, motions, st.DistinctElement2D(), [0.3, 0.5, 0.8], samples=200, threads=1)
+
+
+def test_a_state_compared_with_itself_differs_by_nothing(found):
+    same = found.differences[0]
+    assert (same.share, same.share_low, same.share_high) == (0.0, 0.0, 0.0)
+    assert (same.saved, same.harmed, same.pairs) == (0, 0, 30)
+    assert (same.ratio, same.ratio_low, same.ratio_high) == (1.0, 1.0, 1.0)
+
+
+def test_differences_are_those_of_the_pairs(found):
+    table = found.table
+    fell = {
+        label: table[table["state"] == label].set_index(["motion", "level"])["collapsed"].astype(int)
+        for label in found.labels
+    }
+    wider = found.differences[1]
+    change = fell["wider"] - fell["as built"]
+    assert wider.share == pytest.approx(change.mean())
+    assert (wider.saved, wider.harmed) == ((change == -1).sum(), (change == 1).sum())
+    assert wider.saved > 3
+    assert wider.share_low <= wider.share <= wider.share_high < 0.0
+    assert wider.ratio_low < wider.ratio
+    assert wider.ratio > 1.0
+    assert "fewer of the runs than as built" in wider.sentence
+
+
+def test_the_picture_shows_curves_and_differences(found):
+    figure = plots.draw_states(found)
+    curves, bars = figure.axes
+    assert len(curves.get_lines()) >= 3
+    assert [one.get_text() for one in bars.get_yticklabels()] == ["the same", "wider"]
+
+
+def test_the_command(tmp_path, capsys):
+    one, other = (write_column(block(width), tmp_path / f"{width}.toml") for width in (0.6, 0.9))
+    base = ["compare", "--as-built", str(one), "--with", str(other), "--motion", "sample:el-centro-1940"]
+    assert call([*base, "--im", "pga", "--levels", "0.4g:1.2g:2", "--json", "--out", str(tmp_path / "out")]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert [one["label"] for one in said["states"]] == ["as built", "0.9"]
+    assert said["states"][0]["fragility"] is None  # one record makes no curve
+    assert said["differences"][0]["pairs"] == 2
+    assert {"states.csv", "states.png", "states.json"} <= {one.name for one in (tmp_path / "out").iterdir()}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--as-built", "paper-monolithic"], "only the state 'as built' is given"),
+        (["paper-monolithic", "--as-built", "paper-monolithic", "--with", "paper-12-drums"], "give one of the two"),
+        (["paper-monolithic"], "nothing is compared"),
+        (
+            ["--as-built", "paper-monolithic", "--with", "paper-12-drums", "--im", "pgv"],
+            "scaled by --im and --levels together",
+        ),
+    ],
+)
+def test_what_cannot_be_compared_is_said_in_one_sentence(capsys, arguments, words):
+    assert call(["compare", *arguments, "--pulse", "ricker,1Hz,0.3g"]) == 2
+    assert words in capsys.readouterr().err
