@@ -22,6 +22,7 @@ ORDER = (
     "plot_probability.py",
     "plot_as_found.py",
     "plot_pushover_check.py",
+    "plot_worth_it.py",
     "plot_record_suite.py",
     "plot_rocking_spectrum.py",
     "plot_collapse.py",

@@ -35,7 +35,7 @@ def test_a_state_compared_with_itself_differs_by_nothing(found):
 def test_differences_are_those_of_the_pairs(found):
     table = found.table
     fell = {
-        label: table[table["state"] == label].set_index(["motion", "level"])["collapsed"].astype(int)
+        label: table[table["state"] == label].set_index(["motion", "im"])["collapsed"].astype(int)
         for label in found.labels
     }
     wider = found.differences[1]

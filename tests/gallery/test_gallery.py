@@ -295,3 +295,12 @@ def test_notebook_fragility(run):
     low, high = capacities["stands_until"].min(), capacities["collapses_from"].max()
     assert low < found["curve"].median < high
     assert len(found["figure"].axes) >= 2
+
+
+def test_worth_it(run):
+    # The core closes what rocking opens: it saves a third of the runs and harms none. The dowels are within chance.
+    dowels, core = run("worth_it")["found"].differences
+    assert core.share_high < -0.15
+    assert core.harmed <= 1 < 10 < core.saved
+    assert abs(dowels.share) < 0.15
+    assert run("worth_it")["found"].links.set_index("state").loc["core", "broken"] == 0

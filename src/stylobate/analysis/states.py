@@ -211,7 +211,8 @@ def compare_states(
     result = run_study(study, out, threads=threads, progress=progress)
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
-    told = [evidence(table[table["state"] == label], im, state, label, "-") for label in labels]
+    parts = [table[table["state"] == label] for label in labels]
+    told = [evidence(one, im, state, label) for one, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     differences = tuple(
         _difference(told[0], one, curves[0], curve, samples, seed, confidence)

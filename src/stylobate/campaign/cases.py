@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
+from ..column.assembly import Assembly
 from ..column.scatter import Scatter, usual_scatter
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
@@ -37,7 +38,7 @@ class Study:
 
     Parameters
     ----------
-    columns : sequence of Column
+    columns : sequence of Column or Assembly
     motions : sequence of Motion
         Already turned and reversed as they are to act (:meth:`stylobate.MotionRequest.expand`).
     models : sequence of Model
@@ -67,7 +68,7 @@ class Study:
         A level that takes a factor above 10 of a record.
     """
 
-    columns: Sequence[Column]
+    columns: Sequence[Any]
     motions: Sequence[Motion]
     models: Sequence[Model]
     levels: Sequence[float] = (1.0,)
@@ -88,6 +89,13 @@ class Study:
         names = [column.name for column in self.columns]
         if len(set(names)) < len(names):
             raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
+        assemblies = [isinstance(column, Assembly) for column in self.columns]
+        if any(assemblies) and not all(assemblies):
+            raise InputError(
+                f"the study holds columns and assemblies ({', '.join(names)}); give each kind a study of its own."
+            )
+        if any(assemblies) and self.realisations:
+            raise InputError(f"{names[0]!r} is an assembly, and only columns have realisations; leave [scatter] out.")
         if self.keep not in KEEP:
             raise InputError(f"keep is {self.keep!r}; allowed is {' or '.join(KEEP)}.")
         check_range("tail", self.tail, 0.0, 1e4, unit="s")
@@ -169,21 +177,14 @@ class Study:
                 "reversed": bool(direction.get("reversed", False)),
             }
 
-        usual = {} if self.scatter is not None else {one.name: usual_scatter(one).given for one in self.columns}
-        scatter = None
-        if self.realisations:
-            same = len({str(one) for one in usual.values()}) <= 1
-            scatter = self.scatter.given if self.scatter is not None else usual[self.columns[0].name] if same else usual
+        scatter = self.scatter.given if self.scatter is not None and self.realisations else None
+        if self.realisations and self.scatter is None:  # each column scatters as its material does
+            usual = {one.name: usual_scatter(one).given for one in self.columns}
+            same = len({str(one) for one in usual.values()}) == 1
+            scatter = usual[self.columns[0].name] if same else usual
         return {
             "models": [{"model": model.name, "parameters": model.parameters()} for model in self.models],
-            "columns": [
-                {
-                    "column": column.name,
-                    "base_width_m": column.base_width,
-                    "joint_width_m": float(column.joint_widths.min()),
-                }
-                for column in self.columns
-            ],
+            "columns": [{"column": column.name, **_widths(column)} for column in self.columns],
             "motions": [one(motion) for motion in self.motions],
             "intensities": self._intensities(),
             "powers": told_powers(),
@@ -227,3 +228,10 @@ class Study:
         found = [float((level / value) ** (1.0 / self.im.power)) for level in self.levels]
         warn_of_scaling(motion.scaled(max(found)))
         return found
+
+
+def _widths(column: Any) -> dict[str, float | None]:
+    """Widths that limit states are stated in [m]; an assembly has none."""
+    if isinstance(column, Assembly):
+        return {"base_width_m": None, "joint_width_m": None}
+    return {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}

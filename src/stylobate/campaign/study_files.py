@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..column.files import load_column
+from ..column.assembly_files import load_structure
 from ..column.scatter import LARGEST, Scatter
 from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
@@ -123,7 +123,7 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
     scatter = table.scatter
     study = Study(
-        [load_column(folder / one if (folder / one).is_file() else one) for one in names],
+        [load_structure(folder / one if (folder / one).is_file() else one) for one in names],
         suite.motions,
         [make_model(one, settings) for one in models],
         levels,

@@ -33,6 +33,8 @@ class Twins(NamedTuple):
 
 def the_twins(column: Column, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:
     """Twins of a column that the model can take."""
+    if not isinstance(column, Column):
+        raise InputError(f"{column.name!r} is no column, and only columns have twins; leave --replicates out.")
     for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
             raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")

@@ -22,7 +22,7 @@ WRITES = ("critical.csv", "critical.json", "critical", "asked-critical.json")
 
 def critical(
     context: typer.Context,
-    column: o.ColumnName,
+    column: o.StructureName,
     start: Annotated[str, typer.Option("--from", metavar="A", help="Smallest amplitude, such as 0.05g.")],
     stop: Annotated[str, typer.Option("--to", metavar="A", help="Largest amplitude, such as 1.0g.")],
     step: Annotated[str, typer.Option("--step", metavar="A", help="Step of the grid.")] = "0.005g",
@@ -63,14 +63,14 @@ def critical(
     run on one grid. With --replicates, the probability of collapse over the amplitude, with its interval.
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
-    from ..column.files import load_column
+    from ..column.assembly_files import load_structure
     from ..motion.specs import parse_acceleration
     from . import console
 
     asked = o.the_request(context)
     grid = [parse_acceleration(text) for text in (start, stop, step)]
     amplitude_grid(*grid)
-    stone = load_column(column)
+    stone = load_structure(column)
     how = o.the_model(model, settings)
     after, count = o.the_tail(tail), o.the_threads(threads)
     twins = o.the_population(replicates, scatter, seed) or {}

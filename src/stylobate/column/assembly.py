@@ -245,6 +245,11 @@ class Assembly:
         return (Block(box, 0.0, "ground", fixed=True), *self.blocks)
 
     @property
+    def n(self) -> int:
+        """Number of blocks."""
+        return len(self.blocks)
+
+    @property
     def joints(self) -> tuple[FaceJoint, ...]:
         """Pairs of faces that touch."""
         return self._contacts[0]

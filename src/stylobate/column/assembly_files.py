@@ -1,4 +1,4 @@
-"""Assembly files (TOML): blocks by their vertices, materials, supports."""
+"""Assembly files (TOML): blocks by their vertices, columns from their files with beams on them, materials, supports."""
 
 from __future__ import annotations
 
@@ -16,7 +16,8 @@ from .files import joint_from_dict, load_column
 from .joint import Joint
 from .materials import Material, material
 from .presets import PRESETS
-from .tables import JointTable, joint_fields
+from .standing import BeamTable, ColumnsTable, lay, stand
+from .tables import JointTable, describes_assembly, joint_fields
 from .toml import Table, parse_toml, read_table
 
 
@@ -53,13 +54,15 @@ class AssemblyTable(Table):
     gravity: float = STANDARD_GRAVITY
     ground: float | bool = 0.0
     joint: JointTable | None = None
-    block: list[BlockTable]
+    block: list[BlockTable] | None = None
+    column: list[ColumnsTable] | None = None
+    beam: list[BeamTable] | None = None
     joint_override: list[BetweenTable] | None = None
 
 
 def is_assembly(path: str | Path) -> bool:
-    """Whether a TOML file describes an assembly: it has blocks."""
-    return "block" in parse_toml(path)
+    """Whether a TOML file describes an assembly: it has blocks, beams, or columns from files."""
+    return describes_assembly(parse_toml(path))
 
 
 def load_structure(text: str | Path) -> Column | Assembly:
@@ -86,7 +89,7 @@ def read_assembly(path: str | Path) -> Assembly:
     """
     table = read_table(path, AssemblyTable)
     try:
-        return _assembly(table, shown(Path(path).stem))
+        return _assembly(table, shown(Path(path).stem), Path(path).parent)
     except InputError as error:
         raise InputError(f"{shown(path)}: {error}") from None
 
@@ -107,13 +110,15 @@ def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:
     return Assembly(**(dict(data) | special))
 
 
-def _assembly(table: AssemblyTable, default_name: str) -> Assembly:
-    blocks = []
+def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly:
+    blocks, standing, laid = [], *stand(table.column or [], folder, table.gravity, table.ground)
+    if not (table.block or standing):
+        raise InputError("there is neither [[block]] nor [[column]]; add one of the two.")
     stone = None if table.material is None else material(table.material)
     common = table.density if table.density is not None or stone is None else stone.density.value
-    if table.joint is None and stone is None:
+    if table.joint is None and stone is None and not standing:
         raise InputError("key 'joint' is missing; add it, or name a material.")
-    for i, one in enumerate(table.block):
+    for i, one in enumerate(table.block or []):
         name = one.name if one.name is not None else f"block {i + 1}"
         density = one.density if one.density is not None else common
         if density is None and not one.fixed:
@@ -122,6 +127,16 @@ def _assembly(table: AssemblyTable, default_name: str) -> Assembly:
         surface = None if one.surface is None else _law(one.surface, stone, f"the surface of block {name!r}")
         depth = one.depth if one.depth is not None else table.depth
         blocks.append(Block(corners, density or 0.0, name, depth, one.fixed, surface))  # pyright: ignore[reportArgumentType]
+    blocks = standing + blocks
+    for i, one in enumerate(table.beam or []):
+        name = one.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
+        density = one.density if one.density is not None else common
+        if density is None:
+            density = standing[-1].density if standing else None
+        if density is None:
+            raise InputError(f"beam {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        surface = None if one.surface is None else _law(one.surface, stone, f"the surface of beam {name!r}")
+        blocks.append(lay(one, name, density, laid, surface))
     overrides = []
     for one in table.joint_override or []:
         if len(one.between) != 2:
@@ -131,7 +146,10 @@ def _assembly(table: AssemblyTable, default_name: str) -> Assembly:
     if table.ground is True:
         raise InputError("ground is true; give its level in m, or false for none.")
     ground = None if table.ground is False else float(table.ground)
-    joint = _law(table.joint, stone, "[joint]")
+    if table.joint is None and stone is None:  # as between the drums of the columns
+        joint = laid[0].law
+    else:
+        joint = _law(table.joint, stone, "[joint]")
     laws = (joint, *(block.surface for block in blocks if block.surface), *(law for _, _, law in overrides))
     for doubt in [doubt for law in laws for doubt in law.doubts][:1]:
         warnings.warn(f"{doubt}: is the unit right?", OutOfRangeWarning, stacklevel=4)

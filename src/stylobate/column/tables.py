@@ -123,10 +123,10 @@ def read_as(kind: Any, path: str | Path) -> Any:
         The file cannot be read or does not describe a column; the message names the file, the key and the remedy.
     """
     data = parse_toml(path)
-    if "block" in data:
+    if describes_assembly(data):
         raise InputError(
-            f"{shown(path)} describes an assembly of blocks, which only 'stylobate run' takes (simulate_assembly in "
-            "Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
+            f"{shown(path)} describes an assembly of blocks, which 'run', 'critical' and 'study' take (simulate_assembly "
+            "in Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
         )
     return made_of(kind, data, shown(path), shown(Path(path).stem))
 
@@ -155,6 +155,11 @@ def made_of(kind: Any, data: dict[str, Any], source: str = "the column", name: s
         return _column(kind, table, default_name=name)
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
+
+
+def describes_assembly(data: dict[str, Any]) -> bool:
+    """Whether the content of a TOML file is that of an assembly: it has blocks, beams, or columns from files."""
+    return "block" in data or "beam" in data or isinstance(data.get("column"), list)
 
 
 #: What stone and columns are like: density [kg/m³], height of a drum [m], friction angle [degrees].

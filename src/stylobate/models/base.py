@@ -12,6 +12,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..column import Column
+from ..column.assembly import Assembly
 from ..column.specimen import Specimen
 from ..errors import InputError, LeftOutWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
@@ -98,7 +99,7 @@ class Model:
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
     everything lies still, ``takes_start`` whether it can start from a pose,
     ``takes_specimens`` whether it computes single bodies of any shape; ``takes_rings`` whether joints may carry on rings;
-    ``takes_links`` whether columns may have links;
+    ``takes_links`` whether columns may have links; ``takes_assemblies`` whether it computes many runs of sets of blocks;
     ``carries`` how many columns alike it can take along in a single run at next to no cost.
     """
 
@@ -114,11 +115,17 @@ class Model:
     takes_specimens: ClassVar[bool] = False
     takes_rings: ClassVar[bool] = False
     takes_links: ClassVar[bool] = False
+    takes_assemblies: ClassVar[bool] = False
     carries: ClassVar[int] = 0
 
     def check(self, column: Any, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
-        if isinstance(column, Specimen):
+        if isinstance(column, Assembly):
+            if not self.takes_assemblies:
+                raise InputError(
+                    f"{self.name} computes columns, and {column.name!r} is an assembly: use dem2d (DistinctElement2D)."
+                )
+        elif isinstance(column, Specimen):
             if not self.takes_specimens:
                 raise InputError(
                     f"{self.name} computes columns, and {column.name!r} is a specimen: use dem3d (DistinctElement3D)."
@@ -162,6 +169,8 @@ class Model:
 
     def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
         """Refuse a run that would not end, and histories that no memory holds, with the estimate (InputError)."""
+        if isinstance(column, Assembly):  # its step is known once its contacts are: each run asks for itself
+            return
         length = motion.duration + options.tail
         step, cost = self.expected_step(column, motion)
         refuse_endless(f"{column.name!r} under {motion.name!r}", length, step, cost)

@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from ..analysis import verdicts as v
 from ..analysis.critical import CriticalAmplitude
+from ..column.assembly import Assembly
 from ..constants import g
 from .style import BLACK, BLUE, GREY, RED, WIDTH, legend_below, panel, styled
 
@@ -34,7 +35,14 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
         To draw in; those of a new figure by default.
     """
     amplitudes, verdicts = result.amplitudes / g, np.array(result.verdicts)
-    peaks = result.rows.floats("peak_top_displacement_m") / result.column.base_width
+    if isinstance(result.column, Assembly):  # it has neither a top nor a base width
+        peaks, label = (
+            result.rows.floats("peak_displacement_m"),
+            "peak displacement of a block [m]\n(collapse: at the top)",
+        )
+    else:
+        peaks = result.rows.floats("peak_top_displacement_m") / result.column.base_width
+        label = "peak top displacement\n/ base width (collapse: at the top)"
     finite = peaks[np.isfinite(peaks) & (verdicts != v.COLLAPSED)]
     ceiling = 1.25 * max(float(finite.max()) if finite.size else 0.0, 0.1)
     shown = np.where((verdicts == v.COLLAPSED) | ~np.isfinite(peaks), ceiling, np.minimum(peaks, ceiling))
@@ -42,16 +50,17 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
     for one, mark in _MARKS.items():
         chosen = verdicts == one
         if chosen.any():
-            label = f"{one} ({int(chosen.sum())})"
-            axes.plot(amplitudes[chosen], shown[chosen], linestyle="none", markersize=5.0, label=label, **mark)
+            counted = f"{one} ({int(chosen.sum())})"
+            axes.plot(amplitudes[chosen], shown[chosen], linestyle="none", markersize=5.0, label=counted, **mark)
     if result.critical is not None:
         at = result.critical / g
         axes.axvline(at, color=RED, linewidth=0.8, label=f"first collapse, {at:.4g} g")
-    uplift = result.column.uplift_acceleration / g
-    axes.axvline(uplift, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.0, label=f"static uplift, {uplift:.3f} g")
+    if not isinstance(result.column, Assembly):
+        uplift = result.column.uplift_acceleration / g
+        axes.axvline(uplift, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.0, label=f"static uplift, {uplift:.3f} g")
     axes.set_ylim(0.0, 1.1 * ceiling)
     axes.set_xlabel("amplitude of acceleration [g]")
-    axes.set_ylabel("peak top displacement\n/ base width (collapse: at the top)")
+    axes.set_ylabel(label)
     axes.set_title(title or f"{result.column.name}, {result.model}")
     legend_below(axes, ax is None, ncols=3)
     return figure

@@ -162,6 +162,11 @@ class Measures:
             "steps": int(self.steps),
             "reason": self.reason,
         }
+        if self.blocks is not None:  # an assembly has no top
+            del row["peak_top_displacement_m"], row["residual_top_displacement_m"]
+            row["peak_displacement_m"] = float(self.blocks.peak_displacement)
+            row["residual_displacement_m"] = float(self.blocks.residual_displacement)
+            row["fallen_blocks"] = len(self.blocks.fell_at)
         if self.space is not None:
             azimuth = None if self.collapse is None else self.collapse.azimuth
             row |= self.space.row() | {"collapse_azimuth_deg": None if azimuth is None else math.degrees(azimuth)}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,9 +13,9 @@ from ...column.assembly import Assembly
 from ...errors import InputError, OutOfRangeWarning
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
-from ...response import Response
+from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, recorded_blocks
-from ..base import RunOptions, refuse_endless, refuse_long_histories
+from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step
@@ -137,3 +138,25 @@ def follow(engine: Engine, options: RunOptions) -> tuple[list[dict[str, Any]], b
         engine.advance(min(every, left) if left > 0 else every)
         states.append(engine.state())
     return states, still
+
+
+def measures_of_assemblies(
+    run: Callable[[Assembly, Motion, RunOptions], Response], cases: Sequence[Case], options: RunOptions, threads: int
+) -> Iterator[tuple[int, Measures]]:
+    """(index of the case, measures) of runs of assemblies as they finish; their histories are not kept."""
+    from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+
+    under_way: dict[Future[Response], int] = {}
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for index, (assembly, motion) in enumerate(cases):
+                if len(under_way) >= 2 * threads:
+                    for one in wait(under_way, return_when=FIRST_COMPLETED).done:
+                        yield under_way.pop(one), one.result().measures
+                under_way[pool.submit(run, assembly, motion, options)] = index
+            while under_way:
+                for one in wait(under_way, return_when=FIRST_COMPLETED).done:
+                    yield under_way.pop(one), one.result().measures
+        finally:
+            for one in under_way:
+                one.cancel()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -10,11 +11,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...column import Column
+from ...column.assembly import Assembly
 from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
 from ...motion import Motion
-from ...response import Response
+from ...response import Measures, Response
 from ..assembly.engine import Contacts
+from ..assembly.run import measures_of_assemblies
 from ..base import Case, RunOptions
 from ..drums.block import DrumBlock, PackedColumn, drum_fields, lane_fields
 from ..drums.joints import contact_points, joint_stiffnesses
@@ -26,7 +29,6 @@ from ..shared.toes import point_toes
 from .found_start import found_start
 
 if TYPE_CHECKING:
-    from ...column.assembly import Assembly
     from .collapse import FollowedColumn
 
 MAX_POINTS = 32
@@ -86,6 +88,7 @@ class DistinctElement2D(SteppedDrums):
         "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
     )
     takes_as_found: ClassVar[bool] = True
+    takes_assemblies: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
     takes_links: ClassVar[bool] = True
@@ -165,6 +168,12 @@ class DistinctElement2D(SteppedDrums):
         # the bed is as soft as the joints: their springs have the stone in series
         bed = np.transpose(joint_stiffnesses(column, self.block_modulus))
         return FollowedColumn(self.name, block, self.contacts, bed, self.step_for(column), self.restitution)
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs of columns in lanes, or of assemblies one by one in threads; never of both in one batch."""
+        if len(cases) and isinstance(cases[0].column, Assembly):
+            return measures_of_assemblies(self.run_assembly, cases, options, threads)
+        return super().run_many(cases, options, threads)
 
     def run_assembly(self, assembly: Assembly, motion: Motion, options: RunOptions) -> Response:
         """One run of an assembly of blocks.

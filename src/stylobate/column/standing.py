@@ -1,0 +1,156 @@
+"""Columns from their files that stand in an assembly, and the beams that lie on them."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from ..errors import InputError, check_range
+from .assembly import TOUCHING, Block, of_column
+from .files import load_column
+from .joint import Joint
+from .tables import JointTable
+from .toml import Table
+
+
+class ColumnsTable(Table):
+    """``[[column]]``: columns alike, from a file; ``at`` are the places of their axes, or ``number`` and ``spacing`` [m]."""
+
+    file: str
+    name: str | None = None
+    at: list[float] | None = None
+    number: int | None = None
+    spacing: float | None = None
+
+
+class BeamTable(Table):
+    """``[[beam]]``: a block that lies on columns; lengths in m, ``centre`` the x of its middle."""
+
+    length: float
+    height: float
+    depth: float = 1.0
+    name: str | None = None
+    centre: float | None = None
+    on: list[int] | None = None
+    density: float | None = None
+    surface: JointTable | None = None
+
+
+class Standing(NamedTuple):
+    """A column that stands: its place, the ends and the level of its top [m], and the law of its topmost joint."""
+
+    place: float
+    left: float
+    right: float
+    level: float
+    law: Joint
+
+
+def stand(
+    tables: Sequence[ColumnsTable], folder: Path, gravity: float, ground: float | bool
+) -> tuple[list[Block], list[Standing]]:
+    """Blocks of columns that stand on the ground, and where their tops are.
+
+    Parameters
+    ----------
+    tables : sequence of ColumnsTable
+    folder : Path
+        That paths start from.
+    gravity : float
+        Of the assembly [m/s²].
+    ground : float or False
+        Level of the ground [m].
+
+    Raises
+    ------
+    InputError
+        A file that is no column, a column that an assembly cannot take, or a place that is missing.
+    """
+    blocks: list[Block] = []
+    found: list[Standing] = []
+    if tables and isinstance(ground, bool):
+        raise InputError("columns stand on the ground, and ground is false; give its level in m.")
+    for table in tables:
+        beside = folder / table.file
+        column = load_column(beside if beside.is_file() else table.file)
+        if column.links:
+            raise InputError(
+                f"{column.name!r} has links, and assemblies know none yet; leave [[link]] out of its file."
+            )
+        if column.as_found.base_tilt:
+            raise InputError(f"{column.name!r} stands on a base out of level, and the ground of an assembly is level.")
+        if not column.as_found.in_plane:
+            raise InputError(f"{column.name!r} is found out of the plane of x and z, in which assemblies lie.")
+        if column.gravity != gravity:
+            raise InputError(
+                f"{column.name!r} has a gravity of {column.gravity:g} m/s² and the assembly {gravity:g} m/s²; give one."
+            )
+        for x in _places(table):
+            name = f"{table.name or 'column'} {len(found) + 1}"
+            drums = [_moved(one, f"{name}, {one.name}", x, float(ground)) for one in of_column(column).blocks]
+            blocks += drums
+            top = sorted(drums[-1].vertices, key=lambda corner: corner[1])[-2:]
+            if abs(top[0][1] - top[1][1]) > TOUCHING * column.height:
+                level = float("nan")  # it leans: nothing lies on it
+            else:
+                level = top[1][1]
+            left, right = sorted(corner[0] for corner in top)
+            found.append(Standing(x, left, right, level, column.joints[-1]))
+    return blocks, found
+
+
+def _places(table: ColumnsTable) -> list[float]:
+    if (table.at is None) == (table.number is None):
+        raise InputError(f"[[column]] of {table.file!r} needs at = [...], or number and spacing; give one of the two.")
+    if table.at is not None:
+        if not table.at:
+            raise InputError(f"[[column]] of {table.file!r} has no place in at; give at least one x [m].")
+        return table.at
+    number = table.number or 0
+    if not 1 <= number <= 100:
+        raise InputError(f"number of [[column]] is {number}; allowed is 1 to 100.")
+    if number > 1 and table.spacing is None:
+        raise InputError(f"{number} columns of {table.file!r} have no spacing; give the distance of their axes [m].")
+    spacing = 0.0 if table.spacing is None else check_range("spacing", table.spacing, 0.0, 1e3, unit="m", open_low=True)
+    return [spacing * i for i in range(number)]
+
+
+def _moved(block: Block, name: str, x: float, z: float) -> Block:
+    mass, inertia, cx, cz = block.properties
+    corners = tuple((a + x, b + z) for a, b in block.vertices)
+    return dataclasses.replace(block, vertices=corners, name=name, solid=(mass, inertia, cx + x, cz + z))
+
+
+def lay(table: BeamTable, name: str, density: float, columns: Sequence[Standing], surface: Joint | None) -> Block:
+    """A beam on the columns that it names, counted from 1 in the order of the file; on all of them by default.
+
+    Raises
+    ------
+    InputError
+        Columns that are not there, tops that are not level with one another, or a beam that does not reach them.
+    """
+    numbers = list(range(1, len(columns) + 1)) if table.on is None else table.on
+    wrong = next((one for one in numbers if not 1 <= one <= len(columns)), None)
+    if not numbers or wrong is not None:
+        what = "no column" if wrong is None else f"column {wrong}"
+        raise InputError(f"beam {name!r} lies on {what}; the file has columns 1 to {len(columns)}.")
+    under = [columns[one - 1] for one in numbers]
+    levels = [one.level for one in under]
+    if not max(levels) - min(levels) <= 1e-9 * max(1.0, max(levels)):
+        raise InputError(
+            f"beam {name!r} lies on tops at {', '.join(f'{one:g}' for one in levels)} m; give columns of one height that "
+            "stand upright."
+        )
+    places = [one.place for one in under]
+    middle = 0.5 * (min(places) + max(places)) if table.centre is None else table.centre
+    left, right, low = middle - 0.5 * table.length, middle + 0.5 * table.length, levels[0]
+    for number, one in zip(numbers, under, strict=True):
+        if not left < one.place < right:
+            raise InputError(
+                f"beam {name!r} reaches from {left:g} to {right:g} m, and column {number} stands at {one.place:g} m; make "
+                "it longer, or say on = [...]."
+            )
+    corners = ((left, low), (right, low), (right, low + table.height), (left, low + table.height))
+    return Block(corners, density, name, table.depth, surface=surface)

@@ -1,0 +1,57 @@
+"""Limit analysis with links against slow ramps with distinct elements, in the plane and in space."""
+
+import math
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis.limit import limit_analysis
+
+STIFF = st.Joint(5e11, 2.5e11, friction_coefficient=0.7)
+SMOOTH = st.Joint(5e10, 2.5e10, friction_coefficient=0.1)
+
+
+def ramp(level):
+    """Ground that pushes the column to the right, gently up to a level [g] in 3 s, and on for 5 s."""
+    time = np.arange(0.0, 8.0, 0.01)
+    return st.Motion(0.01, -level * st.g * np.sin(0.5 * math.pi * np.clip(time / 3.0, 0.0, 1.0)))
+
+
+def block(joint, *links, section="rectangular"):
+    return st.Column.of_drums([st.Drum(3.0, 0.9, 0.9, 2500.0, section)], joint, name="block").replace(links=links)
+
+
+DOWEL = st.Dowel(joint=1, shear_stiffness=1e8, shear_capacity=6e3)
+TIE = st.Tie(at=(-0.5, 0.0), axial_stiffness=1e8, axial_capacity=2e4, to_height=3.0)
+CORE = st.Core(axial_stiffness=1e8, axial_capacity=2e4, pretension=1e4)
+
+
+@pytest.mark.parametrize("link", [TIE, CORE], ids=["tie", "core"])
+def test_a_tied_block_falls_in_a_slow_ramp_where_the_limit_analysis_says(link):
+    # Both yield and go on holding; joints stiff enough that rocking begins at the edge.
+    column = block(STIFF, link)
+    limit = limit_analysis(column).multiplier
+    assert limit > 1.2 * limit_analysis(column.replace(links=())).multiplier
+    runs = st.simulate_many(column, [ramp(level * limit) for level in (0.98, 1.02)], st.DistinctElement2D())
+    assert list(runs["collapsed"]) == [False, True]
+
+
+def test_a_dowelled_block_slides_in_a_slow_ramp_where_the_limit_analysis_says():
+    column = block(SMOOTH, DOWEL)
+    limit = limit_analysis(column).multiplier
+    weight = column.mass * column.gravity
+    assert limit == pytest.approx(0.1 + 6e3 / weight)
+    runs = st.simulate_many(column, [ramp(level * limit) for level in (0.98, 1.02)], st.DistinctElement2D())
+    held, slid = runs["residual_joint_slip_m"]
+    # elastic dowel: 6 kN over 1e8 N/m; beyond its capacity it slides with 0.02 g and more for seconds
+    assert held < 1e-3
+    assert slid > 0.1
+
+
+def test_a_core_in_space_holds_what_it_holds_in_the_plane():
+    # A round block on a stiff bed, as the load comes to a point of its rim.
+    column = block(st.Joint(5e12, 2.5e12, friction_coefficient=0.7), CORE, section="circular")
+    limit = limit_analysis(column).multiplier
+    runs = st.simulate_many(column, [ramp(level * limit) for level in (0.98, 1.02)], st.DistinctElement3D(law="bed"))
+    assert list(runs["collapsed"]) == [False, True]

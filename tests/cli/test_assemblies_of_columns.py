@@ -1,0 +1,90 @@
+"""Assemblies made of columns from files and beams on them, and the commands that take assemblies."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+import stylobate as st
+from stylobate.cli.main import call
+
+GALLERY = Path(__file__).parents[2] / "gallery" / "assemblies"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    for name in ("two_columns.toml", "column5.toml"):
+        shutil.copy(GALLERY / name, tmp_path / name)
+    return tmp_path
+
+
+def test_two_columns_and_an_architrave(folder):
+    column, found = st.read_column(folder / "column5.toml"), st.read_assembly(folder / "two_columns.toml")
+    assert [block.name for block in found.blocks][-2:] == ["column 2, drum 5", "architrave"]
+    # five joints in each column, and the architrave on both
+    assert len(found.joints) == 12
+    drums = found.blocks[:5]
+    assert sum(block.properties[0] for block in drums) == pytest.approx(column.mass)
+    assert [block.properties[2] for block in found.blocks[5:10]] == pytest.approx([2.6] * 5)
+    beam = found.blocks[-1]
+    assert beam.corners.min(axis=0) == pytest.approx((1.3 - 1.7, 4.0))
+    assert beam.properties[0] == pytest.approx(column.drums[0].density * 3.4 * 0.5 * 0.6)
+    assert found.joint == column.joints[-1]
+
+
+def test_critical_and_study_take_it(tmp_path, capsys):
+    # two slender blocks on soft joints, and a beam: 1.05 g for half a second throws them over, 0.05 g does not open a joint
+    (tmp_path / "pillar.toml").write_text(
+        "density = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.4\ntop_width = 0.4\ndrums = 1\n"
+        "[joint]\nnormal_stiffness = 2e8\nshear_stiffness = 1e8\nfriction_coefficient = 0.7\n"
+    )
+    frame = tmp_path / "frame.toml"
+    frame.write_text(
+        '[[column]]\nfile = "pillar.toml"\nat = [0.0, 1.5]\n[[beam]]\nlength = 2.0\nheight = 0.3\ndepth = 0.5\n'
+    )
+    motion = ["--pulse", "rectangular,1.0Hz,?g,2s", "--from", "0.05g", "--to", "1.05g", "--step", "1g"]
+    assert call(["critical", str(frame), *motion, "--json", "--out", str(tmp_path / "critical")]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert (found["runs"], found["critical_g"]) == (2, pytest.approx(1.05))
+    time = [0.01 * i for i in range(60)]
+    record = "".join(f"{t:.2f},{0.05 if 0.1 < t < 0.5 else 0.0}\n" for t in time)
+    (tmp_path / "weak.csv").write_text("time_s,ax_g\n" + record)
+    study = tmp_path / "study.toml"
+    study.write_text('column = "frame.toml"\nmodel = "dem2d"\n[motions]\nfiles = ["weak.csv"]\n')
+    assert call(["study", "run", str(study), "--out", str(tmp_path / "out"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["cases"], told["finished"], told["collapsed"]) == (1, 1, 0)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (("number = 2", ""), "needs at = [...], or number and spacing"),
+        (("spacing = 2.6", ""), "have no spacing"),
+        (("length = 3.4", "length = 1.0"), "reaches from 0.8 to 1.8 m, and column 1 stands at 0 m"),
+        (("depth = 0.6", "depth = 0.6\non = [1, 3]"), "lies on column 3; the file has columns 1 to 2"),
+        (("column5.toml", "column6.toml"), "column6.toml"),
+        (("spacing = 2.6", "spacing = 0.5"), "overlap"),
+    ],
+)
+def test_what_cannot_stand_is_said_in_one_sentence(folder, capsys, change, words):
+    path = folder / "two_columns.toml"
+    path.write_text(path.read_text(encoding="utf-8").replace(*change), encoding="utf-8")
+    assert call(["run", str(path), "--pulse", "ricker,1Hz,0.1g"]) == 2
+    assert words in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["critical", "{file}", "--model", "dem3d"], "is an assembly: use dem2d"),
+        (["critical", "{file}", "--replicates", "5"], "only columns have twins"),
+        (["limit", "{file}"], "describes an assembly of blocks"),
+        (["suite", "{file}", "sample:el-centro-1940"], "describes an assembly of blocks"),
+    ],
+)
+def test_commands_that_do_not_take_it_say_so(folder, capsys, arguments, words):
+    how = ["--pulse", "ricker,1Hz,?g", "--from", "0.1g", "--to", "0.2g"] if arguments[0] == "critical" else []
+    assert call([one.format(file=folder / "two_columns.toml") for one in arguments] + how) == 2
+    assert words in capsys.readouterr().err
