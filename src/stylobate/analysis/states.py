@@ -113,7 +113,7 @@ class StateComparison:
 
         rows: list[dict[str, Any]] = []
         for label, column in zip(self.labels, self.columns, strict=True):
-            mine = self.table[self.table["state"] == label]
+            mine: Any = self.table[self.table["state"] == label]
             if "link_broken_s" not in mine:
                 continue
             names = [one.name for one in properties(column) if one.acts]
@@ -135,15 +135,16 @@ class StateComparison:
 
     def summary(self) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate compare``."""
-        links = self.links
+        links: Any = self.links
+        table: Any = self.table
         return {
             "state": self.state,
             "states": [
                 {
                     "label": label,
                     "column": column.name,
-                    "runs": int((self.table["state"] == label).sum()),
-                    "collapsed": int(self.table.loc[self.table["state"] == label, "collapsed"].fillna(0).sum()),
+                    "runs": int((table["state"] == label).sum()),
+                    "collapsed": int(table.loc[table["state"] == label, "collapsed"].fillna(0).sum()),
                     "fragility": None if curve is None else curve.summary(),
                     "links_broken": int(links.loc[links["state"] == label, "broken"].sum()) if len(links) else 0,
                 }
@@ -211,7 +212,7 @@ def compare_states(
     result = run_study(study, out, threads=threads, progress=progress)
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
-    parts = [table[table["state"] == label] for label in labels]
+    parts: list[Any] = [table[table["state"] == label] for label in labels]
     told = [evidence(one, im, state, label) for one, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     differences = tuple(

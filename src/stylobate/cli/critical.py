@@ -70,7 +70,7 @@ def critical(
     asked = o.the_request(context)
     grid = [parse_acceleration(text) for text in (start, stop, step)]
     amplitude_grid(*grid)
-    stone = load_structure(column)
+    stone: Any = load_structure(column)
     how = o.the_model(model, settings)
     after, count = o.the_tail(tail), o.the_threads(threads)
     twins = o.the_population(replicates, scatter, seed) or {}
