@@ -28,6 +28,10 @@ from .twins import the_twins
 #: Most cases of a study.
 MAX_CASES = 20_000_000
 
+
+#: Measures of a motion that relate it to the slenderness of a column.
+RELATIVE = ("pga_over_g_tan_alpha", "omega_g_over_p", "uniform_duration_s", "pgv_p_over_g_tan_alpha")
+
 #: What is kept besides the table, the worst and the median run.
 KEEP = ("rows", "histories")
 
@@ -201,13 +205,19 @@ class Study:
 
     def _intensities(self) -> dict[str, list[list[float | None]]]:
         """Measures of each motion for each column, by their names in the table, shape (motions, columns) each."""
-        relations = [(math.tan(column.slenderness), column.frequency_parameter) for column in self.columns]
+        blocks = [isinstance(column, Assembly) for column in self.columns]
+        relations = [
+            (1.0 if many else math.tan(column.slenderness), column.frequency_parameter)
+            for column, many in zip(self.columns, blocks, strict=True)
+        ]
         seen: dict[tuple, list[dict[str, float]]] = {}
         for motion in self.motions:
             if samples_of(motion) not in seen:
                 seen[samples_of(motion)] = told(motion.replace(factor=1.0), relations)
         found = {}
         for name, power in told_powers().items():
+            if all(blocks) and name in RELATIVE:  # an assembly has no slenderness
+                continue
             sizes = [abs(motion.factor) ** power for motion in self.motions]
             each = [[one.get(name) for one in seen[samples_of(motion)]] for motion in self.motions]
             if any(value is not None for values in each for value in values):
