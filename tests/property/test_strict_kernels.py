@@ -3,6 +3,7 @@
 import importlib
 import math
 import pkgutil
+from functools import cache
 
 import numba
 import numpy as np
@@ -25,6 +26,7 @@ from stylobate.outcome import Outcome
 NAN, INF = math.nan, math.inf
 
 
+@cache
 def compiled(function):
     """The function as a fast loop gets it: compiled on the loop's behalf, and not from a cache."""
     options = {key: value for key, value in function.targetoptions.items() if key != "nopython"}

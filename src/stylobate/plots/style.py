@@ -102,11 +102,18 @@ def save(figure: Figure, stem: str | Path) -> list[Path]:
         The two files.
     """
     png, svg = Path(f"{stem}.png"), Path(f"{stem}.svg")
-    with matplotlib.rc_context(_STYLE):
-        with replacing(png) as partial:
-            figure.savefig(partial, dpi=DOTS_PER_INCH, facecolor="white")
-        with replacing(svg) as partial:
-            figure.savefig(partial, facecolor="white", metadata={"Date": None})  # same picture, same bytes
+    layout = figure.get_layout_engine()
+    settled: dict[Any, Any] = {"figure.constrained_layout.use": False}
+    with matplotlib.rc_context(_STYLE | settled):
+        figure.draw_without_rendering()  # the layout, once for both files
+        figure.set_layout_engine(None)
+        try:
+            with replacing(png) as partial:
+                figure.savefig(partial, dpi=DOTS_PER_INCH, facecolor="white")
+            with replacing(svg) as partial:
+                figure.savefig(partial, facecolor="white", metadata={"Date": None})  # same picture, same bytes
+        finally:
+            figure.set_layout_engine(layout)
     return [png, svg]
 
 
