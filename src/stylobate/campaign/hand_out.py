@@ -130,8 +130,8 @@ class HandOut:
         if not math.isnan(self._each):
             fewest = int(min(max(NOT_LONGER / self._each, FEWEST_LONG), FEWEST))
             timed = max(int(LENGTH / self._each), fewest)
-        each = left / self._threads
-        fair = max(math.ceil(SHARE * each), min(fewest, math.ceil(each)))
+        at_first = math.ceil(len(self.cases) / self._threads)  # so that few cases are spread, and the last ones are not
+        fair = max(math.ceil(SHARE * left / self._threads), min(fewest, at_first))
         count = max(1, min(left, fair, timed, GROWTH * self._largest, MOST))
         self._next += count
         return list(range(self._next - count, self._next))
