@@ -134,7 +134,7 @@ class SpecimenBlock(SpaceBlock):
         kn, ks = vertex_stiffness(specimen)
         for array in (self.drum, self.joint, self.lane):
             for name in array.dtype.names or ():
-                if array.dtype[name].shape:  # the rest are one number for all lanes, of links, which specimens have none of
+                if array.dtype[name].shape:  # others are of links, which specimens have none of
                     array[name][..., lane] = 0.0
         joint, drum = self.joint, self.drum
         m = len(vertices)
