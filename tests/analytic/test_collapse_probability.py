@@ -164,7 +164,7 @@ def test_phase_starts_the_sine_elsewhere_and_shares_its_samples():
 def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
     column = preset("paper-monolithic")
     whole = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4)
-    asked, real = [], runner.simulate_iter
+    asked, real = [], runner.compute
 
     def stopping(cases, *args, **kwargs):
         asked.append(len(cases))
@@ -173,7 +173,7 @@ def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
                 raise KeyboardInterrupt
             yield item
 
-    monkeypatch.setattr(runner, "simulate_iter", stopping)
+    monkeypatch.setattr(runner, "compute", stopping)
     first = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4, out=tmp_path)
     assert not first.complete
     assert first.summary()["not_run"] == 23

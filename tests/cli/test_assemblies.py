@@ -112,7 +112,7 @@ def fallen(tmp_path_factory):
 def test_run_writes_its_files(fallen):
     names = {path.name for path in fallen.glob("[!.]*") if not path.name.startswith("response.")}
     pictures = {f"{name}.{end}" for name in ("histories", "filmstrip", "energy", "motion") for end in ("png", "svg")}
-    assert names == pictures | {"run.json"}
+    assert names == pictures | {"run.json", "asked-run.json", "motion.csv"}
     written = json.loads((fallen / "run.json").read_text())
     assert written["outcome"] == "collapsed"
     assert written["fallen"]
