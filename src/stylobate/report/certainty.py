@@ -19,6 +19,10 @@ PARTS = {
 }
 
 
+#: How a spread is told.
+PERCENTILES = "16th / 50th / 84th percentile"
+
+
 def certainty_sentence(summary: Mapping[str, Any]) -> str:
     """How sure the verdict of a run is, in one or two sentences."""
     known = summary.get("certainty")
@@ -36,8 +40,8 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
     how_many = "none" if not fell else "all" if fell == number else str(fell)
     said = f"Of {number} columns like this one, {how_many} collapse{'s' if fell == 1 else ''}"
     if low is not None and high is not None:
-        said += f" ({n.percent(fell / number)}): the probability of collapse lies between {n.percent(low)} and "
-        said += f"{n.percent(high)}, with {level} confidence"
+        said += f" ({n.percent(fell / number)}): under this motion and in this model the probability of collapse lies "
+        said += f"between {n.percent(low)} and {n.percent(high)}, with {level} confidence"
     said += f". {open_} of them had not come to rest and are not counted as either." if open_ else "."
     most_fall, falls = fell > stood, bool(summary.get("collapsed"))
     if known.get("failed"):
@@ -58,30 +62,37 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
     pairs = [
         (
-            "collapse / stand / undecided / failed",
+            "columns computed: collapse / stand / undecided / could not be computed",
             " / ".join(str(known.get(one, 0)) for one in ("collapsed", "stands", "undecided", "failed")),
         ),
-        ("probability of collapse", n.plain(summary.get("collapse_probability"))),
+        ("probability of collapse, estimated", n.plain(summary.get("collapse_probability"))),
     ]
     if low is not None and high is not None:
-        pairs.append((f"interval, {n.percent(known.get('confidence', 0.95))}", f"{low:.3f} to {high:.3f}"))
+        pairs.append(
+            (
+                f"{n.percent(known.get('confidence', 0.95))} interval of it, from their number alone",
+                f"{low:.3f} to {high:.3f}",
+            )
+        )
     for key, words in (
-        ("peak_top_displacement_m", "peak displacement of the top, 16 / 50 / 84 %"),
-        ("residual_top_displacement_m", "residual displacement of the top, 16 / 50 / 84 %"),
-        ("peak_rotation_rad", "peak rotation [rad], 16 / 50 / 84 %"),
+        ("peak_top_displacement_m", f"peak displacement of the top, {PERCENTILES}"),
+        ("residual_top_displacement_m", f"residual displacement of the top, {PERCENTILES}"),
+        ("peak_rotation_rad", f"peak rotation [rad], {PERCENTILES}"),
     ):
         spread = known.get(key)
         if isinstance(spread, list):
             shown = [
                 "collapse" if one is None else n.length(one) if key.endswith("_m") else f"{one:.4f}" for one in spread
             ]
-            pairs.append((words, " / ".join(shown)))
+            own = None if summary.get("collapsed") else summary.get(key)
+            here = "" if own is None else f"; this run {n.length(own) if key.endswith('_m') else f'{own:.4f}'}"
+            pairs.append((words, " / ".join(shown) + here))
     scatter = known.get("scatter") or {}
     sizes = [f"{PARTS.get(key, key)}: {100.0 * float(size):g} %" for key, size in scatter.items() if size]
     pairs.append(("what varies (coefficient of variation)", "\n".join(sizes) or "nothing"))
     if known.get("left_out"):
         pairs.append(("does not vary, because the model does not take it", ", ".join(map(str, known["left_out"]))))
-    pairs.append(("seed", n.plain(known.get("seed"))))
+    pairs.append(("seed of the random numbers", n.plain(known.get("seed"))))
     items: list[Item] = [
         "Nobody knows a column to the last digit. The same motion was computed for columns that differ from this one by as "
         "much as a survey leaves open; the share of them that collapses says how far the verdict can be relied on. It does "

@@ -24,7 +24,7 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
     pairs = list(more)
     if asked is not None:
         if asked.models and not any(name == "model" for name, _ in more):
-            pairs.append(("model", ", ".join(_titled(one["name"]) for one in asked.models)))
+            pairs.append(("model", ", ".join(titled(one["name"]) for one in asked.models)))
         options = {key: value for key, value in asked.options.items() if value not in (None, [], "", False)}
         pairs += [(_option(key), n.plain(value)) for key, value in options.items()]
         if asked.day:
@@ -108,7 +108,8 @@ def _option(name: str) -> str:
     return f"{stem.replace('_', ' ')} [{unit}]" if stem and unit in ("s", "g", "m", "y") else name.replace("_", " ")
 
 
-def _titled(name: str) -> str:
+def titled(name: str) -> str:
+    """A model by its title, its name behind."""
     kind = known_model(name)
     return name if kind is None else f"{kind.title} ({name})"
 

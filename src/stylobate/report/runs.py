@@ -18,7 +18,7 @@ from . import numbers as n
 from .certainty import certainty_section, certainty_sentence
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import picture
-from .record import asked_section, model_section, record_section, sources_section, versions_of, warnings_of
+from .record import asked_section, model_section, record_section, sources_section, titled, versions_of, warnings_of
 from .shaking import motion_section
 from .statics import statics_section
 from .structure import structure_section
@@ -82,8 +82,8 @@ def _verdict(run: RunResult) -> Note:
             texts.append(certainty_sentence(run.summary))
     else:
         texts.append(
-            "How sure this verdict is was not computed: assemblies have no columns like them to compare with. It is that of "
-            "exactly this geometry, these joints and this motion."
+            "How sure this verdict is was not computed: only columns are computed with varied properties. It is that of "
+            "exactly this geometry, these joints and this motion, and near collapse small differences decide."
         )
     texts.append(_scope(run))
     return Note(texts, verdict_look(r))
@@ -97,16 +97,24 @@ def _how_far(r: Response) -> list[str]:
     if r.outcome is Outcome.FAILED or not isinstance(r.structure, Column):
         return []
     share = m.peak_top_displacement / r.structure.base_width
-    return [
-        f"Its top moved by up to {n.length(m.peak_top_displacement)}, {share:.2f} of the width of the base, and rests "
-        f"{n.length(m.residual_top_displacement)} from where it stood."
-    ]
+    said = (
+        f"Its top moved by up to {n.length(m.peak_top_displacement)}, {share:.2f} of the width of the base, and "
+        f"{'rests' if r.decided else 'was at the end'} {n.length(m.residual_top_displacement)} from where it stood."
+    )
+    plain = r.structure.n == 1 and not (r.structure.as_found or r.structure.links) and r.dims != "xyz"
+    if plain and math.isfinite(m.peak_rotation):
+        said += (
+            f" It turned by up to {m.peak_rotation / r.structure.slenderness:.2f} of the slenderness α, at which it is "
+            "balanced on its edge."
+        )
+    return [said]
 
 
 def _scope(run: RunResult) -> str:
     return (
-        f"This is the verdict of the model {run.response.model} under the one motion below. It is no statement about other "
-        "earthquakes."
+        f"This is the verdict of one model, {titled(run.response.model)}, under the one motion below. It is no statement "
+        "about other earthquakes, and no check against a code. What the model leaves out stands under “What the model "
+        "assumes, and where it ends”."
     )
 
 
@@ -126,11 +134,13 @@ def _doubts(run: RunResult) -> list[str]:
 
 def _asked(r: Response) -> list[tuple[str, str]]:
     p = r.provenance
-    pairs = [("what stands", r.structure.name), ("motion", str(p.get("motion", n.NONE)))]
+    pairs = [("structure", r.structure.name), ("motion", str(p.get("motion", n.NONE)))]
     pairs.append(("model", f"{r.model}, step {r.time_step:.3g} s, {r.steps} steps"))
-    pairs.append(("computed after the end of the motion", f"{float(p.get('tail_s', 0.0)):g} s"))
+    pairs.append(("time computed", f"{float(r.time[-1]):.2f} s from the start of the motion"))
     if p.get("until_rest"):
         pairs.append(("followed", "until everything lies still"))
+    else:
+        pairs.append(("quiet time asked for after the motion", f"{float(p.get('tail_s', 0.0)):g} s"))
     return pairs
 
 
