@@ -38,7 +38,8 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     """
     verdict, body = _TELL[result.kind](result)
     asked = result.asked
-    parts = [Section("Result", [Note(verdict[:1], f"verdict{verdict[1]}"), *warnings_of(result)])]
+    note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
+    parts = [Section("Result", [note, *warnings_of(result)])]
     parts.append(asked_section(result))
     for one in result.structures[:5]:
         parts.append(once(structure_section(one), one.digest, told))
@@ -66,6 +67,19 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     return parts
 
 
+def _scope(kind: Kind) -> str:
+    """What a result is not."""
+    if kind in (Kind.PUSHOVER, Kind.LIMIT):
+        return (
+            "Forces at rest tell when rocking begins and how far the column can lean; whether it stands an earthquake, only "
+            "runs in time tell."
+        )
+    return (
+        "This holds for the columns, motions and models named below; what they leave out stands under them. It is no check "
+        "against a code."
+    )
+
+
 # -- many runs -----------------------------------------------------------------------------------------------------
 
 
@@ -73,11 +87,11 @@ def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     first, above = s.get("first_collapse_g", s.get("critical_g")), s.get("all_collapse_above_g")
     if first is None:
-        sentence = "No amplitude of the grid collapses the column."
+        sentence = "No amplitude that was tried collapses the column; larger ones were not tried."
     else:
-        sentence = f"The smallest amplitude of the grid that collapses the column is {first:.4g} g"
+        sentence = f"The smallest amplitude tried that collapses the column is {first:.4g} g"
         sentence += (
-            f"; from {above:.4g} g on every amplitude does."
+            f"; from {above:.4g} g on every amplitude tried does."
             if above is not None
             else "; above it some amplitudes do and some do not."
         )
@@ -205,8 +219,10 @@ def _risk(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         f"once in {period:.3g} years on average." if isinstance(period, float) else "never, under this hazard."
     )
     low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
+    if n.NONE not in (low, high):
+        sentence += f" The annual rate lies between {low} and {high} (95 %)."
     pairs = [
-        ("annual rate", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
+        ("annual rate [1/year]", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
         ("hazard", n.plain(s.get("hazard"))),
     ]
     items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]

@@ -23,17 +23,18 @@ def statics_section(column: Column, run: RunResult | None) -> Section:
     """What horizontal forces at rest would do: uplift and limit analysis."""
     opens = column.uplift_acceleration
     joint = int(column.joint_uplift_accelerations.argmin()) + 1
-    pairs = [("opens the first joint", f"{n.acceleration(opens)} (joint {joint})")]
+    along = ", along x" if column.as_found else ""
+    pairs = [(f"opens the first joint{along}", f"{n.acceleration(opens)} (joint {joint})")]
     try:
         pairs += _around(column) if column.as_found else _in_plane(column)
     except StylobateError as error:
         pairs.append(("limit analysis", f"does not apply: {error}"))
     if run is not None and run.motion is not None:
         peak = max(float(np.abs(v).max()) for axis, v in run.motion.components.items() if axis != "z")
-        pairs.append(("peak of the motion over the first of these", f"{peak / opens:.2f}"))
+        pairs.append(("peak of the motion over what opens the first joint", f"{peak / opens:.2f}"))
     text = (
-        "Steady horizontal forces, proportional to the masses. Beyond these values a joint opens or the column becomes a "
-        "mechanism; under an earthquake it then rocks and need not overturn."
+        "Steady horizontal forces, proportional to the masses, as accelerations. Beyond these values a joint opens or the "
+        "column becomes a mechanism; under an earthquake it then rocks and need not overturn. Azimuths are from x towards y."
     )
     return Section("Statics", [text, Facts(pairs)])
 
@@ -60,8 +61,8 @@ def pushover_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     if s["peaked"]:
         sentence = (
-            f"Under steady horizontal forces the column gives way at {s['collapse_multiplier_g']:.4g} times its weight; no "
-            f"force is left when its top has moved by {n.length(s['ultimate_displacement_m'])}."
+            f"Under steady horizontal forces the column bears at most {s['collapse_multiplier_g']:.4g} times its weight; it "
+            f"bears none when its top has moved by {n.length(s['ultimate_displacement_m'])}."
         )
     else:
         sentence = (
@@ -69,17 +70,17 @@ def pushover_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
             "the path ends before it gives way."
         )
     pairs = [
-        ("largest multiplier", f"{s['largest_multiplier_g']:.4g} g"),
-        ("displacement of the top at the peak", n.length(s.get("peak_displacement_m"))),
-        ("displacement of the top where no force is left", n.length(s.get("ultimate_displacement_m"))),
+        ("largest horizontal force over the weight", f"{s['largest_multiplier_g']:.4g}"),
+        ("displacement of the top at the largest force", n.length(s.get("peak_displacement_m"))),
+        ("displacement of the top where it bears none", n.length(s.get("ultimate_displacement_m"))),
         ("governing joint", n.plain(s.get("governing_joint"))),
         ("steps of the path", n.plain(s.get("steps"))),
         ("end of the path", n.plain(s.get("stop"))),
     ]
     limit = result.asked.options.get("limit_analysis_g") if result.asked is not None else None
     if isinstance(limit, float):
-        pairs.insert(1, ("limit analysis, independently", f"{limit:.4g} g"))
-    caption = "Pushover curve, and the column half way along it; red is the joint that governs."
+        pairs.insert(1, ("limit analysis, independently", f"{limit:.4g}"))
+    caption = "Pushover curve, and the column half way along it; the joint that governs is red."
     return (sentence, " plain"), [Facts(pairs), *kept(result.pictures, "pushover", caption)]
 
 
@@ -106,28 +107,53 @@ def code_check(column: Column, result: Result, run: RunResult | None) -> Section
         )
     except StylobateError as error:
         return Section(title, [f"The capacity spectrum check does not apply: {error}"])
-    return Section(title, check_items(check, str(run.response.provenance.get("motion", "the motion of the run"))))
+    items = check_items(check, str(run.response.provenance.get("motion", "the motion of the run")))
+    return Section(title, [*items[:1], *_beside_run(check, result, run), *items[1:]])
+
+
+def _beside_run(check: CapacityCheck, result: Result, run: RunResult) -> list[Item]:
+    """What the run in time says to the displacement that the check expects."""
+    r = run.response
+    if r.collapsed:
+        return [Note(["The run in time under the same motion collapsed: rely on the run, not on this check."], "bad")]
+    ultimate = result.summary.get("ultimate_displacement_m") if isinstance(result, Numbers) else None
+    moved = r.measures.peak_top_displacement
+    if not ultimate or not np.isfinite(moved) or not check.zero_displacement > 0.0:
+        return []
+    expected = check.demand * ultimate / check.zero_displacement
+    said = (
+        f"At the top the demand is {n.length(expected)}; in the run in time under the same motion the top moved by up to "
+        f"{n.length(moved)}"
+    )
+    if moved <= expected:
+        return [Note([f"{said}."])]
+    if check.passed and moved > 0.4 * ultimate:
+        said += f", beyond the usable {n.length(0.4 * ultimate)}: by the run the check would not be passed"
+    return [Note([f"{said}. The check underestimates the displacement here: rely on the run."], "fair")]
 
 
 def check_items(check: CapacityCheck, demand: str) -> list[Item]:
     """A capacity spectrum check in words and numbers."""
     much = f"{check.factor:.2f} times the demand" if check.demand > 0.0 else "without any demand"
     sentence = (
-        f"The check is {'passed' if check.passed else 'not passed'}: the usable displacement of "
-        f"{n.length(check.usable_displacement)} is {much} of {n.length(check.demand)}."
+        f"For this one motion the check is {'passed' if check.passed else 'not passed'}: the usable displacement of "
+        f"{n.length(check.usable_displacement)} is {much} of {n.length(check.demand)}. It is no proof to a code: the demand "
+        "is not the design spectrum of the site."
     )
     pairs = [
         ("demand", f"elastic displacement spectrum of {demand}, 5 % damping"),
         ("participating mass M*", f"{check.mass:.0f} kg (e* = {check.participation:.3f})"),
         ("spectral acceleration that sets the mechanism off, a₀*", n.acceleration(check.acceleration)),
-        ("displacement of no capacity, d₀*", n.length(check.zero_displacement)),
+        ("displacement at which the capacity is zero, d₀*", n.length(check.zero_displacement)),
         ("usable displacement d_u* = 0.4 d₀*", n.length(check.usable_displacement)),
         ("secant period T_s", f"{check.period:.2f} s"),
         ("displacement demand at T_s", n.length(check.demand)),
-        ("usable over demand", f"{check.factor:.3f}"),
+        ("usable displacement over demand", f"{check.factor:.3f}"),
+        ("confidence factor FC", "1, as if everything were known"),
     ]
     end = (
-        "Nonlinear kinematic analysis of Circolare 617/2009, C8A.4.2.2 and C8A.4.2.3, for an element on the ground. It "
+        "Nonlinear kinematic analysis of Circolare 617/2009, C8A.4.2.2 and C8A.4.2.3, for an element on the ground; that "
+        "circular was replaced by Circolare 7/2019. The starred values are those of the equivalent oscillator. The method "
         "takes a rocking column for an oscillator with a secant period, which it is not: a convention, to be read beside "
         "the run in time, never instead of it."
     )
@@ -145,7 +171,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     modes = "; ".join(f"joint {one['joint']} {one['mode']}" for one in s.get("active_joints", ()))
     pairs = [
         ("mechanism", modes or n.NONE),
-        ("joints at their strength", n.plain(s.get("joints_at_strength"))),
+        ("numbers of the joints at their strength", n.plain(s.get("joints_at_strength"))),
         ("flow rule of friction", n.plain(s.get("flow"))),
     ]
     if "lower_bound_g" in s:
