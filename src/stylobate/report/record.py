@@ -14,6 +14,9 @@ from ..version import __version__
 from . import numbers as n
 from .page import Code, Facts, Item, Note, Points, Rows, Section
 
+#: Options that are results, told elsewhere.
+FOUND = ("limit_analysis_g",)
+
 
 def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Section:
     """What was asked: the command as typed, and what else was chosen."""
@@ -25,7 +28,11 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
     if asked is not None:
         if asked.models and not any(name == "model" for name, _ in more):
             pairs.append(("model", ", ".join(titled(one["name"]) for one in asked.models)))
-        options = {key: value for key, value in asked.options.items() if value not in (None, [], "", False)}
+        options = {
+            key: value
+            for key, value in asked.options.items()
+            if value not in (None, [], "", False) and key not in FOUND
+        }
         pairs += [(_option(key), n.plain(value)) for key, value in options.items()]
         if asked.day:
             pairs.append(("computed on", asked.day))
@@ -74,7 +81,12 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
     """Parameters of the computation, versions, and the files with their digests."""
     items: list[Item] = []
     if parameters:
-        items.append(Facts([(key, n.plain(value)) for key, value in parameters.items()], "Parameters of the model"))
+        items.append(
+            Facts(
+                [(key, n.plain(value)) for key, value in parameters.items()],
+                "Parameters of the model by their names in the program, in SI units; –: not set.",
+            )
+        )
     known = {key: str(value) for key, value in versions.items() if value not in (None, "")}
     items.append(Facts([*known.items(), ("folder", str(result.folder))], "Versions and inputs"))
     state = {True: "as written", False: "changed since", None: "no list to check by"}

@@ -223,7 +223,7 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
         body.append(row)
     fallen = (
         f" Openings are the largest recorded until the collapse was certain, the beginning of the fall included, which the "
-        f"measures above leave out. {n.NONE}: of what was lost."
+        f"measures above leave out. Slips and twists are those at the end; {n.NONE}: the joint that failed and all above."
         if r.collapsed
         else ""
     )
@@ -233,12 +233,19 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
 def _energy(r: Response) -> Section:
     share = abs(r.energy_imbalance)
     text = (
-        f"The energy that the motion put in is found again in motion, height, elastic joints and what friction, dashpots "
-        f"and impacts took, but for {100.0 * share:.2g} % of the energy at stake."
+        f"The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
+        f"friction, damping and impacts took, but for {100.0 * share:.2g} % of the largest of these energies. A run that misses more than "
+        f"{n.percent(IMBALANCE)} is warned of under the verdict."
     )
     return Section(
         "Energy balance",
-        [text, picture(plots.draw_energy(r, " "), "Energy over time, and below what the ledger misses.")],
+        [
+            text,
+            picture(
+                plots.draw_energy(r, " "),
+                "Energy over time (gravity: of height), and below the share that the balance misses.",
+            ),
+        ],
     )
 
 

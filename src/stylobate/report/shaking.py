@@ -14,7 +14,7 @@ from ..motion import Motion
 from ..motion.intensity import motion_summary
 from ..plots import draw_motion, draw_spectra
 from ..response import Response
-from .page import Facts, Item, Rows, Section
+from .page import Facts, Item, Note, Rows, Section
 from .pictures import picture
 
 #: What a record says of itself, in words.
@@ -49,22 +49,26 @@ def motion_section(
         return Section("The ground motion", ["It is not kept with these results."])
     known = dict(asked or {})
     facts = [("motion", str(known.get("name") or motion.name))]
-    facts.append(("duration and step", f"{motion.duration:.2f} s, {motion.dt:.4g} s"))
+    facts.append(("duration and time step", f"{motion.duration:.2f} s, {motion.dt:.4g} s"))
     metadata = known.get("metadata") or {}
     facts += [
         (key.replace("_", " "), str(metadata[key])) for key in SAID if metadata.get(key) not in (None, "", "None")
     ]
     done = [str(one) for one in (known.get("processing") or motion.processing)]
-    facts.append(("processing", "\n".join(done) if done else "none: as recorded, or a formula"))
+    facts.append(("processing", "\n".join(done) if done else "none: as its source gives it, or from a formula"))
     if left_out := [str(one) for one in known.get("left_out") or ()]:
         facts.append(("left out", "\n".join(left_out)))
     items: list[Item] = [*note, Facts(facts), _measures(motion)]
+    if metadata.get("stage") in ("uncorrected", "raw counts"):
+        text = "Its source gives this record as uncorrected: see under processing whether its baseline was corrected."
+        items.insert(len(note) + 1, Note([text], "fair"))
     if column is not None and motion.pga > 0.0:
         items.append(_beside(motion, column))
     items.append(picture(draw_motion(motion, " "), "Acceleration and velocity of the ground, as they acted."))
     if motion.pga > 0.0:
         caption = (
-            "Response spectra of a linear oscillator, 5 % of critical damping. A rocking column is none: see the text."
+            "Response spectra of a linear oscillator, 5 % of critical damping, to compare motions. What rocks is no such "
+            "oscillator: its response cannot be read from them."
         )
         items.append(picture(draw_spectra(motion, title=" "), caption))
     return Section("The ground motion", items)
@@ -95,7 +99,10 @@ def _measures(motion: Motion) -> Rows:
         if s.get("pulse_period_s") and math.isfinite(s["pulse_period_s"])
         else ""
     )
-    caption = f"Measures of each component, z is vertical. CAV is the cumulative absolute velocity.{pulse}"
+    caption = (
+        "Measures of each component, z is vertical. CAV is the cumulative absolute velocity; the duration is that between 5 "
+        f"and 95 % of the Arias intensity.{pulse}"
+    )
     return Rows(["component", *(name for name, _, _ in parts)], body, caption, numbers=True)
 
 

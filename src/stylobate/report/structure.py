@@ -53,11 +53,11 @@ def _properties(column: Column) -> list[tuple[str, str]]:
         ("width of the base in contact", f"{column.base_width:.3f} m"),
         ("mass", f"{column.mass:.0f} kg"),
         ("centroid above the base", f"{column.centroid_height:.3f} m"),
-        ("half diagonal R", f"{column.radius:.3f} m"),
-        ("slenderness α", n.angle(column.slenderness)),
-        ("frequency parameter p, as one block", f"{column.frequency_parameter:.3f} rad/s"),
+        ("from the edge of the base to the centroid, R", f"{column.radius:.3f} m"),
+        ("slenderness α, of R from the vertical", n.angle(column.slenderness)),
+        ("frequency parameter p, as one rigid block", f"{column.frequency_parameter:.3f} rad/s"),
         (
-            "static acceleration that opens the first joint",
+            f"static acceleration that opens the first joint{', along x' if column.as_found else ''}",
             f"{n.acceleration(column.uplift_acceleration)} (joint {first})",
         ),
     ]
@@ -81,9 +81,9 @@ def _drums(column: Column, round_: bool) -> Rows:
         body.append(row + ([f"{joint.cohesion:.3g}"] if cohesive else []))
     left_out = f"; of {column.n} drums the lowest {MOST}" if column.n > MOST else ""
     caption = (
-        "Drums and the joints under them, from the top down"
-        f"{left_out}. μ is the friction coefficient, k_n and k_s the stiffness per area; “opens at” is the horizontal "
-        "acceleration that would open the joint if it acted steadily."
+        "Drums and the joints under them, joint 1 under drum 1, from the top down"
+        f"{left_out}. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per "
+        "area; “opens at” is the horizontal acceleration that would open the joint if it acted steadily."
     )
     return Rows(header, body, caption, numbers=True)
 
@@ -153,7 +153,9 @@ def _assembly(assembly: Assembly) -> list[Item]:
         size = one.corners.max(axis=0) - one.corners.min(axis=0)
         kind = "held" if one.fixed else f"{one.properties[0]:.0f}"
         body.append([one.name, f"{size[0]:.3f}", f"{size[1]:.3f}", f"{one.depth:.3f}", kind])
-    rows = Rows(["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"], body, "Blocks", numbers=True)
+    rows = Rows(
+        ["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"], body, "Blocks, from edge to edge.", numbers=True
+    )
     laws = [
         [
             f"{assembly.bodies[joint.lower].name} – {assembly.bodies[joint.upper].name}",
@@ -163,5 +165,10 @@ def _assembly(assembly: Assembly) -> list[Item]:
         ]
         for joint in assembly.joints[:MOST]
     ]
-    joints = Rows(["joint", "μ [–]", "k_n [N/m³]", "k_s [N/m³]"], laws, "Joints", numbers=True)
+    joints = Rows(
+        ["joint", "μ [–]", "k_n [N/m³]", "k_s [N/m³]"],
+        laws,
+        "Joints. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per area.",
+        numbers=True,
+    )
     return [picture(draw_elevation(assembly), caption), Facts(facts), rows, joints]
