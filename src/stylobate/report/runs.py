@@ -234,8 +234,8 @@ def _energy(r: Response) -> Section:
     share = abs(r.energy_imbalance)
     text = (
         f"The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
-        f"friction, damping and impacts took, but for {100.0 * share:.2g} % of the largest of these energies. A run that misses more than "
-        f"{n.percent(IMBALANCE)} is warned of under the verdict."
+        f"friction, damping and impacts took, but for {100.0 * share:.2g} % of the largest of these "
+        f"energies. A run that misses more than {n.percent(IMBALANCE)} is warned of under the verdict."
     )
     return Section(
         "Energy balance",
