@@ -47,3 +47,14 @@ def test_a_dowelled_block_slides_in_a_slow_ramp_where_the_limit_analysis_says():
     # elastic dowel: 6 kN over 1e8 N/m; beyond its capacity it slides with 0.02 g and more for seconds
     assert held < 1e-3
     assert slid > 0.1
+
+
+def test_a_tie_out_of_the_plane_pulls_less_in_it():
+    # m a h = m g b + T x of its direction in the plane, at its distance from the edge
+    tie = st.Tie(at=(-0.6, -0.6), to=(-0.6, 0.6), axial_stiffness=1e8, axial_capacity=1e4, to_height=2.0)
+    column = block(STIFF, tie)
+    share = 2.0 / math.hypot(2.0, 1.2)
+    weight = column.mass * st.g
+    assert limit_analysis(column).multiplier == pytest.approx(
+        (weight * 0.45 + 1e4 * share * 1.05) / (weight * 1.5), rel=1e-6
+    )

@@ -143,3 +143,30 @@ def test_a_damping_layer_takes_the_work_of_its_dashpot() -> None:
     viscous = response.histories.energy["viscous"]
     assert viscous[-1] > 0.8 * response.histories.energy["input"][-1]
     assert response.energy_imbalance < 1e-3
+
+
+def test_what_dowels_hold_in_their_holes_is_set_against_a_fall() -> None:
+    """Two stiff dowels hold a lifted block as a couple, V times the lift: it hangs on them, and has not collapsed.
+
+    Given as bars of no strength in tension they hold the same.
+    """
+    joint = st.Joint(normal_stiffness=2e9, shear_stiffness=1e9, friction_coefficient=1.0)
+    bare = st.Column.of_drums([st.Drum(2.0, 0.5, 0.5, 5000.0)], joint).replace(gravity=G)
+    capacity = 3.0 * bare.mass * G
+    dowels = [
+        st.Dowel(joint=1, at=(x, 0.0), shear_stiffness=2e7, shear_capacity=capacity, embedment=0.3) for x in (-0.2, 0.2)
+    ]
+    pulse = st.Motion(0.01, np.where(np.arange(500) * 0.01 < 1.6, 0.3 * G, 0.0))
+    held = st.simulate(bare.replace(links=dowels), pulse, st.DistinctElement2D())
+    assert st.simulate(bare, pulse, st.DistinctElement2D()).collapsed
+    assert not held.collapsed
+    assert held.peak_rotation > 0.5
+    assert np.ptp(np.abs(held.histories.rotation[-20:, 0])) < 0.1
+
+
+def test_a_brittle_dowel_that_snapped_had_its_capacity() -> None:
+    capacity = 3e3
+    dowel = st.Dowel(joint=1, shear_stiffness=1e8, shear_capacity=capacity, failure="brittle")
+    response = st.simulate(block(0.5, 1.0, 0.3, dowel), push(8.0, 0.2, 0.3), st.DistinctElement2D())
+    assert response.measures.links[0].broken
+    assert response.measures.links[0].peak_shear == pytest.approx(capacity, rel=1e-9)

@@ -98,7 +98,9 @@ def test_a_folder_of_records_goes_on_with_the_next(records, tmp_path, capsys, mo
         return real(self, column, motion, options)
 
     monkeypatch.setattr(HousnerBlock, "run", run)
-    monkeypatch.setattr("stylobate.cli.run.write", lambda response, _, folder: [response.save(folder / "response.nc")])
+    monkeypatch.setattr(
+        "stylobate.cli.run.write", lambda response, _, folder, everything: [response.save(folder / "response.nc")]
+    )
     command = ["run", "paper-monolithic", *HOUSNER, "--motion", str(records), "--out", str(out)]
     assert call(command) == 130
     assert f"interrupted; 2 of 3 runs are kept in {out}" in capsys.readouterr().err

@@ -92,7 +92,7 @@ class EurocodeSpectrum:
     kind: int = 1
 
     def __post_init__(self) -> None:
-        check_range("ground_acceleration", self.ground_acceleration, 0.0, 100.0, unit="m/s²")
+        check_range("ground_acceleration", self.ground_acceleration, 0.0, 100.0, unit="m/s²", open_low=True)
         check_range("damping", self.damping, 0.0, 0.5)
         if self.kind not in GROUND_TYPES:
             raise InputError(f"type of the spectrum is {self.kind!r}; allowed are 1 and 2.")

@@ -204,7 +204,7 @@ def _anchored(link: Bar) -> dict:
             stiffness = made.modulus * area / length
         if capacity is None:
             limits = {
-                "yield of the bar": made.yield_strength * area,
+                "yield of the bar": made.tensile_strength * area,
                 "bond to the stone": math.pi * d * length * _or(link.bond, BOND),
             }
             governs = min(limits, key=lambda name: limits[name])
@@ -241,7 +241,7 @@ def _line(link: Tie, column: Column) -> LinkProperties:
         area = math.pi * d * d / 4.0
         stiffness = _or(stiffness, made.modulus * area / length)
         if capacity is None:
-            capacity, governs = made.yield_strength * area, "yield of the bar"
+            capacity, governs = made.tensile_strength * area, "yield of the bar"
         ultimate = _or(ultimate, made.ultimate_strain * length)
     assert stiffness is not None
     upper = column.n if link.to_drum is None else link.to_drum

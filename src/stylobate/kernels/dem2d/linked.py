@@ -43,9 +43,11 @@ def across(drum, joint, lane, m):
             abs(slip), k.mgap[l], yields, stiffness, at_q - k.mh[l], deepest, reach, k.mon[l], k.mout[l], brittle
         )
         far = abs(at_s - k.msx[l])
-        whole = 0.0 if far > lost else whole
+        snapped = (k.mon[l] > 0.0) & (whole == 0.0)  # at its capacity
+        whole = 0.0 if (far > lost) & (out == 0.0) else whole  # one out of its hole is not bent
         acts = whole * (1.0 - out)
         held = held * acts
+        k.mpeak[l] = max(k.mpeak[l], stiffness * yields if snapped else held)
         old = k.mfx[l]
         k.mlost[l] += half * old * old * (1.0 - acts) + held * more
         k.mpx[l] += side * (back + more * (1.0 - crush))

@@ -69,9 +69,11 @@ def across(drum, joint, lane, m):
         )
         mx, my = a - k.msx[l], b - k.msy[l]
         far = math.sqrt(mx * mx + my * my)
-        whole = 0.0 if far > lost else whole
+        snapped = (k.mon[l] > 0.0) & (whole == 0.0)  # at its capacity
+        whole = 0.0 if (far > lost) & (out == 0.0) else whole  # one out of its hole is not bent
         acts = whole * (1.0 - out)
         held = held * acts
+        k.mpeak[l] = max(k.mpeak[l], stiffness * yields if snapped else held)
         old = k.mfx[l] * k.mfx[l] + k.mfy[l] * k.mfy[l]
         k.mlost[l] += half * old * (1.0 - acts) + held * more
         move = back + more * (1.0 - crush)

@@ -7,8 +7,6 @@ points. Whoever computes a force puts it on both bodies at the same place, so th
 Records and legend: ``link_records.py``.
 """
 
-import math
-
 from ..jit import apart, kernel, law, strict
 from ..run_codes import LANES, RUNNING
 
@@ -54,6 +52,7 @@ def pulled(k, l, length):
     k.mlost[l] += released(old, 0.0, stiffness) * (1.0 - whole) + pull * more
     k.ml0[l] += more
     k.mft[l] = pull
+    k.mpull[l] = max(k.mpull[l], pull)
     k.mon[l] = whole
     k.mlong[l] = long
     return pull
@@ -86,12 +85,9 @@ def released(force, other, stiffness):
 
 @apart
 def note_peaks(lane, m):
-    """Peaks of a link: of forces, slip, and lift or elongation."""
+    """Peaks of slip, and of lift or elongation; those of forces are kept at every step."""
     k = lane[m]
     for l in range(LANES):
-        force = math.sqrt(k.mfx[l] * k.mfx[l] + k.mfy[l] * k.mfy[l])
-        k.mpeak[l] = max(k.mpeak[l], force)
-        k.mpull[l] = max(k.mpull[l], k.mft[l])
         k.mfar[l] = max(k.mfar[l], k.mslip[l])
         k.mmost[l] = max(k.mmost[l], k.mlong[l])
 
@@ -105,6 +101,9 @@ def look_at_links(lane, feed, watch):
     for m in range(1, lane.shape[0]):
         k = lane[m]
         note_peaks(lane, m)
+        for j in range(k.mlow, k.mup):
+            for l in range(LANES):
+                w.hold[j * LANES + l] += k.mhold[l] if k.mon[l] > 0.0 else 0.0
         if k.mnear == 0:
             continue
         for l in range(LANES):
@@ -113,10 +112,6 @@ def look_at_links(lane, feed, watch):
             k.mlost[l] = k.mdrag[l] = 0.0
             if k.mon[l] == 0.0 and k.mwhen[l] < 0 and w.status[l] == RUNNING:
                 k.mwhen[l] = feed[0].step[l]
-        if k.mline != 0 or k.mten != 0:
-            for j in range(k.mlow, k.mup):
-                for l in range(LANES):
-                    w.hold[j * LANES + l] += k.mhold[l] if k.mon[l] > 0.0 else 0.0
 
 
 @strict

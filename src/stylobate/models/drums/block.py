@@ -24,7 +24,7 @@ from ..shared.ground import along_base, ground_histories
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..shared.soft_joints import resolving
 from ..start import Start, check_in_plane
-from .links import PackedLinks, held_at_start, link_measures, link_snapshot, put_links, with_link_histories
+from .links import PackedLinks, held_at_start, link_measures, link_snapshot, put_links, set_free, with_link_histories
 from .pose import leans_right, placed
 from .standing import lowest_barrier, stands_for_good
 
@@ -310,7 +310,8 @@ class DrumBlock:
         case = self.cases[lane]
         assert case is not None
         change = self.energies(lane) - self.start[lane]
-        return float(change[1] + change[2] + change[3]) < quiet.AT_REST * lowest_barrier(case.column)
+        free = set_free(case.column, self.lane, lane) if self.tied else 0.0  # and so is not missing from the motion
+        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(case.column)
 
     def time(self, lane: int) -> float:
         """Time of the lane's present state [s]."""

@@ -154,19 +154,25 @@ def space_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | No
 
 
 def _hold(column: Column, link: LinkProperties) -> float:
-    """Largest moment that a link can set against overturning about a joint that it crosses [N m]."""
-    if not link.axial_stiffness:
-        return 0.0
-    lever = 0.0
+    """Largest moment that a link can set against overturning about a joint that it crosses [N m].
+
+    One across a joint in tension at its distance from the farthest edge; one in shear over the lift at which it is in its
+    hole. Faces part before they have slipped by twice their width, or lifted by as much.
+    """
+    lever = widest = 0.0
     for j in range(link.lower, link.upper):
         above, below = column.drums[j], column.drums[j - 1] if j else column.drums[j]
         half = 0.5 * max(above.bottom_width, below.top_width if j else 0.0)
         if not above.circular:
             half = math.hypot(half, 0.5 * max(above.depth, below.upper_depth))
+        widest = max(widest, 2.0 * half)
         height = float(column.joint_heights[j])
         ends = (math.hypot(math.hypot(*end[:2]) + half, end[2] - height) for end in (link.low, link.high))
         lever = max(lever, min(ends))
-    return link.axial_capacity * lever
+    shear = 0.0
+    if link.shear_stiffness:
+        shear = min(link.shear_capacity, link.shear_stiffness * 2.0 * widest) * min(link.lift, widest)
+    return shear + (link.axial_capacity * lever if link.axial_stiffness else 0.0)
 
 
 class LinkStiffness(NamedTuple):
@@ -230,6 +236,15 @@ def put_links(records: np.ndarray, packed: PackedLinks, lane: int, step: float) 
 def held_at_start(column: Column) -> float:
     """Elastic energy of pretensioned links [J]."""
     return sum(0.5 * one.pretension**2 / one.axial_stiffness for one in acting(column) if one.pretension)
+
+
+def set_free(column: Column, records: np.ndarray, lane: int) -> float:
+    """Energy of pretension that the links of a lane have given away since the start [J]."""
+    return sum(
+        0.5 * max(one.pretension**2 - float(records["mft"][1 + m, lane]) ** 2, 0.0) / one.axial_stiffness
+        for m, one in enumerate(acting(column))
+        if one.pretension
+    )
 
 
 def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:

@@ -28,6 +28,8 @@ class StackLink:
         Blocks that it links, from 0 at the bottom; −1 is the base.
     low, high : (float, float)
         Its ends, x and z as those of the stack [m].
+    aside : float
+        How far a line goes out of the plane [m].
     stiffness, capacity : float
         [N/m], [N]; the capacity infinite without limit.
     slack : float
@@ -58,6 +60,7 @@ class StackLink:
     pretension: float = 0.0
     brittle: bool = False
     strength: bool = True
+    aside: float = 0.0
 
     def mirrored(self) -> StackLink:
         """As seen in a mirror."""
@@ -90,7 +93,7 @@ def stack_links(column: Column) -> tuple[StackLink, ...]:
                 found.append(
                     StackLink(
                         one.name, LINE, *bodies, low, high, one.axial_stiffness, one.axial_capacity,
-                        ultimate=one.ultimate_elongation, pretension=one.pretension,
+                        ultimate=one.ultimate_elongation, pretension=one.pretension, aside=one.high[1] - one.low[1],
                     )
                 )  # fmt: skip
             continue
@@ -155,9 +158,9 @@ def link_strain(
     high, by_high = _point(one.upper, one.high, centroid, moved)
     apart, built = high - low, np.subtract(one.high, one.low)
     if one.action == LINE:
-        length = math.hypot(apart[0], apart[1])
+        length = math.hypot(apart[0], apart[1], one.aside)
         along = apart / length
-        return length - math.hypot(built[0], built[1]), 0.0, -(along @ by_low), along @ by_high
+        return length - math.hypot(built[0], built[1], one.aside), 0.0, -(along @ by_low), along @ by_high
     angle = float(joint_angle[one.upper])
     tangent, normal = _axes(angle + (moved[one.lower, 2] if one.lower >= 0 else 0.0))
     first, second = _axes(angle)
