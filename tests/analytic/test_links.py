@@ -161,7 +161,7 @@ def test_what_dowels_hold_in_their_holes_is_set_against_a_fall() -> None:
     assert st.simulate(bare, pulse, st.DistinctElement2D()).collapsed
     assert not held.collapsed
     assert held.peak_rotation > 0.5
-    assert np.ptp(np.abs(held.histories.rotation[-20:, 0])) < 0.1
+    assert np.ptp(np.abs(held.histories.drum_rotation[-20:, 0])) < 0.1
 
 
 def test_a_brittle_dowel_that_snapped_had_its_capacity() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.fragility import Fragility
 from ..analysis.states import StateComparison
@@ -17,7 +17,7 @@ _MARKERS = ("", "o", "s", "^")
 
 
 @styled
-def draw_states(found: StateComparison, title: str = "") -> Figure:
+def draw_states(found: StateComparison, title: str = "", *, figure: Figure | SubFigure | None = None) -> Figure:
     """Fragility curves beside the differences in the share of runs that exceed the limit state.
 
     The band is that of the first state; those of the others stand in the table. Open circles: the interval holds zero.
@@ -26,8 +26,10 @@ def draw_states(found: StateComparison, title: str = "") -> Figure:
     ----------
     found : StateComparison
     title : str
+    figure : matplotlib figure or subfigure, optional
+        Where to draw.
     """
-    figure = page(None, (WIDTH, 4.4))
+    figure = page(figure, (WIDTH, 4.4))
     curves, bars = figure.subplots(1, 2, width_ratios=(1.25, 1.0))
     known = [one for one in found.curves if one is not None]
     if known:
