@@ -35,7 +35,7 @@ demo: install
 	@$(BIN)/stylobate reproduce --quick --out demo
 
 test: install
-	@$(BIN)/python -m pytest $(ARGS)
+	@$(BIN)/python -m pytest -n 2 --dist loadfile $(ARGS)
 
 # The tests that are marked `processor`, on every processor that this one can play; ARGS="-k housner" for some of them.
 test-cpus: install
