@@ -195,11 +195,13 @@ def test_compare_models_under_one_motion_and_over_a_domain(command, tmp_path):
     assert pair["differing"] == pair["only_first_collapses"] + pair["only_second_collapses"]
 
 
-def test_models_side_by_side_fit_a_terminal(capsys):
+@pytest.mark.parametrize("columns", [80, 100])
+def test_models_side_by_side_fit_a_terminal(columns, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", str(columns))
     # A column in space has lists of one number per joint and more measures than one in the plane.
     call(["compare", "paper-12-drums", "--models", "dem2d,dem3d,rigid-block", "--harmonic", "1Hz,0.05g,0.1s"])
     lines = capsys.readouterr().out.splitlines()
-    assert max(map(len, lines)) <= 100
+    assert max(map(len, lines)) <= columns
     names = [line.split()[0] for line in lines[1:] if not line.startswith(" ")]
     assert names[:3] == ["model", "outcome", "collapsed"]
     assert "residual_twist_per_joint_rad" in names

@@ -100,7 +100,8 @@ def print_side_by_side(table: pandas.DataFrame) -> None:
     from rich.text import Text
 
     shown = Table(box=None, pad_edge=False)
-    for name in (table.columns[0], *table.iloc[:, 0]):
+    shown.add_column(Text(str(table.columns[0])), no_wrap=True)
+    for name in table.iloc[:, 0]:
         shown.add_column(Text(str(name)), overflow="fold")
     for name in table.columns[1:]:
         values = [_as_text(value) for value in table[name]]
