@@ -3,6 +3,7 @@
 import os
 import signal
 import time
+from dataclasses import replace
 
 import pytest
 from page_server import ended, served
@@ -92,6 +93,27 @@ def test_jobs_are_there_after_a_restart(tmp_path, asked):
         assert found[done]["state"] == "done"
         assert second.get(f"/api/jobs/{done}").json()["results"] == [{"outcome": "rocked"}]
         assert found[slow]["state"] in ("cancelled", "failed")
+
+
+def test_the_end_of_a_job_is_the_last_word(tmp_path, asked, monkeypatch):
+    """A job that ends while its beginning is still being written is kept as ended."""
+    from stylobate.app.job import Job
+
+    with served(tmp_path) as page:
+        written = Job.save
+
+        def late(job):
+            begun = job.state == "waiting"
+            if begun:
+                copy = replace(job)
+                time.sleep(0.3)
+                return written(copy)
+            return written(job)
+
+        monkeypatch.setattr(Job, "save", late)
+        done = page.post("/api/jobs", json=asked).json()["id"]
+        ended(page, done)
+    assert Job.load(tmp_path / "jobs" / done).state == "done"
 
 
 def test_a_domain_is_a_study_file(fresh, asked, tmp_path):

@@ -155,11 +155,11 @@ class Workshop:
     # -- the process ---------------------------------------------------------------------------------------------
 
     def _enqueue(self, job: Job) -> None:
+        self._changed(job)
+        job.save()  # before it can be begun: what is written of its end must be the last word
         with self._wake:
             self._queue.insert(self._turn(job), job.id)
             self._wake.notify()
-        self._changed(job)
-        job.save()
 
     def _turn(self, job: Job) -> int:
         """Where a job comes in the queue: after all others, but before the long ones where it is none of them."""
