@@ -16,6 +16,7 @@ from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.shared.toes import disc_on_bed
+from stylobate.models.start import Start
 from stylobate.motion import Motion, harmonic
 
 pytestmark = pytest.mark.processor
@@ -170,6 +171,19 @@ def test_steady_rolling_decays_by_what_resists_it():
     assert abs(change[5]) == pytest.approx(0.5 * rate, rel=0.01)
     # it goes out of the motion
     assert change[1:4].sum() == pytest.approx(-abs(change[5]), rel=0.05)
+
+
+@pytest.mark.parametrize("spin", [1e-7, 1e-3])
+def test_no_step_adds_to_rolling(spin):
+    """A slender drum nearly on its side, at 86°, rolls about its own axis: 1/C there is thirty times 1/A."""
+    column = space.cylinder(0.6, 4.0)
+    model = DistinctElement3D(pivot_friction=0.0, rolling_resistance=1.0)
+    start = Start(1.5, 0.0, tuple(spin * space.axis_of(1.5, 0.0)))
+    block = model.block_for(model.kind(column), RunOptions(start=start, until_end=True))
+    block.load(0, Case(column, Motion(0.5, np.zeros(2))))
+    block.advance(1)
+    found = sum(block.drum[f"w{c}"][1, 0] * block.drum[f"k{c}"][1, 0] for c in "xyz")
+    assert abs(found) < 0.5 * spin
 
 
 def test_rocking_in_a_plane_does_not_roll():

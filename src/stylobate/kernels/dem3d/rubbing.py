@@ -11,15 +11,18 @@ STOPPING = 0.5
 
 
 @law
-def resistance(rolling, pressing, dx, dy, dz, ox, oy, oz, mobility, dt):
+def resistance(rolling, pressing, dx, dy, dz, ox, oy, oz, u, v, l, dt):
     """Moment that resists rolling, c N r against the part of the angular velocity along r.  # Eq. (E12)
 
-    r = (dx, dy, dz) goes from the middle of the face to that of pressure, ``mobility`` is the sum of the drums' inverse
-    moments of inertia; no step takes more than a share of the velocity.
+    r = (dx, dy, dz) goes from the middle of the face to that of pressure; no step takes more than a share of the velocity,
+    by the inertia that both drums have about r: a drum that lies on its side turns about its own axis there.
     """
     square = dx * dx + dy * dy + dz * dz
     each = 1.0 / math.sqrt(max(square, 1e-24))
     rate = (ox * dx + oy * dy + oz * dz) * each
+    below = (u.kx[l] * dx + u.ky[l] * dy + u.kz[l] * dz) * each
+    above = (v.kx[l] * dx + v.ky[l] * dy + v.kz[l] * dz) * each
+    mobility = u.ia[l] + u.ic[l] * below * below + v.ia[l] + v.ic[l] * above * above
     most = STOPPING * abs(rate) / max(mobility * dt, NOTHING)
     size = min(rolling * pressing * square * each, most) * each
     size = -size if rate > 0.0 else size
@@ -90,7 +93,7 @@ def carry(
             ax, ay, az = px - cx, py - cy, pz - cz
             slip = ax * nx + ay * ny + az * nz
             ax, ay, az = ax - slip * nx, ay - slip * ny, az - slip * nz
-            ax, ay, az = resistance(o.roll[0, l], pressing, ax, ay, az, ox, oy, oz, u.ia[l] + v.ia[l], dt)
+            ax, ay, az = resistance(o.roll[0, l], pressing, ax, ay, az, ox, oy, oz, u, v, l, dt)
             mx, my, mz = mx + ax, my + ay, mz + az
             ix, iy, iz = ix + ax, iy + ay, iz + az
         qx, qy, qz, twist = qx + gx, qy + gy, qz + gz, twist + turn
