@@ -1,8 +1,11 @@
 """Jobs: one at a time, a visible queue, cancelled, killed, done again, kept over a restart."""
 
+import io
 import os
 import signal
 import time
+import zipfile
+from contextlib import suppress
 from dataclasses import replace
 
 import pytest
@@ -63,14 +66,19 @@ def test_a_killed_process_costs_one_sentence(fresh, asked, how, tmp_path):
 
 def worker_of(folder):
     """The process whose log lies in a folder."""
-    log = os.path.realpath(folder / "worker.log")
-    for process in filter(str.isdecimal, os.listdir("/proc")):
-        try:
+    return workers_of(folder).pop()
+
+
+def workers_of(folder):
+    """All of them."""
+    log, found = os.path.realpath(folder / "worker.log"), set()
+    for process in filter(str.isdecimal, os.listdir("/proc") if os.path.isdir("/proc") else ()):
+        with suppress(OSError):
             if os.readlink(f"/proc/{process}/fd/2") == log:
-                return int(process)
-        except OSError:
-            continue
-    pytest.skip("this system does not say which process writes a file")
+                found.add(int(process))
+    if not found:
+        pytest.skip("this system does not say which process writes a file")
+    return found
 
 
 def test_a_job_is_done_again_and_deleted(fresh, asked, tmp_path):
@@ -199,3 +207,43 @@ def test_a_job_has_copies_of_its_records(fresh, asked, tmp_path):
     assert f"--motion={name}" in job["commands"][0]
     assert name in ended(fresh, job["id"])["files"]
     assert "a.csv" in job["title"]
+
+
+def test_all_files_of_a_job_come_in_one(fresh, asked):
+    """What a job took and made, with its command line; no file of the page's own, and no name that leads elsewhere."""
+    asked["column"]["name"] = "../../evil <b>"
+    job = ended(fresh, fresh.post("/api/jobs", json=asked).json()["id"])
+    answer = fresh.get(f"/api/jobs/{job['id']}/zip")
+    assert answer.headers["content-disposition"] == f'attachment; filename="stylobate-run-{job["id"]}.zip"'
+    with zipfile.ZipFile(io.BytesIO(answer.content)) as packed:
+        assert packed.testzip() is None
+        names = [f"{job['id']}/{one}" for one in ("commands.txt", "column.toml", "result/made.txt")]
+        assert packed.namelist() == names
+        assert packed.read(names[0]).decode() == job["commands"][0] + "\n"
+        assert packed.read(names[2]) == b"kept"
+    assert fresh.get("/api/jobs/none/zip").status_code == 404
+
+
+def test_the_process_says_that_it_is_ready(fresh):
+    """Before its first job: whoever opens the page sees when it may be asked."""
+    end = time.monotonic() + 10.0
+    with fresh.stream("GET", "/api/events") as told:
+        for line in told.iter_lines():
+            if line == "data: true":
+                return
+            assert time.monotonic() < end, line
+
+
+def test_a_run_takes_over_a_process_that_stands_by(fresh, asked, tmp_path):
+    """The map that pauses leaves, and the run does not wait for another process to load its libraries."""
+    grid = {"frequencies": "0.5:2:4", "amplitudes": "0.1g:0.4g:3", "motion": None, "kind": "domain"}
+    slow = fresh.post("/api/jobs", json=asked | grid | {"model": "slow"}).json()["id"]
+    end = time.monotonic() + 10.0
+    while fresh.get(f"/api/jobs/{slow}").json()["total"] == 0 and time.monotonic() < end:
+        time.sleep(0.02)
+    both = workers_of(tmp_path)
+    assert len(both) == 2
+    run = fresh.post("/api/jobs", json=asked).json()["id"]
+    assert ended(fresh, run)["state"] == "done"
+    assert len(both & workers_of(tmp_path)) == 1
+    fresh.post(f"/api/jobs/{slow}/cancel")

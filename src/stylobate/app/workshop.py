@@ -6,7 +6,6 @@ import json
 import secrets
 import shutil
 import signal
-import subprocess
 import threading
 import time
 from collections import deque
@@ -17,6 +16,7 @@ from typing import Any
 
 from ..errors import InputError
 from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
+from .process import Process
 
 #: Most jobs that wait, and that are kept.
 WAIT, KEEP = 50, 300
@@ -25,13 +25,10 @@ WAIT, KEEP = 50, 300
 LOG = "worker.log"
 
 #: Kinds of jobs that can be stopped and go on later where they were.
-LONG = ("domain", "ida")
+LONG = ("domain", "ida", "critical")
 
 #: Time between two looks at an idle process [s].
 LOOK = 0.5
-
-#: Time that a process has to stop by itself when it is told to [s].
-PATIENCE = 3.0
 
 #: Codes of the command line for bad input and for an interrupt.
 BAD_INPUT, INTERRUPTED = 2, 130
@@ -46,18 +43,22 @@ class Workshop:
         Each job has a folder in it.
     worker : sequence of str
         The command line of the process; it takes jobs on standard input.
+    told : callable
+        Called, from any thread, when something has changed.
     """
 
-    def __init__(self, folder: Path, worker: Sequence[str]) -> None:
-        self.folder, self.worker = folder, list(worker)
+    def __init__(self, folder: Path, worker: Sequence[str], told: Callable[[], None] = lambda: None) -> None:
+        self.folder, self.worker, self.told = folder, list(worker), told
         self.folder.mkdir(parents=True, exist_ok=True)
+        self._log = self.folder.parent / LOG
+        self._log.unlink(missing_ok=True)
         loaded = [Job.load(one) for one in self.folder.iterdir() if one.is_dir()]
         self.jobs = {one.id: one for one in sorted((job for job in loaded if job), key=lambda job: job.created)}
         self.version = 0
-        self.ready = False
         self._queue: deque[str] = deque()
         self._lock, self._wake = threading.RLock(), threading.Condition()
-        self._process: subprocess.Popen[str] | None = None
+        self._process: Process | None = None
+        self._spare: Process | None = None
         self._current: str | None = None
         self._closing = False
         self._thread = threading.Thread(target=self._work, name="jobs", daemon=True)
@@ -74,6 +75,12 @@ class Workshop:
         self._stop_process()
         if self._thread.is_alive():
             self._thread.join()
+
+    @property
+    def ready(self) -> bool:
+        """Whether the process has its compiled code at hand."""
+        process = self._process
+        return process is not None and process.ready and not process.over
 
     # -- asked by the page ---------------------------------------------------------------------------------------
 
@@ -144,6 +151,7 @@ class Workshop:
         with self._lock:
             self.jobs.pop(job.id, None)
             self.version += 1
+        self.told()
         shutil.rmtree(job.folder, ignore_errors=True)
 
     def place(self, job: Job) -> int:
@@ -181,17 +189,20 @@ class Workshop:
             current.state = WAITING
             self._queue.insert(self._before_long(), current.id)
             self._changed(current)
-            self._stop_process()
+            process = self._process
+            if process is not None:
+                process.tell()  # with the lock: it must not be given another job
+                threading.Thread(target=process.stop, name="pause").start()  # whoever asks need not wait for it
 
     def _work(self) -> None:
         while not self._closing:
             process = self._started()
             with self._wake:
                 self._wake.wait_for(lambda: self._closing or self._queue, LOOK)
-            if self._closing or process.poll() is not None or not self._queue:
+            if self._closing or process.over or not self._queue:
                 continue
             with self._lock:
-                if not self._queue or process.poll() is not None:  # it was stopped while this waited for the lock
+                if not self._queue or process.over:  # it was stopped while this waited for the lock
                     continue
                 job = self.jobs.get(self._queue.popleft())
                 if job is None or job.state != WAITING:
@@ -203,36 +214,35 @@ class Workshop:
                 self._follow(job, process)
             finally:
                 self._current = None
-        self._stop_process()
-        self._put_away()
+        for one in (self._process, self._spare):
+            if one is not None:
+                one.put_away()
 
-    def _started(self) -> subprocess.Popen[str]:
-        if self._process is None or self._process.poll() is not None:
-            self._put_away()
-            self.ready = False
-            with (self.folder.parent / LOG).open("wb") as log:
-                self._process = subprocess.Popen(
-                    self.worker, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True, encoding="utf-8",
-                    bufsize=1, start_new_session=True,
-                )  # fmt: skip
+    def _started(self) -> Process:
+        """The process that does jobs; where it has ended, the one that waits to take over, or a new one."""
+        if self._process is None or self._process.over:
+            if self._process is not None:
+                self._process.put_away()
+            spare, self._spare = self._spare, None
+            if spare is not None and spare.over:
+                spare.put_away()
+                spare = None
+            self._process = spare or self._new()
+            self._news()
         return self._process
 
-    def _follow(self, job: Job, process: subprocess.Popen[str]) -> None:
+    def _new(self) -> Process:
+        return Process(self.worker, self._log, self._news)
+
+    def _follow(self, job: Job, process: Process) -> None:
         """Hand a job to the process and hear what becomes of it."""
-        assert process.stdin is not None
-        assert process.stdout is not None
-        line = json.dumps({"id": job.id, "folder": str(job.folder), "commands": job.commands})
-        with suppress(OSError):
-            process.stdin.write(line + "\n")
-        for said in process.stdout:
-            try:
-                what = json.loads(said)
-            except ValueError:
-                continue
-            self.ready = True
+        process.give({"id": job.id, "folder": str(job.folder), "commands": job.commands})
+        if job.kind in LONG and self._spare is None:
+            self._spare = self._new()  # for a short job that comes meanwhile, and must not wait for libraries
+        for what in process.says():
             if what.get("id") == job.id and self._hear(job, what):
                 return
-        code = process.wait()
+        code = process.end()
         if job.state == WAITING:  # it makes room for another one
             return
         if job.state == CANCELLED:
@@ -283,6 +293,12 @@ class Workshop:
             self.version += 1
             job.version = self.version
             job.changed()
+        self.told()
+
+    def _news(self) -> None:
+        with self._lock:
+            self.version += 1
+        self.told()
 
     def _forget_old(self) -> None:
         ended = [job for job in self.jobs.values() if not job.open]
@@ -292,19 +308,5 @@ class Workshop:
 
     def _stop_process(self) -> None:
         process = self._process
-        if process is None or process.poll() is not None:
-            return
-        process.terminate()
-        try:
-            process.wait(PATIENCE)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
-
-    def _put_away(self) -> None:
-        if self._process is not None:
-            for pipe in (self._process.stdin, self._process.stdout):
-                if pipe is not None:
-                    with suppress(OSError):
-                        pipe.close()
-            self._process = None
+        if process is not None:
+            process.stop()

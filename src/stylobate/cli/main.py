@@ -7,7 +7,7 @@ import io
 import sys
 import warnings
 from collections.abc import Callable, Sequence
-from functools import wraps
+from functools import cache, wraps
 from typing import Annotated, Any
 
 import typer
@@ -131,7 +131,7 @@ def call(arguments: Sequence[str]) -> int:
         warnings.simplefilter("ignore", LeftOutWarning)  # commands say it with the motion, under "left out"
         warnings.showwarning = _Warner()
         try:
-            code = app(list(arguments), prog_name="stylobate", standalone_mode=False)
+            code = _command().main(list(arguments), prog_name="stylobate", standalone_mode=False)
         except InputError as error:
             return _complain(str(error), BAD_INPUT)
         except StylobateError as error:
@@ -154,6 +154,12 @@ def call(arguments: Sequence[str]) -> int:
     if code == INTERRUPTED:
         return _complain("interrupted; nothing is kept.", INTERRUPTED)
     return code if isinstance(code, int) else 0
+
+
+@cache
+def _command() -> Any:
+    """All commands with their options, made once: the page's jobs are many command lines in one process."""
+    return typer.main.get_command(app)
 
 
 @app.callback(invoke_without_command=True)

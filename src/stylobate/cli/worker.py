@@ -73,11 +73,16 @@ def listener(job: str, tell: Callable[..., None]) -> Callable[[str, float, float
 
 def warm(tell: Callable[..., None]) -> None:
     """Load compiled code and libraries before the first job comes."""
-    from ..plots import player  # noqa: F401
+    import h5netcdf  # noqa: F401
+
+    from .. import DistinctElement2D, harmonic, preset, simulate
+    from ..app.film import film
+    from ..motion import writing  # noqa: F401
     from .main import call
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
-        call(["run", "paper-monolithic", "--harmonic=1Hz,0.05g,0.1s", "--json"])
+        call(["run", "paper-12-drums", "--harmonic=1Hz,0.05g,0.1s", "--json"])
+        film(simulate(preset("paper-12-drums"), harmonic(1.0, 0.5, 0.1), DistinctElement2D()))
     tell(ready=True)
 
 

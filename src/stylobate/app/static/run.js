@@ -124,7 +124,9 @@ function measures(r) {
 export function files(job) {
   const link = name => el("li", {}, el("a", { href: `/api/jobs/${job.id}/files/${name.split("/").map(encodeURIComponent).join("/")}`, download: name.split("/").pop() }, name));
   return [report(job), el("details", {}, el("summary", {}, "Command line and files"),
-    job.commands.map(one => el("code", { class: "command" }, one)), el("ul", {}, (job.files || []).map(link)))];
+    job.commands.map(one => el("code", { class: "command" }, one)),
+    (job.files || []).length > 0 && el("p", {}, el("a", { class: "button", href: `/api/jobs/${job.id}/zip`, download: `stylobate-${job.kind}-${job.id}.zip` }, "Save all in one ZIP file")),
+    el("ul", {}, (job.files || []).map(link)))];
 }
 
 // A button that has the report made, and becomes a link to it.

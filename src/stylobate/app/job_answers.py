@@ -1,0 +1,285 @@
+"""What the page asks of jobs, and the answers: new ones, their news, films, cells and files."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import shutil
+import tempfile
+import time
+import zipfile
+from collections.abc import AsyncIterator, Iterator
+from contextlib import suppress
+from pathlib import Path
+from typing import IO, Any
+
+import tomli_w
+from starlette.concurrency import run_in_threadpool
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
+
+from ..column import Column
+from ..column.files import write_column
+from ..column.toml import checked
+from ..errors import InputError
+from . import columns
+from .answers import json_object, missing, refused
+from .asked import COLUMN, FRAGILITY, RECORDS, RESULT, STUDY, JobAsked, commands, report_of, shown, study
+from .cells import new_cells
+from .fields import column_field, domain_field
+from .job import Job
+from .records import Records
+from .workshop import Workshop
+
+#: Files of jobs that a browser shows, by the end of their names; it saves the others.
+PICTURES = {"png": "image/png", "svg": "image/svg+xml", "html": "text/html"}
+
+#: Time between two looks at the cells of a domain, least time between two pieces of news, longest silence on that line [s];
+#: most that listen.
+LOOK, PACE, SILENCE, LISTENERS = 0.15, 0.02, 10.0, 24
+
+#: A file with all others of a job: kept in memory up to this size, and sent in such pieces [bytes].
+IN_MEMORY, PIECE = 20_000_000, 200_000
+
+
+class JobAnswers:
+    """Handlers for jobs.
+
+    Parameters
+    ----------
+    records : Records
+        That jobs copy.
+    workshop : Workshop
+        Where they are done.
+    """
+
+    def __init__(self, records: Records, workshop: Workshop) -> None:
+        self.records, self.workshop = records, workshop
+        self.listeners: set[asyncio.Event] = set()
+        self.closing = False
+        self._packing = asyncio.Semaphore(2)
+
+    def open(self) -> None:
+        """Hear of what happens in the workshop, in the loop that calls this."""
+        loop = asyncio.get_running_loop()
+
+        def told() -> None:
+            with suppress(RuntimeError):  # the loop has ended
+                loop.call_soon_threadsafe(self._ring)
+
+        self.workshop.told = told
+
+    def close(self) -> None:
+        """End the lines on which news are told."""
+        self.closing = True
+        self._ring()
+
+    def _ring(self) -> None:
+        for one in self.listeners:
+            one.set()
+
+    async def listed(self, request: Request) -> Response:
+        """All jobs."""
+        return JSONResponse({"jobs": [self._shown(job) for job in self.workshop.jobs.values()]})
+
+    async def new(self, request: Request) -> Response:
+        """Put a job into the queue."""
+        body = await json_object(request)
+        asked = checked(body, JobAsked, "the job")
+        columns.refuse_large(asked.column)
+        try:
+            column = columns.column_of(asked.column)
+        except InputError as error:
+            return refused(error, column_field(str(error), asked.column))
+        try:
+            tables = study(asked) if asked.kind == "domain" else None
+        except InputError as error:
+            return refused(error, domain_field(str(error)))
+        wanted = [one for one in asked.records if not one.startswith("sample:")]
+        if asked.motion is not None and asked.motion.kind == "record":
+            wanted.append(asked.motion.text)
+        names = {one: [Path(path).name for path in self.records.paths(one)] for one in wanted}
+        lines = commands(asked, names)
+
+        def prepare(folder: Path) -> None:
+            write_column(column, folder / COLUMN)
+            self.records.copy(wanted, folder / RECORDS)
+            if tables is not None:
+                (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
+
+        title = _title(asked, column, self.records)
+        job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
+        return JSONResponse(self._shown(job), 201)
+
+    async def one(self, request: Request) -> Response:
+        """One job."""
+        job = self._job(request)
+        return missing("job") if job is None else JSONResponse(self._shown(job, True))
+
+    async def act(self, request: Request) -> Response:
+        """Cancel a job, or do it again."""
+        job = self._job(request)
+        if job is None:
+            return missing("job")
+        if request.path_params["act"] == "report":
+            return JSONResponse(self._shown(await run_in_threadpool(self._report, job)), 201)
+        act = {"cancel": self.workshop.cancel, "again": self.workshop.again}.get(request.path_params["act"])
+        if act is None:
+            return missing("action")
+        await run_in_threadpool(act, job)
+        return JSONResponse(self._shown(job))
+
+    def _report(self, job: Job) -> Job:
+        """A job that makes the report of another one, of copies of its results."""
+        if job.open:
+            raise InputError("the job is not over; its report comes after it.")
+        lines = report_of(job.folder)
+
+        def prepare(folder: Path) -> None:
+            for name in (RESULT, FRAGILITY):
+                if (job.folder / name).is_dir():
+                    shutil.copytree(job.folder / name, folder / name, ignore=shutil.ignore_patterns("*.sqlite*"))
+
+        return self.workshop.submit("report", f"report: {job.title}", lines, {}, prepare)
+
+    async def remove(self, request: Request) -> Response:
+        """Cancel and forget a job."""
+        job = self._job(request)
+        if job is None:
+            return missing("job")
+        await run_in_threadpool(self.workshop.remove, job)
+        return JSONResponse({})
+
+    async def film(self, request: Request) -> Response:
+        """The film of a run."""
+        job = self._job(request)
+        path = None if job is None else job.folder / "film.json"
+        return (
+            missing("film") if path is None or not path.is_file() else FileResponse(path, media_type="application/json")
+        )
+
+    async def cells(self, request: Request) -> Response:
+        """All finished cells of a domain."""
+        job = self._job(request)
+        if job is None:
+            return missing("job")
+        return JSONResponse({"cells": await run_in_threadpool(new_cells, job.folder, set())})
+
+    async def file(self, request: Request) -> Response:
+        """A file of a job, to be taken away: one of those that its list names."""
+        job, name = self._job(request), request.path_params["name"]
+        if job is None or name not in job.files():
+            return missing("file")
+        ending = name.rpartition(".")[2]
+        headers = {"content-security-policy": "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}
+        kind, disposition = (
+            (PICTURES[ending], "inline") if ending in PICTURES else ("application/octet-stream", "attachment")
+        )
+        return FileResponse(
+            job.folder / name,
+            filename=name.rpartition("/")[2],
+            media_type=kind,
+            headers=headers,
+            content_disposition_type=disposition,
+        )
+
+    async def archive(self, request: Request) -> Response:
+        """All files of a job in one, with its command lines: what another machine needs to do it again."""
+        job = self._job(request)
+        if job is None:
+            return missing("job")
+        async with self._packing:
+            packed = await run_in_threadpool(_packed, job)
+        headers = {"content-disposition": f'attachment; filename="stylobate-{job.kind}-{job.id}.zip"'}
+        return StreamingResponse(_pieces(packed), media_type="application/zip", headers=headers)
+
+    async def events(self, request: Request) -> Response:
+        """A line on which jobs say what becomes of them, and a domain its cells (server-sent events)."""
+        if len(self.listeners) >= LISTENERS:
+            return JSONResponse({"error": f"{LISTENERS} pages are open already; close one."}, 503)
+        followed = self.workshop.jobs.get(request.query_params.get("job", ""))
+        return StreamingResponse(self._events(followed), media_type="text/event-stream")
+
+    async def _events(self, followed: Job | None) -> AsyncIterator[str]:
+        rung = asyncio.Event()
+        self.listeners.add(rung)
+        seen, known, there, ready, last = 0, set[int](), set[str](), None, time.monotonic()
+        try:
+            while not self.closing:
+                rung.clear()
+                said = []
+                if ready != self.workshop.ready:
+                    ready = self.workshop.ready
+                    said.append(_event("ready", ready))
+                if seen != self.workshop.version:
+                    before, seen = seen, self.workshop.version
+                    jobs = list(self.workshop.jobs.values())
+                    changed = [job for job in jobs if job.version > before or job.state == "waiting"]
+                    said += [_event("job", self._shown(job)) for job in changed]
+                    ids = {job.id for job in jobs}
+                    said += [_event("gone", one) for one in there - ids]
+                    there = ids
+                if followed is not None and followed.kind == "domain":
+                    over = not followed.open
+                    cells = await run_in_threadpool(new_cells, followed.folder, known)
+                    if cells:
+                        said.append(_event("cells", {"job": followed.id, "cells": cells}))
+                    if over:
+                        followed = None
+                if not said and time.monotonic() - last >= SILENCE:
+                    said = [": still here\n\n"]
+                if said:
+                    last = time.monotonic()
+                    yield "".join(said)
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(rung.wait(), SILENCE if followed is None else LOOK)
+                await asyncio.sleep(PACE)
+        finally:
+            self.listeners.discard(rung)
+
+    def _job(self, request: Request) -> Job | None:
+        return self.workshop.jobs.get(request.path_params["id"])
+
+    def _shown(self, job: Job, whole: bool = False) -> dict[str, Any]:
+        return job.to_dict(whole) | {"place": self.workshop.place(job)}
+
+
+def _title(asked: JobAsked, column: Column, records: Records) -> str:
+    """A job in a line."""
+    if asked.kind == "run" and asked.motion is not None:
+        what, kept = asked.motion.text, records.kept.get(asked.motion.text)
+        what = kept.name if kept is not None else what
+        what += f" at {asked.motion.azimuth}" if asked.motion.azimuth else ""
+        what += f" scaled to {asked.motion.pga}" if asked.motion.pga else ""
+    elif asked.kind == "domain":
+        what = f"domain {asked.frequencies} Hz × {asked.amplitudes}"
+    else:
+        what = f"{len(asked.records)} records by {asked.im or 'pgv'}"
+    return f"{column.name} · {what} · {asked.model}"
+
+
+def _event(kind: str, what: Any) -> str:
+    return f"event: {kind}\ndata: {json.dumps(what)}\n\n"
+
+
+def _packed(job: Job) -> IO[bytes]:
+    """The files of a job in a ZIP file; their names are those of its list, below a folder of the job's own."""
+    file = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115 (it is closed when it has been sent)
+    try:
+        with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as packed:
+            lines = "".join(f"{shown(one)}\n" for one in job.commands)
+            packed.writestr(f"{job.id}/commands.txt", lines)
+            for name in job.files():
+                with suppress(FileNotFoundError):  # a job that is computed replaces its files
+                    packed.write(job.folder / name, f"{job.id}/{name}")
+    except BaseException:
+        file.close()
+        raise
+    file.seek(0)
+    return file
+
+
+def _pieces(file: IO[bytes]) -> Iterator[bytes]:
+    with file:
+        while piece := file.read(PIECE):
+            yield piece
