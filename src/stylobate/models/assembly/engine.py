@@ -13,8 +13,8 @@ from ...column.joint import Joint
 from ...errors import OutOfRangeWarning
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
-from ..drums.block import whole_steps
 from ..drums.joints import contact_points
+from ..drums.packing import whole_steps
 from ..shared.ground import along_base
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled

@@ -21,7 +21,8 @@ from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..assembly.engine import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine
 from ..base import Case, RunOptions
-from ..drums.block import DrumBlock, histories, ledger_imbalance
+from ..drums.block import DrumBlock
+from ..drums.histories import histories, ledger_imbalance
 from ..drums.standing import stands_for_good
 from ..shared import ledger
 

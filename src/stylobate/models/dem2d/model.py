@@ -19,9 +19,10 @@ from ...response import Measures, Response
 from ..assembly.engine import Contacts
 from ..assembly.run import measures_of_assemblies
 from ..base import Case, RunOptions
-from ..drums.block import DrumBlock, PackedColumn, drum_fields, lane_fields
+from ..drums.block import DrumBlock
 from ..drums.joints import contact_points, joint_stiffnesses
 from ..drums.links import kind_of, plane_links, with_links
+from ..drums.packing import PackedColumn, drum_fields, lane_fields
 from ..drums.stepped import SteppedDrums
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled

@@ -18,8 +18,10 @@ from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
 from ...response.poses import quaternions
 from ..base import Case
-from ..drums.block import CALLS_PER_RUN, DrumBlock, ledger_imbalance, whole_steps
+from ..drums.block import CALLS_PER_RUN, DrumBlock
+from ..drums.histories import ledger_imbalance
 from ..drums.links import put_links, with_link_histories
+from ..drums.packing import whole_steps
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
 from ..start import check_in_plane

@@ -17,9 +17,9 @@ from ...kernels.dem3d.records import CHIPS, RINGS
 from ...motion import Motion
 from ...response import Histories, Response
 from ..base import Model, RunOptions
-from ..drums.block import PackedColumn
 from ..drums.joints import joint_stiffnesses
 from ..drums.links import kind_of, space_links, with_links
+from ..drums.packing import PackedColumn
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step

@@ -3,97 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
-from ...column.found_geometry import gravity_vector
 from ...constants import DEGREE
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
-from ...motion import Motion
 from ...outcome import Outcome, classify
-from ...response import Collapse, Histories, LinkMeasures, Measures
+from ...response import Collapse, LinkMeasures, Measures
 from ...response.collapse import SLID_OFF, in_plane
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
-from ..shared.ground import along_base, ground_histories
+from ..shared.ground import along_base
 from ..shared.lanes import aligned_zeros, longest_piece
-from ..shared.soft_joints import resolving
 from ..start import Start, check_in_plane
-from .links import PackedLinks, held_at_start, link_measures, link_snapshot, put_links, set_free, with_link_histories
+from .histories import ledger_imbalance
+from .links import held_at_start, link_measures, link_snapshot, put_links, set_free
+from .packing import PackedColumn, whole_steps
 from .pose import leans_right, placed
 from .standing import lowest_barrier, stands_for_good
 
-#: Half width of the base, wide enough to be a half-plane [m].
-BASE_HALF_WIDTH = 1.0e4
-
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
-
-
-@dataclass(frozen=True)
-class PackedColumn:
-    """A column as the kernel wants it; ``toes`` is what its joints give with their load on their edge [J], shape (n,)."""
-
-    fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
-    step: float
-    toes: np.ndarray
-    links: PackedLinks | None = None
-
-
-def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
-    """Fields of the drums, the base first: upright, at rest, each joint closed by ``closure`` [m], shape (n,)."""
-    centroid = np.array([drum.centroid_height for drum in column.drums])
-    n = column.n + 1
-
-    def on_base(values: np.ndarray | list[float], base: float = 0.0) -> np.ndarray:
-        return np.concatenate(([base], values))
-
-    half = on_base([drum.bottom_width / 2 for drum in column.drums])
-
-    at_rest = {name: np.zeros(n) for name in ("x", "th", "s", "vx", "vz", "w")}
-    return at_rest | {
-        "z": on_base(column.centroid_heights - np.cumsum(closure)),
-        "c": np.ones(n),
-        "m": on_base(column.masses),
-        "i": on_base(column.inertias),
-        "im": on_base(1.0 / column.masses),
-        "ii": on_base(1.0 / column.inertias),
-        "hb": on_base(centroid),
-        "ht": on_base(column.heights - centroid),
-        "bl": half,
-        "br": half,
-        "fc": np.ones(n),
-        "fs": np.zeros(n),
-        "t": on_base([drum.top_width / 2 for drum in column.drums], BASE_HALF_WIDTH),
-    }
-
-
-def whole_steps(motion: Motion, tail: float, step: float) -> tuple[float, int]:
-    """Largest step up to ``step`` that resolves the motion and of which whole chunks fill it [s], and how many chunks
-    there are with the tail.
-
-    The tail has no say in the step: what happens before it does not depend on it.
-    """
-    step = resolving(step, motion)
-    dt = motion.duration / (CHUNK * max(1, math.ceil(motion.duration / (CHUNK * step))))
-    return dt, math.ceil((motion.duration + tail) / (CHUNK * dt) * (1.0 - 1e-12))
-
-
-def lane_fields(column: Column, stiffness_damping: float, mass_damping: float) -> dict[str, Any]:
-    """Fields of a lane at the start of a run."""
-    sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
-    down = gravity_vector(column)
-    return sums | {
-        "g": float(-down[1]),
-        "gx": float(-down[0]),
-        "beta": stiffness_damping,
-        "alpha": mass_damping,
-    }
 
 
 class DrumBlock:
@@ -474,45 +408,6 @@ class DrumBlock:
     def direction(self, lane: int) -> str:
         """Where a collapse goes, in words."""
         return f"to the {self.collapse(lane).side}"
-
-
-def ledger_imbalance(change: np.ndarray, work: float, start: float, column: Column) -> float:
-    """Energy imbalance of a run of drums [-].
-
-    Parameters
-    ----------
-    change : array
-        The ledger, shape (6,) [J].
-    work, start : float
-        Largest input work so far, and the elastic energy at rest [J].
-    column : Column
-    """
-    missing, free = ledger.unaccounted(change), ledger.released(change)
-    return ledger.imbalance(missing, work=work, start=start, barrier=lowest_barrier(column), released=free)
-
-
-def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
-    """Histories from the snapshots of a run."""
-    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
-    energy = stack["energy"]
-    acceleration, displacement = ground_histories(motion, stack["time"])
-    found = Histories.of_drums(
-        time=stack["time"],
-        drum_x=stack["x"],
-        drum_z=stack["z"],
-        drum_rotation=stack["rotation"],
-        joint_opening=stack["opening"],
-        joint_slip=stack["slip"],
-        base_displacement=stack["base"] - stack["base"][0],
-        top_displacement=stack["top"],
-        ground_acceleration=acceleration,
-        ground_displacement=displacement,
-        energy={
-            name: energy[:, k] - (energy[0, k] if name not in ("input", "kinetic") else 0.0)
-            for k, name in enumerate(ledger.TERMS)
-        },
-    )
-    return with_link_histories(found, states)
 
 
 def _peak(values: np.ndarray) -> float:

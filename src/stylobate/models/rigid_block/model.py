@@ -12,7 +12,7 @@ import numpy as np
 from ...column import Column
 from ...errors import InputError, check_range
 from ...motion import Motion
-from ..drums.block import PackedColumn, drum_fields, lane_fields
+from ..drums.packing import PackedColumn, drum_fields, lane_fields
 from ..drums.stepped import SteppedDrums
 from ..shared import stable_step as shared
 from ..shared.toes import centroids_above, point_toes

@@ -1,0 +1,154 @@
+"""What a stack of drums measures: widths, masses and weights at its joints, and the whole of it as one rigid body."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+
+import numpy as np
+
+from .drum import Drum, section_area, section_second_moment
+from .joint import Joint
+from .links import Layer, Link
+
+
+class Stack:
+    """Closed-form properties of the drums of a column as built, standing on each other on their axis."""
+
+    drums: tuple[Drum, ...]
+    joints: tuple[Joint, ...]
+    links: tuple[Link, ...]
+    gravity: float
+
+    @property
+    def n(self) -> int:
+        """Number of drums."""
+        return len(self.drums)
+
+    @property
+    def section(self) -> str:
+        """``circular`` or ``rectangular``."""
+        return self.drums[0].section
+
+    @cached_property
+    def heights(self) -> np.ndarray:
+        """Drum heights [m], shape (n,)."""
+        return np.array([drum.height for drum in self.drums])
+
+    @cached_property
+    def masses(self) -> np.ndarray:
+        """Drum masses [kg], shape (n,)."""
+        return np.array([drum.mass for drum in self.drums])
+
+    @cached_property
+    def inertias(self) -> np.ndarray:
+        """Drum inertias about their own centroids [kg m²], shape (n,)."""
+        return np.array([drum.inertia for drum in self.drums])
+
+    @cached_property
+    def joint_heights(self) -> np.ndarray:
+        """Height of each joint above the base [m], shape (n,)."""
+        return np.concatenate(([0.0], np.cumsum(self.heights)[:-1]))
+
+    @cached_property
+    def centroid_heights(self) -> np.ndarray:
+        """Height of each drum's centroid above the base [m], shape (n,)."""
+        return self.joint_heights + np.array([drum.centroid_height for drum in self.drums])
+
+    @cached_property
+    def joint_widths(self) -> np.ndarray:
+        """Width d_i of each joint's contact section, the smaller of its two faces [m], shape (n,)."""
+        widths = [drum.bottom_width for drum in self.drums]
+        for i in range(1, self.n):
+            widths[i] = min(widths[i], self.drums[i - 1].top_width)
+        return np.array(widths)
+
+    @cached_property
+    def friction(self) -> np.ndarray:
+        """tan φ of each joint, that of a layer where there is one [-], shape (n,)."""
+        values = np.array([joint.tan_phi for joint in self.joints])
+        for link in self.links:
+            if isinstance(link, Layer) and link.friction_coefficient is not None:
+                values[link.joint - 1] = link.friction_coefficient
+        return values
+
+    @cached_property
+    def joint_areas(self) -> np.ndarray:
+        """Contact area A_i of each joint [m²], shape (n,)."""
+        whole = [section_area(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
+        sunken = [section_area("circular", max(self.sunken_widths(i)), 0.0) for i in range(self.n)]
+        return np.array(whole) - sunken
+
+    @cached_property
+    def joint_second_moments(self) -> np.ndarray:
+        """Second moment J_i of each joint's contact area [m⁴], shape (n,)."""
+        whole = [section_second_moment(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
+        sunken = [section_second_moment("circular", max(self.sunken_widths(i)), 0.0) for i in range(self.n)]
+        return np.array(whole) - sunken
+
+    def sunken_widths(self, joint: int) -> tuple[float, float]:
+        """Diameters of the sunken middles of the face above a joint and of the one below [m]; 0 for none.
+
+        The base is not sunk.
+        """
+        ring = self.joints[joint].ring_width
+        if ring is None:
+            return 0.0, 0.0
+        below = self.drums[joint - 1].top_width if joint else 0.0
+        return max(self.drums[joint].bottom_width - 2.0 * ring, 0.0), max(below - 2.0 * ring, 0.0)
+
+    def _joint_depth(self, i: int) -> float:
+        return min(self.drums[i].depth, self.drums[i - 1].upper_depth) if i else self.drums[0].depth
+
+    @cached_property
+    def joint_weights(self) -> np.ndarray:
+        """Static weight N_i carried by each joint [N], shape (n,)."""
+        return np.cumsum(self.masses[::-1])[::-1] * self.gravity
+
+    # -- the whole of it as one body ----------------------------------------------------------------------------------
+
+    @property
+    def height(self) -> float:
+        """Total height [m]."""
+        return float(self.heights.sum())
+
+    @property
+    def mass(self) -> float:
+        """Total mass [kg]."""
+        return float(self.masses.sum())
+
+    @property
+    def centroid_height(self) -> float:
+        """Height of the centroid of the whole column [m]."""
+        return float(self.masses @ self.centroid_heights / self.masses.sum())
+
+    @property
+    def base_width(self) -> float:
+        """Width of the joint with the base [m]."""
+        return float(self.joint_widths[0])
+
+    @property
+    def radius(self) -> float:
+        """R: distance from the base corner to the centroid of the whole column [m]."""
+        return math.hypot(0.5 * self.base_width, self.centroid_height)
+
+    @property
+    def slenderness(self) -> float:
+        """α: angle at the base corner between the vertical and the line to the centroid [rad]."""
+        return math.atan2(0.5 * self.base_width, self.centroid_height)
+
+    @property
+    def corner_inertia(self) -> float:
+        """I₀: inertia of the column as one rigid body about its base corner [kg m²]."""
+        about_axis = float((self.inertias + self.masses * self.centroid_heights**2).sum())
+        return about_axis + self.mass * (0.5 * self.base_width) ** 2
+
+    @property
+    def frequency_parameter(self) -> float:
+        """p = sqrt(m g R / I₀) of the column as one rigid body [rad/s] (Housner 1963)."""
+        return math.sqrt(self.mass * self.gravity * self.radius / self.corner_inertia)
+
+    @property
+    def restitution(self) -> float:
+        """e = 1 − 2 m b² / I₀ with b the half base: Housner's velocity restitution at an impact [-]."""
+        return 1.0 - 2.0 * self.mass * (0.5 * self.base_width) ** 2 / self.corner_inertia
