@@ -38,6 +38,10 @@ class Outcome(IntEnum):
         """One sentence for a person."""
         return _SENTENCES[self]
 
+    def sentence_of(self, drums: int) -> str:
+        """The same of a column with so many drums: a monolith has none that could be shifted."""
+        return _OF_A_MONOLITH.get(self, self.sentence) if drums == 1 else self.sentence
+
     def __str__(self) -> str:
         return self.label
 
@@ -48,6 +52,13 @@ _SENTENCES = {
     Outcome.DISPLACED: "The column stands, but at least one drum is shifted for good.",
     Outcome.COLLAPSED: "The column collapsed.",
     Outcome.FAILED: "The computation could not be completed; this is no verdict on the column.",
+}
+
+_OF_A_MONOLITH = {
+    Outcome.AT_REST: "The block stood still: its joint did not open.",
+    Outcome.ROCKED: "The block rocked and stands: its joint opened and closed, it is not shifted.",
+    Outcome.DISPLACED: "The block stands, but is shifted for good.",
+    Outcome.COLLAPSED: "The block collapsed.",
 }
 
 

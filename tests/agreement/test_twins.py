@@ -35,6 +35,26 @@ def population(*rows: dict) -> Population:
     return Population([COLUMN] * len(rows), rows, st.Scatter(), 0)
 
 
+def test_a_run_that_is_no_example_of_its_twins_says_so():
+    """It stands where most of them fall, falls where most stand, or moves as none of those that stand."""
+    mostly = population(*[row("collapsed")] * 11, *[row("rocked")] * 4)
+    said = "11 of 15 columns like it collapse though this one stands: take the share, not the single run."
+    assert mostly.beside(row("rocked")) == said
+    assert mostly.beside(row("rocked", decided=False)) == said.replace("stands", "has not fallen yet")
+    assert mostly.beside(row("collapsed")) == ""
+    assert mostly.summary(row("rocked"))["certainty"]["beside"] == said
+    seldom = population(*[row("collapsed")] * 2, *[row("rocked")] * 13)
+    assert seldom.beside(row("collapsed")).startswith("13 of 15 columns like it stand though this one falls")
+    moved = [row("rocked", peak_top_displacement_m=one) for one in np.linspace(0.1, 0.2, 15)]
+    spread = population(*moved)
+    assert spread.beside(row("rocked", peak_top_displacement_m=-0.15)) == ""
+    assert "less than that of any column like it that stands (100 to 200 mm)" in spread.beside(
+        row("rocked", peak_top_displacement_m=0.05)
+    )
+    assert " more than " in spread.beside(row("rocked", peak_top_displacement_m=0.25))
+    assert population(*moved[:7]).beside(row("rocked", peak_top_displacement_m=0.25)) == ""  # too few to tell
+
+
 @pytest.mark.parametrize(
     "model", [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()], ids=lambda one: one.name
 )

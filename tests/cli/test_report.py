@@ -154,7 +154,7 @@ def test_what_an_engineer_signs_is_there(page, place):
     for words in (
         "stylobate run", "--replicates 3", "Of 3 columns like this one", "with 95 % confidence", "no statement about other",
         "What the model assumes, and where it ends", "It ends here:", "Energy balance", "Sources to cite",
-        "Code check of the pushover", "Nonlinear kinematic analysis", "Prepared by", "as written", "seed",
+        "Capacity spectrum check", "Nonlinear kinematic analysis", "Prepared by", "as written", "seed",
         st.__version__, "peak acceleration [g]", "static acceleration that opens the first joint", "Cundall",
     ):  # fmt: skip
         assert words in text, words

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +24,9 @@ if TYPE_CHECKING:
 
 #: Displacements whose median and spread are told.
 DISPLACEMENTS = ("peak_top_displacement_m", "residual_top_displacement_m", "peak_rotation_rad", "residual_joint_slip_m")
+
+#: Twins that must stand before their largest and least displacement tell where a run belongs.
+ENOUGH = 8
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,8 +143,28 @@ class Population:
             found[f"peak_top_displacement_{share}_m"] = None if spread is None else spread[i]
         return found
 
-    def summary(self) -> dict[str, Any]:
-        """Under the names of the JSON object of ``stylobate run``."""
+    def beside(self, run: Mapping[str, Any]) -> str:
+        """What must be said of a run that is no example of its twins; empty where it is one.
+
+        Parameters
+        ----------
+        run : mapping
+            Under the names of the JSON object of ``stylobate run``.
+        """
+        if said := set_against(bool(run["collapsed"]), self.counts, bool(run.get("decided", True))):
+            return said
+        stood = [abs(row["peak_top_displacement_m"]) for row, one in zip(self.rows, self.verdicts) if one == v.STANDS]
+        own = run.get("peak_top_displacement_m")
+        if run["collapsed"] or own is None or len(stood) < ENOUGH or min(stood) <= abs(own) <= max(stood):
+            return ""
+        low, high = 1e3 * min(stood), 1e3 * max(stood)
+        return (
+            f"Its top moves {'more' if 1e3 * abs(own) > high else 'less'} than that of any column like it that stands "
+            f"({low:.3g} to {high:.3g} mm): take theirs, not the single run."
+        )
+
+    def summary(self, run: Mapping[str, Any] | None = None) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate run``; with what must be said of the run itself, if given."""
         low, high = self.interval
         counts = self.counts
         middle = self.median
@@ -161,6 +184,7 @@ class Population:
                 **self.spread,
                 "median_twin": None if middle is None else middle + 1,
                 "worst_twin": None if self.worst is None else self.worst + 1,
+                **({} if run is None else {"beside": self.beside(run)}),
             },
         }
 
@@ -199,11 +223,33 @@ class Certainty:
     @property
     def sentence(self) -> str:
         """What happened, and how sure that is."""
-        return f"{self.response.sentence} {self.population.sentence}"
+        beside = self.population.beside(self.response.summary())
+        return f"{self.response.sentence} {self.population.sentence} {beside}".rstrip()
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate run``."""
-        return self.response.summary() | self.population.summary()
+        own = self.response.summary()
+        return own | self.population.summary(own)
+
+
+def set_against(collapsed: bool, counts: Mapping[str, Any], decided: bool = True) -> str:
+    """What must be said where most columns like one end otherwise than it did; empty where they do not.
+
+    Parameters
+    ----------
+    collapsed : bool
+        Whether the column itself collapses.
+    counts : mapping
+        How many columns like it collapse, and stand, by the names of these verdicts.
+    decided : bool
+        Whether its own verdict is certain.
+    """
+    fell, stood = int(counts.get(v.COLLAPSED, 0)), int(counts.get(v.STANDS, 0))
+    others, number = (stood, "stand") if collapsed else (fell, "collapse")
+    if others <= (fell if collapsed else stood):
+        return ""
+    own = "falls" if collapsed else "stands" if decided else "has not fallen yet"
+    return f"{others} of {fell + stood} columns like it {number} though this one {own}: take the share, not the single run."
 
 
 def certainty(

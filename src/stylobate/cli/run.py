@@ -245,7 +245,7 @@ def conclude(
         taken = model.taken(motion)
         summary, files = response.summary() | o.input_facts(taken) | direction_of(motion), []
         if population is not None:
-            summary |= population.summary()
+            summary |= population.summary(summary)
         if folder is not None:
             files = [*write(response, taken, folder, drawn.all), write_csv(taken, folder / "motion.csv")]
             if population is not None:
@@ -308,7 +308,8 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
     found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
     sentence, what, facts = found
     if population is not None:
-        sentence, facts = f"{sentence} {population.sentence}", facts | population_facts(population)
+        sentence = f"{sentence} {population.sentence} {population.beside(response.summary())}".rstrip()
+        facts |= population_facts(population)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
 

@@ -172,7 +172,18 @@ def _turned_back(point: np.ndarray, angle: float) -> np.ndarray:
 
 def smallest_uplift(column: Column) -> np.ndarray:
     """Smallest static horizontal acceleration in any direction that opens each joint of the rigid stack [m/s²]."""
-    at, out = space_geometry(column), np.full(column.n, math.inf)
+    return weakest_uplift(column)[0]
+
+
+def weakest_uplift(column: Column) -> tuple[np.ndarray, np.ndarray]:
+    """The same, and where the forces push to then.
+
+    Returns
+    -------
+    accelerations, azimuths : ndarray
+        [m/s²]; from x towards y [degrees], shapes (n,).
+    """
+    at, out, towards = space_geometry(column), np.full(column.n, math.inf), np.full(column.n, math.nan)
     base = base_axes(column)
     for j in range(column.n):
         for azimuth in np.arange(DIRECTIONS) * (2.0 * math.pi / DIRECTIONS):
@@ -183,8 +194,10 @@ def smallest_uplift(column: Column) -> np.ndarray:
             for _ in range(HALVINGS):
                 middle = 0.5 * (low + high)
                 low, high = (middle, high) if _carries(column, at, j, middle * push) else (low, middle)
+            if high < out[j] * (1.0 - 1e-9):  # of equal ones the first
+                towards[j] = (math.degrees(azimuth) + 180.0) % 360.0
             out[j] = high
-    return out
+    return out, towards
 
 
 def _carries(column: Column, at: SpaceGeometry, joint: int, push: np.ndarray) -> bool:

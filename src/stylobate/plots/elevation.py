@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..column import Column
-from ..column.as_found import FoundDrum
+from ..column.as_found import SIDES, FoundDrum
 from ..column.assembly import FAR_AWAY, Assembly
 from ..column.found_in_space import base_axes, space_geometry
 from ..column.link_laws import line_ends
@@ -74,7 +74,9 @@ def draw_elevation(structure: Column | Assembly, title: str | None = None, *, ax
     _width(axes, sheet, structure.drums[0].bottom_width, _bottom(outlines[0]), -26.0, structure.section)
     _width(axes, sheet, structure.drums[-1].top_width, _top(outlines[-1]), 12.0, structure.section)
     if slope:
-        words = f"base rises by {abs(structure.as_found.base_tilt):g}° to the {'right' if slope > 0.0 else 'left'}"
+        found = structure.as_found
+        side = "the right" if slope > 0.0 else "the left"
+        words = f"base rises by {abs(found.base_tilt):g}° to {side if found.in_plane else f'{found.base_azimuth:g}°'}"
         axes.annotate(words, (low[0], sheet.up(low[1], -40.0)), color=RED, fontsize=WORDS, ha="left")
     if title:
         axes.set_title(title)
@@ -241,11 +243,7 @@ def _said(one: FoundDrum) -> str:
         parts.append(f"lean {one.tilt:+g}°{towards(one.tilt_azimuth)}")
     if one.turn:
         parts.append(f"turned {one.turn:+g}°")
-    parts += [
-        f"chip {side} {1000.0 * width:.0f} mm"
-        for side, width in (("left", one.chip_left), ("right", one.chip_right))
-        if width
-    ]
+    parts += [f"chip {side} {1000.0 * width:.0f} mm" for side, width in zip(SIDES, one.chips, strict=True) if width]
     return ", ".join(parts).replace("-", "−")
 
 

@@ -52,8 +52,9 @@ def draw_energy(
     lower.set_ylabel(f"imbalance\n/ {word}")
     lower.set_xlabel("time [s]")
     lower.set_xlim(*seen(time, window))
-    of = {"input": "input work", "released": "released energy"}[word]
-    lower.set_title(f"energy imbalance {response.energy_imbalance:.1e} of the {of}", loc="right", fontsize=8.0)
+    lower.set_title(
+        f"missing at the end: {response.energy_imbalance:.1e} of the energy at stake", loc="right", fontsize=8.0
+    )
     figure.align_ylabels()
     return figure
 

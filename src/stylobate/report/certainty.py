@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from ..analysis.certainty import set_against
 from . import numbers as n
 from .page import Facts, Item, Section
 
@@ -43,15 +44,20 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
         said += f" ({n.percent(fell / number)}): under this motion and in this model the probability of collapse lies "
         said += f"between {n.percent(low)} and {n.percent(high)}, with {level} confidence"
     said += f". {open_} of them had not come to rest and are not counted as either." if open_ else "."
-    most_fall, falls = fell > stood, bool(summary.get("collapsed"))
     if known.get("failed"):
         said += f" {known['failed']} more could not be computed."
-    if fell + stood and most_fall != falls and fell != stood:
-        said += (
-            f" The column as measured {'collapses' if falls else 'stands'}, while most columns like it "
-            f"{'collapse' if most_fall else 'stand'}: take the share, not the single run."
-        )
-    return said
+    beside = beside_them(summary)
+    return f"{said} {beside}" if beside else said
+
+
+def beside_them(summary: Mapping[str, Any]) -> str:
+    """What must be said of a run that is no example of the columns like it; empty where it is one."""
+    known = summary.get("certainty")
+    if not isinstance(known, Mapping):
+        return ""
+    if isinstance(said := known.get("beside"), str):
+        return said
+    return set_against(bool(summary.get("collapsed")), known, bool(summary.get("decided", True)))  # of earlier versions
 
 
 def certainty_section(summary: Mapping[str, Any]) -> Section | None:

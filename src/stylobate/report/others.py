@@ -34,7 +34,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     told : set of str
         As in :func:`stylobate.report.runs.run_sections`.
     run : RunResult, optional
-        Of the same column in the same report: its motion is the demand in the code check of a pushover.
+        Of the same column in the same report: its motion is the demand in the capacity spectrum check of a pushover.
     """
     verdict, body = _TELL[result.kind](result)
     asked = result.asked

@@ -15,7 +15,7 @@ from ..outcome import Outcome
 from ..response import Response
 from ..results import RunResult, SeveralRuns
 from . import numbers as n
-from .certainty import certainty_section, certainty_sentence
+from .certainty import beside_them, certainty_section, certainty_sentence
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import picture
 from .record import asked_section, model_section, record_section, sources_section, titled, versions_of, warnings_of
@@ -67,11 +67,11 @@ def once(section: Section, key: str, told: set[str]) -> Section:
 # -- parts ---------------------------------------------------------------------------------------------------------
 
 
-def verdict_look(response: Response) -> str:
-    """How a verdict stands out."""
+def verdict_look(response: Response, doubted: bool = False) -> str:
+    """How a verdict stands out; one that most columns like it do not share is no good one."""
     if response.outcome in (Outcome.COLLAPSED, Outcome.FAILED):
         return "verdict bad"
-    return "verdict" if response.decided else "verdict fair"
+    return "verdict" if response.decided and not doubted else "verdict fair"
 
 
 def _verdict(run: RunResult) -> Note:
@@ -86,7 +86,7 @@ def _verdict(run: RunResult) -> Note:
             "exactly this geometry, these joints and this motion, and near collapse small differences decide."
         )
     texts.append(_scope(run))
-    return Note(texts, verdict_look(r))
+    return Note(texts, verdict_look(r, bool(beside_them(run.summary))))
 
 
 def _how_far(r: Response) -> list[str]:
@@ -144,8 +144,14 @@ def _asked(r: Response) -> list[tuple[str, str]]:
     return pairs
 
 
+def _less_the_fall(r: Response) -> str:
+    if not r.collapsed:
+        return ""
+    return ". Peaks leave out the fall itself, which the pictures below show until the collapse was certain."
+
+
 def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]:
-    items: list[Item] = [Facts(_measures(r), "Measures of the response")]
+    items: list[Item] = [Facts(_measures(r), f"Measures of the response{_less_the_fall(r)}")]
     space = r.dims == "xyz"
     until = f" The dotted line is where the collapse became certain, at {r.collapse_time:.2f} s." if r.collapsed else ""
     what = (
@@ -156,11 +162,13 @@ def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]
     items.append(
         picture(plots.draw_histories(r, " "), f"Histories: {what}, over the acceleration of the ground.{until}")
     )
+    which = "its top" if r.histories.top is not None else "the block that moved most"
     views = ", seen along y (x to the right) and against x (y to the right)" if space else ""
     items.append(
         picture(
             plots.draw_filmstrip(r, title=" "),
-            f"Film strip: what stood, at chosen instants{views}, in true proportion unless the title says a factor.",
+            f"Film strip: what stood, at chosen instants{views}, in true proportion unless the title says a factor. Under "
+            f"each time: how far {which} is from where it was.",
         )
     )
     if r.histories.top is not None:
@@ -233,9 +241,10 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
 def _energy(r: Response) -> Section:
     share = abs(r.energy_imbalance)
     text = (
-        f"The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
-        f"friction, damping and impacts took, but for {100.0 * share:.2g} % of the largest of these "
-        f"energies. A run that misses more than {n.percent(IMBALANCE)} is warned of under the verdict."
+        "The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
+        f"friction, damping and impacts took. At the end {100.0 * share:.2g} % of the energy at stake is missing: of the "
+        "largest of what was put in, what it takes to overturn, and what a fall sets free. A run that misses more than "
+        f"{n.percent(IMBALANCE)} is warned of under the verdict."
     )
     return Section(
         "Energy balance",

@@ -55,7 +55,8 @@ def motion_section(
         (key.replace("_", " "), str(metadata[key])) for key in SAID if metadata.get(key) not in (None, "", "None")
     ]
     done = [str(one) for one in (known.get("processing") or motion.processing)]
-    facts.append(("processing", "\n".join(done) if done else "none: as its source gives it, or from a formula"))
+    recorded = any(metadata.get(key) for key in ("format", "station", "network", "event"))
+    facts.append(("processing", "\n".join(done) or ("none, as its source gives it" if recorded else "none")))
     if left_out := [str(one) for one in known.get("left_out") or ()]:
         facts.append(("left out", "\n".join(left_out)))
     items: list[Item] = [*note, Facts(facts), _measures(motion)]

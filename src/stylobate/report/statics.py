@@ -1,4 +1,4 @@
-"""Forces at rest in a report: uplift, pushover with its code check, limit analysis, and what they assume."""
+"""Forces at rest in a report: uplift, pushover with its capacity spectrum check, limit analysis, and what they assume."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from ..results import Numbers, Result, RunResult
 from . import numbers as n
 from .page import Facts, Item, Note, Points, Rows, Section
 from .pictures import kept
+from .structure import what_opens
 
 #: What is told of a link in a limit analysis.
 _LINK = ("link", "action", "force_n", "capacity_n", "yields")
@@ -21,10 +22,8 @@ _LINK = ("link", "action", "force_n", "capacity_n", "yields")
 
 def statics_section(column: Column, run: RunResult | None) -> Section:
     """What horizontal forces at rest would do: uplift and limit analysis."""
-    opens = column.uplift_acceleration
-    joint = int(column.joint_uplift_accelerations.argmin()) + 1
-    along = ", along x" if column.as_found else ""
-    pairs = [(f"opens the first joint{along}", f"{n.acceleration(opens)} (joint {joint})")]
+    opens, said = what_opens(column, run is not None and run.response.dims == "xyz")
+    pairs = [("opens the first joint", said)]
     try:
         pairs += _around(column) if column.as_found else _in_plane(column)
     except StylobateError as error:
@@ -34,7 +33,12 @@ def statics_section(column: Column, run: RunResult | None) -> Section:
         pairs.append(("peak of the motion over what opens the first joint", f"{peak / opens:.2f}"))
     text = (
         "Steady horizontal forces, proportional to the masses, as accelerations. Beyond these values a joint opens or the "
-        "column becomes a mechanism; under an earthquake it then rocks and need not overturn. Azimuths are from x towards y."
+        "column becomes a mechanism; under an earthquake it then rocks and need not overturn."
+        + (
+            " Azimuths are from x towards y."
+            if column.as_found or (run is not None and run.response.dims == "xyz")
+            else ""
+        )
     )
     return Section("Statics", [text, Facts(pairs)])
 
@@ -86,7 +90,7 @@ def pushover_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
 
 def code_check(column: Column, result: Result, run: RunResult | None) -> Section:
     """The capacity spectrum check of a pushover against the motion of a run of the same column."""
-    title = "Code check of the pushover"
+    title = "Capacity spectrum check"
     if run is None or run.motion is None:
         return Section(
             title,

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from ..column import Column
+from ..column.as_found import FoundDrum
 from ..column.assembly import FAR_AWAY, Assembly
+from ..column.found_in_space import weakest_uplift
 from ..column.specimen import Specimen
 from ..constants import g
 from ..plots import draw_elevation
@@ -44,8 +46,30 @@ def _column(column: Column) -> list[Item]:
     return found
 
 
+def what_opens(column: Column, in_space: bool = False) -> tuple[float, str]:
+    """The least steady horizontal acceleration that opens a joint [m/s²], and the same in words, with its direction.
+
+    Parameters
+    ----------
+    column : Column
+    in_space : bool
+        Whether it may come from any side though the column is found in the plane.
+    """
+    every, towards = column.joint_uplift_accelerations, None
+    if in_space or not column.as_found.in_plane:
+        every, towards = weakest_uplift(column)
+    joint = int(every.argmin())
+    least = float(every[joint])
+    if towards is None:
+        where = "; the weaker side along x" if column.as_found else ""
+    elif column.section == "circular" and not column.as_found:
+        where = "; in every direction"
+    else:
+        where = f"; pushed towards {towards[joint]:.0f}°, the weakest of all directions"
+    return least, f"{n.acceleration(least)} (joint {joint + 1}{where})"
+
+
 def _properties(column: Column) -> list[tuple[str, str]]:
-    first = int(column.joint_uplift_accelerations.argmin()) + 1
     return [
         ("section", column.section),
         ("drums", str(column.n) if column.n > 1 else "1, a monolith"),
@@ -56,10 +80,7 @@ def _properties(column: Column) -> list[tuple[str, str]]:
         ("from the edge of the base to the centroid, R", f"{column.radius:.3f} m"),
         ("slenderness α, of R from the vertical", n.angle(column.slenderness)),
         ("frequency parameter p, as one rigid block", f"{column.frequency_parameter:.3f} rad/s"),
-        (
-            f"static acceleration that opens the first joint{', along x' if column.as_found else ''}",
-            f"{n.acceleration(column.uplift_acceleration)} (joint {first})",
-        ),
+        ("static acceleration that opens the first joint", what_opens(column)[1]),
     ]
 
 
@@ -105,8 +126,17 @@ def _links(column: Column) -> Rows:
     return Rows(["link", "where", "at x / y [m]", "properties"], body, caption, numbers=True)
 
 
+def _chips(one: FoundDrum, deep: bool) -> str:
+    """What its lower face has lost [mm], and where the right of a round one is."""
+    if not one.chipped:
+        return n.NONE
+    said = " / ".join(f"{1000.0 * chip:.0f}" for chip in one.chips[: 4 if deep else 2])
+    return said + (f", right at {one.chip_azimuth:g}°" if one.chip_azimuth else "")
+
+
 def _as_found(column: Column) -> Rows:
     found = column.as_found
+    deep = any(one.chip_front or one.chip_back for one in found.drums)
     body = [
         [
             str(one.drum),
@@ -115,9 +145,7 @@ def _as_found(column: Column) -> Rows:
             f"{one.tilt:+.3g}" if one.tilt else n.NONE,
             f"{one.tilt_azimuth:g}" if one.tilt else n.NONE,
             f"{one.turn:+.3g}" if one.turn else n.NONE,
-            f"{1000.0 * one.chip_left:.0f} / {1000.0 * one.chip_right:.0f}"
-            if one.chip_left or one.chip_right
-            else n.NONE,
+            _chips(one, deep),
         ]
         for one in found.drums
     ]
@@ -128,7 +156,7 @@ def _as_found(column: Column) -> Rows:
         "lean [°]",
         "azimuth [°]",
         "turned [°]",
-        "chips left / right [mm]",
+        f"chips left / right{' / front / back' if deep else ''} [mm]",
     ]
     base = f" The base rises by {found.base_tilt:g}°" + (
         f" to azimuth {found.base_azimuth:g}°." if found.base_azimuth else "."
@@ -144,7 +172,11 @@ def _assembly(assembly: Assembly) -> list[Item]:
     caption = f"Elevation of {assembly.name}, with the size of all of it in m; supports that are held are grey."
     moving = [one for one in assembly.bodies if not one.fixed]
     facts = [
-        ("blocks", f"{len(moving)} that can move, {len(assembly.bodies) - len(moving)} held"),
+        (
+            "blocks",
+            f"{len(moving)} that can move"
+            + (f", {held} held" if (held := sum(one.fixed for one in assembly.blocks)) else ""),
+        ),
         ("joints", str(len(assembly.joints))),
         ("ground", "none" if assembly.ground is None else f"level at z = {assembly.ground:g} m"),
     ]

@@ -28,7 +28,7 @@ def sentence_of(response: Recorded) -> str:
     links = sentence_of_links(m.links)
     if m.collapsed:
         return f"{_of_collapse(response)} {links}".rstrip()
-    words = [m.outcome.sentence, *([links] if links else [])]
+    words = [m.outcome.sentence_of(len(response.bodies.names)), *([links] if links else [])]
     if m.reason:
         words.append(f"Reason: {m.reason}.")
     if not m.decided and m.outcome is not Outcome.FAILED:
@@ -37,7 +37,7 @@ def sentence_of(response: Recorded) -> str:
 
 
 #: Sentence for a run that ended before its verdict was certain.
-UNDECIDED = "The verdict may still change: at the end the column is far from rest; go on with --tail 5s."
+UNDECIDED = "The verdict may still change: at the end it is far from rest; go on with --tail 5s."
 
 
 def describe(response: Recorded) -> str:
@@ -65,7 +65,7 @@ def length(value: float) -> str:
 
 def _of_collapse(response: Recorded) -> str:
     m, mechanism = response.measures, response.mechanism
-    words = [m.outcome.sentence]
+    words = [m.outcome.sentence_of(len(response.bodies.names))]
     if m.reason:
         words.append(f"Reason: {m.reason}.")
     if mechanism is not None:

@@ -279,7 +279,7 @@ class SpaceBlock(DrumBlock):
     def direction(self, lane: int) -> str:
         """Where a collapse goes, in words."""
         azimuth = math.degrees(self.collapse(lane).azimuth or 0.0)
-        return f"towards azimuth {azimuth:.0f}° (from x towards y)"
+        return f"towards azimuth {round(azimuth) % 360}° (from x towards y)"
 
 
 def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
