@@ -172,3 +172,153 @@ def test_by_keyboard_alone(open_page):
         page.keyboard.press("ArrowUp")
     playwright.expect(page.locator('[data-field="azimuth"]')).to_have_value("15")
     playwright.expect(page.locator("#motion-facts")).to_contain_text("y 0.0776 g")
+
+
+def tab_to(page, selector):
+    """Go on with the tabulator until what is wanted has the focus, as somebody without a mouse does."""
+    for _ in range(120):
+        page.keyboard.press("Tab")
+        if page.evaluate("selector => document.activeElement.matches(selector)", selector):
+            return
+    raise AssertionError(f"{selector} is not reached")
+
+
+def seen(page):
+    """The film as it is drawn now."""
+    return page.locator("#film").evaluate("canvas => canvas.toDataURL()")
+
+
+def test_a_run_in_space_and_its_film_by_keyboard_alone(open_page):
+    page, expect = open_page(1440), playwright.expect
+    tab_to(page, "[data-field=preset]")
+    page.keyboard.type("paper-mono")
+    expect(page.locator('[data-field="drum.2.height"]')).to_have_count(0)
+    tab_to(page, '[data-field="drum.1.height"]')
+    page.keyboard.press("Control+A")
+    page.keyboard.type("4")
+    expect(page.locator("#column-facts")).to_contain_text("4 m")
+    tab_to(page, "[data-tab=motion]")
+    page.keyboard.press("Enter")
+    tab_to(page, "[data-field=duration]")
+    page.keyboard.press("Control+A")
+    page.keyboard.type("1")
+    tab_to(page, "[data-field=azimuth]")
+    page.keyboard.type("30")
+    tab_to(page, "[data-tab=run]")
+    page.keyboard.press("Enter")
+    tab_to(page, "[data-field=model]")
+    page.keyboard.type("dem3d")
+    tab_to(page, "#go")
+    page.keyboard.press("Enter")
+    expect(page.locator("#run-said .verdict:not(.sentence)")).to_contain_text("The block", timeout=60_000)
+
+    # play and pause, turn, zoom, and back; what is drawn changes, and is the same again in the end
+    play, now = page.locator("#play"), page.locator("#now")
+    tab_to(page, "#film")
+    if play.inner_text() == "Pause":
+        page.keyboard.press("Space")
+    expect(play).to_have_text("Play")
+    page.keyboard.press("0")
+    views = [seen(page)]
+    for key in ("ArrowLeft", "ArrowUp", "+", "-", "0"):
+        page.keyboard.press(key)
+        views.append(seen(page))
+    assert len(set(views[:4])) == 4
+    assert views[0] == views[-1]
+
+    # scrub, at another speed, with larger displacements
+    tab_to(page, "#place")
+    page.keyboard.press("Home")
+    expect(now).to_have_text("0.00 s")
+    page.keyboard.press("ArrowRight")
+    expect(now).not_to_have_text("0.00 s")
+    page.keyboard.press("End")
+    expect(now).to_have_text("1.00 s")
+    tab_to(page, "select[aria-label=speed]")
+    page.keyboard.press("ArrowUp")
+    expect(page.locator("select[aria-label=speed]")).to_have_value("0.5")
+    before = seen(page)
+    tab_to(page, "select[aria-label=displacements]")
+    page.keyboard.press("End")
+    expect(page.locator("select[aria-label=displacements]")).to_have_value("100")
+    assert seen(page) != before
+    tab_to(page, "#joints")
+    page.keyboard.type("twist")
+    expect(page.locator("#joints")).to_have_value("twist")
+    tab_to(page, "#play")
+    page.keyboard.press("Enter")
+    expect(play).to_have_text("Pause")
+    until(lambda: 0.1 < float(now.inner_text().split()[0]) < 1.0)
+
+
+def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
+    """Ten records from a folder, and one that is none; curves of both analyses; then the smallest amplitude."""
+    page, expect = open_page(1440), playwright.expect
+    folder = tmp_path / "records"
+    folder.mkdir()
+    for k in range(10):
+        time_ = 0.01 * np.arange(150)
+        ground = (1.0 + 0.1 * k) * np.sin(2.0 * np.pi * (0.8 + 0.1 * k) * time_)
+        rows = [f"{t:.2f} {a:.5f}" for t, a in zip(time_, ground)]
+        (folder / f"record-{k}.txt").write_text("\n".join(rows))
+    (folder / "notes <i>.txt").write_text("no record\n")
+    page.select_option("[data-field=preset]", "paper-monolithic")
+    page.click("[data-tab=run]")
+    page.select_option("[data-field=model]", "housner")
+    page.click("[data-tab=fragility]")
+    page.set_input_files("[data-upload=folder]", str(folder))
+    expect(page.locator("#fragility-asked")).to_contain_text("11 records")
+    page.select_option("#fragility [data-field=unit]", "m/s2")
+    page.fill("#fragility [data-field=runs]", "4")
+    page.keyboard.press("Tab")
+    page.click("#fragility-asked button.primary")
+    found = page.locator("#fragility-found")
+    expect(found.locator(".verdict").first).to_contain_text("Half of the records bring collapse", timeout=60_000)
+    expect(found).to_contain_text("of 10 records")
+    expect(found).to_contain_text("notes-i")
+    expect(found.locator("img")).to_have_count(2)
+    until(lambda: found.evaluate("one => [...one.querySelectorAll('img')].every(img => img.naturalWidth > 300)"))
+
+    page.click("[data-tab=run]")
+    page.locator("#critical summary").click()
+    for name, value in (("first", "0.1"), ("last", "0.5"), ("step", "0.1")):
+        page.fill(f'[data-field="critical.{name}"]', value)
+    page.click("text=Find it")
+    said = page.locator("#run-said")
+    expect(said.locator(".verdict:not(.sentence)")).to_contain_text("The column first collapses at", timeout=30_000)
+    page.click("text=Run it at this amplitude")
+    expect(said.locator(".verdict:not(.sentence)")).to_contain_text("The block collapsed", timeout=30_000)
+
+
+def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
+    page, expect = open_page(1440), playwright.expect
+    page.locator("#column summary:has-text('Strengthening')").click()
+    page.click("text=Add a link")
+    page.fill('[data-field="link.1.diameter"]', "7")
+    expect(page.locator("#column .error")).to_contain_text("diameter of a dowel is 7 m; allowed is")
+    expect(page.locator('[data-field="link.1.diameter"]')).to_have_attribute("aria-invalid", "true")
+    page.fill('[data-field="link.1.diameter"]', "0.04")
+    expect(page.locator("#column .error")).to_have_count(0)
+    page.fill('[data-field="link.1.joint"]', "all")
+    expect(page.locator("#column .error")).to_have_count(0)
+    with page.expect_download() as saved:
+        page.click("text=Save column file")
+    assert saved.value.path().read_text().count('kind = "dowel"') == 12
+
+    portal = tmp_path / "portal.toml"
+    joint = "[joint]\nnormal_stiffness = 5e9\nshear_stiffness = 2.5e9\nfriction_angle = 35\n"
+    blocks = [(0, 1, 0, 3), (4, 5, 0, 3), (0, 5, 3, 4)]
+    corners = ["[[block]]\nvertices = [[{0},{2}],[{1},{2}],[{1},{3}],[{0},{3}]]\n".format(*one) for one in blocks]
+    portal.write_text('name = "portal <b>"\ndensity = 2500.0\n' + joint + "".join(corners))
+    page.set_input_files("[data-upload=column]", str(portal))
+    expect(page.locator("#column-facts")).to_contain_text("portal <b>")
+    page.click("[data-tab=motion]")
+    page.fill("[data-field=duration]", "1")
+    page.keyboard.press("Control+Enter")
+    expect(page.locator("#run-said .verdict:not(.sentence)")).to_contain_text("blocks", timeout=60_000)
+    expect(page.locator("#film")).to_be_visible()
+    page.reload()
+    expect(page.locator("#film")).to_be_visible()
+    page.click("[data-tab=column]")
+    page.click("text=Back to the column")
+    expect(page.locator('[data-field="link.1.diameter"]')).to_have_value("0.04")

@@ -57,7 +57,19 @@ def put(table, path, value):
 
 FIELDS = (
     [("drum.2", name) for name in ("height", "bottom_width", "top_width", "density", "depth")]
-    + [("found.3", name) for name in ("offset", "tilt", "chip_left", "chip_right", "offset_azimuth", "turn")]
+    + [
+        ("found.3", name)
+        for name in (
+            "offset",
+            "tilt",
+            "chip_left",
+            "chip_right",
+            "chip_front",
+            "chip_azimuth",
+            "offset_azimuth",
+            "turn",
+        )
+    ]
     + [("joint", name) for name in ("normal_stiffness", "shear_stiffness", "friction_coefficient", "cohesion")]
     + [("override.2", name) for name in ("normal_stiffness", "friction_coefficient", "cohesion")]
     + [(None, "gravity"), (None, "base_tilt"), (None, "base_azimuth")]
@@ -73,12 +85,39 @@ def test_every_error_finds_its_field(client, table, where, name, value):
     assert answer.json()["field"] == path, answer.json()["error"]
 
 
-def test_an_error_of_a_link_finds_its_row(client, table):
-    dowel = {"kind": "dowel", "joint": 2, "diameter": 0.03, "embedment": 0.1, "material": "titanium"}
-    whole = client.post("/api/column", json=table | {"link": [dowel]}).json()
-    assert "error" not in whole
-    wrong = client.post("/api/column", json=table | {"link": [dowel, dowel | {"diameter": -1}]}).json()
-    assert wrong["field"] == "link.2"
+DOWEL = {"kind": "dowel", "joint": 2, "diameter": 0.03, "embedment": 0.1, "material": "titanium"}
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [("diameter", -1), ("diameter", "abc"), ("diameter", None), ("embedment", None), ("material", "gold"), ("joint", 9),
+     ("joint", "x"), ("at", [1]), ("at", [0.0, 9.0]), ("hole", 0.01), ("failure", "bends"), ("kind", "rope")],
+)  # fmt: skip
+def test_an_error_of_a_link_finds_its_field(client, table, field, value):
+    assert "error" not in client.post("/api/column", json=table | {"link": [DOWEL]}).json()
+    wrong = {key: one for key, one in (DOWEL | {field: value}).items() if one is not None}
+    answer = client.post("/api/column", json=table | {"link": [DOWEL, wrong]}).json()
+    assert answer["field"] == f"link.2.{field}", answer["error"]
+
+
+def test_links_are_where_they_are_drawn(client, table):
+    """A dowel through its joint as far as it reaches into both drums; a tie from drum to drum; both seen from two sides."""
+    tie = {"kind": "tie", "at": [0.6, 0.2], "from_drum": 0, "to_drum": 3, "diameter": 0.02, "material": "titanium"}
+    told = client.post("/api/column", json=table | {"link": [DOWEL, tie]}).json()
+    joint, (_, middle) = table["drum"][0]["height"], _span(told["outlines"]["xz"][2])
+    assert np.array(told["links"]["xz"]) == pytest.approx(
+        np.array([[[0.0, joint - 0.1], [0.0, joint + 0.1]], [[0.6, 0.0], [0.6, middle]]]), abs=1e-3
+    )
+    aside = {"as_found": {"drum": [{"index": 2, "offset": 0.05, "offset_azimuth": 90}]}}
+    told = client.post("/api/column", json=table | aside | {"link": [DOWEL, tie]}).json()["links"]
+    assert told["yz"][1][0] == pytest.approx([0.2, 0.0], abs=1e-3)
+    assert told["yz"][1][1][0] == pytest.approx(0.25, abs=1e-3)  # it goes with the drum that is offset
+
+
+def _span(corners):
+    """Lowest, and middle height of an outline."""
+    heights = [z for _, z in corners]
+    return min(heights), 0.5 * (min(heights) + max(heights))
 
 
 def test_a_missing_value_finds_its_field(client, table):
@@ -151,3 +190,45 @@ def test_a_record_is_uploaded_and_its_unit_asked_for(client, table):
     assert re.fullmatch(r"my-record-[0-9a-f]{8}\.txt", found["summary"]["file"])
     assert client.delete(f"/api/records/{kept['id']}").status_code == 200
     assert "upload it again" in client.post("/api/motion", json={"motion": asked}).json()["error"]
+
+
+ASSEMBLY = """name = "portal"
+[joint]
+normal_stiffness = 5e9
+shear_stiffness = 2.5e9
+friction_angle = 35
+[[block]]
+vertices = [[0,0],[1,0],[1,3],[0,3]]
+density = 2500
+"""
+
+
+def test_an_assembly_is_told_apart_from_a_column(client):
+    assert client.post("/api/column/file", content=ASSEMBLY.encode()).json() == {"assembly": ASSEMBLY}
+    told = client.post("/api/assembly", json={"assembly": ASSEMBLY}).json()
+    assert told["facts"] | {"digest": ""} == {
+        "name": "portal", "blocks": 1, "fixed": 0, "joints": 1, "mass": 7500.0, "height": 3.0, "digest": ""
+    }  # fmt: skip
+    assert told["outlines"]["xz"] == [[[0.0, 0.0], [1.0, 0.0], [1.0, 3.0], [0.0, 3.0]]]
+    asked = {"kind": "run", "assembly": ASSEMBLY, "motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}
+    job = client.post("/api/jobs", json=asked).json()
+    assert job["commands"][0].startswith("stylobate run assembly.toml --model=dem2d ")
+    wrong = client.post("/api/jobs", json=asked | {"kind": "domain"})
+    assert (wrong.status_code, "takes a column" in wrong.json()["error"]) == (422, True)
+
+
+@pytest.mark.parametrize("file", ["../../../etc/passwd", "/etc/passwd", "column.toml", "\\u0000"])
+def test_an_assembly_opens_no_file_of_this_machine(client, file):
+    text = f'[[column]]\nfile = "{file}"\nnumber = 2\nspacing = 3.0\n'
+    for answer in (
+        client.post("/api/column/file", content=text.encode()),
+        client.post("/api/assembly", json={"assembly": text}),
+    ):
+        assert "has only presets at hand" in answer.json()["error"]
+        assert "tmp" not in answer.json()["error"]
+
+
+def test_what_is_wrong_in_a_file_is_said_without_where_it_lies(client):
+    for text in ("name = ", "[[block]]\nvertices = [[0,0],[1,0],[1,1]]\n", "section = 'round'\n"):
+        error = client.post("/api/column/file", content=text.encode()).json()["error"]
+        assert error.startswith("your-")

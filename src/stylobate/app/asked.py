@@ -14,9 +14,9 @@ from ..errors import InputError
 from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_time
 
-#: Files of a job: its column, the study of a domain, where its records lie, and where its commands write.
-COLUMN, STUDY, RECORDS, RESULT, FRAGILITY, REPORT = (
-    *("column.toml", "study.toml", "records", "result", "fragility", "report.html"),
+#: Files of a job: its column or assembly, the study of a domain, where its records lie, and where its commands write.
+COLUMN, ASSEMBLY, STUDY, RECORDS, RESULT, FRAGILITY, REPORT = (
+    *("column.toml", "assembly.toml", "study.toml", "records", "result", "fragility", "report.html"),
 )
 
 
@@ -60,10 +60,15 @@ class MotionAsked(Table):
 
 
 class JobAsked(Table):
-    """What is to be computed: ``run``, ``domain`` or ``ida``; all but kind, column and model as on the command line."""
+    """What is to be computed, and of what: all but kind, column and model as on the command line.
 
-    kind: Literal["run", "domain", "ida"]
-    column: dict[str, Any]
+    ``column`` is what a column file holds, ``assembly`` the text of an assembly file; of ``critical`` the amplitudes go from
+    ``first`` to ``last`` by ``step``.
+    """
+
+    kind: Literal["run", "critical", "domain", "ida"]
+    column: dict[str, Any] | None = None
+    assembly: str | None = None
     model: str = "dem2d"
     settings: dict[str, str] = Field(default_factory=dict)
     motion: MotionAsked | None = None
@@ -72,7 +77,11 @@ class JobAsked(Table):
     frequencies: str | None = None
     amplitudes: str | None = None
     duration: str | None = None
+    first: str | None = None
+    last: str | None = None
+    step: str | None = None
     records: list[str] = Field(default_factory=list)
+    unit: str | None = None
     im: str | None = None
     runs: str | None = None
     state: str | None = None
@@ -92,22 +101,17 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
     InputError
         Something is missing.
     """
-    common = [COLUMN, *_options(model=asked.model)]
+    common = [COLUMN if asked.assembly is None else ASSEMBLY, *_options(model=asked.model)]
     common += [f"--set={name}={value}" for name, value in asked.settings.items() if value]
     end = [*_options(tail=asked.tail), f"--out={RESULT}"]
-    if asked.kind == "run":
+    if asked.kind in ("run", "critical"):
         if asked.motion is None:
-            raise InputError("a run has no motion; choose one.")
-        return [
-            [
-                "run",
-                *common,
-                *_motion(asked.motion, records),
-                *_options(replicates=asked.replicates),
-                "--no-pictures",
-                *end,
-            ]
-        ]
+            raise InputError(f"a {asked.kind} has no motion; choose one.")
+        given = [*common, *_motion(asked.motion, records), *_options(replicates=asked.replicates)]
+        if asked.kind == "run":
+            return [["run", *given, "--no-pictures", *end]]
+        steps = {"from": asked.first, "to": asked.last, "step": asked.step}
+        return [["critical", *given, *_options(**steps), *end]]
     if asked.kind == "domain":
         return [["domain", STUDY, f"--out={RESULT}"]]
     from ..analysis.fragility import FEWEST
@@ -115,7 +119,7 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
     files = [path for one in asked.records for path in _files(one, records)]
-    analysis = ["ida", *common, *files, *_options(im=asked.im, runs=asked.runs), *end]
+    analysis = ["ida", *common, *files, *_options(unit=asked.unit, im=asked.im, runs=asked.runs), *end]
     if len(asked.records) < FEWEST:
         return [analysis]
     return [analysis, ["fragility", RESULT, *_options(state=asked.state), f"--out={FRAGILITY}"]]

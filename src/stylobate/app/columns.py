@@ -12,6 +12,7 @@ import numpy as np
 from ..column import Column
 from ..column.files import tables_of
 from ..column.found_in_space import base_axes, space_geometry
+from ..column.link_loads import strokes
 from ..column.presets import PRESETS, preset
 from ..column.tables import made_of
 from ..constants import g
@@ -77,6 +78,7 @@ def describe(table: Mapping[str, Any]) -> dict[str, Any]:
         "facts": facts,
         "outlines": {name: [one.round(4).tolist() for one in found] for name, found in seen.items()},
         "in_space": in_space,
+        "links": _links(column, in_space),
         "slope": float(np.tan(np.radians(column.as_found.base_tilt))) if not in_space else 0.0,
         "joints": [
             {"width": float(column.joint_widths[i]), "friction": joint.tan_phi} for i, joint in enumerate(column.joints)
@@ -87,14 +89,43 @@ def describe(table: Mapping[str, Any]) -> dict[str, Any]:
 
 def _in_plane(column: Column) -> list[np.ndarray]:
     """Corners of the drums of a column as found, seen along y [m]."""
-    bodies = bodies_of(column)
+    shapes = bodies_of(column).shapes
+    return [_turned(shape.outline, at) for shape, at in zip(shapes, _placed(column), strict=True)]
+
+
+def _placed(column: Column) -> np.ndarray:
+    """Where the drums of a column found in the plane are: x and z of their centroids [m], and their angles [rad]."""
     still = np.zeros((1, column.n))
-    placed = bodies.reference.plane(PlanePoses(still, still, still))[0]
-    found = []
-    for shape, (x, z, angle) in zip(bodies.shapes, placed, strict=True):
-        c, s = np.cos(angle), np.sin(angle)
-        found.append(shape.outline @ np.array([[c, s], [-s, c]]) + (x, z))
-    return found
+    return bodies_of(column).reference.plane(PlanePoses(still, still, still))[0]
+
+
+def _turned(points: np.ndarray, at: np.ndarray) -> np.ndarray:
+    x, z, angle = at
+    c, s = np.cos(angle), np.sin(angle)
+    return points @ np.array([[c, s], [-s, c]]) + (x, z)
+
+
+def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
+    """Ends of the lines that stand for its links [m], by what is looked at as outlines are."""
+    if not in_space:
+        base = np.array([0.0, 0.0, np.radians(column.as_found.base_tilt)])
+        at = [base, *_placed(column)]
+
+        def plane(body: int, place: np.ndarray) -> list[float]:
+            return _turned(place[None, [0, 2]], at[body])[0].round(4).tolist()
+
+        return {"xz": [[plane(*one.lower), plane(*one.upper)] for one in strokes(column)]}
+    space, upright = space_geometry(column), base_axes(column)
+
+    def seen(body: int, place: np.ndarray, axis: int) -> list[float]:
+        point = space.centroid[body - 1] + space.axes[body - 1] @ place if body else place
+        return (upright @ point)[[axis, 2]].round(4).tolist()
+
+    lines = strokes(column)
+    return {
+        name: [[seen(*one.lower, axis), seen(*one.upper, axis)] for one in lines]
+        for name, axis in (("xz", 0), ("yz", 1))
+    }
 
 
 def _outlines(column: Column, axis: int) -> list[np.ndarray]:

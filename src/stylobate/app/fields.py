@@ -8,7 +8,10 @@ from typing import Any
 
 #: Fields of a drum and of a drum as found; each has a row of its own on the page.
 DRUM = ("height", "bottom_width", "top_width", "density", "depth", "top_depth")
-FOUND = ("offset_azimuth", "tilt_azimuth", "offset", "tilt", "chip_left", "chip_right", "turn")
+FOUND = (
+    *("offset_azimuth", "tilt_azimuth", "offset", "tilt", "turn"),
+    *("chip_left", "chip_right", "chip_front", "chip_back", "chip_azimuth"),
+)
 JOINT = ("normal_stiffness", "shear_stiffness", "friction_angle", "friction_coefficient", "cohesion", "ring_width")
 #: Fields of what is typed for a motion, from comma to comma.
 PARTS = {"harmonic": ("frequency", "amplitude", "duration"), "pulse": ("shape", "frequency", "amplitude")}
@@ -23,6 +26,12 @@ _NUMBERED = {
     "link": re.compile(r"\[\[link\]\] number (\d+)|\blink (\d+)\b"),
 }
 
+#: The field of a link that a sentence is about.
+_LINK = re.compile(
+    r"\b(\w+) of a (?:dowel|bar|tie|core|layer)\b|'(\w+)' in \[\[link\]\]|has no (\w+);|has neither (\w+)|(kind) of a link"
+    r"|there is no (joint)|: a \w+ (at) \[|: (joint)s is"
+)
+
 
 def column_field(sentence: str, table: Mapping[str, Any]) -> str | None:
     """The field that a sentence about a column file is about, such as ``drum.3.height``; None if it is about none.
@@ -36,7 +45,8 @@ def column_field(sentence: str, table: Mapping[str, Any]) -> str | None:
     numbers = {kind: _number(pattern, sentence) for kind, pattern in _NUMBERED.items()}
     name = _named(sentence, (*FOUND, *DRUM, *JOINT, "base_tilt", "base_azimuth", "gravity", "section"))
     if numbers["link"] is not None:
-        return f"link.{numbers['link']}"
+        of = _LINK.search(sentence)
+        return f"link.{numbers['link']}" + (f".{next(filter(None, of.groups()))}" if of else "")
     if name in FOUND:
         number = numbers["of"]
         if number is None and (place := numbers["found"] or numbers["drum"]) is not None:

@@ -19,12 +19,14 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
 
 from ..column import Column
+from ..column.assembly import Assembly
 from ..column.files import write_column
 from ..column.toml import checked
 from ..errors import InputError
 from . import columns
 from .answers import json_object, missing, refused
-from .asked import COLUMN, FRAGILITY, RECORDS, RESULT, STUDY, JobAsked, commands, report_of, shown, study
+from .asked import ASSEMBLY, COLUMN, FRAGILITY, RECORDS, RESULT, STUDY, JobAsked, commands, report_of, shown, study
+from .assemblies import assembly_of
 from .cells import new_cells
 from .fields import column_field, domain_field
 from .job import Job
@@ -86,11 +88,10 @@ class JobAnswers:
         """Put a job into the queue."""
         body = await json_object(request)
         asked = checked(body, JobAsked, "the job")
-        columns.refuse_large(asked.column)
         try:
-            column = columns.column_of(asked.column)
+            stone = _structure(asked)
         except InputError as error:
-            return refused(error, column_field(str(error), asked.column))
+            return refused(error, column_field(str(error), asked.column or {}))
         try:
             tables = study(asked) if asked.kind == "domain" else None
         except InputError as error:
@@ -102,12 +103,15 @@ class JobAnswers:
         lines = commands(asked, names)
 
         def prepare(folder: Path) -> None:
-            write_column(column, folder / COLUMN)
+            if isinstance(stone, Column):
+                write_column(stone, folder / COLUMN)
+            else:
+                (folder / ASSEMBLY).write_text(str(asked.assembly), encoding="utf-8")
             self.records.copy(wanted, folder / RECORDS)
             if tables is not None:
                 (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
 
-        title = _title(asked, column, self.records)
+        title = _title(asked, stone.name, self.records)
         job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
         return JSONResponse(self._shown(job), 201)
 
@@ -244,18 +248,31 @@ class JobAnswers:
         return job.to_dict(whole) | {"place": self.workshop.place(job)}
 
 
-def _title(asked: JobAsked, column: Column, records: Records) -> str:
+def _structure(asked: JobAsked) -> Column | Assembly:
+    """What stands: a column, or an assembly, of which runs alone are made here."""
+    if asked.assembly is not None:
+        if asked.kind != "run":
+            raise InputError(f"a {asked.kind} takes a column here; go back to one, or use the command line.")
+        return assembly_of(asked.assembly)
+    if asked.column is None:
+        raise InputError("there is neither a column nor an assembly; choose a column.")
+    columns.refuse_large(asked.column)
+    return columns.column_of(asked.column)
+
+
+def _title(asked: JobAsked, name: str, records: Records) -> str:
     """A job in a line."""
-    if asked.kind == "run" and asked.motion is not None:
+    if asked.kind in ("run", "critical") and asked.motion is not None:
         what, kept = asked.motion.text, records.kept.get(asked.motion.text)
         what = kept.name if kept is not None else what
         what += f" at {asked.motion.azimuth}" if asked.motion.azimuth else ""
         what += f" scaled to {asked.motion.pga}" if asked.motion.pga else ""
+        what = what if asked.kind == "run" else f"what brings it down of {what}, {asked.first} to {asked.last}"
     elif asked.kind == "domain":
         what = f"domain {asked.frequencies} Hz × {asked.amplitudes}"
     else:
         what = f"{len(asked.records)} records by {asked.im or 'pgv'}"
-    return f"{column.name} · {what} · {asked.model}"
+    return f"{name} · {what} · {asked.model}"
 
 
 def _event(kind: str, what: Any) -> str:

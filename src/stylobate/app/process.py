@@ -53,7 +53,7 @@ class Process:
             self._process.stdin.write(json.dumps(job) + "\n")
 
     def says(self) -> Iterator[dict[str, Any]]:
-        """What it says, until it ends."""
+        """What it says, until it ends or is told to."""
         while (what := self._said.get()) is not None:
             yield what
 
@@ -62,9 +62,10 @@ class Process:
         return self._process.wait()
 
     def tell(self) -> None:
-        """Tell it to stop."""
+        """Tell it to stop; nothing more is heard of it."""
         self._told = True
         self._process.terminate()
+        self._said.put(None)
 
     def stop(self) -> None:
         """Tell it to stop, and wait until it has."""

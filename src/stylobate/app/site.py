@@ -16,13 +16,14 @@ from starlette.requests import Request
 from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
+from ..column.assembly_files import is_assembly
 from ..column.files import write_column
 from ..column.toml import checked
 from ..errors import InputError
 from ..motion.readers.component import UnstatedError
 from ..motion.readers.samples import samples
 from ..version import __version__
-from . import columns, motions
+from . import assemblies, columns, motions
 from .answers import HANDLERS, found_wrong, json_object, missing
 from .asked import COLUMN, RECORDS, MotionAsked
 from .fields import column_field, motion_field
@@ -96,11 +97,26 @@ class Site:
             return PlainTextResponse(path.read_text(encoding="utf-8"))
 
     async def column_file(self, request: Request) -> Response:
-        """What an uploaded column file holds."""
+        """What an uploaded file holds: a column, or an assembly."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "your-column.toml"
             path.write_bytes(await request.body())
-            return JSONResponse({"table": await run_in_threadpool(columns.tables_in, path)})
+            try:
+                if is_assembly(path):
+                    text = path.read_text(encoding="utf-8")
+                    await run_in_threadpool(assemblies.assembly_of, text)
+                    return JSONResponse({"assembly": text})
+                return JSONResponse({"table": await run_in_threadpool(columns.tables_in, path)})
+            except InputError as error:
+                raise InputError(str(error).replace(f"{folder}/", "")) from None
+
+    async def assembly(self, request: Request) -> Response:
+        """What is shown of an assembly."""
+        text = (await json_object(request)).get("assembly")
+        try:
+            return JSONResponse(await run_in_threadpool(assemblies.describe, str(text)))
+        except InputError as error:
+            return found_wrong(error, None)
 
     async def motion(self, request: Request) -> Response:
         """The plot and the measures of a motion."""
@@ -181,6 +197,7 @@ def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = ())
         at("/api/column", Site.column, "POST"),
         at("/api/column/toml", Site.column_toml, "POST"),
         at("/api/column/file", Site.column_file, "POST"),
+        at("/api/assembly", Site.assembly, "POST"),
         at("/api/motion", Site.motion, "POST"),
         at("/api/records", Site.record_list),
         at("/api/records", Site.record, "POST"),

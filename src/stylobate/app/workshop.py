@@ -16,7 +16,7 @@ from typing import Any
 
 from ..errors import InputError
 from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
-from .process import Process
+from .process import PATIENCE, Process
 
 #: Most jobs that wait, and that are kept.
 WAIT, KEEP = 50, 300
@@ -27,8 +27,8 @@ LOG = "worker.log"
 #: Kinds of jobs that can be stopped and go on later where they were.
 LONG = ("domain", "ida", "critical")
 
-#: Time between two looks at an idle process [s].
-LOOK = 0.5
+#: Time between two looks at an idle process, and at one that is ending [s].
+LOOK, PAUSE = 0.5, 0.02
 
 #: Codes of the command line for bad input and for an interrupt.
 BAD_INPUT, INTERRUPTED = 2, 130
@@ -59,6 +59,7 @@ class Workshop:
         self._lock, self._wake = threading.RLock(), threading.Condition()
         self._process: Process | None = None
         self._spare: Process | None = None
+        self._leaving: list[threading.Thread] = []
         self._current: str | None = None
         self._closing = False
         self._thread = threading.Thread(target=self._work, name="jobs", daemon=True)
@@ -152,6 +153,8 @@ class Workshop:
             self.jobs.pop(job.id, None)
             self.version += 1
         self.told()
+        for one in self._leaving:  # it may have been paused a moment ago
+            one.join(PATIENCE)
         shutil.rmtree(job.folder, ignore_errors=True)
 
     def place(self, job: Job) -> int:
@@ -192,7 +195,6 @@ class Workshop:
             process = self._process
             if process is not None:
                 process.tell()  # with the lock: it must not be given another job
-                threading.Thread(target=process.stop, name="pause").start()  # whoever asks need not wait for it
 
     def _work(self) -> None:
         while not self._closing:
@@ -202,14 +204,10 @@ class Workshop:
             if self._closing or process.over or not self._queue:
                 continue
             with self._lock:
-                if not self._queue or process.over:  # it was stopped while this waited for the lock
-                    continue
-                job = self.jobs.get(self._queue.popleft())
-                if job is None or job.state != WAITING:
-                    continue
-                self._current, job.state, job.started = job.id, RUNNING, time.time()
-                job.results, job.warnings = [], []
-                self._changed(job)
+                job = self._taken(process)
+            if job is None:
+                time.sleep(PAUSE)
+                continue
             try:
                 self._follow(job, process)
             finally:
@@ -217,12 +215,29 @@ class Workshop:
         for one in (self._process, self._spare):
             if one is not None:
                 one.put_away()
+        for one in self._leaving:
+            one.join()
+
+    def _taken(self, process: Process) -> Job | None:
+        """The first of the queue, which is computed from now on; None where there is none that could be."""
+        if not self._queue or process.over:  # it was stopped while this waited for the lock
+            return None
+        job = self.jobs.get(self._queue[0])
+        if job is not None and job.kind in LONG and any(one.is_alive() for one in self._leaving):
+            return None  # it may be the one that has just paused, whose ledger is held until its process has ended
+        self._queue.popleft()
+        if job is None or job.state != WAITING:
+            return None
+        self._current, job.state, job.started = job.id, RUNNING, time.time()
+        job.results, job.warnings = [], []
+        self._changed(job)
+        return job
 
     def _started(self) -> Process:
         """The process that does jobs; where it has ended, the one that waits to take over, or a new one."""
         if self._process is None or self._process.over:
             if self._process is not None:
-                self._process.put_away()
+                self._leave(self._process)
             spare, self._spare = self._spare, None
             if spare is not None and spare.over:
                 spare.put_away()
@@ -230,6 +245,12 @@ class Workshop:
             self._process = spare or self._new()
             self._news()
         return self._process
+
+    def _leave(self, process: Process) -> None:
+        """Let a process end by itself, and go on meanwhile."""
+        leaving = threading.Thread(target=process.put_away, name="leaving", daemon=True)
+        leaving.start()
+        self._leaving = [one for one in self._leaving if one.is_alive()] + [leaving]
 
     def _new(self) -> Process:
         return Process(self.worker, self._log, self._news)
@@ -242,9 +263,9 @@ class Workshop:
         for what in process.says():
             if what.get("id") == job.id and self._hear(job, what):
                 return
-        code = process.end()
         if job.state == WAITING:  # it makes room for another one
             return
+        code = process.end()
         if job.state == CANCELLED:
             self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
         else:

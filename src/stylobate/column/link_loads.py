@@ -1,8 +1,8 @@
-"""What pretensioned links exert on the part of a column above a joint, as it stands."""
+"""Where links are, and what pretensioned ones exert on the part of a column above a joint, as it stands."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -32,6 +32,34 @@ def own_places(column: Column, link: LinkProperties) -> tuple[np.ndarray, np.nda
         height = float(column.centroid_heights[body - 1]) if body else 0.0
         places.append(np.array([end[0], end[1], end[2] - height]))
     return places[0], places[1]
+
+
+#: Half of the stroke of a dowel whose embedment is not known, over the height of its drum [-].
+STROKE = 0.15
+
+
+class Stroke(NamedTuple):
+    """A line that stands for a link: bodies (0 is the base) and places in their own axes of its two ends [m]."""
+
+    link: LinkProperties
+    lower: tuple[int, np.ndarray]
+    upper: tuple[int, np.ndarray]
+
+
+def strokes(column: Column) -> list[Stroke]:
+    """Every dowel, bar, tie and core as it is drawn: short through its joint, or from end to end; layers have none."""
+    found = []
+    for link in properties(column):
+        if link.kind == "layer":
+            continue
+        low, high = own_places(column, link)
+        if link.straight:
+            found.append(Stroke(link, (link.lower, low), (link.upper, high)))
+            continue
+        half = link.lift if np.isfinite(link.lift) else STROKE * float(column.heights[link.upper - 1])
+        up = np.array([0.0, 0.0, half])
+        found.append(Stroke(link, (link.lower, low - up), (link.lower, low + up)))
+    return found
 
 
 def pull_on_part(column: Column, centroids: np.ndarray, axes: np.ndarray, joint: int) -> tuple[np.ndarray, np.ndarray]:

@@ -6,14 +6,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..column import Column
-from ..column.link_laws import properties
-from ..column.link_loads import own_places
+from ..column.link_loads import strokes
 from ..response.poses import exaggerated, rotation_matrices
 from .scene import Scene
 from .style import BLUE, RED
-
-#: Half of the stroke of a dowel whose embedment is not known, over the height of its drum [-].
-STROKE = 0.15
 
 
 def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.ndarray, bool]]:
@@ -30,17 +26,9 @@ def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.n
         return point[[0, 2]] if scene.seen_from is None else scene.seen_from.across(point)
 
     marks = []
-    for link in properties(column):
-        if link.kind == "layer":
-            continue
-        low, high = own_places(column, link)
-        if link.straight:
-            ends = seen(link.lower, low), seen(link.upper, high)
-        else:
-            half = link.lift if np.isfinite(link.lift) else STROKE * float(column.heights[link.upper - 1])
-            up = np.array([0.0, 0.0, half])
-            ends = seen(link.lower, low - up), seen(link.lower, low + up)
-        marks.append((np.array(ends), response.time[index] >= broken.get(link.name, np.inf)))
+    for link, lower, upper in strokes(column):
+        ends = np.array([seen(*lower), seen(*upper)])
+        marks.append((ends, response.time[index] >= broken.get(link.name, np.inf)))
     return marks
 
 

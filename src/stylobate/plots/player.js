@@ -166,6 +166,7 @@ function filmPlayer(data, { film, trace, place, now, play, speed, larger, painte
   trace.onpointermove = event => { if (event.buttons) point(event); };
   larger.onchange = draw;
   followHands(film, painter, draw);
+  film.addEventListener("keydown", event => { if (event.key === " ") { event.preventDefault(); toggle(); } }, { signal: over.signal });
   addEventListener("resize", fit, { signal: over.signal });
   fit();
   return { seek, toggle, fit, time: () => data.time[+place.value], end: () => { running = false; over.abort(); } };

@@ -1,5 +1,6 @@
 // Column: presets, a file, drum by drum in a table, beside the elevation.
 
+import * as assembly from "./assembly.js";
 import { check as ask, latest, postText, upload } from "./api.js";
 import { choice, el, facts, field, fill, find, later, length, mark, notice, number, save, select, warnings } from "./dom.js";
 import { drawElevation } from "./elevation.js";
@@ -7,16 +8,17 @@ import { change, listen, state } from "./state.js";
 
 const SIZES = [["height", "Height", "m"], ["bottom_width", "Bottom", "m"], ["top_width", "Top", "m"], ["density", "Density", "kg/m³"]];
 const DEPTH = ["depth", "Depth", "m"];
-const FOUND = [["offset", "Offset", "m"], ["tilt", "Tilt", "°"], ["chip_left", "Chip left", "m"], ["chip_right", "Chip right", "m"]];
-const SPACE = [["offset_azimuth", "Offset to", "°"], ["tilt_azimuth", "Tilt to", "°"], ["turn", "Turn", "°"]];
-const JOINT = [["friction_coefficient", "Friction", "tan φ"], ["normal_stiffness", "Normal", "N/m³"], ["shear_stiffness", "Shear", "N/m³"]];
+const FOUND = [["offset", "Offset", "m"], ["offset_azimuth", "Offset to", "°"], ["tilt", "Tilt", "°"], ["tilt_azimuth", "Tilt to", "°"], ["turn", "Turn", "°"]];
+const CHIPS = [["chip_left", "Left", "m"], ["chip_right", "Right", "m"]];
+const ROUND_CHIPS = [["chip_azimuth", "Right is at", "°"]], SQUARE_CHIPS = [["chip_front", "Front", "m"], ["chip_back", "Back", "m"]];
+const JOINT = [["friction_coefficient", "Friction", "tan φ"], ["normal_stiffness", "Normal", "N/m³"], ["shear_stiffness", "Shear", "N/m³"], ["cohesion", "Cohesion", "Pa"], ["ring_width", "Ring", "m"]];
 
 let panel, view = "sizes", chosen = 0, described = null, hit = () => 0, presets = {}, own = false;
 
 export function start(place, about) {
   panel = place; presets = about.presets;
   listen(keys => {
-    if (keys.has("column") && !own) { render(); check(); }
+    if ((keys.has("column") || keys.has("assembly")) && !own) { render(); check(); }
     if (keys.has("tab") && state.tab === "column") paint();
   });
   addEventListener("resize", later(paint, 60));
@@ -35,7 +37,7 @@ function edit(changed) {
   if (chooser) chooser.value = "";
   check();
 }
-function replace(changed, preset = "") { change({ column: changed, preset }); }
+function replace(changed, preset = "") { change({ column: changed, preset, assembly: "" }); }
 
 // One value of a list of tables that are told apart by their index, such as [[as_found.drum]].
 function indexed(list, index, key, given) {
@@ -69,6 +71,7 @@ const check = later(latestCheck(), 120);
 function latestCheck() {
   const asking = latest(table => ask("/api/column", table));
   return async () => {
+    if (state.assembly) return;
     const found = await asking(state.column);
     if (!found) return;
     if (found instanceof Error) {
@@ -91,7 +94,8 @@ function paint(faulty = 0) {
   const canvas = find("canvas", panel);
   if (!canvas || !canvas.clientWidth) return;
   drawn = described || drawn;
-  if (drawn) hit = drawElevation(canvas, drawn, { chosen, faulty, table: state.column });
+  if (state.assembly) assembly.draw(canvas);
+  else if (drawn) hit = drawElevation(canvas, drawn, { chosen, faulty, table: state.column });
 }
 
 function summary(f) {
@@ -104,10 +108,11 @@ function summary(f) {
 function render() {
   const table = state.column;
   if (!table) return;
-  const files = el("input", { type: "file", accept: ".toml", hidden: true, onchange: event => open(event.target.files[0]) });
+  const files = el("input", { type: "file", accept: ".toml", hidden: true, "data-upload": "column", onchange: event => open(event.target.files[0]) });
+  if (state.assembly) { assembly.render(panel, files); return; }
   fill(panel,
     el("h1", {}, "Column"),
-    el("p", { class: "lead" }, "What stands: a preset, a column file, or drum by drum. The elevation follows as you type."),
+    el("p", { class: "lead" }, "What stands: a preset, a file of a column or of an assembly of blocks, or drum by drum. The elevation follows as you type."),
     el("div", { class: "sheet" },
       el("div", {},
         el("div", { class: "card", "data-errors": true },
@@ -121,7 +126,7 @@ function render() {
             el("button", { type: "button", onclick: () => { change({ tab: "motion" }, { record: true }); } }, "Next: motion →")),
           choice("section", "Section", [["circular", "round"], ["rectangular", "rectangular"]], table.section || "rectangular", section)),
         el("div", { class: "card" },
-          choice("view", "Drum by drum, as they stand", [["sizes", "Sizes"], ["found", "As found"], ["joints", "Joints"]], view, one => { view = one; render(); check(); }),
+          choice("view", "Drum by drum, as they stand", [["sizes", "Sizes"], ["found", "As found"], ["chips", "Chips"], ["joints", "Joints"]], view, one => { view = one; render(); check(); }),
           el("div", { class: "tall" }, drums(table)),
           el("div", { class: "row" },
             el("button", { type: "button", onclick: () => pile(1) }, "Add a drum on top"),
@@ -136,8 +141,8 @@ function render() {
 // The table of drums, the topmost first, as they stand.
 function drums(table) {
   const round = (table.section || "rectangular") === "circular";
-  const shown = view === "sizes" ? [...SIZES.slice(0, 3), ...(round ? [] : [DEPTH]), SIZES[3]] : view === "found" ? [...FOUND, ...SPACE] : JOINT;
-  const group = { sizes: "drum", found: "found", joints: "override" }[view];
+  const shown = view === "sizes" ? [...SIZES.slice(0, 3), ...(round ? [] : [DEPTH]), SIZES[3]] : { found: FOUND, chips: [...CHIPS, ...(round ? ROUND_CHIPS : SQUARE_CHIPS)], joints: JOINT }[view];
+  const group = { sizes: "drum", found: "found", chips: "found", joints: "override" }[view];
   const rows = table.drum.map((drum, i) => {
     const number = i + 1, found = ((table.as_found || {}).drum || []).find(one => one.index === number) || {};
     const own = (table.joint_override || []).find(one => one.index === number) || {};
@@ -146,7 +151,7 @@ function drums(table) {
       const hint = group === "override" ? table.joint[key] ?? (key === "friction_coefficient" ? tangent(table.joint.friction_angle ?? 35) : "") : group === "found" ? 0 : "";
       return el("td", {}, el("input", {
         value: given === undefined ? "" : tidy(given), placeholder: String(tidy(hint)), inputmode: "decimal", "data-field": `${group}.${number}.${key}`,
-        "aria-label": `${label.toLowerCase()} of ${group === "override" ? "the joint under " : ""}drum ${number} [${unit}]`,
+        "aria-label": `${view === "chips" ? "chip, " : ""}${label.toLowerCase()} of ${group === "override" ? "the joint under " : ""}drum ${number} [${unit}]`,
         oninput: event => put(group, number, key, value(event.target.value)),
       }));
     });
@@ -196,11 +201,18 @@ function equal(table) {
 }
 
 // Strengthening: dowels, bars, ties … as in a column file with [[link]]; what else a file says of a link is kept.
-const WORDS = { joint: "Joint", from_drum: "From drum", to_drum: "To drum", at: "At x, y [m]", to: "To x, y [m]", diameter: "Diameter [m]", embedment: "Embedment [m]", material: "Material", friction_coefficient: "Friction [tan φ]" };
+const WORDS = { joint: "Joint, or all", from_drum: "From drum", to_drum: "To drum", at: "At x, y [m]", to: "To x, y [m]", diameter: "Diameter [m]", embedment: "Embedment [m]", material: "Material", friction_coefficient: "Friction [tan φ]",
+  clearance: "Slack [m]", hole: "Hole ⌀ [m]", shear_stiffness: "Shear stiffness [N/m]", shear_capacity: "Shear capacity [N]", ultimate_slip: "Lost at slip [m]", failure: "Fails",
+  axial_stiffness: "Axial stiffness [N/m]", axial_capacity: "Axial capacity [N]", ultimate_elongation: "Lost at elongation [m]", pretension: "Pretension [N]",
+  from_height: "From height [m]", to_height: "To height [m]", damping: "Dashpot [N s/m]" };
 const LINKS = {
   dowel: ["joint", "at", "diameter", "embedment", "material"], bar: ["joint", "at", "diameter", "embedment", "material"],
   tie: ["from_drum", "to_drum", "at", "to", "diameter", "material"], core: ["from_drum", "to_drum", "diameter", "material"], layer: ["joint", "friction_coefficient"],
 };
+// What follows from material and size unless it is given.
+const SHEAR = ["clearance", "hole", "shear_stiffness", "shear_capacity", "ultimate_slip", "failure"], AXIAL = ["axial_stiffness", "axial_capacity", "ultimate_elongation", "pretension"];
+const MORE = { dowel: SHEAR, bar: [...SHEAR, ...AXIAL], tie: ["from_height", "to_height", ...AXIAL], core: ["at", "from_height", "to_height", ...AXIAL], layer: ["shear_stiffness", "shear_capacity", "damping", "ultimate_slip"] };
+const TEXTS = ["material", "failure"];
 function fresh(kind) {
   const { drum } = state.column, n = drum.length, aside = tidy(0.5 * Math.max(...drum.map(one => Math.max(one.bottom_width, one.top_width))) + 0.05);
   const whole = { joint: Math.min(2, n), from_drum: 1, to_drum: n, diameter: 0.03, embedment: 0.15, material: "titanium", friction_coefficient: 0.6 };
@@ -213,18 +225,22 @@ function links(table) {
   const rows = table.link || [];
   const set = (k, key, given) => {
     const list = structuredClone(state.column.link);
-    if (given === undefined) delete list[k][key]; else list[k][key] = given;
+    if (key === "joint") delete list[k].joints;
+    if (given === undefined) delete list[k][key]; else if (key === "joint" && given === "all") { delete list[k].joint; list[k].joints = "all"; } else list[k][key] = given;
     edit({ ...structuredClone(state.column), link: list });
   };
   const all = list => { const rest = structuredClone(state.column); if (list.length) rest.link = list; else delete rest.link; replace(rest); };
+  const held = (one, key) => key === "joint" ? one.joint ?? one.joints : one[key];
   const box = (one, k, key) => field(WORDS[key], el("input", {
-    value: Array.isArray(one[key]) ? one[key].join(", ") : one[key] ?? "",
-    oninput: event => set(k, key, key === "at" || key === "to" ? pair(event.target.value) : key === "material" ? event.target.value.trim() || undefined : value(event.target.value)),
+    value: Array.isArray(held(one, key)) ? held(one, key).join(", ") : held(one, key) ?? "", "data-field": `link.${k + 1}.${key}`,
+    placeholder: MORE[one.kind].includes(key) ? key === "at" ? "0, 0" : "by formula" : "",
+    oninput: event => set(k, key, key === "at" || key === "to" ? pair(event.target.value) : TEXTS.includes(key) ? event.target.value.trim() || undefined : value(event.target.value)),
   }));
   return el("details", { open: rows.length > 0 }, el("summary", {}, "Strengthening"),
     rows.map((one, k) => el("div", { class: "row tight link", "data-field": `link.${k + 1}` },
       field("Kind", select(Object.keys(LINKS).map(kind => [kind, kind]), one.kind, kind => all(rows.map((other, i) => i === k ? fresh(kind) : other)))),
       (LINKS[one.kind] || []).map(key => box(one, k, key)),
+      el("details", { class: "more", open: (MORE[one.kind] || []).some(key => one[key] !== undefined) }, el("summary", {}, "More"), el("div", { class: "row tight" }, (MORE[one.kind] || []).map(key => box(one, k, key)))),
       el("button", { type: "button", class: "quiet", "aria-label": `remove link ${k + 1}`, onclick: () => all(rows.filter((_, i) => i !== k)) }, "Remove"))),
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => all([...rows, fresh("dowel")]) }, "Add a link")));
 }
@@ -244,7 +260,7 @@ function pile(step) {
     table.drum.pop();
     if (table.as_found) table.as_found.drum = (table.as_found.drum || []).filter(one => one.index < gone);
     if (table.joint_override) table.joint_override = table.joint_override.filter(one => one.index < gone);
-    if (table.link) table.link = table.link.filter(one => typeof one.joint !== "number" || one.joint < gone);
+    if (table.link) table.link = table.link.filter(one => (typeof one.joint !== "number" || one.joint < gone) && (typeof one.to_drum !== "number" || one.to_drum < gone));
     for (const key of ["joint_override", "link"]) if (table[key] && !table[key].length) delete table[key];
   }
   replace(table);
@@ -263,7 +279,8 @@ function pick(event) {
 export async function open(file) {
   if (!file) return;
   try {
-    replace((await upload("/api/column/file", file)).table);
+    const found = await upload("/api/column/file", file);
+    if (found.assembly) change({ assembly: found.assembly, model: "dem2d", settings: {} }); else replace(found.table);
     notice(`${file.name} is open.`);
   } catch (error) { notice(error.error); }
 }

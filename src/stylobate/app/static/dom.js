@@ -70,10 +70,13 @@ export function mark(panel, error) {
   for (const one of panel.querySelectorAll("[data-made=error]")) one.remove();
   for (const one of panel.querySelectorAll("[aria-invalid]")) { one.removeAttribute("aria-invalid"); one.removeAttribute("aria-describedby"); }
   if (!error) return;
-  const control = error.field && find(`[data-field="${CSS.escape(error.field)}"]`, panel);
+  const place = name => find(`[data-field="${CSS.escape(name)}"]`, panel);  // the row where it has no box for that
+  const control = error.field && (place(error.field) || (error.field.includes(".") && place(error.field.replace(/\.[^.]*$/, ""))));
   const said = el("p", { class: "error", role: "alert", id: "error-" + panel.id, "data-made": "error" }, error.error[0].toUpperCase() + error.error.slice(1));
   if (!control) { (find("[data-errors]", panel) || panel).append(said); return; }
   control.setAttribute("aria-invalid", "true"); control.setAttribute("aria-describedby", said.id);
+  const hidden = control.closest("details:not([open])");
+  if (hidden) hidden.open = true;
   const row = control.closest("table.drums tr");
   if (row) row.after(el("tr", { "data-made": "error" }, el("td", { colspan: 9 }, said)));
   else (control.closest(".field, .slider") || control).after(said);

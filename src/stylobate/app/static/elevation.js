@@ -1,14 +1,14 @@
 // The column as it stands, with its height, widths, joints and what is not as built.
 
 import { number } from "./dom.js";
-import { BROWN, INK, RED, SAND, sharp } from "./plot.js";
+import { BLUE, BROWN, INK, RED, SAND, sharp } from "./plot.js";
 
 // Draws the elevation; returns a function that tells which drum (from 1) lies at a point of the canvas, 0 for none.
 export function drawElevation(canvas, found, { chosen = 0, faulty = 0, table = {} } = {}) {
   const [c, width, height] = sharp(canvas);
   const views = Object.entries(found.outlines), part = width / views.length, placed = [];
   views.forEach(([name, outlines], place) => {
-    const points = outlines.flat(), xs = points.map(p => p[0]), zs = points.map(p => p[1]);
+    const points = outlines.flat(), links = (found.links || {})[name] || [], xs = [...points, ...links.flat()].map(p => p[0]), zs = points.map(p => p[1]);
     const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...zs, 0), Math.max(...zs)];
     const room = { left: 74, right: 96, top: 30, bottom: 58 };
     const scale = Math.min((part - room.left - room.right) / (right - left), (height - room.top - room.bottom) / (high - low));
@@ -23,6 +23,8 @@ export function drawElevation(canvas, found, { chosen = 0, faulty = 0, table = {
       c.fill(); c.stroke();
       placed.push([i + 1, corners.map(([x, z]) => [across(x), up(z)])]);
     });
+    c.strokeStyle = BLUE; c.lineWidth = 2.2;
+    for (const [[a, b], [x, z]] of links) line(c, across(a), up(b), across(x), up(z));
     dimensions(c, outlines, across, up, left, right, low, high);
     labels(c, outlines, found, table, across, up, right);
     if (views.length > 1) { c.fillStyle = INK; c.textAlign = "center"; c.textBaseline = "alphabetic"; c.fillText(`seen along ${name === "xz" ? "y" : "x"}`, x0, height - 6); }
@@ -56,19 +58,25 @@ function dimensions(c, outlines, across, up, left, right, low, high) {
   }
 }
 
+const CHIPS = ["chip_left", "chip_right", "chip_front", "chip_back"];
+
 // Numbers of drums at the right, with what is found at them.
 function labels(c, outlines, found, table, across, up, right) {
   const about = new Map(((table.as_found || {}).drum || []).map(one => [one.index, one]));
   const laws = new Map((table.joint_override || []).map(one => [one.index, one]));
   const linked = new Map();
-  for (const link of table.link || []) if (typeof link.joint === "number") linked.set(link.joint, link.kind); else if (typeof link.to_drum === "number") linked.set(link.to_drum, link.kind);
+  const mention = (drum, link) => linked.set(drum, [...new Set([...(linked.get(drum) || []), link.kind])]);
+  for (const link of table.link || []) {
+    if (link.joints) for (const joint of link.joints === "all" ? outlines.map((_, i) => i + 1) : link.joints) mention(joint, link);
+    else mention(typeof link.joint === "number" ? link.joint : typeof link.to_drum === "number" ? link.to_drum : outlines.length, link);
+  }
   c.textAlign = "left"; c.textBaseline = "middle";
   let last = Infinity;
   outlines.forEach((corners, i) => {
     const zs = corners.map(p => p[1]), y = up(0.5 * (Math.min(...zs) + Math.max(...zs)));
     const one = about.get(i + 1) || {};
-    const notes = [one.offset ? `offset ${number(1000 * one.offset)} mm` : "", one.tilt ? `tilt ${number(one.tilt)}°` : "",
-      one.chip_left || one.chip_right ? "chipped" : "", laws.has(i + 1) ? "own joint" : "", linked.get(i + 1) || ""].filter(Boolean);
+    const notes = [one.offset ? `offset ${number(1000 * one.offset)} mm` : "", one.tilt ? `tilt ${number(one.tilt)}°` : "", one.turn ? `turned ${number(one.turn)}°` : "",
+      CHIPS.some(key => one[key]) ? "chipped" : "", laws.has(i + 1) ? "own joint" : "", ...(linked.get(i + 1) || [])].filter(Boolean);
     if (last - y < 13 && !notes.length) return;
     c.fillStyle = notes.length ? "#8c1c13" : "#565149";
     c.fillText(`${i + 1}${notes.length ? "  " + notes.join(", ") : ""}`, across(right) + 14, y);

@@ -2,7 +2,7 @@
 
 import { get, post, upload } from "./api.js";
 import { choice, el, facts, field, fill, find, mark, notice, number, select } from "./dom.js";
-import { tell } from "./news.js";
+import { isOpen, tell } from "./news.js";
 import * as motion from "./motion.js";
 import * as run from "./run.js";
 import { change, listen, state } from "./state.js";
@@ -28,15 +28,18 @@ const set = changes => change({ fragility: { ...state.fragility, ...changes } })
 function render() {
   const s = state.fragility, list = [...samples.map(one => [`sample:${one.name}`, one.name, one.about]), ...uploaded.map(one => [one.id, one.name, "uploaded"])];
   const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "records", onchange: event => take([...event.target.files]) });
+  const folder = el("input", { type: "file", multiple: true, webkitdirectory: true, hidden: true, "data-upload": "folder", onchange: event => take([...event.target.files].filter(one => !one.name.startsWith("."))) });
   const tick = id => event => set({ records: event.target.checked ? [...s.records, id] : s.records.filter(one => one !== id) });
   const place = find("#fragility-asked", panel), held = find(".pick", place), down = held ? held.scrollTop : 0;
   const focused = document.activeElement && document.activeElement.dataset.key;
   fill(place, el("p", { class: "hint" }, `${(state.column || {}).name || "column"} · ${state.model}`),
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload records …"), files,
+      el("button", { type: "button", onclick: () => folder.click() }, "Upload a folder …"), folder,
       el("button", { type: "button", class: "quiet", onclick: () => set({ records: s.records.length === list.length ? [] : list.map(one => one[0]) }) }, "All or none")),
     el("ul", { class: "pick" }, list.map(([id, name, about]) => el("li", {}, el("label", { title: about }, el("input", { type: "checkbox", checked: s.records.includes(id), "data-key": id, onchange: tick(id) }), name)))),
     el("div", { class: "row" }, field("Intensity", select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
-      field("Runs of a record", el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", onchange: event => set({ runs: event.target.value.trim() }) }))),
+      field("Runs of a record", el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", onchange: event => set({ runs: event.target.value.trim() }) })),
+      field("Unit, where a file states none", select(motion.UNITS.map(one => [one, one || "as stated"]), s.unit, unit => set({ unit }), { "data-field": "unit" }))),
     choice("state", "Limit state", STATES, s.state, one => set({ state: one })),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`)));
   find(".pick", place).scrollTop = down;
@@ -44,6 +47,7 @@ function render() {
 }
 
 async function take(files) {
+  if (files.length > 300) { notice(`${files.length} files are too many at once; choose up to 300.`); return; }
   for (const file of files) {
     try { const one = await upload("/api/records", file); uploaded = [...uploaded, one]; set({ records: [...state.fragility.records, one.id] }); }
     catch (error) { notice(`${file.name}: ${error.error}`); }
@@ -54,7 +58,7 @@ async function go() {
   const s = state.fragility, asked = find("#fragility-asked", panel);
   try {
     mark(asked, null);
-    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: s.state });
+    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: s.state, ...(s.unit ? { unit: s.unit } : {}) });
     change({ fragilityJob: job.id });
   } catch (error) { mark(asked, error); }
 }
@@ -66,16 +70,17 @@ async function show() {
 
 export async function hear(news) {
   if (news.id !== state.fragilityJob) return;
-  const job = news.state === "done" && !news.results ? await get(`/api/jobs/${news.id}`).catch(() => news) : news;
+  const job = !isOpen(news) && !news.results ? await get(`/api/jobs/${news.id}`).catch(() => news) : news;
   const [analysis, curve] = job.results || [], place = find("#fragility-found", panel);
   const picture = (name, alt) => (job.files || []).includes(name) && el("img", { class: "figure", alt, src: `/api/jobs/${job.id}/files/${name}` });
   let card = find(".card[data-key]", place);
-  if (!card || job.state === "done") card = el("div", { class: "card", "data-key": "" });
+  if (!card || !isOpen(job)) card = el("div", { class: "card", "data-key": "" });
   tell(card, job, () => [
     curve && el("p", { class: "verdict" }, said(curve)),
     curve && facts([["median", `${number(curve.median)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
-    (job.warnings || []).map(one => el("p", { class: "warning" }, one)), analysis && job.state === "done" && run.files(job),
+    Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, `${name} was left out: ${why}`)),
+    (job.warnings || []).map(one => el("p", { class: "warning" }, one)), analysis && !isOpen(job) && run.files(job),
   ].flat());
   if (card.isConnected) return;
   fill(place, card,

@@ -23,7 +23,7 @@ export const open = () => [...jobs.values()].filter(isOpen);
 let waiting = 0;
 function later() { if (!waiting && panel) waiting = setTimeout(() => { waiting = 0; paint(); }, 60); }
 
-const OPEN = { run: ["run", "job"], domain: ["domain", "domainJob"], ida: ["fragility", "fragilityJob"] };
+const OPEN = { run: ["run", "job"], critical: ["run", "job"], domain: ["domain", "domainJob"], ida: ["fragility", "fragilityJob"] };
 
 const places = new Map();
 
@@ -58,6 +58,8 @@ function frame(job) {
 
 async function restore(id) {
   const { asked } = await get(`/api/jobs/${id}`);
-  change({ tab: "column", column: asked.column, preset: "", model: asked.model || "dem2d", settings: asked.settings || {} }, { record: true });
+  if (asked.assembly) { change({ tab: "column", assembly: asked.assembly, model: "dem2d", settings: asked.settings || {} }, { record: true }); notice("Its assembly is taken."); return; }
+  if (!asked.column) { notice("A report has no settings of its own."); return; }
+  change({ tab: "column", column: asked.column, assembly: "", preset: "", model: asked.model || "dem2d", settings: asked.settings || {} }, { record: true });
   notice("Its column and its model are taken.");
 }

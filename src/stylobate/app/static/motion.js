@@ -8,7 +8,7 @@ import { change, changeMotion, listen, state } from "./state.js";
 
 const KINDS = [["harmonic", "Harmonic"], ["pulse", "Pulse"], ["sample", "Sample"], ["record", "Record"], ["synthetic", "Simulated"]];
 const SHAPES = ["rectangular", "half-sine", "sine", "cosine", "ricker", "antisymmetric-ricker", "gabor", "mavroeidis-papageorgiou"];
-const UNITS = ["", "g", "m/s2", "cm/s2", "mm/s2", "mg", "in/s2", "ft/s2"];
+export const UNITS = ["", "g", "m/s2", "cm/s2", "mm/s2", "mg", "in/s2", "ft/s2"];
 
 let panel, samples, records = [], turner = null, shown = null, own = false;
 

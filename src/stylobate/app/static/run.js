@@ -20,7 +20,7 @@ let panel, player = null, plots = [], loaded = "", followed = null, data = null;
 export function start(place) {
   panel = place;
   listen(keys => {
-    if (["model", "replicates", "tail", "motion", "column", "settings"].some(key => keys.has(key))) renderAsked();
+    if (["model", "replicates", "tail", "motion", "column", "settings", "assembly"].some(key => keys.has(key))) renderAsked();
     if (keys.has("job")) show();
     if (keys.has("tab")) { if (state.tab === "run") paint(); else stop(); }
   });
@@ -34,22 +34,40 @@ function stop() { if (player && find("#play", panel) && find("#play", panel).tex
 
 function renderAsked() {
   const column = state.column || {}, about = MODELS.find(one => one[0] === state.model);
-  find("#run-case", panel).textContent = `${column.name || "column"}, ${(column.drum || []).length} drums · ${motion.words()}`;
+  find("#run-case", panel).textContent = `${state.assembly ? "The assembly" : `${column.name || "column"}, ${(column.drum || []).length} drums`} · ${motion.words()}`;
   const place = find("#run-asked", panel), had = document.activeElement && document.activeElement.dataset.field;
   fill(place,
-    field("Model", select(MODELS.map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
+    field("Model", select(MODELS.filter(([key]) => !state.assembly || key === "dem2d").map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
     el("p", { class: "hint" }, about ? about[2] : ""),
     state.model === "dem3d" && choice("law", "Contact in space", [["rim", "rim"], ["bed", "bed"]], state.settings.law || "rim", law => change({ settings: { ...state.settings, law } })),
     el("div", { class: "row" },
-      field("Columns like this one", el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
+      !state.assembly && field("Columns like this one", el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
       field("Go on after the motion [s]", el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
-    el("p", { class: "hint" }, "How sure the verdict is: columns that differ by what nobody has measured."),
-    el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")));
+    !state.assembly && el("p", { class: "hint" }, "How sure the verdict is: columns that differ by what nobody has measured."),
+    el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
+    !state.assembly && critical());
   if (had) { const again = find(`[data-field="${had}"]`, place); if (again) { again.focus(); if (again.setSelectionRange) again.setSelectionRange(99, 99); } }
 }
 
+// The smallest amplitude of this motion that brings the column down.
+function critical() {
+  const box = (key, label) => field(label, el("input", { value: state.critical[key], inputmode: "decimal", "data-field": `critical.${key}`,
+    oninput: event => change({ critical: { ...state.critical, [key]: event.target.value.trim() } }) }));
+  return el("details", { id: "critical", open: criticalOpen, ontoggle: event => { criticalOpen = event.target.open; } }, el("summary", {}, "What amplitude brings it down?"),
+    el("div", { class: "row tight" }, box("first", "From [g]"), box("last", "to [g]"), box("step", "steps of [g]")),
+    el("div", { class: "row" }, el("button", { type: "button", onclick: goCritical }, "Find it"), el("small", { class: "hint" }, "the motion above, made larger step by step")));
+}
+let criticalOpen = false;
+
+function goCritical() {
+  const { first, last, step } = state.critical, { pga, ...asked } = motion.asked();
+  if (["harmonic", "pulse"].includes(asked.kind)) asked.text = asked.text.replace(/,[^,]*g(,|$)/, ",?g$1");
+  if (asked.across) asked.across = asked.across.replace(/,[^,]*g(,|$)/, ",?g$1");
+  go({ kind: "critical", motion: asked, first: `${first}g`, last: `${last}g`, step: `${step}g` });
+}
+
 export const common = () => ({
-  column: state.column, model: state.model, settings: state.settings, ...(state.tail ? { tail: `${state.tail}s` } : {}),
+  ...(state.assembly ? { assembly: state.assembly } : { column: state.column }), model: state.model, settings: state.settings, ...(state.tail ? { tail: `${state.tail}s` } : {}),
 });
 
 export async function go(changes = {}) {
@@ -81,7 +99,29 @@ export async function hear(job) {
     loaded = job.id;
     const found = await get(`/api/jobs/${job.id}/film`).catch(error => { notice(error.error); return null; });
     if (found && state.job === job.id) { data = found; film(found); said(job); }
+  } else if (job.state === "done" && job.kind === "critical") {
+    loaded = "";
+    foundCritical(job);
   } else if (job.state !== "done" && loaded !== job.id) { loaded = ""; fill(find("#run-film", panel), waiting(job)); }
+}
+
+function foundCritical(job) {
+  const r = (job.results || [])[0], { asked } = job;
+  if (!r || !asked) return;
+  const place = find("#run-said", panel), none = r.critical_g === null;
+  const peak = Number.isFinite(r.critical_g) && asked.motion && ["harmonic", "pulse"].includes(asked.motion.kind);
+  const near = peak ? { ...asked.motion, text: asked.motion.text.replace("?g", `${r.critical_g}g`), ...(asked.motion.across ? { across: asked.motion.across.replace("?g", `${r.critical_g}g`) } : {}) } : { ...asked.motion, pga: `${r.critical_g}g` };
+  place.dataset.key = "";
+  tell(place, job, () => [
+    el("p", { class: `verdict ${none ? "stands" : "collapsed"}` }, none ? `Up to ${asked.last} nothing of this motion brings the column down.` : `The column first collapses at ${number(r.critical_g)} g${r.critical_factor ? `, ${number(r.critical_factor)} times the motion` : ""}.`,
+      (r.alternation || []).length > 2 && el("small", {}, r.all_collapse_above_g === null ? "It stands again at some larger ones." : `It stands again at some larger ones, and always collapses above ${number(r.all_collapse_above_g)} g.`)),
+    facts([["runs", r.runs], ["amplitudes", `${asked.first} to ${asked.last}`], ["steps of", asked.step], ["undecided", r.undecided || ""], ["failed", r.failed || ""]]),
+    warnings(job.warnings),
+    !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go({ column: asked.column, model: asked.model, settings: asked.settings || {}, motion: near }) }, "Run it at this amplitude")),
+    files(job),
+  ].flat());
+  fill(find("#run-film", panel), ["critical", "probability"].map(name => `result/${name}.png`).filter(name => (job.files || []).includes(name))
+    .map(name => el("div", { class: "card" }, el("img", { class: "figure", alt: "What each amplitude did to the column", src: `/api/jobs/${job.id}/files/${name}` }))));
 }
 
 function waiting(job) {
@@ -90,7 +130,7 @@ function waiting(job) {
 }
 
 function said(job) {
-  const place = find("#run-said", panel), result = job.state === "done" && job.results && job.results[0];
+  const place = find("#run-said", panel), result = job.state === "done" && job.kind === "run" && job.results && job.results[0];
   place.hidden = false;
   if (result) place.dataset.key = "";
   tell(place, job, () => [
@@ -102,19 +142,22 @@ function said(job) {
 }
 
 function verdict(r, words) {
-  const look = r.outcome === "failed" ? "failed" : !r.decided ? "undecided" : r.collapsed ? "collapsed" : "stands";
-  const sure = r.certainty, parts = sure ? [["fell", sure.collapsed], ["", sure.stands], ["open", sure.undecided]] : [];
+  const sure = r.certainty, beside = sure && sure.beside;
+  const look = r.outcome === "failed" ? "failed" : !r.decided ? "undecided" : r.collapsed ? "collapsed" : beside ? "doubted" : "stands";
+  const parts = sure ? [["fell", sure.collapsed], ["", sure.stands], ["open", sure.undecided]] : [];
   const total = parts.reduce((sum, one) => sum + one[1], 0);
   const bar = total > 0 && el("div", { class: "chance", role: "img", "aria-label": sure.sentence }, parts.map(([name, count]) => {
     const piece = el("i", { class: name }); piece.style.width = `${100 * count / total}%`; return piece;
   }));
-  return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar];
+  return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar, beside && el("p", { class: "warning" }, beside)];
 }
 
 function measures(r) {
+  const whole = r.peak_top_displacement_m !== undefined;  // a column; of an assembly its blocks are told
   return facts([
-    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], ["peak top displacement", length(r.peak_top_displacement_m)],
-    r.residual_top_displacement_m !== null && ["residual", length(r.residual_top_displacement_m)], r.peak_tilt_rad !== undefined && ["peak tilt", `${number(r.peak_tilt_rad)} rad`],
+    r.collapse_time_s !== null && ["collapse certain at", `${number(r.collapse_time_s)} s`], whole ? ["peak top displacement", length(r.peak_top_displacement_m)] : ["peak displacement", length(r.peak_displacement_m)],
+    whole ? r.residual_top_displacement_m !== null && ["residual", length(r.residual_top_displacement_m)] : r.residual_displacement_m !== null && ["residual", length(r.residual_displacement_m)],
+    (r.fallen || []).length > 0 && ["fallen", r.fallen.join(", ")], r.peak_tilt_rad !== undefined && ["peak tilt", `${number(r.peak_tilt_rad)} rad`],
     r.peak_tilt_rad === undefined && ["peak rotation", `${number(r.peak_rotation_rad)} rad`], ["peak joint opening", length(r.peak_joint_opening_m)],
     r.residual_joint_slip_m !== null && ["residual slip", length(r.residual_joint_slip_m)], r.peak_twist_rad !== undefined && ["peak twist", `${number(r.peak_twist_rad)} rad`],
     ["energy imbalance", number(r.energy_imbalance, 2)], ["computed in", `${number(r.wall_s)} s, ${r.steps} steps`],
@@ -159,7 +202,7 @@ function film({ film: shown, histories: h }) {
   const top = canvas("top", "Top displacement over time", "plot low"), opening = canvas("opening", "Opening of the joints over time", "plot low"), energy = canvas("energy", "Energy over time", "plot");
   fill(find("#run-film", panel),
     el("div", { class: "card" }, parts.film, el("div", { class: "bar" }, parts.play, parts.place, parts.now, parts.speed, parts.larger), parts.trace,
-      el("p", { class: "hint" }, `Drag to ${shown.space ? "turn" : "move"}, wheel or two fingers to zoom, double click to return; or arrows, + − and 0.${shown.space ? " The blue mark is on the same side of every drum." : ""}`)),
+      el("p", { class: "hint" }, `Drag to ${shown.space ? "turn" : "move"}, wheel or two fingers to zoom, double click to return; or arrows, + − and 0; the space bar plays.${shown.space ? " The blue mark is on the same side of every drum." : ""}`)),
     el("div", { class: "card" }, el("h2", {}, "Top"), top, el("h2", {}, "Joints"), joints(h, opening), el("h2", {}, "Energy"), energy));
   const x = shown.time;
   const widest = h.opening.map((values, i) => [peak(values), i]).sort((a, b) => b[0] - a[0]).slice(0, 4).map(one => one[1]).sort((a, b) => a - b);

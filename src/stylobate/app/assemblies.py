@@ -1,0 +1,79 @@
+"""Assemblies for the page: a file of blocks as it was uploaded, checked, with what is shown of it."""
+
+from __future__ import annotations
+
+import tempfile
+import warnings
+from pathlib import Path
+from typing import Any
+
+from ..column.assembly import Assembly
+from ..column.assembly_files import read_assembly
+from ..column.presets import PRESETS
+from ..column.toml import parse_toml
+from ..errors import InputError
+
+#: Largest assembly file: the address in the browser holds it [characters].
+LARGEST = 100_000
+
+#: What messages call it.
+FILE = "your-assembly.toml"
+
+
+def assembly_of(text: str) -> Assembly:
+    """The assembly that a file describes; its columns are presets, as no other file is at hand here.
+
+    Raises
+    ------
+    InputError
+        It describes none, or takes a column from a file.
+    """
+    if len(text) > LARGEST:
+        raise InputError(f"the assembly file has {len(text)} characters; the page takes up to {LARGEST}.")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / FILE
+        path.write_text(text, encoding="utf-8")
+        try:
+            _only_presets(parse_toml(path).get("column"))
+            return read_assembly(path)
+        except InputError as error:
+            raise InputError(str(error).replace(f"{folder}/", "")) from None
+
+
+def _only_presets(tables: Any) -> None:
+    for one in tables if isinstance(tables, list) else []:
+        file = one.get("file") if isinstance(one, dict) else None
+        if file not in PRESETS:
+            raise InputError(
+                f"a column of the assembly comes from {str(file)[:100]!r}; the page has only presets at hand "
+                f"({', '.join(PRESETS)}): give such a name, or run it on the command line."
+            )
+
+
+def describe(text: str) -> dict[str, Any]:
+    """What the page shows of an assembly: what it is, warnings, and outlines [m].
+
+    Raises
+    ------
+    InputError
+        The text describes none.
+    """
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        assembly = assembly_of(text)
+    moving = [one for one in assembly.blocks if not one.fixed]
+    return {
+        "facts": {
+            "name": assembly.name,
+            "blocks": len(assembly.blocks),
+            "fixed": len(assembly.blocks) - len(moving),
+            "joints": len(assembly.joints),
+            "mass": sum(one.properties[0] for one in moving),
+            "height": max(z for one in assembly.blocks for _, z in one.vertices),
+            "digest": assembly.digest,
+        },
+        "outlines": {"xz": [one.corners.round(4).tolist() for one in assembly.blocks]},
+        "held": [one.fixed for one in assembly.blocks],
+        "ground": assembly.ground,
+        "warnings": list(dict.fromkeys(str(one.message) for one in doubts)),
+    }
