@@ -114,3 +114,15 @@ def test_the_verdicts_of_real_records_are_the_same():
         whole, cut = (suite_table(COLUMN, motions, st.DistinctElement2D(), whole=one) for one in (True, False))
     assert list(whole["verdict"]) == list(cut["verdict"])
     assert cut["steps"].sum() < whole["steps"].sum() / 1.6
+
+
+def test_on_a_joint_without_friction_all_shaking_is_loud():
+    """A layer of no friction slides under any push: the quiet there is where nothing shakes at all, and runs go on."""
+    slippery = COLUMN.replace(links=[st.Layer(joint=1, friction_coefficient=0.0, shear_stiffness=1e6)])
+    motion = shocks(0.001, 0.002)
+    assert opening_acceleration(slippery) == 0.0
+    reached = level(motion, slippery)
+    assert set(np.unique(reached)) == {0.0, np.inf}
+    assert (np.isinf(reached) == (motion.samples != 0.0)).all()
+    assert shaking(motion, slippery, QUIET) == pytest.approx(np.array([[8.0, 9.0], [17.01, 18.01]]), abs=0.02)
+    assert not level(motion.scaled(0.0), slippery).any()

@@ -7,7 +7,10 @@ import pytest
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.states import compare_states
+from stylobate.analysis.evidence import Evidence
+from stylobate.analysis.fragility import fragility
+from stylobate.analysis.limit_states import OPEN
+from stylobate.analysis.states import _difference, compare_states
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 
@@ -82,3 +85,23 @@ def test_the_command(tmp_path, capsys):
 def test_what_cannot_be_compared_is_said_in_one_sentence(capsys, arguments, words):
     assert call(["compare", *arguments, "--pulse", "ricker,1Hz,0.3g"]) == 2
     assert words in capsys.readouterr().err
+
+
+def test_the_ratio_of_medians_is_that_of_the_runs_that_both_states_know():
+    """Ten records, capacities 1 and 2 times a stripe: of the other state the weak records' strong runs have no verdict.
+
+    Where only one of the two is known neither counts, in the value as in its samples, so that the value lies among them.
+    """
+    levels = np.geomspace(0.1, 10.0, 9)
+    records = np.repeat([f"record {k}" for k in range(10)], len(levels)).astype(object)
+    im = np.tile(levels, 10)
+    capacity = np.repeat(np.geomspace(0.5, 1.6, 10), len(levels))
+    codes = (im > capacity).astype(np.int8)
+    first = Evidence(records, im, codes, "im", "-", "collapse", "first")
+    gone = np.where((capacity < 0.9) & (im > 0.4), OPEN, (im > 2.0 * capacity).astype(np.int8))
+    other = Evidence(records, im, gone, "im", "-", "collapse", "other")
+    both = Evidence(records, im, np.where(gone == OPEN, OPEN, codes), "im", "-", "collapse", "first")
+    curves = [fragility(one, samples=200) for one in (first, other, both)]
+    ratio = _difference(first, other, curves[0], curves[1], 200, 0, 0.95).ratio
+    assert ratio == pytest.approx(curves[1].median / curves[2].median, rel=1e-9)
+    assert ratio != pytest.approx(curves[1].median / curves[0].median, rel=1e-3)

@@ -22,6 +22,7 @@ from ..motion.intensity_specs import IntensityMeasure
 from .evidence import Evidence, evidence
 from .fragility import SAMPLES, Fragility, bootstrap, fragility, intervals
 from .limit_states import EXCEEDED, OPEN
+from .lognormal import fit
 from .studies import StudyResult, run_study
 
 if TYPE_CHECKING:
@@ -46,7 +47,8 @@ class Difference:
     share, share_low, share_high : float
         Share of the pairs that exceed it, less that of the other state, and its interval over records [-].
     ratio, ratio_low, ratio_high : float
-        Median capacity over that of the other state, and its interval over records [-]; NaN where a curve is missing.
+        Median capacity over that of the other state, from the runs that both know, and its interval over records [-]; NaN
+        where a curve is missing.
     """
 
     state: str
@@ -251,27 +253,32 @@ def _difference(
     low, high = np.quantile(drawn, [tail, 1.0 - tail]) if len(change) else (math.nan, math.nan)
     ratio = (math.nan, math.nan, math.nan)
     if first_curve is not None and other_curve is not None:
-        ratio = _ratio(first, other, first_curve, other_curve, samples, seed)
+        ratio = _ratio(first, other, first_curve, samples, seed)
     return Difference(
         other.name, first.name, int(known.sum()), int((was & ~now).sum()), int((now & ~was).sum()), share, float(low),
         float(high), *ratio,
     )  # fmt: skip
 
 
-def _ratio(
-    first: Evidence, other: Evidence, first_curve: Fragility, other_curve: Fragility, samples: int, seed: int
-) -> tuple[float, float, float]:
-    """Ratio of the medians and its interval: both curves fitted to the same samples of the records."""
-    drawn = []
+def _ratio(first: Evidence, other: Evidence, curve: Fragility, samples: int, seed: int) -> tuple[float, float, float]:
+    """Ratio of the medians and its interval: both curves fitted to the runs that both states know, and to the same samples
+    of their records. NaN where these runs alone make no curve.
+    """
     known = (first.codes >= 0) & (other.codes >= 0)
-    for one in (first, other):  # what both know, so that both draw the same records
+    best, drawn = [], []
+    for one in (first, other):
         low, high, owner = intervals(one, np.where(known, one.codes, OPEN), "runs")
+        if not len(low):
+            return math.nan, math.nan, math.nan
+        best.append(float(fit(low, high).log_median[0]))
         drawn.append(bootstrap(low, high, owner, samples, np.random.default_rng(seed))[:, 0])
-    best = other_curve.log_median - first_curve.log_median
+    if not np.isfinite(best).all():
+        return math.nan, math.nan, math.nan
+    middle = best[1] - best[0]
     with np.errstate(invalid="ignore"):
         change = drawn[1] - drawn[0]
     change = change[np.isfinite(change)]
     if len(change) < samples // 2:
-        return math.exp(best), math.nan, math.nan
-    low, high = first_curve.limits(best, change)
-    return math.exp(best), float(np.exp(low)), float(np.exp(high))
+        return math.exp(middle), math.nan, math.nan
+    low, high = curve.limits(middle, change)
+    return math.exp(middle), float(np.exp(low)), float(np.exp(high))

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
+from ...column.link_loads import is_pretensioned
 from ...constants import DEGREE
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
@@ -21,7 +22,7 @@ from ..shared.ground import along_base
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..start import Start, check_in_plane
 from .histories import ledger_imbalance
-from .links import held_at_start, link_measures, link_snapshot, put_links, set_free
+from .links import held_at_start, link_measures, link_snapshot, put_links, set_free, without_tension
 from .packing import PackedColumn, whole_steps
 from .pose import leans_right, placed
 from .standing import lowest_barrier, stands_for_good
@@ -76,6 +77,7 @@ class DrumBlock:
         self.start = np.zeros((self.lanes, 6))
         self.slip = np.zeros((self.lanes, drums))
         self.rest = np.zeros(self.lanes)
+        self.pressed = np.zeros(self.lanes)
         self.stood = np.zeros((self.lanes, 2, drums))
         self.cases: list[Case | None] = [None] * self.lanes
         self.spans = quiet.Spans(self.lanes, options, self.chunk)
@@ -139,6 +141,7 @@ class DrumBlock:
             self.take_pose(lane, case.column, start)
         self.half_a_step_back(lane)
         self.start[lane] = self.energies(lane)
+        self.pressed[lane] = self.stored_by_pretension(lane, case.column)
         if start is not None:  # what the pose and the velocity hold above the column upright
             self.rest[lane] += self.start[lane, 1:4].sum()
 
@@ -244,7 +247,9 @@ class DrumBlock:
         case = self.cases[lane]
         assert case is not None
         change = self.energies(lane) - self.start[lane]
-        free = set_free(case.column, self.lane, lane) if self.tied else 0.0  # and so is not missing from the motion
+        free = 0.0  # what pretension has given away is not missing from the motion
+        if self.tied:
+            free = set_free(case.column, self.lane, lane, float(self.pressed[lane]))
         return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(case.column)
 
     def time(self, lane: int) -> float:
@@ -275,15 +280,32 @@ class DrumBlock:
 
     def energies(self, lane: int) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        # the forces at the present positions, found as the next step will find them, on a copy
+        return self._energies(lane, self.drum, self.joint.copy(), self.lane.copy())
+
+    def _energies(self, lane: int, drum: np.ndarray, joint: np.ndarray, state: np.ndarray) -> np.ndarray:
         ground = np.zeros(1, self.ground.dtype)
         self.put_ground(ground, lane, self.ground_acceleration(lane, self.time(lane)))
-        # the forces at the present positions, found as the next step will find them, on a copy
-        joint, state = self.joint.copy(), self.lane.copy()
         state["dt"][0, lane] = self.dt[lane]
-        self.kernel.forces(self.drum, joint, state)
+        self.kernel.forces(drum, joint, state)
         out = np.empty(6)
-        self.kernel.ledger(self.drum, joint, state, ground, 0, self.dt[lane], lane, out)
+        self.kernel.ledger(drum, joint, state, ground, 0, self.dt[lane], lane, out)
         return out
+
+    def stored_by_pretension(self, lane: int, column: Any) -> float:
+        """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J].
+
+        Their elastic energy is larger by more than this, because what stands on them has sunk.
+        """
+        if not self.tied or not is_pretensioned(column):
+            return 0.0
+        drum, joint, state = self.drum.copy(), self.joint.copy(), self.lane.copy()
+        for array, fields in zip((drum, joint, state), self.pack(without_tension(column)).fields, strict=True):
+            for name, values in fields.items():
+                array[name][..., lane] = values
+        state["mon"][1:, lane] = state["mft"][1:, lane] = 0.0
+        bare = self._energies(lane, drum, joint, state)
+        return float((self.start[lane] - bare)[2:4].sum()) - held_at_start(column)
 
     def residual_acceleration(self, lane: int) -> float:
         """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
@@ -324,10 +346,10 @@ class DrumBlock:
         return link_measures(case.column, self.lane, lane, float(self.dt[lane])) if self.tied else ()
 
     def held_by_links(self, lane: int) -> float:
-        """Energy that pretensioned links had at the start, and may set free [J]."""
+        """Energy of pretension at the start, in links and in the joints that they press, which may be set free [J]."""
         case = self.cases[lane]
         assert case is not None
-        return held_at_start(case.column) if self.tied else 0.0
+        return held_at_start(case.column) + float(self.pressed[lane]) if self.tied else 0.0
 
     def toes(self, column: Column) -> np.ndarray:
         """What a column's joints give with their load on their edge [J], shape (n,)."""

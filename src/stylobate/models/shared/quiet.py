@@ -51,9 +51,15 @@ def opening_acceleration(column: Column) -> float:
 
 
 def level(motion: Motion, column: Column) -> np.ndarray:
-    """Share of what opens a joint that a motion reaches at each sample [-], shape (steps,)."""
+    """Share of what opens a joint that a motion reaches at each sample [-], shape (steps,).
+
+    Infinite on a joint without friction, which any shaking moves.
+    """
+    if motion.factor == 0.0:
+        return np.zeros(motion.steps)
     flat = np.abs(motion.samples) if motion.y_samples is None else np.hypot(motion.samples, motion.y_samples)
-    found = flat / opening_acceleration(column)
+    opens = opening_acceleration(column)
+    found = flat / opens if opens > 0.0 else np.where(flat > 0.0, math.inf, 0.0)
     if motion.z_samples is not None:
         found += np.abs(motion.z_samples) / column.gravity
     return found * abs(motion.factor)

@@ -1,0 +1,100 @@
+"""What pretension stores in links and in the joints that it presses, and what of it counts against a verdict."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.models.base import Case, RunOptions
+
+G = 9.80665
+PULL, AXIAL = 5e4, 1e9
+JOINT = st.Joint(normal_stiffness=1e7, shear_stiffness=5e6, friction_coefficient=0.7)
+MODELS = [st.DistinctElement2D(), st.DistinctElement3D()]
+
+
+def loaded(model, links=(), drums=1, joint=JOINT):
+    """A block of lanes with a column of 0.5 m by 2 m in its first, at rest."""
+    half = st.Drum(2.0 / drums, 0.5, 0.5, 2500.0, depth=0.5)
+    column = st.Column.of_drums([half] * drums, joint).replace(links=links, gravity=G)
+    motion = st.Motion(0.01, np.zeros(201), metadata={"format": "made for this test"})
+    block = model.block_for(model.kind(column), RunOptions(quiet=0.1))
+    block.load(0, Case(column, motion))
+    return block
+
+
+def core(**more):
+    return st.Core(axial_stiffness=AXIAL, pretension=PULL, **more)
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+@pytest.mark.parametrize("drums", [1, 2])
+def test_what_pretension_stores(model, drums):
+    """T²/2k of the link and, in each joint of stiffness K = k_n A, T²/2K above the weight: linear, so exact to rounding.
+
+    A pull of four times the weight at 10⁷ N/m³ stores a thousand times more in the joint than in the link.
+    """
+    block = loaded(model, [core()], drums)
+    joint = PULL**2 / (2.0 * 1e7 * 0.25)
+    assert block.held_by_links(0) == pytest.approx(PULL**2 / (2.0 * AXIAL) + drums * joint, rel=1e-6)
+    assert loaded(model, [st.Core(axial_stiffness=AXIAL)], drums).held_by_links(0) == 0.0
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+def test_what_a_joint_holds_of_pretension_may_overturn_a_column(model):
+    """500 J in the joint, against a barrier of m g (R − H) = 377 J: as it stands it is not sure to stand for good.
+
+    With half the pull a quarter of the energy is left, and it is.
+    """
+    for pull, sure in ((PULL, False), (0.5 * PULL, True)):
+        block = loaded(model, [st.Core(axial_stiffness=AXIAL, pretension=pull)])
+        block.steps[0] = 0
+        assert block.collect(0).decided is sure
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+def test_a_column_that_moves_with_what_pretension_gave_away_is_not_at_rest(model):
+    """The core lost, the joint still pressed and the drum moving with what the link had: below the energy of the start.
+
+    With its core whole and nothing moving the column is at rest.
+    """
+    block = loaded(model, [core()])
+    assert block.at_rest(0)
+    block.lane["mon"][1, 0] = block.lane["mft"][1, 0] = 0.0
+    assert not block.at_rest(0)
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+def test_a_dowel_out_of_its_hole_is_not_bent(model):
+    """Lifted by more than its embedment it slides beyond its ultimate slip, out and whole; in its hole it breaks."""
+    dowel = st.Dowel(joint=1, shear_stiffness=1e6, embedment=0.05, ultimate_slip=0.02)
+    for lift, out in ((0.06, 1.0), (0.0, 0.0)):
+        block = loaded(model, [dowel])
+        block.drum["z"][1, 0] += lift
+        block.drum["x"][1, 0] += 0.03
+        joint, state = block.joint.copy(), block.lane.copy()
+        block.kernel.forces(block.drum, joint, state)
+        assert (state["mout"][1, 0], state["mon"][1, 0]) == (out, out)
+        assert state["mfx"][1, 0] == 0.0
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+def test_dowels_within_their_slack_count_with_what_they_can_hold(model):
+    """They are not computed while they are far from touching, and hold against a fall all the same."""
+    dowel = st.Dowel(joint=1, shear_stiffness=1e6, shear_capacity=1e4, embedment=0.05, clearance=0.1)
+    block = loaded(model, [dowel], joint=st.Joint(1e11, 5e10, friction_coefficient=0.7))
+    block.advance(1)
+    assert block.lane["mnear"][1] == 0
+    assert block.watch["hold"][0].max() == pytest.approx(1e4 * 0.05)
+
+
+def test_wood_is_as_strong_in_tension_as_its_standard_says():
+    """EN 338:2016, D30: 18 MPa along the grain in tension, 30 MPa in bending."""
+    from stylobate.column.link_laws import properties
+
+    column = st.Column.of_drums([st.Drum(2.0, 0.5, 0.5, 2500.0)], JOINT)
+    tie = st.Tie(at=(0.3, 0.0), diameter=0.1, material="wood")
+    bar = st.Bar(joint=1, diameter=0.01, embedment=0.5, material="wood")
+    strong = [one.axial_capacity for one in properties(column.replace(links=[tie, bar]))]
+    assert strong == pytest.approx([18e6 * np.pi * 0.1**2 / 4.0, 18e6 * np.pi * 0.01**2 / 4.0])
