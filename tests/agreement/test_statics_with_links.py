@@ -1,4 +1,4 @@
-"""Limit analysis with links against slow ramps with distinct elements, in the plane."""
+"""Limit analysis with links against slow ramps with distinct elements, in the plane and in space."""
 
 import math
 
@@ -7,15 +7,19 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.limit import limit_analysis
+from stylobate.analysis.limit_directions import limit_in_space
 
 STIFF = st.Joint(5e11, 2.5e11, friction_coefficient=0.7)
 SMOOTH = st.Joint(5e10, 2.5e10, friction_coefficient=0.1)
 
 
-def ramp(level):
-    """Ground that pushes the column to the right, gently up to a level [g] in 3 s, and on for 5 s."""
+def ramp(level, azimuth=None):
+    """Ground that pushes the column to the right, or towards an azimuth, gently up to a level [g] in 3 s, and on for 5 s."""
     time = np.arange(0.0, 8.0, 0.01)
-    return st.Motion(0.01, -level * st.g * np.sin(0.5 * math.pi * np.clip(time / 3.0, 0.0, 1.0)))
+    push = -level * st.g * np.sin(0.5 * math.pi * np.clip(time / 3.0, 0.0, 1.0))
+    if azimuth is None:
+        return st.Motion(0.01, push)
+    return st.Motion(0.01, push * math.cos(math.radians(azimuth)), push * math.sin(math.radians(azimuth)))
 
 
 def block(joint, *links):
@@ -58,3 +62,33 @@ def test_a_tie_out_of_the_plane_pulls_less_in_it():
     assert limit_analysis(column).multiplier == pytest.approx(
         (weight * 0.45 + 1e4 * share * 1.05) / (weight * 1.5), rel=1e-6
     )
+
+
+ROUND = st.Column.of_drums([st.Drum(3.0, 0.9, 0.9, 2500.0, "circular")], STIFF)
+SQUARE = st.Column.of_drums([st.Drum(3.0, 0.9, 0.9, 2500.0)], st.Joint(5e10, 2.5e10, friction_coefficient=0.7))
+OTHER = st.Tie(at=(0.5, 0.0), axial_stiffness=1e8, axial_capacity=2e4, to_height=3.0)
+
+
+@pytest.mark.parametrize(
+    ("bare", "links", "azimuth"),
+    [(SQUARE, [TIE], 50.0), (SQUARE, [TIE], 90.0), (ROUND, [TIE], 0.0), (ROUND, [TIE, OTHER], 50.0)],
+    ids=["square 50", "square 90", "round 0", "round 50"],
+)
+def test_a_tied_block_falls_in_a_slow_ramp_in_any_direction_where_the_limit_analysis_says(bare, links, azimuth):
+    # A round one tied on one side only is left out: it twists on a point of its rim, see theory/limit_analysis.
+    column = bare.replace(links=links)
+    limit = limit_in_space(column, azimuth).multiplier
+    assert limit > 1.2 * limit_in_space(bare, azimuth).multiplier
+    runs = st.simulate_many(column, [ramp(level * limit, azimuth) for level in (0.98, 1.02)], st.DistinctElement3D())
+    assert list(runs["collapsed"]) == [False, True]
+
+
+def test_a_dowelled_round_block_slides_in_a_slow_ramp_in_any_direction_where_the_limit_analysis_says():
+    column = ROUND.with_joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_coefficient=0.1).replace(
+        links=[DOWEL]
+    )
+    limit = limit_in_space(column, 50.0).multiplier
+    runs = st.simulate_many(column, [ramp(level * limit, 50.0) for level in (0.98, 1.02)], st.DistinctElement3D())
+    held, slid = runs["residual_joint_slip_m"]
+    assert held < 1e-3
+    assert slid > 0.1

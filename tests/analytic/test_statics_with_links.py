@@ -8,6 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.limit import limit_analysis
+from stylobate.analysis.limit_directions import limit_directions, limit_in_space
 from stylobate.analysis.pushover import pushover
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
@@ -107,7 +108,97 @@ def test_what_bears_any_push_is_refused_in_one_sentence(tmp_path, capsys):
         limit_analysis(endless)
     tied = with_links(BLOCK, st.Tie(at=(-0.55, 0.0), axial_stiffness=1e8, axial_capacity=3e4))
     file = write_column(tied, tmp_path / "tied.toml")
-    assert call(["limit", str(file), "--directions", "0:345:24"]) == 2
-    assert "limit analysis in space knows no links" in capsys.readouterr().err
     assert call(["limit", str(file), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["links"][0]["yields"] is True
+    with pytest.raises(st.InputError, match="bears any push, because core from the base to drum 1 has no capacity"):
+        limit_in_space(endless, 20.0)
+
+
+@pytest.mark.parametrize("section", ["rectangular", "circular"])
+def test_plane_and_space_are_the_same_along_x_with_links(section):
+    """Three drums with a tie on one side, a core and dowels: both programmes, to rounding, on either side."""
+    stack = st.Column.tapered(
+        height=4.5, bottom_width=0.9, top_width=0.7, drums=3, density=2500.0, joint=ROUGH, section=section
+    )
+    dowels = [st.Dowel(joint=j, shear_stiffness=1e8, shear_capacity=4e3) for j in (2, 3)]
+    ties = [st.Tie(at=(-0.55, 0.0), to_drum=2, axial_stiffness=1e8, axial_capacity=2e4)]
+    column = with_links(stack, *dowels, *ties, st.Core(axial_stiffness=1e8, axial_capacity=1e4))
+    for direction in (0.0, 180.0):
+        plane = limit_analysis(column, direction=direction)
+        space = limit_in_space(column, direction)
+        assert space.multiplier == pytest.approx(plane.multiplier, rel=1e-6)
+        assert (space.joint, space.mode) == (plane.governing_joint, "rocking")
+        held = {one.name: one.force for one in space.links if one.action == "line"}
+        assert held == pytest.approx({one.name: one.force for one in plane.links if one.action == "line"}, rel=1e-4)
+
+
+def test_a_round_block_tied_on_two_sides_by_hand():
+    """Towards a tie the other one yields, at R + x from the edge; across both of them yield, each at R from it."""
+    radius, pull, x = 0.5, 3e4, 0.55
+    drum = st.Drum(4.0, 2 * radius, 2 * radius, 2500.0, "circular")
+    ties = [
+        st.Tie(at=(x * math.cos(a), x * math.sin(a)), axial_stiffness=1e8, axial_capacity=pull, to_height=4.0)
+        for a in (math.radians(20.0), math.radians(200.0))
+    ]
+    column = with_links(st.Column.of_drums([drum], ROUGH), *ties)
+    weight = column.mass * column.gravity
+    towards = (weight * radius + pull * (radius + x)) / (weight * 2.0)
+    across = (weight + 2.0 * pull) * radius / (weight * 2.0)
+    found = limit_directions(column, [20.0, 200.0, 110.0, 290.0])
+    assert found.multipliers == pytest.approx([towards, towards, across, across], rel=1e-6)
+    assert [one.yields for one in found.limits[0].links] == [False, True]
+    assert [one.yields for one in found.limits[2].links] == [True, True]
+    # one tie: away from it as without it
+    single = limit_directions(with_links(column, ties[0]), [20.0, 200.0])
+    assert single.multipliers == pytest.approx([radius / 2.0, towards], rel=1e-6)
+
+
+def test_a_dowelled_block_slides_in_any_direction_at_friction_and_capacity():
+    drum = st.Drum(4.0, 1.0, 1.0, 2500.0, "circular")
+    slippery = st.Column.of_drums([drum], SMOOTH)
+    weight, azimuths = slippery.mass * slippery.gravity, [0.0, 33.0, 121.0, 250.0]
+
+    def dowels(*places):
+        return with_links(
+            slippery, *(st.Dowel(joint=1, at=(x, 0.0), shear_stiffness=1e8, shear_capacity=5e3) for x in places)
+        )
+
+    for places in ((0.0,), (-0.2, 0.2)):
+        found = limit_directions(dowels(*places), azimuths)
+        assert found.multipliers == pytest.approx(0.1 + len(places) * 5e3 / weight, rel=1e-6)
+        assert {one.mode for one in found.limits} == {"sliding"}
+    # one beside the middle twists the block where the push passes it by: along its own line it does not
+    beside = limit_directions(dowels(0.3), [0.0, 90.0]).multipliers
+    assert beside[0] == pytest.approx(0.1 + 5e3 / weight, rel=1e-6)
+    assert 0.1 < beside[1] < 0.97 * beside[0]
+
+
+def test_cohesion_and_what_is_found_stand_in_both_ways_of_limit_analysis_in_space():
+    """A core that is too weak to matter makes the programme answer for what statics alone answers without it.
+
+    To 1e-4: the programme puts cohesion where the weight acts, statics where the pressure does.
+    """
+    joint = st.Joint(5e10, 2.5e10, friction_coefficient=0.2, cohesion=5e3)
+    found = (st.FoundDrum(1, tilt=-0.6, tilt_azimuth=20.0), st.FoundDrum(2, offset=0.05, offset_azimuth=80.0))
+    for section in ("circular", "rectangular"):
+        drums = [st.Drum(1.0, 0.9, 0.8, 2500.0, section), st.Drum(1.0, 0.8, 0.7, 2500.0, section)]
+        column = st.Column.of_drums(drums, joint).replace(as_found=st.AsFound(found, 0.5, 130.0))
+        idle = st.Core(axial_stiffness=1.0, axial_capacity=1e-6)
+        for azimuth in (30.0, 200.0):
+            bare = limit_in_space(column, azimuth)
+            assert limit_in_space(with_links(column, idle), azimuth).multiplier == pytest.approx(
+                bare.multiplier, rel=1e-4
+            )
+
+
+def test_the_command_goes_all_round_a_column_with_links(tmp_path, capsys):
+    tied = with_links(BLOCK, st.Tie(at=(-0.55, 0.0), axial_stiffness=1e8, axial_capacity=3e4))
+    file = write_column(tied, tmp_path / "tied.toml")
+    out = tmp_path / "out"
+    assert call(["limit", str(file), "--directions", "0:270:4", "--json", "--out", str(out)]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert [one["links"][0]["yields"] for one in said["directions"]] == [True, True, False, True]
+    assert said["weakest_azimuth_deg"] == 180.0
+    assert (out / "directions.png").is_file()
+    assert call(["limit", str(file), "--directions", "0:270:4"]) == 0
+    assert "0 N" not in capsys.readouterr().out

@@ -12,7 +12,8 @@ from ..column import Column
 from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
 from ..constants import DEGREE
 from ..errors import InputError
-from .limit import LimitResult, limit_analysis
+from .limit import LimitResult, LinkForce, limit_analysis
+from .limit_with_links import SpaceProgramme
 
 #: Directions that are looked at where nobody says which [degrees], and halvings of the multiplier.
 ALL_ROUND, HALVINGS = tuple(float(one) for one in range(0, 360, 15)), 60
@@ -32,15 +33,18 @@ class DirectionLimit:
     multiplier : float
         λ at which the column becomes a mechanism [g].
     joint : int
-        That gives way first, from 1 at the base.
+        That gives way first, from 1 at the base: the lowest one of the mechanism.
     mode : str
-        ``rocking`` or ``sliding``.
+        ``rocking``, ``sliding`` or, with links, ``twisting``.
+    links : tuple of LinkForce
+        What each link holds then; of shear its size.
     """
 
     azimuth: float
     multiplier: float
     joint: int
     mode: str
+    links: tuple[LinkForce, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,12 +93,16 @@ def limit_directions(column: Column, azimuths: Sequence[float] | None = None, **
     asked = ALL_ROUND if azimuths is None else tuple(float(one) for one in azimuths)
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
-    return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")
+    if not column.links:
+        return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")
+    column.must_carry_on_whole_faces("limit analysis in space")
+    programme = SpaceProgramme(column)  # what it learns in one direction serves the next
+    return LimitByDirection(tuple(DirectionLimit(one, *programme.solve(one)) for one in asked), "xyz")
 
 
 def _in_plane(column: Column, direction: float, loads: dict[str, Any]) -> DirectionLimit:
     found = limit_analysis(column, direction=direction, **loads)
-    return DirectionLimit(direction, found.multiplier, found.governing_joint, mode_of(found))
+    return DirectionLimit(direction, found.multiplier, found.governing_joint, mode_of(found), found.links)
 
 
 def mode_of(found: LimitResult) -> str:
@@ -105,9 +113,10 @@ def mode_of(found: LimitResult) -> str:
 def limit_in_space(column: Column, azimuth: float = 0.0) -> DirectionLimit:
     """Collapse multiplier of horizontal forces, in proportion to mass, in one direction in space.
 
-    A stack is statically determinate: what lies above a joint presses it with one force, which must pass through the
-    overlap of its faces and within the cone of friction. A single force does not twist the joint about the point at which it
-    acts. Rigid drums, joints of unlimited strength; static and kinematic bound coincide.
+    A stack without links is statically determinate: what lies above a joint presses it with one force, which must pass
+    through the overlap of its faces and within the cone of friction. A single force does not twist the joint about the point
+    at which it acts. Rigid drums, joints of unlimited strength; static and kinematic bound coincide. With links see
+    :mod:`stylobate.analysis.limit_with_links`.
 
     Parameters
     ----------
@@ -116,7 +125,8 @@ def limit_in_space(column: Column, azimuth: float = 0.0) -> DirectionLimit:
         Where the forces push to, from x towards y [degrees].
     """
     column.must_carry_on_whole_faces("limit analysis in space")
-    column.must_be_without_links("limit analysis in space")
+    if column.links:
+        return limit_directions(column, [azimuth]).limits[0]
     at = space_geometry(column)
     angle = azimuth * DEGREE
     push = base_axes(column).T @ (np.cos(angle), np.sin(angle), 0.0)

@@ -11,7 +11,9 @@ from . import options as o
 from .pushover import Pattern, Strength, Tilt, mechanism_rows, the_loads
 
 if TYPE_CHECKING:
-    from ..analysis.limit import LimitResult
+    from collections.abc import Sequence
+
+    from ..analysis.limit import LimitResult, LinkForce
     from ..analysis.limit_directions import LimitByDirection
 
 
@@ -93,11 +95,11 @@ def limit(
             + (", seen from behind" if weakest else ""),
             "joints at their strength": ", ".join(map(str, found.at_limit)),
         }
-        facts |= {
-            one.name: f"{one.force:.4g} N of {one.capacity:.4g} N" + (", yields" if one.yields else "")
-            for one in found.links
-            if one.force or one.yields
-        }
+    facts |= {
+        one["link"]: f"{one['force_n']:.4g} N of {one['capacity_n']:.4g} N" + (", yields" if one["yields"] else "")
+        for one in summary["links"]
+        if one["force_n"] or one["yields"]
+    }
     console.say(f"{sentence}.", facts, files)
 
 
@@ -110,9 +112,16 @@ def around_summary(found: LimitByDirection) -> dict:
         "active_joints": [{"joint": weak.joint, "mode": weak.mode, "rate": None}],
         "dims": found.dims,
         "directions": [
-            {"azimuth_deg": one.azimuth, "multiplier_g": one.multiplier, "joint": one.joint, "mode": one.mode}
+            {
+                "azimuth_deg": one.azimuth,
+                "multiplier_g": one.multiplier,
+                "joint": one.joint,
+                "mode": one.mode,
+                "links": link_rows(one.links),
+            }
             for one in found.limits
         ],
+        "links": link_rows(weak.links),
     }
 
 
@@ -125,15 +134,14 @@ def summarize(found: LimitResult) -> dict:
         "flow": found.flow,
         "active_joints": [{"joint": item.joint, "mode": item.mode, "rate": item.rate} for item in found.active],
         "joints_at_strength": list(found.at_limit),
-        "links": [
-            {
-                "link": one.name,
-                "action": one.action,
-                "force_n": one.force,
-                "capacity_n": one.capacity,
-                "yields": one.yields,
-            }
-            for one in found.links
-        ],
+        "links": link_rows(found.links),
         "mechanism": mechanism_rows(found.mechanism),
     }
+
+
+def link_rows(links: Sequence[LinkForce]) -> list[dict]:
+    """What links hold, in the JSON object."""
+    return [
+        {"link": one.name, "action": one.action, "force_n": one.force, "capacity_n": one.capacity, "yields": one.yields}
+        for one in links
+    ]

@@ -147,22 +147,50 @@ def space_load(column: Column, at: SpaceGeometry, joint: int, acceleration: np.n
     return SpaceLoad(normal, force[:2], place)
 
 
+class Edges(NamedTuple):
+    """What bounds the overlap of the two faces of a joint, in the axes of the joint: discs, and sides of straight edges.
+
+    A place p is inside a disc by radius − |p − middle|, and inside a side by bound − normal · p [m].
+    """
+
+    discs: tuple[tuple[np.ndarray, float], ...]
+    sides: tuple[tuple[np.ndarray, float], ...]
+
+
+def overlap_edges(column: Column, at: SpaceGeometry, joint: int) -> Edges:
+    """Edges of the overlap of the faces of a joint 0 … n−1."""
+    drum, one = column.drums[joint], column.as_found.of(joint + 1)
+    below = column.drums[joint - 1] if joint else None
+    half, middle = 0.5 * drum.bottom_width, at.offset[joint]
+    discs: list[tuple[np.ndarray, float]] = []
+    sides: list[tuple[np.ndarray, float]] = []
+
+    def straight(angle: float, own: np.ndarray, reach: tuple[float, float], across: tuple[float, float] | None) -> None:
+        for axis, ends in zip(_turned_back(np.eye(2), angle), (reach, across), strict=True):
+            if ends is not None:
+                sides.extend((sign * axis, end + sign * float(axis @ own)) for sign, end in zip((1.0, -1.0), ends))
+
+    along = half - one.chip_right, half - one.chip_left
+    angle = at.turned[joint] + one.chip_azimuth * DEGREE
+    if drum.circular:
+        discs.append((middle, half))
+        if one.chipped:
+            straight(angle, middle, along, None)
+        if below is not None:
+            discs.append((np.zeros(2), 0.5 * below.top_width))
+        return Edges(tuple(discs), tuple(sides))
+    straight(angle, middle, along, (0.5 * drum.depth - one.chip_back, 0.5 * drum.depth - one.chip_front))
+    if below is not None:
+        wide, deep = 0.5 * below.top_width, 0.5 * below.upper_depth
+        straight(at.turned[joint - 1], np.zeros(2), (wide, wide), (deep, deep))
+    return Edges(tuple(discs), tuple(sides))
+
+
 def inside_overlap(column: Column, at: SpaceGeometry, joint: int, place: np.ndarray) -> float:
     """How far a place along a joint is inside both faces; negative outside [m]."""
-    drum, own = column.drums[joint], place - at.offset[joint]
-    one = column.as_found.of(joint + 1)
-    below = column.drums[joint - 1] if joint else None
-    half = 0.5 * drum.bottom_width
-    x, y = _turned_back(own, at.turned[joint] + one.chip_azimuth * DEGREE)
-    chipped = min(half - one.chip_right - x, half - one.chip_left + x)
-    if drum.circular:
-        under = math.inf if below is None else 0.5 * below.top_width - math.hypot(*place)
-        return min(half - math.hypot(*own), chipped, under)
-    inside = min(chipped, 0.5 * drum.depth - one.chip_back - y, 0.5 * drum.depth - one.chip_front + y)
-    if below is None:
-        return inside
-    x, y = np.abs(_turned_back(place, at.turned[joint - 1]))
-    return min(inside, 0.5 * below.top_width - x, 0.5 * below.upper_depth - y)
+    discs, sides = overlap_edges(column, at, joint)
+    within = [radius - math.hypot(*(place - middle)) for middle, radius in discs]
+    return min(within + [bound - float(normal @ place) for normal, bound in sides])
 
 
 def _turned_back(point: np.ndarray, angle: float) -> np.ndarray:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure, SubFigure
 from matplotlib.projections.polar import PolarAxes
 
 from ..analysis.limit_directions import LimitByDirection
-from .style import BLACK, BLUE, RED, in_lines, page, styled
+from .style import BLACK, BLUE, GREY, RED, in_lines, page, styled
 
 
 @styled
@@ -33,7 +33,7 @@ def draw_limit_directions(
     around = np.append(np.arange(len(angle)), 0)
     if len(angle) > 2:
         axes.plot(angle[around], values[around], color=BLACK, linewidth=0.9)
-    for mode, colour in (("rocking", BLACK), ("sliding", BLUE)):
+    for mode, colour in (("rocking", BLACK), ("sliding", BLUE), ("twisting", GREY)):
         of = np.array([found.limits[i].mode == mode for i in order])
         if of.any():
             axes.plot(angle[of], values[of], "o", color=colour, markersize=4.0, label=mode)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_geometry import geometry
-from ...column.link_laws import properties
+from ...column.link_laws import LinkProperties, properties
 
 #: What a link does: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
 SHEAR, CLOSING, LINE = "shear", "closing", "line"
@@ -68,6 +68,19 @@ class StackLink:
         return replace(self, low=(-x, z), high=(-u, w))
 
 
+def actions(link: LinkProperties) -> tuple[str, ...]:
+    """What a link does at rest; dashpots nothing."""
+    if link.straight:
+        return (LINE,) if link.axial_stiffness > 0.0 else ()
+    across = (SHEAR,) if link.shear_stiffness > 0.0 else ()
+    return (*across, CLOSING) if link.axial_stiffness > 0.0 else across
+
+
+def is_strength(link: LinkProperties, action: str) -> bool:
+    """Whether the capacity of what a link does is a strength; that of a layer's spring without capacity is not."""
+    return action != SHEAR or link.kind != "layer" or link.shear_capacity < math.inf
+
+
 def stack_links(column: Column) -> tuple[StackLink, ...]:
     """The links of a column in the plane of x and z, where its drums are found; dashpots do nothing at rest."""
     if not column.links:
@@ -88,30 +101,19 @@ def stack_links(column: Column) -> tuple[StackLink, ...]:
     for one in properties(column):
         low, high = place(one.lower, one.low), place(one.upper, one.high)
         bodies = one.lower - 1, one.upper - 1
-        if one.straight:
-            if one.axial_stiffness > 0.0:
-                found.append(
-                    StackLink(
-                        one.name, LINE, *bodies, low, high, one.axial_stiffness, one.axial_capacity,
-                        ultimate=one.ultimate_elongation, pretension=one.pretension, aside=one.high[1] - one.low[1],
-                    )
-                )  # fmt: skip
-            continue
-        if one.shear_stiffness > 0.0:
-            found.append(
-                StackLink(
+        for action in actions(one):
+            if action == SHEAR:
+                own = StackLink(
                     one.name, SHEAR, *bodies, low, high, one.shear_stiffness, one.shear_capacity, one.clearance,
-                    one.ultimate_slip, one.lift, brittle=one.failure == "brittle",
-                    strength=one.kind != "layer" or one.shear_capacity < math.inf,
-                )
-            )  # fmt: skip
-        if one.axial_stiffness > 0.0:
-            found.append(
-                StackLink(
-                    one.name, CLOSING, *bodies, low, high, one.axial_stiffness, one.axial_capacity,
+                    one.ultimate_slip, one.lift, brittle=one.failure == "brittle", strength=is_strength(one, action),
+                )  # fmt: skip
+            else:
+                own = StackLink(
+                    one.name, action, *bodies, low, high, one.axial_stiffness, one.axial_capacity,
                     ultimate=one.ultimate_elongation, pretension=one.pretension,
-                )
-            )  # fmt: skip
+                    aside=one.high[1] - one.low[1] if action == LINE else 0.0,
+                )  # fmt: skip
+            found.append(own)
     return tuple(found)
 
 
