@@ -212,6 +212,7 @@ class SpaceProgramme:
         push = base_axes(self.column).T @ (math.cos(angle), math.sin(angle), 0.0)
         live = self._body_force(push)
         self.begin(push)
+        gap = math.inf
         for _ in range(ROUNDS):
             multiplier, forces, rates, prices = self._programme(live)
             gap = self._grow(rates, prices)
