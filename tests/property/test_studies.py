@@ -157,8 +157,9 @@ def test_run_status_and_export_under_their_promised_names(folder, capsys):
     assert table["pga_g"].to_numpy() == pytest.approx(table["im"].to_numpy(), rel=1e-9)
     assert table["reversed"].sum() == 6
     column = load_column(folder / "three.toml")
-    assert set(table["base_width_m"]) == {column.base_width}
-    assert set(table["joint_width_m"]) == {column.joint_widths.min()}
+    # an older pandas reads the last digit of a number otherwise
+    assert table["base_width_m"].to_numpy() == pytest.approx(column.base_width, rel=1e-12)
+    assert table["joint_width_m"].to_numpy() == pytest.approx(column.joint_widths.min(), rel=1e-12)
     motion = read_plan(folder / "study.toml")[0].motions[0]
     relation = math.tan(column.slenderness), column.frequency_parameter
     for name in ("pgv", "sa:1s", "avgsa", "arias", "d5_95", "pgv_p_over_g_tan_alpha", "omega_g_over_p"):
