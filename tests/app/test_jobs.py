@@ -247,3 +247,21 @@ def test_a_run_takes_over_a_process_that_stands_by(fresh, asked, tmp_path):
     assert ended(fresh, run)["state"] == "done"
     assert len(both & workers_of(tmp_path)) == 1
     fresh.post(f"/api/jobs/{slow}/cancel")
+
+
+def test_files_that_come_together_are_one_record(fresh, asked):
+    """Components in files of their own; a description of the station goes with every record, as readers look for it."""
+    first = fresh.post("/api/records", content=b"1 2\n", headers={"x-name": "a.at2"}).json()
+    both = fresh.post(f"/api/records?with={first['id']}", content=b"3 4\n", headers={"x-name": "b.at2"}).json()
+    assert (both["id"], both["name"], both["files"]) == (first["id"], "a.at2, b.at2", 2)
+    fresh.post("/api/records", content=b"<xml/>", headers={"x-name": "station.xml"})
+    job = fresh.post("/api/jobs", json=asked | {"motion": {"kind": "record", "text": both["id"]}}).json()
+    assert job["commands"][0].count("--motion=records/") == 2
+    suffixes = [one.rpartition(".")[2] for one in ended(fresh, job["id"])["files"] if one.startswith("records/")]
+    assert sorted(suffixes) == ["at2", "at2", "xml"]
+    several = asked | {"kind": "ida", "motion": None, "records": [both["id"]]}
+    assert "one file for each record" in fresh.post("/api/jobs", json=several).json()["error"]
+    gone = fresh.post("/api/records?with=none", content=b"5 6\n")
+    assert (gone.status_code, "upload it again" in gone.json()["error"]) == (422, True)
+    assert fresh.delete(f"/api/records/{both['id']}").status_code == 200
+    assert len(fresh.get("/api/records").json()["records"]) == 1

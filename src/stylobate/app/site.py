@@ -29,7 +29,7 @@ from .asked import COLUMN, RECORDS, MotionAsked
 from .fields import column_field, motion_field
 from .guard import Guard
 from .job_answers import JobAnswers
-from .records import FILE, Records
+from .records import FILE, Record, Records
 from .workshop import Workshop
 
 STATIC = Path(__file__).with_name("static")
@@ -142,18 +142,22 @@ class Site:
     async def record(self, request: Request) -> Response:
         """Keep an uploaded record; its name comes along in a header."""
         name = unquote(request.headers.get("x-name", "record"))
-        kept = await self.records.receive(name, request.stream())
-        return JSONResponse({"id": kept.id, "name": kept.name, "size": kept.size})
+        kept = await self.records.receive(name, request.stream(), request.query_params.get("with", ""))
+        return JSONResponse(_of_record(kept))
 
     async def record_list(self, request: Request) -> Response:
         """Records that are here."""
         kept = self.records.kept.values()
-        return JSONResponse({"records": [{"id": one.id, "name": one.name, "size": one.size} for one in kept]})
+        return JSONResponse({"records": [_of_record(one) for one in kept]})
 
     async def record_remove(self, request: Request) -> Response:
         """Forget one."""
         self.records.remove(request.path_params["id"])
         return JSONResponse({})
+
+
+def _of_record(record: Record) -> dict[str, Any]:
+    return {"id": record.id, "name": record.name, "size": record.size, "files": len(record.files)}
 
 
 def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = ()) -> Any:

@@ -23,10 +23,12 @@ export function start(place, about) {
     el("div", { class: "sheet left" }, el("div", { id: "fragility-asked", class: "card", "data-errors": true }), el("div", { id: "fragility-found" })));
   render(); show();
 }
+// What describes a station goes with the records; one of several files is for a single run.
+const isRecord = one => !/\.xml$/i.test(one.name) && one.files === 1;
 const set = changes => change({ fragility: { ...state.fragility, ...changes } });
 
 function render() {
-  const s = state.fragility, list = [...samples.map(one => [`sample:${one.name}`, one.name, one.about]), ...uploaded.map(one => [one.id, one.name, "uploaded"])];
+  const s = state.fragility, list = [...samples.map(one => [`sample:${one.name}`, one.name, one.about]), ...uploaded.filter(isRecord).map(one => [one.id, one.name, "uploaded"])];
   const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "records", onchange: event => take([...event.target.files]) });
   const folder = el("input", { type: "file", multiple: true, webkitdirectory: true, hidden: true, "data-upload": "folder", onchange: event => take([...event.target.files].filter(one => !one.name.startsWith("."))) });
   const tick = id => event => set({ records: event.target.checked ? [...s.records, id] : s.records.filter(one => one !== id) });
@@ -49,7 +51,7 @@ function render() {
 async function take(files) {
   if (files.length > 300) { notice(`${files.length} files are too many at once; choose up to 300.`); return; }
   for (const file of files) {
-    try { const one = await upload("/api/records", file); uploaded = [...uploaded, one]; set({ records: [...state.fragility.records, one.id] }); }
+    try { const one = await upload("/api/records", file); uploaded = [...uploaded, one]; if (isRecord(one)) set({ records: [...state.fragility.records, one.id] }); }
     catch (error) { notice(`${file.name}: ${error.error}`); }
   }
 }

@@ -91,7 +91,7 @@ function record(m) {
   const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "record", onchange: event => take([...event.target.files]) });
   return [
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload a record …"), files),
-    el("p", { class: "hint" }, "Any strong-motion format that the command line reads, up to 32 MB; the format is found. Or drop a file here."),
+    el("p", { class: "hint" }, "Any strong-motion format that the command line reads, up to 32 MB; the format is found. Several files at once are one record: its components, or its StationXML. Or drop files here."),
     records.length > 0 && field("Uploaded", select([["", "choose"], ...records.map(one => [one.id, one.name])], m.record, choose, { "data-field": "record" })),
     m.record && el("div", { class: "row" },
       field("Unit, where the file states none", select(UNITS.map(one => [one, one || "as stated"]), m.unit, unit => set({ unit }), { "data-field": "unit" })),
@@ -101,14 +101,16 @@ function record(m) {
   ];
 }
 
+// Files that come together are one record: its components, or what describes its station.
 export async function take(files) {
+  let one = null;
   for (const file of files) {
-    try {
-      const one = await upload("/api/records", file);
-      records = [...records, one];
-      set({ kind: "record", record: one.id, name: one.name, unit: "", dt: "", component: "" }, true);
-    } catch (error) { notice(`${file.name}: ${error.error}`); }
+    try { one = await upload("/api/records" + (one ? `?with=${encodeURIComponent(one.id)}` : ""), file); }
+    catch (error) { notice(`${file.name}: ${error.error}`); }
   }
+  if (!one) return;
+  records = [...records.filter(other => other.id !== one.id), one];
+  set({ kind: "record", record: one.id, name: one.name, unit: "", dt: "", component: "" }, true);
 }
 function choose(id) {
   const one = records.find(other => other.id === id);

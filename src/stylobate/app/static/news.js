@@ -6,7 +6,7 @@ import { el, fill, find, notice, number } from "./dom.js";
 export const isOpen = job => job.state === "waiting" || job.state === "running";
 
 export function sentence(job) {
-  return { waiting: `Waits: ${job.place} before it.`, running: job.total ? `${number(job.done)} of ${number(job.total)} ${job.what}` : "It is computed …" }[job.state] || job.sentence;
+  return { waiting: `Waits: ${job.place} before it.`, running: job.total ? `${number(job.done)} of ${number(job.total)} ${job.what}` : "It is computed …" }[job.state] || (job.sentence && job.sentence[0].toUpperCase() + job.sentence.slice(1));
 }
 
 const act = (job, what) => async () => { try { await post(`/api/jobs/${job.id}/${what}`); } catch (error) { notice(error.error); } };

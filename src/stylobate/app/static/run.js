@@ -134,6 +134,7 @@ function said(job) {
   place.hidden = false;
   if (result) place.dataset.key = "";
   tell(place, job, () => [
+    el("p", { class: "hint" }, job.title),
     result && verdict(result, data && loaded === job.id ? data.sentence : ""),
     result && !result.decided && result.outcome !== "failed" && el("div", { class: "row" },
       el("button", { type: "button", onclick: () => { change({ tail: String((Number(state.tail) || 0) + 5) }); go(); } }, "Go on for 5 s more")),
