@@ -289,6 +289,14 @@ def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
     page.click("text=Run it at this amplitude")
     expect(said.locator(".verdict:not(.sentence)")).to_contain_text("The block collapsed", timeout=30_000)
 
+    # another page takes up the settings of a job
+    other = open_page(390)
+    other.click("[data-tab=jobs]")
+    other.locator("#jobs li[data-job]").filter(has_text="11 records").get_by_text("Take its settings").click()
+    expect(other.locator("[data-field=preset]")).to_have_value("")
+    other.click("[data-tab=fragility]")
+    expect(other.locator("#fragility [data-field=runs]")).to_have_value("4")
+
 
 def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
     page, expect = open_page(1440), playwright.expect

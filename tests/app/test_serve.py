@@ -60,3 +60,29 @@ def test_a_missing_extra_is_said_in_one_sentence(capsys, monkeypatch, missing):
 def test_a_port_that_cannot_be_is_refused(capsys):
     assert call(["serve", "--port", "70000"]) == 2
     assert "0 to 65535" in capsys.readouterr().err
+
+
+def test_a_job_has_its_share_of_the_memory_alone():
+    """What asks for more gets an error, and not the memory of all others."""
+    pytest.importorskip("resource")
+    code = (
+        "from stylobate.cli.worker import limit_memory; limit_memory(0.05); import os\n"
+        "whole = os.sysconf('SC_PHYS_PAGES') * os.sysconf('SC_PAGE_SIZE')\n"
+        "try: bytearray(int(0.06 * whole))\n"
+        "except MemoryError: print('refused')"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    if not sys.platform.startswith("linux"):
+        pytest.skip("only Linux counts all of it")
+    assert done.stdout == "refused\n"
+
+
+def test_too_little_memory_is_said_in_one_sentence(capsys, monkeypatch):
+    def much(*_, **__):
+        raise MemoryError
+
+    monkeypatch.setattr("stylobate.cli.run.run_one", much)
+    assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.1g,0.1s", "--replicates", "0"]) == 1
+    assert capsys.readouterr().err == (
+        "stylobate: the memory is not enough for this; ask for less at once, such as a shorter motion.\n"
+    )

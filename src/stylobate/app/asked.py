@@ -63,7 +63,7 @@ class JobAsked(Table):
     """What is to be computed, and of what: all but kind, column and model as on the command line.
 
     ``column`` is what a column file holds, ``assembly`` the text of an assembly file; of ``critical`` the amplitudes go from
-    ``first`` to ``last`` by ``step``.
+    ``first`` to ``last`` by ``step``. ``page`` is what the page's fields hold, for it to fill them again.
     """
 
     kind: Literal["run", "critical", "domain", "ida"]
@@ -80,6 +80,7 @@ class JobAsked(Table):
     first: str | None = None
     last: str | None = None
     step: str | None = None
+    page: dict[str, Any] = Field(default_factory=dict)
     records: list[str] = Field(default_factory=list)
     unit: str | None = None
     im: str | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import queue
 import subprocess
 import threading
@@ -13,6 +14,9 @@ from typing import Any
 
 #: Time that a process has to stop by itself when it is told to [s].
 PATIENCE = 3.0
+
+#: Priority of a process that is to stop: another one has taken over, and somebody waits for that.
+LAST = 19
 
 
 class Process:
@@ -62,9 +66,11 @@ class Process:
         return self._process.wait()
 
     def tell(self) -> None:
-        """Tell it to stop; nothing more is heard of it."""
+        """Tell it to stop, and let it stand back meanwhile; nothing more is heard of it."""
         self._told = True
         self._process.terminate()
+        with suppress(OSError, AttributeError):  # it has ended, or this system has no such thing
+            os.setpriority(os.PRIO_PGRP, self._process.pid, LAST)
         self._said.put(None)
 
     def stop(self) -> None:

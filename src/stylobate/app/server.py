@@ -88,6 +88,7 @@ def listening_at(host: str, port: int) -> socket.socket:
     try:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         listening.bind((host, port))
+        listening.listen()  # whoever comes before the server takes calls waits, and is not turned away
     except OSError as error:
         listening.close()
         raise InputError(

@@ -144,6 +144,10 @@ def call(arguments: Sequence[str]) -> int:
             named = f": {str(error.filename)[:200]}" if error.filename else ""
             bad_name = error.errno in (errno.ENAMETOOLONG, errno.ELOOP)  # of what was typed, wherever it is looked for
             return _complain(f"{error.strerror or error}{named}.", BAD_INPUT if bad_name else FAILURE)
+        except MemoryError:
+            return _complain(
+                "the memory is not enough for this; ask for less at once, such as a shorter motion.", FAILURE
+            )
         except Exception as error:
             if isinstance(error, _UsageError):
                 return _complain(_usage(error), BAD_INPUT)

@@ -25,10 +25,14 @@ from . import signals
 #: Least time between two lines about progress [s].
 PACE = 0.1
 
+#: Share of the memory of this machine that a job may take [-].
+MEMORY = 0.6
+
 
 def main() -> None:
     """Work until standard input ends."""
     signals.listen()
+    limit_memory(MEMORY)
     telling = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what libraries print is no line of ours
 
@@ -49,6 +53,19 @@ def main() -> None:
             console.LISTENER = None
     signals.said()
     signals.end_now(signals.INTERRUPTED)
+
+
+def limit_memory(share: float) -> None:
+    """Let this process have no more than a share of the memory; where a system has no such limits, all of it."""
+    try:
+        import resource
+
+        whole = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+        most = int(share * whole)
+        resource.setrlimit(resource.RLIMIT_DATA, (most if hard < 0 else min(most, hard), hard))
+    except (ImportError, AttributeError, OSError, ValueError):
+        return
 
 
 def listen(jobs: queue.SimpleQueue[dict[str, Any]]) -> None:

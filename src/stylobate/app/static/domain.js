@@ -62,7 +62,7 @@ async function go() {
   const asked = find("#domain-asked", panel);
   try {
     mark(asked, null);
-    const made = await post("/api/jobs", { kind: "domain", ...run.common(), frequencies: `${d.f0}:${d.f1}:${d.fn}`, amplitudes: `${d.a0}g:${d.a1}g:${d.an}`, duration: `${d.duration}s` });
+    const made = await post("/api/jobs", { kind: "domain", ...run.common(), frequencies: `${d.f0}:${d.f1}:${d.fn}`, amplitudes: `${d.a0}g:${d.a1}g:${d.an}`, duration: `${d.duration}s`, page: { domain: d } });
     change({ domainJob: made.id });
   } catch (error) { mark(asked, error); }
 }
@@ -167,5 +167,6 @@ function point(cell) {
 }
 function open([i, j]) {
   const f = String(+place.f[i].toPrecision(12)), a = String(+place.a[j].toPrecision(12)), from = job.asked;
-  run.go({ column: from.column, model: from.model, settings: from.settings || {}, motion: { kind: "harmonic", text: `${f}Hz,${a}g,${from.duration}` } });
+  run.go({ column: from.column, model: from.model, settings: from.settings || {}, motion: { kind: "harmonic", text: `${f}Hz,${a}g,${from.duration}` },
+    page: { motion: { ...state.motion, kind: "harmonic", frequency: f, amplitude: a, duration: String(parseFloat(from.duration)), both: false, azimuth: "", pga: "" } } });
 }

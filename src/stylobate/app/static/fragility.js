@@ -60,7 +60,7 @@ async function go() {
   const s = state.fragility, asked = find("#fragility-asked", panel);
   try {
     mark(asked, null);
-    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: s.state, ...(s.unit ? { unit: s.unit } : {}) });
+    const job = await post("/api/jobs", { kind: "ida", ...run.common(), records: s.records, im: s.im, runs: s.runs, state: s.state, page: { fragility: s }, ...(s.unit ? { unit: s.unit } : {}) });
     change({ fragilityJob: job.id });
   } catch (error) { mark(asked, error); }
 }

@@ -56,10 +56,11 @@ function frame(job) {
   return [item, tag, news];
 }
 
+// The page as it was when the job was asked for.
 async function restore(id) {
   const { asked } = await get(`/api/jobs/${id}`);
-  if (asked.assembly) { change({ tab: "column", assembly: asked.assembly, model: "dem2d", settings: asked.settings || {} }, { record: true }); notice("Its assembly is taken."); return; }
-  if (!asked.column) { notice("A report has no settings of its own."); return; }
-  change({ tab: "column", column: asked.column, assembly: "", preset: "", model: asked.model || "dem2d", settings: asked.settings || {} }, { record: true });
-  notice("Its column and its model are taken.");
+  const stands = asked.assembly ? { assembly: asked.assembly } : asked.column ? { column: asked.column, assembly: "", preset: "" } : null;
+  if (!stands) { notice("A report has no settings of its own."); return; }
+  change({ tab: "column", ...stands, model: asked.model || "dem2d", settings: asked.settings || {}, ...(asked.page || {}) }, { record: true });
+  notice("Its settings are taken.");
 }

@@ -74,7 +74,7 @@ export async function go(changes = {}) {
   const given = changes instanceof Event ? {} : changes;
   try {
     mark(find("#run-asked", panel), null);
-    const job = await post("/api/jobs", { kind: "run", ...common(), motion: motion.asked(), ...(state.replicates ? { replicates: state.replicates } : {}), ...given });
+    const job = await post("/api/jobs", { kind: "run", ...common(), motion: motion.asked(), page: { motion: state.motion, replicates: state.replicates, tail: state.tail }, ...(state.replicates ? { replicates: state.replicates } : {}), ...given });
     change({ tab: "run", job: job.id }, { record: true });
   } catch (error) {
     if (state.tab === "run") mark(find("#run-asked", panel), error); else notice(error.error);
