@@ -309,6 +309,9 @@ def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
     expect(page.locator("#column .error")).to_have_count(0)
     page.fill('[data-field="link.1.joint"]', "all")
     expect(page.locator("#column .error")).to_have_count(0)
+    page.click("text=Add a link")  # what was typed stays
+    page.locator("[aria-label='remove link 2']").click()
+    expect(page.locator('[data-field="link.1.joint"]')).to_have_value("all")
     with page.expect_download() as saved:
         page.click("text=Save column file")
     assert saved.value.path().read_text().count('kind = "dowel"') == 12

@@ -222,7 +222,7 @@ function fresh(kind) {
 const pair = text => text.trim() === "" ? undefined : text.split(",").map(value);
 
 function links(table) {
-  const rows = table.link || [];
+  const rows = table.link || [], now = () => state.column.link || [];  // what has been typed since is in the state alone
   const set = (k, key, given) => {
     const list = structuredClone(state.column.link);
     if (key === "joint") delete list[k].joints;
@@ -238,11 +238,11 @@ function links(table) {
   }));
   return el("details", { open: rows.length > 0 }, el("summary", {}, "Strengthening"),
     rows.map((one, k) => el("div", { class: "row tight link", "data-field": `link.${k + 1}` },
-      field("Kind", select(Object.keys(LINKS).map(kind => [kind, kind]), one.kind, kind => all(rows.map((other, i) => i === k ? fresh(kind) : other)))),
+      field("Kind", select(Object.keys(LINKS).map(kind => [kind, kind]), one.kind, kind => all(now().map((other, i) => i === k ? fresh(kind) : other)))),
       (LINKS[one.kind] || []).map(key => box(one, k, key)),
       el("details", { class: "more", open: (MORE[one.kind] || []).some(key => one[key] !== undefined) }, el("summary", {}, "More"), el("div", { class: "row tight" }, (MORE[one.kind] || []).map(key => box(one, k, key)))),
-      el("button", { type: "button", class: "quiet", "aria-label": `remove link ${k + 1}`, onclick: () => all(rows.filter((_, i) => i !== k)) }, "Remove"))),
-    el("div", { class: "row" }, el("button", { type: "button", onclick: () => all([...rows, fresh("dowel")]) }, "Add a link")));
+      el("button", { type: "button", class: "quiet", "aria-label": `remove link ${k + 1}`, onclick: () => all(now().filter((_, i) => i !== k)) }, "Remove"))),
+    el("div", { class: "row" }, el("button", { type: "button", onclick: () => all([...now(), fresh("dowel")]) }, "Add a link")));
 }
 
 function section(given) {

@@ -53,7 +53,7 @@ function renderAsked() {
 function critical() {
   const box = (key, label) => field(label, el("input", { value: state.critical[key], inputmode: "decimal", "data-field": `critical.${key}`,
     oninput: event => change({ critical: { ...state.critical, [key]: event.target.value.trim() } }) }));
-  return el("details", { id: "critical", open: criticalOpen, ontoggle: event => { criticalOpen = event.target.open; } }, el("summary", {}, "What amplitude brings it down?"),
+  return el("details", { id: "critical", open: criticalOpen }, el("summary", { onclick: () => { criticalOpen = !find("#critical", panel).open; } }, "What amplitude brings it down?"),
     el("div", { class: "row tight" }, box("first", "From [g]"), box("last", "to [g]"), box("step", "steps of [g]")),
     el("div", { class: "row" }, el("button", { type: "button", onclick: goCritical }, "Find it"), el("small", { class: "hint" }, "the motion above, made larger step by step")));
 }
@@ -204,7 +204,7 @@ function film({ film: shown, histories: h }) {
   fill(find("#run-film", panel),
     el("div", { class: "card" }, parts.film, el("div", { class: "bar" }, parts.play, parts.place, parts.now, parts.speed, parts.larger), parts.trace,
       el("p", { class: "hint" }, `Drag to ${shown.space ? "turn" : "move"}, wheel or two fingers to zoom, double click to return; or arrows, + − and 0; the space bar plays.${shown.space ? " The blue mark is on the same side of every drum." : ""}`)),
-    el("div", { class: "card" }, el("h2", {}, "Top"), top, el("h2", {}, "Joints"), joints(h, opening), el("h2", {}, "Energy"), energy));
+    el("div", { class: "card" }, h.top && [el("h2", {}, "Top"), top], el("h2", {}, "Joints"), joints(h, opening), el("h2", {}, "Energy"), energy));
   const x = shown.time;
   const widest = h.opening.map((values, i) => [peak(values), i]).sort((a, b) => b[0] - a[0]).slice(0, 4).map(one => one[1]).sort((a, b) => a - b);
   const kind = { name: "opening" };
