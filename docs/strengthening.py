@@ -120,7 +120,7 @@ def table(found: StateComparison) -> str:
     lines = [f"| {' | '.join(head)} |".format(runs), "|" + " --- |" * len(head)]
     for label, curve in zip(found.labels, found.curves, strict=True):
         fallen = int(found.table.loc[found.table["state"] == label, "collapsed"].fillna(0).sum())
-        median = "" if curve is None else f"{curve.median:.2f} m/s ({' to '.join(_limits(curve))})"
+        median = "" if curve is None else f"{curve.median:.2f} m/s ({_limits(*curve.median_interval)})"
         cells = [label, str(fallen), median, "", "", ""]
         if label in told:
             one = told[label]
@@ -128,13 +128,15 @@ def table(found: StateComparison) -> str:
             cells[3:5] = [f"{shares[0]} % ({shares[1]} to {shares[2]})", f"{one.saved}, {one.harmed}"]
         mine = links[links["state"] == label] if len(links) else links
         if len(mine):
-            cells[5] = f"{mine['broken'].sum() / max(mine['runs'].max(), 1):.1f} of {len(mine)}"
+            broken = mine["broken"].sum() / max(mine["runs"].max(), 1)
+            cells[5] = f"{broken:.1f} of {len(mine)}" if broken >= 0.05 else "none" if broken == 0.0 else "next to none"
         lines.append(f"| {' | '.join(cells)} |")
     return "\n".join(lines)
 
 
-def _limits(curve) -> list[str]:
-    return [f"{value:.2f}" for value in (curve.summary()["median_low"], curve.summary()["median_high"])]
+def _limits(low: float, high: float) -> str:
+    """An interval; of samples in which too few runs fall the median has no end."""
+    return f"{low:.2f} to {high:.2f}" if low > 0.0 else "no interval"
 
 
 def main(records: str, out: str, which: str = "bassae", where: str = "plane", only: str = "") -> None:
