@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from stylobate.column import AsFound, Column, FoundDrum, Joint, preset
-from stylobate.column.assembly import Assembly, Block, of_column
+from stylobate.column.as_blocks import of_column
+from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
 from stylobate.models.assembly.engine import Engine
 from stylobate.models.base import RunOptions
@@ -38,7 +39,7 @@ def forces_along(engine, path):
             engine.joint,
             engine.now,
             engine.pairs,
-            engine.link,
+            engine.joined,
             engine.law,
             engine.memory,
             engine.real,

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from stylobate.column import Joint, preset
-from stylobate.column.assembly import Assembly, Block, of_column
+from stylobate.column.as_blocks import of_column
+from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
 from stylobate.kernels.assembly import narrow_phase as near
 from stylobate.kernels.run_codes import CHUNK

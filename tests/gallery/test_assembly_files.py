@@ -28,7 +28,7 @@ def run(capsys):
 
 def test_every_file_says_how_it_is_run():
     names = sorted(path.stem for path in FOLDER.glob("*.toml") if is_assembly(path))
-    assert names == ["arch", "dominoes", "leaning_drum", "portal", "two_columns"]
+    assert names == ["arch", "clamped", "dominoes", "leaning_drum", "portal", "two_columns"]
     for name in names:
         said = re.search(
             r"stylobate run gallery/assemblies/(\w+)\.toml --model dem2d", (FOLDER / f"{name}.toml").read_text()

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as some
 
 import stylobate as st
-from stylobate.column.assembly import of_column
+from stylobate.column.as_blocks import of_column
 from stylobate.column.presets import preset
 from stylobate.response import Measures, Response, load_response
 from stylobate.response.assembly_measures import recorded_blocks

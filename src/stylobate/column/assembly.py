@@ -6,8 +6,7 @@ import hashlib
 import json
 import math
 import warnings
-from collections.abc import Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from typing import NamedTuple
 
@@ -15,10 +14,11 @@ import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
-from .column import GRAVITIES, Column
+from .block_links import BlockLink
+from .column import GRAVITIES
 from .drum import DENSITIES, LENGTHS
-from .found_geometry import drum_outline, geometry
 from .joint import Joint, without_unsaid
+from .placed_links import PlacedLink, placed_links
 
 MAX_BLOCKS = 400
 
@@ -181,11 +181,13 @@ class Assembly:
         Level of the ground, a half-plane [m]; None for none (fixed blocks are the only support).
     overrides : sequence of (str, str, Joint)
         Laws between two blocks by their names, of their joint and wherever else they strike each other.
+    links : sequence of BlockLink
+        Clamps, dowels, bars, ties, cores and layers between two bodies each; :func:`.block_links.block_link` makes them.
 
     Raises
     ------
     InputError
-        Blocks overlap, lie in the ground, share a name, or none of them can move.
+        Blocks overlap, lie in the ground, share a name, none of them can move, or a link cannot be.
 
     Warns
     -----
@@ -199,10 +201,12 @@ class Assembly:
     gravity: float = STANDARD_GRAVITY
     ground: float | None = 0.0
     overrides: tuple[tuple[str, str, Joint], ...] = ()
+    links: tuple[BlockLink, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "blocks", tuple(self.blocks))
         object.__setattr__(self, "overrides", tuple(self.overrides))
+        object.__setattr__(self, "links", tuple(self.links))
         if self.gravity != 0.0:
             check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")
         if self.ground is not None:
@@ -234,6 +238,32 @@ class Assembly:
         for i, block in enumerate(self.bodies):
             if not block.fixed and i not in touched:
                 warnings.warn(f"block {block.name!r} touches nothing: it will fall.", OutOfRangeWarning, stacklevel=3)
+        self.link_properties  # noqa: B018  refuses links that cannot be
+
+    @cached_property
+    def link_properties(self) -> tuple[PlacedLink, ...]:
+        """All links in numbers, in their order."""
+        return placed_links(self)
+
+    def law_between(self, one: Block, other: Block) -> Joint:
+        """Law of the contacts of two bodies, the second of which comes later; a layer between them has its own friction."""
+        law = self._laws.get(frozenset((one.name, other.name))) or other.surface or self.joint
+        slippery = self._layers.get(frozenset((one.name, other.name)))
+        if slippery is None:
+            return law
+        return replace(law, friction_angle=None, friction_coefficient=slippery)
+
+    @cached_property
+    def _laws(self) -> dict[frozenset[str], Joint]:
+        return {frozenset((one, other)): law for one, other, law in self.overrides}
+
+    @cached_property
+    def _layers(self) -> dict[frozenset[str], float]:
+        return {
+            frozenset(one.between): one.friction_coefficient
+            for one in self.links
+            if one.friction_coefficient is not None
+        }
 
     @cached_property
     def bodies(self) -> tuple[Block, ...]:
@@ -257,7 +287,6 @@ class Assembly:
     @cached_property
     def _contacts(self) -> tuple[tuple[FaceJoint, ...], set[int]]:
         """Pairs of faces that touch, and all bodies that touch another one."""
-        laws = {frozenset((one, other)): law for one, other, law in self.overrides}
         bodies = self.bodies
         low = np.array([block.corners.min(axis=0) for block in bodies])
         high = np.array([block.corners.max(axis=0) for block in bodies])
@@ -280,13 +309,14 @@ class Assembly:
                 leaning |= {i, j}
                 faces = _touching_faces(a.corners, b.corners, near)
                 if faces is not None and smallest_turn(a.corners, faces[0], b.corners, faces[1]) > FLATTEST:
-                    law = laws.get(frozenset((a.name, b.name))) or b.surface or self.joint
-                    found.append(FaceJoint(i, j, *faces, law))
+                    found.append(FaceJoint(i, j, *faces, self.law_between(a, b)))
         return tuple(found), leaning
 
     def to_dict(self) -> dict:
         """Everything that defines the assembly, as plain values in SI units."""
-        return asdict(self, dict_factory=without_unsaid)
+        plain = asdict(self, dict_factory=without_unsaid)
+        plain.pop("links")
+        return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
 
     @property
     def frequency_parameter(self) -> float:
@@ -298,51 +328,6 @@ class Assembly:
     def digest(self) -> str:
         """SHA-256 of :meth:`to_dict`."""
         return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
-
-
-def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Assembly:
-    """A column as it stands as an assembly: the base is body 0, drum i is body i; in axes along and normal to the base.
-
-    Parameters
-    ----------
-    column : Column
-    steps : sequence of (float, float)
-        Width and height of the fixed steps under the column, from the top down [m]; the ground lies below the last.
-        None: the base is a half-plane.
-    """
-    column.must_carry_on_whole_faces("an assembly of blocks")
-    blocks, level = [], 0.0
-    for i, (width, height) in enumerate(steps):
-        width = check_range(f"width of step {i + 1}", width, 0.0, FAR_AWAY, unit="m", open_low=True)
-        height = check_range(f"height of step {i + 1}", height, 0.0, FAR_AWAY, unit="m", open_low=True)
-        blocks.append(_box(f"step {i + 1}", width, level - height, level))
-        level -= height
-    drums, at = [], geometry(column)
-    for i, drum in enumerate(column.drums):
-        c, s = math.cos(at.lean[i]), math.sin(at.lean[i])
-        corners = drum_outline(column, i) @ np.array([[c, s], [-s, c]]) + at.centroid[i]
-        # the depth of the bed: a round drum's mean thickness across its width
-        depth = drum.mean_depth if not drum.circular else 0.25 * math.pi * drum.mean_width
-        drums.append(
-            Block(
-                tuple((float(x), float(z)) for x, z in corners),
-                drum.density,
-                f"drum {i + 1}",
-                depth,
-                surface=column.joints[i],
-                solid=(drum.mass, drum.inertia, float(at.centroid[i, 0]), float(at.centroid[i, 1])),
-            )
-        )
-    if not steps:
-        return Assembly(tuple(drums), column.joints[0], column.name, column.gravity, 0.0)
-    # body 0 is what the column stands on; the ground and further steps come after the drums
-    far = _box("ground", 2.0 * FAR_AWAY, level - FAR_AWAY, level)
-    return Assembly((blocks[0], *drums, *blocks[1:], far), column.joints[0], column.name, column.gravity, None)
-
-
-def _box(name: str, width: float, low: float, high: float) -> Block:
-    b = 0.5 * width
-    return Block(((-b, low), (b, low), (b, high), (-b, high)), 0.0, name, fixed=True)
 
 
 def separation(a: np.ndarray, b: np.ndarray) -> float:

@@ -11,6 +11,7 @@ from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning
 from ..reading import shown
 from .assembly import Assembly, Block
+from .block_links import BlockLink, block_link
 from .column import Column
 from .files import joint_from_dict, load_column
 from .joint import Joint
@@ -44,6 +45,35 @@ class BetweenTable(Table):
     cohesion: float | None = None
 
 
+class BlockLinkTable(Table):
+    """``[[link]]``: what links two bodies by name; ``at`` and ``to`` are its ends, x and z, or x, y and z [m]."""
+
+    kind: str
+    between: list[str]
+    name: str = ""
+    at: list[float] | None = None
+    to: list[float] | None = None
+    diameter: float | None = None
+    section: list[float] | None = None
+    embedment: float | None = None
+    material: str | None = None
+    hole: float | None = None
+    shear_stiffness: float | None = None
+    shear_capacity: float | None = None
+    clearance: float | None = None
+    failure: str | None = None
+    axial_stiffness: float | None = None
+    axial_capacity: float | None = None
+    bond: float | None = None
+    ultimate_slip: float | None = None
+    ultimate_elongation: float | None = None
+    pretension: float | None = None
+    friction_coefficient: float | None = None
+    damping: float | None = None
+    stone_modulus: float | None = None
+    stone_strength: float | None = None
+
+
 class AssemblyTable(Table):
     """An assembly file."""
 
@@ -58,6 +88,7 @@ class AssemblyTable(Table):
     column: list[ColumnsTable] | None = None
     beam: list[BeamTable] | None = None
     joint_override: list[BetweenTable] | None = None
+    link: list[BlockLinkTable] | None = None
 
 
 def is_assembly(path: str | Path) -> bool:
@@ -107,11 +138,12 @@ def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:
         blocks.append(Block(**(dict(fields) | special)))
     overrides = tuple((one, other, joint_from_dict(law)) for one, other, law in data["overrides"])
     special = {"blocks": tuple(blocks), "joint": joint_from_dict(data["joint"]), "overrides": overrides}
+    special["links"] = tuple(BlockLink.from_dict(fields) for fields in data.get("links", ()))
     return Assembly(**(dict(data) | special))
 
 
 def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly:
-    blocks, standing, laid = [], *stand(table.column or [], folder, table.gravity, table.ground)
+    blocks, standing, laid, links = [], *stand(table.column or [], folder, table.gravity, table.ground)
     if not (table.block or standing):
         raise InputError("there is neither [[block]] nor [[column]]; add one of the two.")
     stone = None if table.material is None else material(table.material)
@@ -150,10 +182,20 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
         joint = laid[0].law
     else:
         joint = _law(table.joint, stone, "[joint]")
+    links += [_link(one, number) for number, one in enumerate(table.link or [], 1)]
     laws = (joint, *(block.surface for block in blocks if block.surface), *(law for _, _, law in overrides))
     for doubt in [doubt for law in laws for doubt in law.doubts][:1]:
         warnings.warn(f"{doubt}: is the unit right?", OutOfRangeWarning, stacklevel=4)
-    return Assembly(tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides))
+    return Assembly(
+        tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
+    )
+
+
+def _link(table: BlockLinkTable, number: int) -> BlockLink:
+    try:
+        return block_link(**table.model_dump(exclude_none=True))
+    except InputError as error:
+        raise InputError(f"[[link]] number {number}: {error}") from None
 
 
 def _law(table: Table | None, stone: Material | None, where: str) -> Joint:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import InputError
 from .link_laws import line_ends, properties
-from .links import Core, Dowel, Layer, Link, Tie
+from .links import Clamp, Core, Dowel, Layer, Link, Tie
 
 if TYPE_CHECKING:
     from .column import Column
@@ -39,6 +39,10 @@ def check_links(column: Column) -> None:
     for number, link in enumerate(column.links, 1):
         if not isinstance(link, Link):
             raise InputError(f"link {number} of {column.name!r} is {link!r}; give a Dowel, Bar, Tie, Core or Layer.")
+        if isinstance(link, Clamp):
+            raise InputError(
+                f"link {number} of {column.name!r} is a clamp, and a column has no blocks side by side; give a bar."
+            )
         try:
             _check(link, column)
         except InputError as error:

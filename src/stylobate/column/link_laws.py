@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .link_materials import MATERIALS
-from .links import Bar, Core, Dowel, Layer, Link, Tie
+from .links import Bar, Clamp, Core, Dowel, Layer, Link, Pin, Tie
 
 if TYPE_CHECKING:
     from .column import Column
@@ -113,37 +113,55 @@ def _properties(link: Link, column: Column) -> LinkProperties:
     place = (*link.at, float(column.joint_heights[link.joint - 1]))
     name = link.name or f"{link.kind} in joint {link.joint}"
     between = {"lower": link.joint - 1, "upper": link.joint, "joint": link.joint, "low": place, "high": place}
+    return LinkProperties(name, link.kind, **between, **across_numbers(link))
+
+
+def across_numbers(link: Dowel | Layer) -> dict[str, Any]:
+    """What a dowel, bar or layer holds across its joint, as fields of :class:`LinkProperties`."""
     if isinstance(link, Layer):
-        return LinkProperties(
-            name, link.kind, **between, shear_stiffness=link.shear_stiffness, damping=link.damping,
-            shear_capacity=_or(link.shear_capacity, math.inf), ultimate_slip=_or(link.ultimate_slip, math.inf),
-            governs="as given",
-        )  # fmt: skip
-    stiffness, capacity, failure, governs = _shear(link)
+        return {
+            "shear_stiffness": link.shear_stiffness,
+            "damping": link.damping,
+            "shear_capacity": _or(link.shear_capacity, math.inf),
+            "ultimate_slip": _or(link.ultimate_slip, math.inf),
+            "governs": "as given",
+        }
+    axial = _anchored(link) if isinstance(link, Bar) else {}
+    found = _pinned(link, link.embedment)
+    if axial:
+        found["governs"] += f"; {axial.pop('governs')}"
+    return found | axial | {"lift": _or(link.embedment, math.inf)}
+
+
+def _pinned(link: Pin, embedment: float | None) -> dict[str, Any]:
+    """What a bar holds in shear that is embedded by so much on either side [m]."""
+    stiffness, capacity, failure, governs = _shear(link, embedment)
     d, lost = link.diameter, math.inf
     if link.material is not None and d is not None:
         lost = MATERIALS[link.material].ultimate_slip * d
     reach = ROUNDED * d if d is not None else capacity / stiffness if 0.0 < stiffness and capacity < math.inf else 0.0
-    axial = _anchored(link) if isinstance(link, Bar) else {}
-    governs = f"{governs}; {axial.pop('governs')}" if axial else governs
-    return LinkProperties(
-        name, link.kind, **between, shear_stiffness=stiffness, shear_capacity=capacity,
-        clearance=link.clearance or 0.0, ultimate_slip=_or(link.ultimate_slip, lost), failure=failure,
-        lift=_or(link.embedment, math.inf), reach=reach, governs=governs, **axial,
-    )  # fmt: skip
+    return {
+        "shear_stiffness": stiffness,
+        "shear_capacity": capacity,
+        "clearance": link.clearance or 0.0,
+        "ultimate_slip": _or(link.ultimate_slip, lost),
+        "failure": failure,
+        "reach": reach,
+        "governs": governs,
+    }
 
 
-def _shear(link: Dowel) -> tuple[float, float, str, str]:
-    """Stiffness [N/m], capacity [N], failure and what governs, of a dowel across a joint."""
+def _shear(link: Pin, embedment: float | None) -> tuple[float, float, str, str]:
+    """Stiffness [N/m], capacity [N], failure and what governs, of a bar across a joint, embedded by so much [m]."""
     stiffness, capacity = link.shear_stiffness, link.shear_capacity
     failure, governs = link.failure, "as given"
     if link.material is not None:
         assert link.diameter is not None
-        assert link.embedment is not None
-        limits = shear_limits(link.material, link.diameter, link.embedment, link.stone_strength)
+        assert embedment is not None
+        limits = shear_limits(link.material, link.diameter, embedment, link.stone_strength)
         least = min(limits, key=lambda name: limits[name])
         if stiffness is None:
-            stiffness = shear_stiffness(link.material, link.diameter, link.embedment, link.stone_modulus)
+            stiffness = shear_stiffness(link.material, link.diameter, embedment, link.stone_modulus)
         if capacity is None:
             capacity, governs = limits[least], least
             failure = failure or ("crushing" if least.startswith("crushing") else "ductile")
@@ -191,6 +209,44 @@ def shear_limits(material: str, diameter: float, embedment: float, stone_strengt
     }
 
 
+def clamp_numbers(link: Clamp, length: float) -> dict[str, Any]:
+    """What a clamp of a length between its legs [m] holds, as fields of :class:`LinkProperties`, and its axial failure.
+
+    Notes
+    -----
+    Along itself it is a bar, E A/ℓ and f_y A, in series with its two legs, which are the two halves of a dowel of their
+    length (Eq. K3), and as strong as that (Eq. K4). Across, it lies in its groove, and is a dowel with half of its length in
+    either block.
+    """
+    found = _pinned(link, 0.5 * length)
+    stiffness, capacity, ultimate = link.axial_stiffness, link.axial_capacity, link.ultimate_elongation
+    failure, governs = link.failure, "as given"
+    if link.material is not None:
+        made, d, legs = MATERIALS[link.material], link.diameter, link.embedment
+        assert d is not None
+        assert legs is not None
+        area = math.pi * d * d / 4.0
+        if stiffness is None:
+            give = shear_stiffness(link.material, d, legs, link.stone_modulus)
+            stiffness = 1.0 / (length / (made.modulus * area) + 1.0 / give)
+        in_legs = shear_limits(link.material, d, legs, link.stone_strength)
+        limits = {"yield of the bar": made.tensile_strength * area} | {f"legs: {k}": v for k, v in in_legs.items()}
+        least = min(limits, key=lambda name: limits[name])
+        if capacity is None:
+            capacity, governs = limits[least], least
+            failure = failure or ("crushing" if least.startswith("legs: crushing") else "ductile")
+        lost = made.ultimate_strain * length if least == "yield of the bar" else made.ultimate_slip * d
+        ultimate = _or(ultimate, lost)
+    assert stiffness is not None
+    return found | {
+        "axial_stiffness": stiffness,
+        "axial_capacity": _or(capacity, math.inf),
+        "ultimate_elongation": _or(ultimate, math.inf),
+        "axial_failure": failure or "ductile",
+        "governs": f"across: {found['governs']}; along: {governs}",
+    }
+
+
 def _anchored(link: Bar) -> dict:
     """Axial numbers of a bar that is bonded over its embedment in both drums."""
     stiffness, capacity, ultimate = link.axial_stiffness, link.axial_capacity, link.ultimate_elongation
@@ -233,7 +289,17 @@ def line_ends(link: Tie, column: Column) -> tuple[tuple[float, float, float], tu
 
 def _line(link: Tie, column: Column) -> LinkProperties:
     low, high = line_ends(link, column)
-    length, governs = math.dist(low, high), "as given"
+    upper = column.n if link.to_drum is None else link.to_drum
+    ends = f"{'the base' if link.from_drum == 0 else f'drum {link.from_drum}'} to drum {upper}"
+    return LinkProperties(
+        link.name or f"{link.kind} from {ends}", link.kind, link.from_drum, upper, 0, low, high,
+        **line_numbers(link, math.dist(low, high)),
+    )  # fmt: skip
+
+
+def line_numbers(link: Tie, length: float) -> dict[str, Any]:
+    """What a tie or core of a length [m] holds, as fields of :class:`LinkProperties`."""
+    governs = "as given"
     stiffness, capacity, ultimate = link.axial_stiffness, link.axial_capacity, link.ultimate_elongation
     if link.material is not None:
         made, d = MATERIALS[link.material], link.diameter
@@ -244,13 +310,13 @@ def _line(link: Tie, column: Column) -> LinkProperties:
             capacity, governs = made.tensile_strength * area, "yield of the bar"
         ultimate = _or(ultimate, made.ultimate_strain * length)
     assert stiffness is not None
-    upper = column.n if link.to_drum is None else link.to_drum
-    ends = f"{'the base' if link.from_drum == 0 else f'drum {link.from_drum}'} to drum {upper}"
-    return LinkProperties(
-        link.name or f"{link.kind} from {ends}", link.kind, link.from_drum, upper, 0, low, high,
-        axial_stiffness=stiffness, axial_capacity=_or(capacity, math.inf),
-        ultimate_elongation=_or(ultimate, math.inf), pretension=link.pretension, governs=governs,
-    )  # fmt: skip
+    return {
+        "axial_stiffness": stiffness,
+        "axial_capacity": _or(capacity, math.inf),
+        "ultimate_elongation": _or(ultimate, math.inf),
+        "pretension": link.pretension,
+        "governs": governs,
+    }
 
 
 def _or(value: float | None, other: float) -> float:

@@ -1,4 +1,4 @@
-"""Links that strengthen a column, as data: dowels, bars, ties, cores and layers; what each is in itself."""
+"""Links that strengthen what stands, as data: dowels, bars, clamps, ties, cores and layers; what each is in itself."""
 
 from __future__ import annotations
 
@@ -78,37 +78,9 @@ class Link:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Dowel(Link):
-    """A dowel or pole across a joint: holds in shear, and lifts out freely.
+class Pin(Link):
+    """What dowels, bars and clamps have in common; parameters as for :class:`Dowel`."""
 
-    Parameters
-    ----------
-    joint : int
-        From 1 at the base.
-    diameter : float, optional
-        [m]
-    embedment : float, optional
-        Its length in each of the two drums [m]: above so much lift it has left its hole.
-    material : str, optional
-        ``wood``, ``iron in lead``, ``titanium`` or ``stainless steel``: gives what is left out below.
-    shear_stiffness, shear_capacity : float, optional
-        Across the joint [N/m], [N].
-    clearance : float, optional
-        Slack all round [m].
-    hole : float, optional
-        Diameter of the hole [m]; its diameter and twice the clearance if left out.
-    ultimate_slip : float, optional
-        Slip of the joint at its place at which it is lost for good [m]; never if left out and there is no material.
-    failure : {"ductile", "brittle", "crushing"}, optional
-        What becomes of it at its capacity: it yields (elastic-plastic), it snaps, or it crushes the stone, so that its hole
-        grows. Left out: what the formula says that governs; ``ductile`` without material.
-    stone_modulus, stone_strength : float
-        Young's modulus and compressive strength of the stone [Pa], for the formulas.
-    """
-
-    kind: ClassVar[str] = "dowel"
-
-    joint: int
     diameter: float | None = None
     embedment: float | None = None
     material: str | None = None
@@ -123,7 +95,6 @@ class Dowel(Link):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        _number(self, "joint")
         self._material(self.material, self.diameter)
         self._range("diameter", 1e-3, 1.0, "m")
         self._range("embedment", 1e-3, LONGEST, "m")
@@ -162,6 +133,44 @@ class Dowel(Link):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Dowel(Pin):
+    """A dowel or pole across a joint: holds in shear, and lifts out freely.
+
+    Parameters
+    ----------
+    joint : int
+        From 1 at the base.
+    diameter : float, optional
+        [m]
+    embedment : float, optional
+        Its length in each of the two drums [m]: above so much lift it has left its hole.
+    material : str, optional
+        ``wood``, ``iron in lead``, ``titanium`` or ``stainless steel``: gives what is left out below.
+    shear_stiffness, shear_capacity : float, optional
+        Across the joint [N/m], [N].
+    clearance : float, optional
+        Slack all round [m].
+    hole : float, optional
+        Diameter of the hole [m]; its diameter and twice the clearance if left out.
+    ultimate_slip : float, optional
+        Slip of the joint at its place at which it is lost for good [m]; never if left out and there is no material.
+    failure : {"ductile", "brittle", "crushing"}, optional
+        What becomes of it at its capacity: it yields (elastic-plastic), it snaps, or it crushes the stone, so that its hole
+        grows. Left out: what the formula says that governs; ``ductile`` without material.
+    stone_modulus, stone_strength : float
+        Young's modulus and compressive strength of the stone [Pa], for the formulas.
+    """
+
+    kind: ClassVar[str] = "dowel"
+
+    joint: int
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        _number(self, "joint")
+
+
+@dataclass(frozen=True, kw_only=True)
 class Bar(Dowel):
     """An anchored dowel or bar across a joint: holds in shear and against lifting.
 
@@ -197,6 +206,44 @@ class Bar(Dowel):
         self._range("pretension", 0.0, STRONGEST, "N")
         if self.material is None and self.axial_stiffness is None:
             raise InputError("a bar has neither material nor axial_stiffness; give one, or make it a dowel.")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Clamp(Pin):
+    """A clamp between blocks side by side, of an assembly: holds along itself in both senses, and across.
+
+    Parameters
+    ----------
+    section : (float, float), optional
+        Width and height of its bar [m]; counts as the round bar of that area, where no diameter is given.
+    embedment : float, optional
+        Length of its two legs in the stone [m].
+    axial_stiffness, axial_capacity, ultimate_elongation : float, optional
+        Along the clamp [N/m], [N], in tension and compression alike, and elongation at which it is lost [m].
+
+    Others as for :class:`Dowel`; the clearance is slack along and across.
+    """
+
+    kind: ClassVar[str] = "clamp"
+
+    section: tuple[float, float] | None = None
+    axial_stiffness: float | None = None
+    axial_capacity: float | None = None
+    ultimate_elongation: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.section is not None:
+            _pair(self, "section")
+            if min(self.section) <= 0.0:
+                raise InputError(f"section of a clamp is {list(self.section)} m; give its width and height [m].")
+            if self.diameter is None:
+                object.__setattr__(self, "diameter", math.sqrt(4.0 / math.pi * math.prod(self.section)))
+        super().__post_init__()
+        self._range("axial_stiffness", 0.0, STIFFEST, "N/m")
+        self._capacity("axial_capacity")
+        self._range("ultimate_elongation", 0.0, LONGEST, "m", open_low=True)
+        if self.material is None and self.axial_stiffness is None:
+            raise InputError("a clamp has neither material nor axial_stiffness; give one of the two.")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -310,10 +357,10 @@ class Layer(Link):
         self._range("damping", 0.0, THICKEST, "N s/m")
         self._range("ultimate_slip", 0.0, LONGEST, "m", open_low=True)
         if self.friction_coefficient is None and not self.shear_stiffness and not self.damping:
-            raise InputError("a layer has neither friction_coefficient, shear_stiffness nor damping; give one of them.")
+            raise InputError("a layer has neither friction_coefficient, shear_stiffness nor damping; give one.")
 
 
-#: Kinds of links by their name in files.
+#: Kinds of links of columns by their name in files.
 KINDS: dict[str, type[Link]] = {one.kind: one for one in (Dowel, Bar, Tie, Core, Layer)}
 
 

@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import InputError, check_range
-from .assembly import TOUCHING, Block, of_column
+from .as_blocks import links_of_column, of_column
+from .assembly import TOUCHING, Block
+from .block_links import BlockLink
 from .files import load_column
 from .joint import Joint
 from .tables import JointTable
@@ -50,8 +52,8 @@ class Standing(NamedTuple):
 
 def stand(
     tables: Sequence[ColumnsTable], folder: Path, gravity: float, ground: float | bool
-) -> tuple[list[Block], list[Standing]]:
-    """Blocks of columns that stand on the ground, and where their tops are.
+) -> tuple[list[Block], list[Standing], list[BlockLink]]:
+    """Blocks of columns that stand on the ground, where their tops are, and their links.
 
     Parameters
     ----------
@@ -70,15 +72,12 @@ def stand(
     """
     blocks: list[Block] = []
     found: list[Standing] = []
+    links: list[BlockLink] = []
     if tables and isinstance(ground, bool):
         raise InputError("columns stand on the ground, and ground is false; give its level in m.")
     for table in tables:
         beside = folder / table.file
         column = load_column(beside if beside.is_file() else table.file)
-        if column.links:
-            raise InputError(
-                f"{column.name!r} has links, and assemblies know none yet; leave [[link]] out of its file."
-            )
         if column.as_found.base_tilt:
             raise InputError(f"{column.name!r} stands on a base out of level, and the ground of an assembly is level.")
         if not column.as_found.in_plane:
@@ -89,8 +88,11 @@ def stand(
             )
         for x in _places(table):
             name = f"{table.name or 'column'} {len(found) + 1}"
-            drums = [_moved(one, f"{name}, {one.name}", x, float(ground)) for one in of_column(column).blocks]
+            stones = of_column(column).blocks
+            drums = [_moved(one, f"{name}, {one.name}", x, float(ground)) for one in stones]
             blocks += drums
+            called = {"ground": "ground"} | {one.name: f"{name}, {one.name}" for one in stones}
+            links += [one.moved(x, float(ground), called, f"{name}, {one.called}") for one in links_of_column(column)]
             top = sorted(drums[-1].vertices, key=lambda corner: corner[1])[-2:]
             if abs(top[0][1] - top[1][1]) > TOUCHING * column.height:
                 level = float("nan")  # it leans: nothing lies on it
@@ -98,7 +100,7 @@ def stand(
                 level = top[1][1]
             left, right = sorted(corner[0] for corner in top)
             found.append(Standing(x, left, right, level, column.joints[-1]))
-    return blocks, found
+    return blocks, found, links
 
 
 def _places(table: ColumnsTable) -> list[float]:

@@ -16,6 +16,7 @@ from ..column.assembly import FAR_AWAY, Assembly
 from ..column.found_in_space import base_axes, space_geometry
 from ..column.link_laws import line_ends
 from ..column.links import Bar, Dowel, Layer, Tie
+from ..column.placed_links import strokes_between
 from ..constants import DEGREE
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
@@ -279,6 +280,11 @@ def _assembly(structure: Assembly, title: str | None, ax: Axes | None) -> Figure
         words = {"fontsize": 6.5 if many else WORDS, "ha": "center", "va": "center", "rotation": 90 if turned else 0}
         middle = _middle(shape)
         axes.text(float(middle[0]), float(middle[1]), name, **words)
+    for _, (_, start), (_, end) in strokes_between(structure):
+        axes.plot([start[0], end[0]], [start[1], end[1]], color=BLUE, linewidth=1.2, zorder=5)
+    for link in [one for one in structure.link_properties if one.kind == "layer"]:
+        ends = np.array(link.place)[:, None] + 12.0 * sheet.metres * np.outer(link.along, (-1.0, 1.0))
+        axes.plot(*ends, color=BLUE, linewidth=2.4, zorder=5)
     for along, start, end in ((0, low, high), (1, low, high)):
         _dimension(axes, sheet, along, start, end)
     if title:

@@ -168,8 +168,13 @@ def _as_found(column: Column) -> Rows:
     return Rows(header, body, caption, numbers=True)
 
 
+#: What a row on a link between blocks tells in cells of their own.
+_TOLD = ("kind", "between", "at", "to", "name")
+
+
 def _assembly(assembly: Assembly) -> list[Item]:
     caption = f"Elevation of {assembly.name}, with the size of all of it in m; supports that are held are grey."
+    caption += " Blue: links." if assembly.links else ""
     moving = [one for one in assembly.bodies if not one.fixed]
     facts = [
         (
@@ -203,4 +208,17 @@ def _assembly(assembly: Assembly) -> list[Item]:
         "Joints. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per area.",
         numbers=True,
     )
-    return [picture(draw_elevation(assembly), caption), Facts(facts), rows, joints]
+    found: list[Item] = [picture(draw_elevation(assembly), caption), Facts(facts), rows, joints]
+    return [*found, _links_between_blocks(assembly)] if assembly.links else found
+
+
+def _links_between_blocks(assembly: Assembly) -> Rows:
+    body = []
+    for link, placed in zip(assembly.links, assembly.link_properties, strict=True):
+        given = link.to_dict()
+        numbers = [f"{key.replace('_', ' ')} {n.plain(given[key])}" for key in given if key not in _TOLD]
+        ends = [placed.low, placed.high] if placed.two_ended else [placed.low]
+        at = " to ".join(f"{one[0]:g} / {one[2]:g}" for one in ends)
+        body.append([placed.name, " – ".join(link.between), at, ", ".join(numbers) or n.NONE])
+    caption = "Links between the blocks; lengths in m, forces in N, stiffness in N/m. “governs” names formulas."
+    return Rows(["link", "between", "at x / z [m]", "properties"], body, caption, numbers=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from ..column.assembly import Assembly, Block, FaceJoint, separation
 from ..outcome import Outcome, classify
 from .collapse import FELL, Collapse, Touch
 from .histories import Histories
+from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures
 from .recorded import Recorded
 
@@ -43,6 +45,8 @@ def recorded_blocks(
     model: str,
     provenance: dict[str, Any],
     touched: Touch | None = None,
+    links: tuple[LinkMeasures, ...] = (),
+    held: LinkHistories | None = None,
 ) -> Recorded:
     """A run of an assembly from the recorded poses of its bodies.
 
@@ -67,6 +71,10 @@ def recorded_blocks(
     model : str
     provenance : dict
     touched : Touch, optional
+    links : tuple of LinkMeasures
+        Of the links that act.
+    held : LinkHistories, optional
+        Their histories.
     """
     opening, slip = joint_histories(assembly, x, z, rotation)
     moved = np.hypot(x - x[0], z - z[0])
@@ -94,10 +102,13 @@ def recorded_blocks(
         steps=steps,
         collapse=Collapse(first, None, FELL, azimuth, touched) if collapsed else None,
         blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
+        links=links,
     )
     histories = Histories.of_blocks(
         time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy
     )
+    if held is not None:
+        histories = replace(histories, links=held)
     return Recorded(assembly, histories, measures, model, provenance, followed=True)
 
 

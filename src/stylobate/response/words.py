@@ -22,10 +22,10 @@ def title_of(response: Recorded) -> str:
 
 def sentence_of(response: Recorded) -> str:
     """What happened, in one to three sentences."""
-    if response.measures.blocks is not None:
-        return _of_blocks(response)
     m = response.measures
     links = sentence_of_links(m.links)
+    if m.blocks is not None:
+        return f"{_of_blocks(response)} {links if m.outcome is not Outcome.FAILED else ''}".rstrip()
     if m.collapsed:
         return f"{_of_collapse(response)} {links}".rstrip()
     words = [m.outcome.sentence_of(len(response.bodies.names)), *([links] if links else [])]

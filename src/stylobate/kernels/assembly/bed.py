@@ -22,7 +22,7 @@ def place(b, corner, x, z):
 
 
 @kernel
-def bed_forces(body, corner, joint, now, pairs, link, law, memory, real, whole):
+def bed_forces(body, corner, joint, now, pairs, joined, law, memory, real, whole):
     """Forces of the bed at t_n between all pairs that may touch, where no joint acts alone."""
     o = now[0]
     dt = o.last
@@ -32,7 +32,7 @@ def bed_forces(body, corner, joint, now, pairs, link, law, memory, real, whole):
     for k in range(o.pairs):
         i = pairs[k, 0]
         h = pairs[k, 1]
-        j = link[i, h]
+        j = joined[i, h]
         share = 1.0
         if j >= 0 and joint[j].live != 0:
             share = 1.0 - joint[j].weight

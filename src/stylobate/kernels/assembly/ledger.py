@@ -8,10 +8,11 @@ import math
 from ..jit import strict
 from . import narrow_phase as near
 from .bed import place
+from .links import add_to_ledger
 
 
 @strict
-def ledger(body, corner, joint, now, pairs, link, law, memory, real, whole, gx, gz, out):
+def ledger(body, corner, joint, now, pairs, joined, links, law, memory, real, whole, gx, gz, out):
     """Ledger at t_n, after the forces there: input, kinetic, gravitational, elastic, friction, viscous [J].
 
     Velocities are brought to the whole step; middle three absolute (as ``ledger`` of the lanes).
@@ -44,7 +45,7 @@ def ledger(body, corner, joint, now, pairs, link, law, memory, real, whole, gx, 
     for k in range(o.pairs):
         i = pairs[k, 0]
         h = pairs[k, 1]
-        j = link[i, h]
+        j = joined[i, h]
         share = 1.0 - joint[j].weight if j >= 0 and joint[j].live != 0 else 1.0
         if share == 0.0:
             continue
@@ -67,3 +68,4 @@ def ledger(body, corner, joint, now, pairs, link, law, memory, real, whole, gx, 
     out[3] = elastic + stored
     out[4] = o.shear - stored
     out[5] = o.visc
+    add_to_ledger(links, out)

@@ -23,8 +23,9 @@ Legend (positions at t_n, velocities at t_{n−1/2})::
                 from_c to_c     cosines of the relative rotations from which the bed acts too, and alone
                 weight          1 joint, 0 bed, between them both                               [-]
                 live            0: the faces have parted for good
-    pairs       bodies that may touch; link[a, b] their joint or −1
+    pairs       bodies that may touch; joined[a, b] their joint or −1
     law[a, b]   bed of a pair, a < b: k_n, k_s [N/m³], tan φ [-]
+    links       what links two bodies each (``links.py``); none in most assemblies
     memory[a, b]   shear force of their bed, its normal and tangential dashpot forces [N]
     now         dt last         step, and the last one taken [s]: while bodies may strike each other, or a joint hands
                                 over (``loose`` > 0), or joints are dull, a step is taken in ``finer`` equal parts
@@ -50,6 +51,7 @@ from . import narrow_phase as near
 from .bed import bed_forces, place
 from .broad_phase import make_boxes, sweep
 from .joints import face, handover, joint_forces
+from .links import link_forces, look_at_links
 
 MOST = near.MOST
 
@@ -138,7 +140,7 @@ def renew_pairs(body, corner, now, box, order, pairs):
 
 
 @kernel
-def may_come_loose(body, corner, joint, now, box, order, pairs, link, real, time):
+def may_come_loose(body, corner, joint, now, box, order, pairs, joined, real, time):
     """Whether bodies that are not joined may touch, or a joint may hand over, within a time at twice today's speeds."""
     o = now[0]
     fastest = 0.0
@@ -151,7 +153,7 @@ def may_come_loose(body, corner, joint, now, box, order, pairs, link, real, time
     o.skin = keep
     xa, za, xb, zb, _, _, _, _ = real
     for k in range(o.pairs):
-        if link[pairs[k, 0], pairs[k, 1]] < 0:
+        if joined[pairs[k, 0], pairs[k, 1]] < 0:
             a = body[pairs[k, 0]]
             b = body[pairs[k, 1]]
             na = place(a, corner, xa, za)
@@ -222,7 +224,8 @@ def advance(
     box,
     order,
     pairs,
-    link,
+    joined,
+    links,
     law,
     memory,
     real,
@@ -255,13 +258,17 @@ def advance(
             dz = (ground[k + 1, 1] - z0) / parts
             for q in range(parts):
                 joint_forces(body, joint, now)
-                bed_forces(body, corner, joint, now, pairs, link, law, memory, real, whole)
+                if links.shape[0] > 0:
+                    link_forces(body, links, o.last)
+                bed_forces(body, corner, joint, now, pairs, joined, law, memory, real, whole)
                 farthest = move(body, now, x0 + q * dx, z0 + q * dz, x0 + (q + 1) * dx, z0 + (q + 1) * dz, o.dt / parts)
                 if farthest > 0.5 * o.skin:
                     renew_pairs(body, corner, now, box, order, pairs)
             o.step += 1
         if drum.shape[0] > 0:
             look(body, now, drum, stack_joint, lane, feed, watch)
+        if links.shape[0] > 0:
+            look_at_links(links, o.step)
         settle_lengths(body, now)
         if o.failed != 0:
             break

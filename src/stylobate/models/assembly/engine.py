@@ -8,18 +8,20 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...column.assembly import Assembly, Block, smallest_turn
-from ...column.joint import Joint
+from ...column.assembly import Assembly
 from ...errors import OutOfRangeWarning
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ..drums.joints import contact_points
+from ..drums.links import link_snapshot, with_links
 from ..drums.packing import whole_steps
 from ..shared.ground import along_base
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.stable_step import highest_frequency
 from ..shared.stable_step import stable_step as stable
+from .links import acting, link_records, link_stiffness
+from .packing import bed_laws, fill_body, fill_joint, no_column
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
 CALM = 0.02
@@ -33,9 +35,6 @@ RESTITUTION_TO_REST = 0.3
 
 #: Time after the motion at which a run that waits for rest is given up [s].
 LONGEST_WAIT = 60.0
-
-#: Relative rotation from which a joint's faces are a bed like all others [rad].
-LAST_ROTATION = math.radians(50.0)
 
 #: Bodies that enter each other by more than this share of the thinnest block are too soft.
 DEEPEST = 0.2
@@ -88,21 +87,25 @@ class Engine:
     def __init__(
         self, assembly: Assembly, contacts: Contacts, motion: Motion, duration: float, restitution: float = 1.0
     ) -> None:
+        from ...kernels.assembly import links as ties
         from ...kernels.assembly import step as kernel
 
-        self.kernel, self.assembly, self.motion = kernel, assembly, motion
+        self.kernel, self.ties, self.assembly, self.motion = kernel, ties, assembly, motion
         bodies = assembly.bodies
         types = kernel.types(contacts.points)
         self.body = np.zeros(len(bodies), types[0])
         self.joint = np.zeros(len(assembly.joints), types[1])
         self.now = np.zeros(1, types[2])
-        self.corner = np.concatenate([_fill_body(self.body[i], block, assembly) for i, block in enumerate(bodies)])
+        self.corner = np.concatenate([fill_body(self.body[i], block, assembly) for i, block in enumerate(bodies)])
         first = np.cumsum([0] + [len(block.vertices) for block in bodies])
         self.body["first"], self.body["count"] = first[:-1], np.diff(first)
-        self.link = np.full((len(bodies), len(bodies)), -1, dtype=np.int64)
+        self.joined = np.full((len(bodies), len(bodies)), -1, dtype=np.int64)
         for j, (lower, upper, low_face, up_face, law) in enumerate(assembly.joints):
-            self.link[lower, upper] = j
-            _fill_joint(self.joint[j], bodies, self.body, lower, upper, low_face, up_face, law)
+            self.joined[lower, upper] = j
+            fill_joint(self.joint[j], bodies, self.body, lower, upper, low_face, up_face, law)
+        self.links = link_records(assembly, ties)
+        self.clearance = np.array([one.clearance for one in acting(assembly)])
+        self.begin_links()
         xi, share = contact_points("rectangular", contacts.points)
         now = self.now
         now["xi"], now["sh"] = xi, share
@@ -120,12 +123,12 @@ class Engine:
         self.box = np.zeros((len(bodies), 4))
         self.order = np.arange(len(bodies))
         self.pairs = np.zeros((len(bodies) * (len(bodies) - 1) // 2 + 1, 2), dtype=np.int64)
-        self.law = _bed_laws(assembly)
+        self.law = bed_laws(assembly)
         self.memory = np.zeros((len(bodies), len(bodies), 3))
         self.real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         self.whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
         self.ground = np.zeros((CHUNK + 1, 2))
-        self.stack: tuple[np.ndarray, ...] = _no_column()
+        self.stack: tuple[np.ndarray, ...] = no_column()
         self.dt = 0.0
         self.stood_at, self.stood_since = np.full((3, len(bodies)), np.inf), 0.0
         self.duration = duration
@@ -142,6 +145,11 @@ class Engine:
         self.renew_pairs()
         self._push()
 
+    def begin_links(self) -> None:
+        """Let the links be free of force where the bodies are now, but for their pretension."""
+        if len(self.links):
+            self.ties.begin(self.body, self.links, self.clearance)
+
     def renew_pairs(self) -> None:
         """Search anew for pairs that may touch."""
         self.kernel.renew_pairs(self.body, self.corner, self.now, self.box, self.order, self.pairs)
@@ -149,7 +157,7 @@ class Engine:
     def may_come_loose(self, time: float) -> bool:
         """Whether bodies that are not joined may touch, or a joint may hand over, within a time [s]."""
         return bool(self.kernel.may_come_loose(self.body, self.corner, self.joint, self.now, self.box, self.order,
-                                               self.pairs, self.link, self.real, time))  # fmt: skip
+                                               self.pairs, self.joined, self.real, time))  # fmt: skip
 
     def ground_acceleration(self, time: float) -> tuple[float, float]:
         """Acceleration of the base along and normal to it at a time [m/s²]."""
@@ -171,8 +179,8 @@ class Engine:
         piece = longest_piece(self.cost, CHUNK)
         for left in range(chunks, 0, -piece):
             self.kernel.advance(
-                self.body, self.corner, self.joint, self.now, self.box, self.order, self.pairs, self.link, self.law,
-                self.memory, self.real, self.whole, self.addresses, self.ground, self.motion.factor,
+                self.body, self.corner, self.joint, self.now, self.box, self.order, self.pairs, self.joined, self.links,
+                self.law, self.memory, self.real, self.whole, self.addresses, self.ground, self.motion.factor,
                 self.dt / self.motion.dt, self.stack, min(left, piece),
             )  # fmt: skip
 
@@ -200,25 +208,29 @@ class Engine:
             self.stood_at, self.stood_since = here, self.time
         return self.time - self.stood_since > REST_TIME
 
-    def present(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-        """Bodies, joints, scalars and memory with the forces at the present positions, on a copy."""
+    def present(self) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Bodies, joints, scalars, memory and links with the forces at the present positions, on a copy."""
         body, joint, now, memory = self.body.copy(), self.joint.copy(), self.now.copy(), self.memory.copy()
+        links = self.links.copy()
         self.kernel.joint_forces(body, joint, now)
+        if len(links):
+            self.ties.link_forces(body, links, float(now["last"][0]))
         self.kernel.bed_forces(
-            body, self.corner, joint, now, self.pairs, self.link, self.law, memory, self.real, self.whole
+            body, self.corner, joint, now, self.pairs, self.joined, self.law, memory, self.real, self.whole
         )
-        return body, joint, now, memory
+        return body, joint, now, memory, links
 
     def energies(self) -> np.ndarray:
         """Ledger now: input, kinetic, gravitational, elastic, friction, viscous; the middle three absolute [J]."""
         from ...kernels.assembly.ledger import ledger
 
-        body, joint, now, memory = self.present()
+        body, joint, now, memory, links = self.present()
         gx, gz = self.ground_acceleration(self.time)
         out = np.empty(6)
         ledger(
-            body, self.corner, joint, now, self.pairs, self.link, self.law, memory, self.real, self.whole, gx, gz, out
-        )
+            body, self.corner, joint, now, self.pairs, self.joined, links, self.law, memory, self.real, self.whole,
+            gx, gz, out,
+        )  # fmt: skip
         return out
 
     def residual_acceleration(self) -> float:
@@ -244,7 +256,7 @@ class Engine:
         still = self.addresses
         self.addresses = np.zeros_like(still)
         rests = settled(
-            self.advance, self.residual_acceleration, SETTLED, SETTLE_STEPS // CHUNK,
+            self._relax, self.residual_acceleration, SETTLED, SETTLE_STEPS // CHUNK,
             lost=lambda: self._farthest_from(drawn[0]) > AS_DRAWN or self.failed,
         )  # fmt: skip
         self.addresses = still
@@ -255,8 +267,13 @@ class Engine:
             for array, before in zip(arrays, drawn, strict=True):
                 array[...] = before
             self.renew_pairs()
+            self.begin_links()
         self._push()
         return rests
+
+    def _relax(self, chunks: int) -> None:
+        self.advance(chunks)
+        self.begin_links()
 
     def _farthest_from(self, before: np.ndarray) -> float:
         """Way of the farthest corner from other poses, as a share of the smallest block [-]."""
@@ -286,7 +303,8 @@ class Engine:
     def state(self) -> dict[str, Any]:
         """What a history keeps of the present state."""
         b = self.body
-        return {
+        held = {"links": link_snapshot(self.links, 0)} if len(self.links) else {}
+        return held | {
             "time": self.time,
             "x": b["x"].copy(),
             "z": b["z"].copy(),
@@ -323,70 +341,5 @@ def stable_step(engine: Engine) -> float:
             side = np.roll(block.corners, -1, axis=0) - block.corners
             k = float(engine.law[:, :, 0].max()) * b["depth"] * float(np.hypot(side[:, 0], side[:, 1]).max())
             omega = max(omega, 0.4 * math.sqrt(4.0 * k * (b["im"] + b["ii"] * b["r"] ** 2 / 3.0)))
-    return stable(omega, float(now["beta"]))
-
-
-def _fill_body(record: Any, block: Block, assembly: Assembly) -> np.ndarray:
-    mass, inertia = block.properties[:2]
-    x, z = block.origin
-    local = block.corners - (x, z)
-    record["x"], record["z"], record["c"], record["depth"] = x, z, 1.0, block.depth
-    if not block.fixed:
-        record["m"], record["i"], record["im"], record["ii"] = mass, inertia, 1.0 / mass, 1.0 / inertia
-    else:
-        record["depth"] = 1e9  # a contact is as deep as the moving body
-    record["r"] = float(np.hypot(local[:, 0], local[:, 1]).max())
-    return local
-
-
-def _fill_joint(
-    e: Any, bodies: tuple[Block, ...], body: np.ndarray, lower: int, upper: int, low_face: int, up_face: int, law: Joint
-) -> None:
-    # the lower body's face runs against its own direction, the upper one's along: both left to right, normal upward
-    right, left = bodies[lower].corners[low_face], np.roll(bodies[lower].corners, -1, axis=0)[low_face]
-    t = (right - left) / math.hypot(*(right - left))
-    foot = left - (body["x"][lower], body["z"][lower])
-    e["lower"], e["upper"], e["live"], e["weight"] = lower, upper, 1, 1.0
-    e["lc"], e["ls"] = t
-    e["ht"] = float(foot[1] * t[0] - foot[0] * t[1])
-    e["wl"] = -float(foot @ t)
-    e["wr"] = math.hypot(*(right - left)) - e["wl"]
-    left, right = bodies[upper].corners[up_face], np.roll(bodies[upper].corners, -1, axis=0)[up_face]
-    t = (right - left) / math.hypot(*(right - left))
-    foot = left - (body["x"][upper], body["z"][upper])
-    e["uc"], e["us"] = t
-    e["hb"] = -float(foot[1] * t[0] - foot[0] * t[1])
-    e["bl"] = -float(foot @ t)
-    e["br"] = math.hypot(*(right - left)) - e["bl"]
-    depth = min(body["depth"][lower], body["depth"][upper])
-    e["kn"], e["ks"], e["co"] = law.normal_stiffness * depth, law.shear_stiffness * depth, law.cohesion * depth
-    e["mu"] = law.tan_phi
-    # the next faces come down on each other where the joint has turned as far as the outlines do at its ends
-    last = min(LAST_ROTATION, 0.9 * smallest_turn(bodies[lower].corners, low_face, bodies[upper].corners, up_face))
-    e["from_c"], e["to_c"] = math.cos(0.7 * last), math.cos(last)
-    e["width"] = min(e["wl"] + e["wr"], e["bl"] + e["br"])
-
-
-def _bed_laws(assembly: Assembly) -> np.ndarray:
-    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first."""
-    bodies = assembly.bodies
-    names = {block.name: i for i, block in enumerate(bodies)}
-    laws = np.empty((len(bodies), len(bodies), 3))
-
-    def numbers(law: Joint) -> tuple[float, float, float]:
-        return law.normal_stiffness, law.shear_stiffness, law.tan_phi
-
-    for i, block in enumerate(bodies):
-        laws[:, i] = numbers(block.surface or assembly.joint)
-    for one, other, law in assembly.overrides:
-        if one in names and other in names:
-            i, h = sorted((names[one], names[other]))
-            laws[i, h] = numbers(law)
-    return laws
-
-
-def _no_column() -> tuple[np.ndarray, ...]:
-    from ...kernels.drums import lanes
-
-    types = lanes.block_types(2, False)
-    return tuple(np.zeros(0, types[k]) for k in (0, 1, 2, 4, 5))
+    inverse = np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel()
+    return stable(*with_links(link_stiffness(engine.assembly, inverse), omega, float(now["beta"])))

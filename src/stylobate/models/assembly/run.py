@@ -16,10 +16,12 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, recorded_blocks
 from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
+from ..drums.links import link_histories, link_measures
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step
 from .engine import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine, stable_step
+from .links import acting
 
 
 @dataclass(frozen=True)
@@ -91,7 +93,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
         warnings.warn(said, OutOfRangeWarning, stacklevel=3)
     start = engine.energies()
     states, still = follow(engine, options)
-    stack = {key: np.array([state[key] for state in states]) for key in states[0]}
+    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = ledger.imbalance(
         ledger.unaccounted(change[-1]), work=float(np.abs(change[:, 0]).max()), start=float(start[3]), barrier=0.0,
@@ -115,6 +117,8 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
         steps=int(engine.now["step"][0]),
         model=numbers.name,
         touched=touched,
+        links=link_measures(acting(assembly), engine.links, 0, engine.dt),
+        held=link_histories(states),
         provenance={
             "restitution": restitution,
             "joints": len(assembly.joints),

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.assembly import of_column
+from ...column.as_blocks import of_column
 from ...column.found_geometry import drum_outline
 from ...kernels.run_codes import CHUNK, ENDED, RUNNING
 from ...motion import Motion

@@ -21,7 +21,7 @@ from ..assembly.run import measures_of_assemblies
 from ..base import Case, RunOptions
 from ..drums.block import DrumBlock
 from ..drums.joints import contact_points, joint_stiffnesses
-from ..drums.links import kind_of, plane_links, with_links
+from ..drums.links import kind_of, link_stiffness, plane_links, with_links
 from ..drums.packing import PackedColumn, drum_fields, lane_fields
 from ..drums.stepped import SteppedDrums
 from ..shared import stable_step as shared
@@ -267,5 +267,5 @@ def _stable_step(column: Column, model: DistinctElement2D) -> float:
             stiffness += kn[j] * area * np.outer(normal, normal) + ks[j] * area * np.outer(shear, shear)
     inverse = 1.0 / np.stack((column.masses, column.masses, column.inertias), axis=1).ravel()
     return shared.stable_step(
-        *with_links(column, shared.highest_frequency(stiffness, inverse), model.stiffness_damping)
+        *with_links(link_stiffness(column), shared.highest_frequency(stiffness, inverse), model.stiffness_damping)
     )

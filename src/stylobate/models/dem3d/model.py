@@ -18,7 +18,7 @@ from ...motion import Motion
 from ...response import Histories, Response
 from ..base import Model, RunOptions
 from ..drums.joints import joint_stiffnesses
-from ..drums.links import kind_of, space_links, with_links
+from ..drums.links import kind_of, link_stiffness, space_links, with_links
 from ..drums.packing import PackedColumn
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
@@ -277,4 +277,6 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
 def _stable_step(column: Column, model: DistinctElement3D) -> float:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     share = (LAWS[model.law] if column.section == "circular" else CORNER_LAW)[1]
-    return stable_step(*with_links(column, highest_frequency(column, kn, ks, share), model.damping(column)))
+    return stable_step(
+        *with_links(link_stiffness(column), highest_frequency(column, kn, ks, share), model.damping(column))
+    )

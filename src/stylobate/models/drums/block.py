@@ -22,7 +22,7 @@ from ..shared.ground import along_base
 from ..shared.lanes import aligned_zeros, longest_piece
 from ..start import Start, check_in_plane
 from .histories import ledger_imbalance
-from .links import held_at_start, link_measures, link_snapshot, put_links, set_free, without_tension
+from .links import acting, held_at_start, link_measures, link_snapshot, put_links, set_free, without_tension
 from .packing import PackedColumn, whole_steps
 from .pose import leans_right, placed
 from .standing import lowest_barrier, stands_for_good
@@ -337,13 +337,13 @@ class DrumBlock:
 
     def links_now(self, lane: int) -> dict[str, Any]:
         """What a snapshot keeps of the links, where there are some."""
-        return {"links": link_snapshot(self.lane, lane)} if self.tied else {}
+        return {"links": link_snapshot(self.lane[1:], lane)} if self.tied else {}
 
     def links_done(self, lane: int) -> tuple[LinkMeasures, ...]:
         """What a lane's run has come to for each link."""
         case = self.cases[lane]
         assert case is not None
-        return link_measures(case.column, self.lane, lane, float(self.dt[lane])) if self.tied else ()
+        return link_measures(acting(case.column), self.lane[1:], lane, float(self.dt[lane])) if self.tied else ()
 
     def held_by_links(self, lane: int) -> float:
         """Energy of pretension at the start, in links and in the joints that they press, which may be set free [J]."""

@@ -55,40 +55,17 @@ def pack_links(column: Column, joint: np.ndarray, line: np.ndarray, ends: np.nda
     if not links:
         return None
 
-    def of(name: str) -> np.ndarray:
-        return np.array([getattr(one, name) for one in links], dtype=float)
-
-    straight, stiffness, axial = np.array([one.straight for one in links]), of("shear_stiffness"), of("axial_stiffness")
-    with np.errstate(divide="ignore", invalid="ignore"):
-        yields = np.where(stiffness > 0.0, of("shear_capacity") / stiffness, math.inf)
-        stretch = np.where(axial > 0.0, of("pretension") / axial, 0.0)
-    failure, start = [one.failure for one in links], np.where(straight, line, joint[:, 2])
-    count = len(links)
+    count, shared = len(links), law_fields(links)
+    axial, pretension = shared["mka"], np.array([one.pretension for one in links])
+    stretch = np.where(axial > 0.0, pretension / np.where(axial > 0.0, axial, 1.0), 0.0)
+    start = np.where(shared["mline"] > 0, line, joint[:, 2])
     none = dict.fromkeys(OWN.split(), np.zeros(count))
-    shared = {
-        "mlow": np.array([one.lower for one in links]),
-        "mup": np.array([one.upper for one in links]),
-        "mline": straight.astype(int),
-        "mten": ((axial > 0.0) & ~straight).astype(int),
-        "mnear": np.ones(count, dtype=int),
-        "mks": stiffness,
-        "my": yields,
-        "mcr": np.array([float(one == "crushing") for one in failure]),
-        "mbr": np.array([float(one == "brittle") for one in failure]),
-        "mdeep": of("lift"),
-        "mreach": of("reach"),
-        "mus": of("ultimate_slip"),
-        "mc": of("damping"),
-    }
     own = none | {
-        "mka": axial,
-        "mfa": of("axial_capacity"),
-        "mua": of("ultimate_elongation"),
-        "mgap": of("clearance"),
+        **{name: shared.pop(name) for name in ("mka", "mfa", "mua", "mgap")},
         "mh": start,
         "ml0": start - stretch,
         "mon": np.ones(count),
-        "mft": of("pretension"),
+        "mft": pretension,
         "msx": joint[:, 0],
         "msy": joint[:, 1],
         "mpx": joint[:, 0],
@@ -98,6 +75,41 @@ def pack_links(column: Column, joint: np.ndarray, line: np.ndarray, ends: np.nda
     }
     own |= {f"m{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
     return PackedLinks(shared, own)
+
+
+def law_fields(links: Sequence[LinkProperties]) -> dict[str, np.ndarray]:
+    """Whom each link holds and by which numbers, as the fields of its record, each of shape (m,)."""
+
+    def of(name: str) -> np.ndarray:
+        return np.array([getattr(one, name) for one in links], dtype=float)
+
+    straight, stiffness, axial = np.array([one.straight for one in links]), of("shear_stiffness"), of("axial_stiffness")
+    failure = [one.failure for one in links]
+    return {
+        "mlow": np.array([one.lower for one in links]),
+        "mup": np.array([one.upper for one in links]),
+        "mline": straight.astype(int),
+        "mten": ((axial > 0.0) & ~straight).astype(int),
+        "mnear": np.ones(len(links), dtype=int),
+        "mks": stiffness,
+        "my": slip_at(of("shear_capacity"), stiffness),
+        "mcr": np.array([float(one == "crushing") for one in failure]),
+        "mbr": np.array([float(one == "brittle") for one in failure]),
+        "mdeep": of("lift"),
+        "mreach": of("reach"),
+        "mus": of("ultimate_slip"),
+        "mc": of("damping"),
+        "mka": axial,
+        "mfa": of("axial_capacity"),
+        "mua": of("ultimate_elongation"),
+        "mgap": of("clearance"),
+    }
+
+
+def slip_at(capacity: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
+    """Slip at which springs of these stiffnesses [N/m] reach these capacities [N]; infinite of those without stiffness."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(stiffness > 0.0, capacity / stiffness, math.inf)
 
 
 def plane_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | None:
@@ -215,9 +227,8 @@ def _square(column: Column, link: LinkProperties, way: np.ndarray) -> np.ndarray
     return np.outer(row, row)
 
 
-def with_links(column: Column, omega: float, stiffness_damping: float) -> tuple[float, float]:
+def with_links(added: LinkStiffness, omega: float, stiffness_damping: float) -> tuple[float, float]:
     """Highest circular frequency [rad/s] and stiffness damping [s] of closed joints and links together, at most."""
-    added = link_stiffness(column)
     if added == LinkStiffness(0.0, 0.0):
         return omega, stiffness_damping
     whole = math.hypot(omega, added.frequency)
@@ -260,15 +271,14 @@ def set_free(column: Column, records: np.ndarray, lane: int, pressed: float) -> 
 
 def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
     """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
-    one = records[1:]
-    shear = np.hypot(one["mfx"][:, lane], one["mfy"][:, lane])
-    return np.stack((shear, *(one[name][:, lane] for name in ("mft", "mslip", "mlong"))))
+    shear = np.hypot(records["mfx"][:, lane], records["mfy"][:, lane])
+    return np.stack((shear, *(records[name][:, lane] for name in ("mft", "mslip", "mlong"))))
 
 
-def link_measures(column: Column, records: np.ndarray, lane: int, step: float) -> tuple[LinkMeasures, ...]:
-    """What a run has come to for each link that acts; ``step`` is that of time [s]."""
-    one, found = records[1:], []
-    for m, link in enumerate(acting(column)):
+def link_measures(links: Sequence[LinkProperties], one: np.ndarray, lane: int, step: float) -> tuple[LinkMeasures, ...]:
+    """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
+    found = []
+    for m, link in enumerate(links):
         when = int(one["mwhen"][m, lane])
         shear, pull, far, most = (float(one[name][m, lane]) for name in ("mpeak", "mpull", "mfar", "mmost"))
         found.append(
@@ -280,8 +290,14 @@ def link_measures(column: Column, records: np.ndarray, lane: int, step: float) -
     return tuple(found)
 
 
+def link_histories(states: Sequence[dict[str, Any]]) -> LinkHistories | None:
+    """Histories of the links, where the states of a run hold them."""
+    if "links" not in states[0]:
+        return None
+    return LinkHistories(*np.array([state["links"] for state in states]).transpose(1, 0, 2))
+
+
 def with_link_histories(found: Histories, states: Sequence[dict[str, Any]]) -> Histories:
     """Histories with those of the links, where the states of a run hold them."""
-    if "links" not in states[0]:
-        return found
-    return replace(found, links=LinkHistories(*np.array([state["links"] for state in states]).transpose(1, 0, 2)))
+    held = link_histories(states)
+    return found if held is None else replace(found, links=held)
