@@ -85,12 +85,13 @@ def test_the_ledger_closes_with_every_kind_of_link(kind, tmp_path) -> None:
 
 
 def test_links_without_stiffness_are_none_to_the_bit() -> None:
-    nothing = (block_link(**(CLAMP | {"axial_stiffness": 0.0, "shear_stiffness": 0.0})),)
+    idle: dict[str, Any] = {**CLAMP, "axial_stiffness": 0.0, "shear_stiffness": 0.0}
+    nothing = (block_link(**idle),)
     motion = st.harmonic(frequency=2.0, amplitude=4.5, duration=0.3)
-    bare, idle = (simulate_assembly(dataclasses.replace(PORTAL, links=links), motion) for links in ((), nothing))
-    assert np.array_equal(bare.x, idle.x)
-    assert np.array_equal(bare.rotation, idle.rotation)
-    assert bare.measures == idle.measures
+    bare, other = (simulate_assembly(dataclasses.replace(PORTAL, links=links), motion) for links in ((), nothing))
+    assert np.array_equal(bare.x, other.x)
+    assert np.array_equal(bare.rotation, other.rotation)
+    assert bare.measures == other.measures
     assert "links" not in PORTAL.to_dict()
 
 
