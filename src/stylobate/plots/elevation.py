@@ -77,7 +77,8 @@ def draw_elevation(structure: Column | Assembly, title: str | None = None, *, ax
     if slope:
         found = structure.as_found
         side = "the right" if slope > 0.0 else "the left"
-        words = f"base rises by {abs(found.base_tilt):g}° to {side if found.in_plane else f'{found.base_azimuth:g}°'}"
+        to = side if found.base_azimuth in (0.0, 180.0) else f"{found.base_azimuth:g}°"
+        words = f"base rises by {abs(found.base_tilt):g}° to {to}"
         axes.annotate(words, (low[0], sheet.up(low[1], -40.0)), color=RED, fontsize=WORDS, ha="left")
     if title:
         axes.set_title(title)
