@@ -22,18 +22,18 @@ from pathlib import Path
 
 from .target import Fault, Target, Tried
 
-#: The command line, and a note of each run that it has finished.
+#: The command line, and a note of each run that it has finished, before it is kept.
 SCRIPT = """
 import os, sys, time
 from stylobate.cli import signals
 signals.listen()
 import stylobate.campaign.ledger as ledger
+import stylobate.analysis.replicates, stylobate.campaign.runner
 notes, record = os.open(sys.argv.pop(1), os.O_WRONLY | os.O_APPEND | os.O_CREAT), ledger.Ledger.record
 def noted(self, number, row):
-    record(self, number, row)
     os.write(notes, f"{time.time()} {number} {os.path.abspath(self.path)}\\n".encode())
+    record(self, number, row)
 ledger.Ledger.record = noted
-import stylobate.analysis.replicates, stylobate.campaign.runner
 if "reproduce" in sys.argv:
     import tiny_study
     tiny_study.play()

@@ -1,7 +1,8 @@
 """A study of five thousand runs, killed at random times with its Dask workers: in the end its table is that of no kill.
 
-A try kills twice, the program or one of its workers, then lets the study end. At most a second of finished runs may be lost
-at each kill, nothing that is in the ledger is run again, the table must be the same to the bit, and no worker left over.
+A try kills twice, the program or one of its workers (the program goes on with others), then lets the study end. At most a
+second of finished runs may be lost at each kill, nothing that is in the ledger is run again, the table must be the same to
+the bit, and no worker left over.
 """
 
 from __future__ import annotations
@@ -67,19 +68,20 @@ def one(rng: random.Random, folder: Path) -> Tried:
     [whole] = _whole
     options = rng.choice([[], ["--dask", "local"]])
     what, took, gone, at = [], [], [], []
+    process = None
     for _ in range(2):
-        began = time.time()
-        process = start(line(folder, options), folder)
-        while process.poll() is None and not listens(folder / "notes", began):
-            time.sleep(0.01)
+        if process is None:
+            began = time.time()
+            process = start(line(folder, options), folder)
+            while process.poll() is None and not listens(folder / "notes", began):
+                time.sleep(0.01)
         wait(process, folder, rng)
         at.append(finished_runs_in(folder / "out" / RUNS_FILE))
         workers = of_cluster(process.pid) if options else []
-        if workers and rng.random() < 0.5:  # the program goes on with another one
+        if workers and process.poll() is None and rng.random() < 0.5:  # the program goes on with another one
             with suppress(ProcessLookupError):
                 os.kill(rng.choice(workers), signal.SIGKILL)
             what.append("worker")
-            end(process)
             continue
         number = rng.choice([signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
         what.append(number.name)
@@ -87,7 +89,8 @@ def one(rng: random.Random, folder: Path) -> Tried:
         took += kill(process, number, "study")
         gone.append(float(lost(folder / "notes", sent)))
         ended(workers)
-    end(start(line(folder, options), folder))
+        process = None
+    end(process or start(line(folder, options), folder))
     out = folder / "out"
     runs = made(folder)
     if len(runs) != CASES or set(runs) != kept(folder):
@@ -96,7 +99,10 @@ def one(rng: random.Random, folder: Path) -> Tried:
         raise Fault(f"another table after {what}")
     if left := [path.name for path in out.glob(".*") if path.name != ".stylobate-files"]:
         raise Fault(f"{left} were left over after {what}")
-    numbers = {"answers to a signal [s]": took, "lost runs": gone, "runs at a kill": [float(one) for one in at]}
+    numbers: dict[str, list[float]] = {"answers to a signal [s]": took, "lost runs": gone}
+    numbers["runs at a kill on the way"] = [float(one) for one in at if 0 < one < CASES]
+    for kind in what:
+        numbers.setdefault(f"kills by {kind}" if kind != "worker" else "kills of a worker", []).append(1.0)
     return Tried(f"2 kills {'of a cluster' if options else 'of threads'}", numbers=numbers)
 
 
@@ -136,11 +142,11 @@ def kept(folder: Path) -> set[int]:
 def line(folder: Path, options: list[str]) -> list[str]:
     """The command, and the files that it reads."""
     if not (folder / "study.toml").exists():
-        steps = [f"{0.01 * i:.2f},{0.4 * math.sin(0.02 * math.pi * i):.6f}" for i in range(401)]
+        steps = [f"{0.01 * i:.2f},{0.4 * math.sin(0.02 * math.pi * i):.6f}" for i in range(1601)]
         files = {"study.toml": STUDY, "column.toml": COLUMN, "wave.csv": "\n".join(["time_s,ax_g", *steps])}
         for name, text in files.items():
             (folder / name).write_text(text)
-    return ["study", "run", str(folder / "study.toml"), "--threads", "1", *options]
+    return ["study", "run", str(folder / "study.toml"), "--threads", "2" if options else "1", *options]
 
 
 def of_cluster(program: int) -> list[int]:
