@@ -210,14 +210,15 @@ class DrumBlock:
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
         left = min(self.chunks_per_call, self.piece) if chunks is None else chunks
-        running = self._running()
-        while left > 0 and self._running() == running:
+        running = np.count_nonzero(self.running())
+        while left > 0 and np.count_nonzero(self.running()) == running:
             count = min(left, self.piece)
             self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
             left -= count
 
-    def _running(self) -> int:
-        return int(np.count_nonzero(self.watch["status"][0] == RUNNING))
+    def running(self) -> np.ndarray:
+        """Which lanes' runs go on, shape (lanes,)."""
+        return self.watch["status"][0] == RUNNING
 
     def follow(self, chunks: int, between: Callable[[], None]) -> None:
         """Advance the run in the first lane by some chunks, or to its end, however often others end on the way.

@@ -44,6 +44,14 @@ class LaneBlock(Protocol):
         ...
 
 
+class WatchedBlock(LaneBlock, Protocol):
+    """A block that tells of all lanes at a time whether their runs go on."""
+
+    def running(self) -> np.ndarray:
+        """Which lanes' runs go on, shape (lanes,)."""
+        ...
+
+
 #: Samples of a motion that a fixed step of the rocking models may pass over.
 MOST_SAMPLES = 4
 
@@ -193,28 +201,30 @@ class Riders:
 
     Parameters
     ----------
-    block : LaneBlock
+    block : WatchedBlock
     cases : sequence of Case
         Not more than there are lanes besides the first.
     """
 
-    def __init__(self, block: LaneBlock, cases: Sequence[Case]) -> None:
+    def __init__(self, block: WatchedBlock, cases: Sequence[Case]) -> None:
         self.block, self.number = block, len(cases)
+        self._riding = np.zeros(block.lanes, dtype=bool)  # lanes with a case that has not been collected
+        self._riding[1 : 1 + len(cases)] = True
         self.found: dict[int, Measures] = {}
         for lane, case in enumerate(cases, 1):
             try:
                 block.load(lane, case)
             except NOT_COMPUTED as error:
-                self.found[lane] = not_computed(error)
+                self._keep(lane, not_computed(error))
 
     def collect(self) -> None:
         """Take the measures of those that have ended."""
-        for lane in range(1, 1 + self.number):
-            if lane not in self.found and self.block.is_over(lane):
+        for lane in np.flatnonzero(self._riding & ~self.block.running()).tolist():
+            if self.block.is_over(lane):
                 try:
-                    self.found[lane] = self.block.collect(lane)
+                    self._keep(lane, self.block.collect(lane))
                 except NOT_COMPUTED as error:
-                    self.found[lane] = not_computed(error)
+                    self._keep(lane, not_computed(error))
 
     def measures(self) -> tuple[Measures, ...]:
         """Bring all of them to their ends; what each comes down to."""
@@ -222,6 +232,10 @@ class Riders:
             self.block.advance()
             self.collect()
         return tuple(self.found[lane] for lane in sorted(self.found))
+
+    def _keep(self, lane: int, measures: Measures) -> None:
+        self.found[lane] = measures
+        self._riding[lane] = False
 
 
 #: What ends one run of a batch and not the batch.
