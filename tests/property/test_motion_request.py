@@ -110,6 +110,16 @@ def test_every_record_in_every_direction_with_both_signs(record):
         st.MotionRequest(files=(record,), signs="both").motion()
 
 
+def test_a_record_has_one_size_in_all_directions(record):
+    as_recorded = st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 90.0)).expand().motions
+    found = st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 90.0), pga=0.5 * st.g).expand().motions
+    times = 0.5 * st.g / max(one.pga for one in as_recorded)
+    assert [one.factor for one in found] == pytest.approx([times * one.factor for one in as_recorded])
+    assert max(one.pga for one in found) == pytest.approx(0.5 * st.g)
+    assert min(one.pga for one in found) < 0.3 * st.g
+    assert "the strongest of these directions" in found[0].processing[-1]
+
+
 def test_all_components_and_the_strongest(record):
     first, second = st.MotionRequest(files=(record,), component="all").expand().motions
     assert (first.pga, second.pga) == pytest.approx((np.abs(WAVE).max(), 2.0 * np.abs(WAVE).max()), rel=1e-6)

@@ -60,7 +60,8 @@ class MotionRequest:
     scale : float, optional
         Multiplies every component [-].
     pga : float, optional
-        The peak along x that every component is scaled for [m/s²].
+        The peak along x that every component is scaled for [m/s²]; of several azimuths that of the strongest, and all have
+        the same factor.
     vertical : bool
         The vertical component acts.
 
@@ -248,6 +249,7 @@ class MotionRequest:
         """The motion in every direction and with every sign asked for, conditioned and scaled."""
         found = []
         for first in _as_x(motion, self.component):
+            ready = []
             for azimuth in self.azimuths or (None,):
                 one = first if azimuth is None else self._turned(first, azimuth)
                 if azimuth is not None:
@@ -255,11 +257,10 @@ class MotionRequest:
                     one = one.replace(metadata={**one.metadata, "direction": turned_to})
                 if len(self.azimuths) > 1:
                     one = one.replace(name=f"{one.name} at {azimuth:g}°")
-                found += (
-                    [self._sized(one), self._sized(_reversed(one, motion.name))]
-                    if self.signs == "both"
-                    else [self._sized(one)]
-                )
+                both = [one, _reversed(one, motion.name)] if self.signs == "both" else [one]
+                ready += [self._conditioned(each) for each in both]
+            strongest = max(ready, key=lambda one: one.pga)
+            found += [self._sized(one, strongest) for one in ready]
         return found
 
     def _turned(self, motion: Motion, azimuth: float) -> Motion:
@@ -267,16 +268,25 @@ class MotionRequest:
             motion = motion.replace(ay=np.zeros(motion.steps))
         return rotated(motion, azimuth)
 
-    def _sized(self, motion: Motion) -> Motion:
+    def _conditioned(self, motion: Motion) -> Motion:
         for step in self.condition:
             motion = conditioned(motion, step)
+        return motion
+
+    def _sized(self, motion: Motion, strongest: Motion) -> Motion:
+        """The motion as large as asked for; turned ones are that of one record, with the factor of the strongest."""
         if self.scale is not None:
             said = (*motion.processing, f"multiplied by {self.scale:g}")
             motion = motion.scaled(self.scale).replace(processing=said)
         if self.pga is not None:
-            before, motion = motion, motion.scaled_to_pga(self.pga)
-            times = motion.factor / before.factor if before.factor else 0.0
-            text = f"multiplied by {times:.4g}: scaled to a peak of {self.pga / g:g} g along x"
+            times = strongest.scaled_to_pga(self.pga).factor / strongest.factor
+            size = f"{self.pga / g:g} g"
+            text = f"multiplied by {times:.4g}: scaled to a peak of {size} along x"
+            if len(self.azimuths) > 1:
+                motion = motion.scaled(times).replace(name=f"{motion.name}, scaled to {size}")
+                text += ", that of the strongest of these directions"
+            else:
+                motion = motion.scaled_to_pga(self.pga)
             motion = motion.replace(processing=(*motion.processing, text))
         if self.scale is not None or self.pga is not None:
             warn_of_scaling(motion)
