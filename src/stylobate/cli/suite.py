@@ -26,6 +26,9 @@ SHOWN = (
     "peak_top_displacement_m",
 )
 
+#: Motions of which is told what is left out.
+MOST_LEFT_OUT = 12
+
 
 def suite(
     context: typer.Context,
@@ -132,9 +135,11 @@ def suite(
         console.print_table(rows.filter(list(SHOWN)), digits=3)
     if swept and result["worst"] is not None:
         print(f"Most harm: {result['worst']['record']}.")
-    for motion in records.motions:
-        if left_out := o.input_facts(how.taken(motion))["left_out"]:
-            print(f"left out of {motion.name}: {'; '.join(left_out)}")
+    left_out = [one for one in result["inputs"] if one["left_out"]]
+    for one in left_out[:MOST_LEFT_OUT]:
+        print(f"left out of {one['motion']}: {'; '.join(one['left_out'])}")
+    if len(left_out) > MOST_LEFT_OUT:
+        print(f"and of {len(left_out) - MOST_LEFT_OUT} more motions; --json names all of them")
     if "stepped_s" in table:
         share = table["stepped_s"].sum() / table["duration_s"].sum()
         print(f"stepped: {100 * share:.0f} % of the records, without what is quiet (--whole steps all)")
