@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+import logging
 import os
 import signal
 import sys
@@ -21,6 +22,7 @@ from stylobate.campaign.cluster import on_cluster
 from stylobate.campaign.executor import compute
 from stylobate.campaign.hand_out import HandOut
 from stylobate.campaign.runner import run_campaign
+from stylobate.campaign.stream import Stream
 from stylobate.cli.main import call
 from stylobate.models.base import Case, Cases, RunOptions
 from stylobate.motion.request import MotionRequest
@@ -63,6 +65,11 @@ def test_a_killed_worker_is_replaced_and_its_chunks_are_computed_again(cluster):
     found = run_campaign(cases, Poisonous(0.05))
     assert [row["peak_top_displacement_m"] for row in found.rows] == [1.0 + n for n in range(60)]
     assert list(cluster.run(os.getpid).values()) != [pid]
+
+
+def test_the_libraries_of_the_cluster_say_nothing_of_their_own(cluster):
+    names = ("distributed", "distributed.client", "distributed.worker", "tornado.application")
+    assert not any(logging.getLogger(name).isEnabledFor(logging.CRITICAL) for name in names)
 
 
 def test_a_case_that_kills_its_workers_is_a_run_that_failed(cluster):
@@ -138,7 +145,7 @@ class Client:
     def unsubscribe_topic(self, topic):
         self.send = None
 
-    def submit(self, task, *given, key, pure):
+    def submit(self, task, *given, key, pure, **where):
         future = SimpleNamespace(status="finished", release=lambda: None)
         if task is not results_of.__globals__["run_chunk"]:
             future.result = lambda: task(*given)
@@ -153,10 +160,8 @@ class Client:
                 self.lost -= set(chunk.numbers)
                 future.status = "cancelled"
             else:
-                found = results_of(chunk, [one.result() for one in given[1]], self.send, "here")
-                if self.twice:
-                    self.send((chunk.name, found[1]))
-                future.result = lambda: found
+                for _ in range(1 + self.twice):
+                    results_of(chunk, [one.result() for one in given[1]], self.send, "here")
             tell(future)
 
         future.add_done_callback = done
@@ -204,6 +209,126 @@ def test_chunks_are_about_as_long_as_they_should_be():
     few = Client(threads=30)
     handed_out(few, 40)
     assert len(few.chunks) >= 20  # as many workers as there are have something to do
+
+
+class Asked(Client):
+    """Its workers ask for more before they have finished."""
+
+    def __init__(self):
+        super().__init__()
+        self.where, self.waiting = [], []
+
+    def submit(self, task, *given, key, pure, **where):
+        future = super().submit(task, *given, key=key, pure=pure)
+        if hasattr(future, "add_done_callback"):
+            self.where.append(where)
+            later = future.add_done_callback
+            future.add_done_callback = lambda tell: self.waiting.append(lambda: later(tell))
+            self.send((key, f"tcp://worker-{len(self.where)}"))
+            if len(self.where) > 2:
+                self.waiting.pop(0)()
+        return future
+
+
+def test_the_worker_that_asks_gets_the_next_chunk_and_the_last_ones_are_small():
+    client = Asked()
+    cases = Cases(300, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
+    work, found = HandOut(client, cases, Poisonous(), RunOptions()), []
+    work._count_threads()
+    work._each, work._largest, work._time = 0.1, 300, lambda *_: None  # as if it had been timed
+    runs = work.results()
+    while work._next < len(cases):
+        found.append(next(runs)[0])
+    for finish in client.waiting:
+        finish()
+    found += [number for number, _ in runs]
+    assert sorted(found) == list(range(300))
+    assert client.where[:2] == [{}, {}]
+    assert client.where[2] == {"workers": ["tcp://worker-1"], "allow_other_workers": True}
+    sizes = [len(one) for one in client.chunks]
+    assert sizes == sorted(sizes, reverse=True)
+    assert sizes[0] == 75  # half of a worker's share of what is left
+    assert sizes[-1] <= 4
+
+
+@dataclasses.dataclass(frozen=True)
+class Lanes(Poisonous):
+    """Twenty runs at a time, of which the oldest ends next."""
+
+    name = "lanes"
+
+    def run_many(self, cases, options, threads):
+        coming, running = enumerate(cases), []
+        while True:
+            while len(running) < 20 and (one := next(coming, None)) is not None:
+                running.append(one)
+            if not running:
+                return
+            BESIDE.append(len(running))
+            time.sleep(self.pause)
+            index, case = running.pop(0)
+            if case.motion.factor < 0.0:
+                raise ArithmeticError("a fault")
+            for _, measures in Poisonous().run_many([case], options, 1):
+                yield index, measures
+
+
+BESIDE: list[int] = []
+
+
+def test_the_next_chunk_begins_before_the_lanes_of_the_last_one_are_empty():
+    stream, found, threads = Stream(), {}, []
+    BESIDE.clear()
+
+    def chunk(name, first):
+        numbers = list(range(first, first + 40))
+        factors = [float(number) for number in numbers]
+        return Chunk(name, law(), Lanes(0.01), RunOptions(), numbers, [COLUMN], [0] * 40, [0] * 40, factors, ["m"] * 40)
+
+    def compute_one(name, first, more):
+        motion = (MOTION.dt, MOTION.samples, None, None)
+        results_of(chunk(name, first), [motion], lambda some: take(some[1]), "here", stream, more)
+
+    def take(some):
+        if isinstance(some, bytes):
+            found.update((number, one.peak_top_displacement) for number, one in unpack(some))
+        else:
+            assert some > 0.3  # 40 cases of 0.01 s
+
+    def next_one():
+        threads.append(threading.Thread(target=compute_one, args=("b", 40, lambda: None)))
+        threads[0].start()
+
+    compute_one("a", 0, next_one)
+    threads[0].join()
+    assert found == {number: float(number) for number in range(80)}
+    assert set(BESIDE[:60]) == {20}  # no lane was empty until both chunks were in them
+    assert stream.left == 0
+
+
+def test_what_has_finished_is_sent_although_nothing_else_finishes():
+    sent = []
+    numbers, motion = [0, 1], (MOTION.dt, MOTION.samples, None, None)
+    chunk = Chunk("a", law(), Poisonous(0.45), RunOptions(), numbers, [COLUMN], [0, 0], [0, 0], [1.0, 2.0], ["m", "m"])
+    results_of(chunk, [motion], lambda some: sent.append(some[1]), "here")
+    assert [number for number, _ in unpack(sent[0])] == [0]
+    assert [number for number, _ in unpack(sent[1])] == [1]
+
+
+def test_a_fault_in_a_run_is_told_and_the_lanes_go_on():
+    stream, motion = Stream(), (MOTION.dt, MOTION.samples, None, None)
+
+    def result(factor):
+        chunk = Chunk("a", law(), Lanes(), RunOptions(), [0], [COLUMN], [0], [0], [factor], ["m"])
+        sent = []
+        results_of(chunk, [motion], lambda some: sent.append(some[1]), "here", stream)
+        return unpack(sent[0])
+
+    with pytest.raises(ArithmeticError, match="a fault"):
+        result(-1.0)
+    assert stream.left == 0
+    [(number, one)] = result(2.0)
+    assert (number, one.peak_top_displacement) == (0, 2.0)
 
 
 def test_a_worker_with_another_law_is_refused_in_a_sentence():

@@ -9,12 +9,16 @@ import shutil
 import subprocess
 import tempfile
 import time
+from collections import deque
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from ..campaign.cluster import LOCAL, on_cluster
+from ..campaign.executor import compute
 from ..column import Column, preset
 from ..constants import g
 from ..errors import StylobateError
@@ -65,14 +69,16 @@ def native_reference(source: str, folder: str | Path) -> Path | None:
 def bench(
     threads: int | None = None, *, full: bool = False, say: Callable[[str], None] = lambda _: None
 ) -> dict[str, Any]:
-    """Time the kernel, one run, threads against each other, and (``full``) the domain of 768 cells of ten seconds.
+    """Time the kernel, one run, threads against each other, and (``full``) the domain of 768 cells of ten seconds, and Dask
+    workers against threads.
 
     Parameters
     ----------
     threads : int, optional
         All cores by default.
     full : bool
-        Also the domain of the 12-drum column, 24 × 32 cells.
+        Also the domain of the 12-drum column, 24 × 32 cells, and what as many Dask workers on this machine do in the time of
+        the threads.
     say : callable
         Takes a line of progress.
 
@@ -109,7 +115,32 @@ def bench(
             out[f"domain_768_{name.removeprefix('paper-').replace('-', '_')}_s"] = _timed(
                 lambda name=name, cells=cells: simulate_many(preset(name), cells, model, threads=count)
             )
+        say(f"{count} threads against {count} Dask workers")
+        out["dask_throughput"] = _on_workers(column, model, count)
     return out
+
+
+def _on_workers(column: Column, model: SteppedDrums, count: int) -> float | None:
+    """Throughput of Dask workers on this machine over that of as many threads [-], of runs of about a tenth of a second.
+
+    Both have loaded their kernels before; None without Dask.
+    """
+    if find_spec("distributed") is None:
+        return None
+    units = [harmonic(float(f), g, 70.0) for f in np.linspace(0.6, 3.0, 6)]
+    shaking = [unit.scaled(float(a)) for unit in units for a in np.repeat(np.linspace(0.05, 0.45, 16), 4)]
+    cases = [Case(column, motion) for motion in shaking]
+
+    def finish(some: list[Case]) -> None:
+        deque(compute(some, model, threads=count), maxlen=0)
+
+    threads, workers = [], []
+    for _ in range(2):
+        threads.append(_timed(lambda: finish(cases)))
+        with on_cluster(LOCAL, count):
+            finish(cases[: 4 * count])
+            workers.append(_timed(lambda: finish(cases)))
+    return min(threads) / min(workers)
 
 
 def _kernel(model: SteppedDrums, column: Column, motion: Motion, source: str, points: int) -> dict[str, Any]:

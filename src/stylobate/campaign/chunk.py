@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pickle
+import threading
 import time
 import zlib
 from collections.abc import Callable, Sequence
@@ -17,9 +18,10 @@ from ..models.base import Case, Cases, Model, RunOptions
 from ..motion import Motion
 from ..response import Measures
 from ..version import __version__
+from .stream import Part, Stream
 
-#: A worker sends what it has finished so often [s].
-SEND_INTERVAL = 0.5
+#: A worker sends what it has finished so often, and sees so often whether its lanes run empty [s].
+SEND_INTERVAL, LOOK = 0.5, 0.05
 
 
 def law() -> tuple[str, str]:
@@ -71,18 +73,54 @@ def samples(*given: Any) -> Samples:
     return given
 
 
-def run_chunk(packed: bytes, motions: Sequence[Samples], topic: str) -> tuple[float, bytes]:
-    """Compute a chunk on a worker: how long that took [s], and the results that have not been sent yet."""
-    from distributed import get_worker
+def run_chunk(packed: bytes, motions: Sequence[Samples], topic: str) -> None:
+    """Compute a chunk on a worker.
 
-    worker = get_worker()
-    return results_of(unpack(packed), motions, lambda some: worker.log_event(topic, some), worker.address)
+    All that it comes to is sent, and nothing is returned: a result that waits on a worker would be lost with it.
+    """
+    from distributed import get_worker, secede
+
+    worker, chunk = get_worker(), unpack(packed)
+
+    def more() -> None:
+        secede()  # the worker begins what it has been sent besides
+        worker.log_event(topic, (chunk.name, worker.address))
+
+    with _FIRST:
+        streams = _STREAMS.setdefault(id(worker), [Stream() for _ in range(worker.state.nthreads)])
+    stream = min(streams, key=lambda one: one.left)
+    results_of(chunk, motions, lambda some: worker.log_event(topic, some), worker.address, stream, more)
+
+
+#: Streams of the workers in this process, one for each thread.
+_STREAMS: dict[int, list[Stream]] = {}
+_FIRST = threading.Lock()
 
 
 def results_of(
-    chunk: Chunk, motions: Sequence[Samples], send: Callable[[tuple[str, bytes]], None], where: str
-) -> tuple[float, bytes]:
-    """Compute a chunk; what has finished is sent every half a second, with the name of the chunk."""
+    chunk: Chunk,
+    motions: Sequence[Samples],
+    send: Callable[[tuple[str, Any]], object],
+    where: str,
+    stream: Stream | None = None,
+    more: Callable[[], object] = lambda: None,
+) -> None:
+    """Compute a chunk; what has finished is sent every half a second.
+
+    Parameters
+    ----------
+    chunk : Chunk
+    motions : sequence
+        Their samples.
+    send : callable
+        Takes the name of the chunk with what has finished, as bytes; in the end, with how long its cases took [s].
+    where : str
+        What the worker is called.
+    stream : Stream, optional
+        Lanes that the chunk shares with those before and behind it.
+    more : callable
+        Called once, when the lanes will soon have room for the next chunk.
+    """
     if chunk.law != law():
         raise InputError(
             f"the worker at {where} computes with stylobate {__version__} and other kernels than this one "
@@ -95,14 +133,24 @@ def results_of(
         shaking = whole[chunk.motion[index]].replace(factor=chunk.factors[index], name=chunk.names[index])
         return Case(chunk.stones[chunk.stone[index]], shaking)
 
+    stream = stream or Stream()
+    kind = pickle.dumps((chunk.model, chunk.options, sorted({type(one).__name__ for one in chunk.stones})))
+    part = Part(Cases(len(chunk.numbers), case), chunk.model, chunk.options, kind)
     started = sent = time.perf_counter()
+    before, asked = stream.finished, False
+    stream.add(part)
     ready: list[tuple[int, Measures]] = []
-    for index, measures in chunk.model.run_many(Cases(len(chunk.numbers), case), chunk.options, 1):
-        ready.append((chunk.numbers[index], measures))
-        if time.perf_counter() - sent > SEND_INTERVAL:
+    while part.left:
+        ready += [(chunk.numbers[index], measures) for index, measures in part.take(LOOK)]
+        if not asked and stream.wants_more:
+            asked = True
+            more()
+        if ready and time.perf_counter() - sent > SEND_INTERVAL:
             send((chunk.name, pack(ready)))
             ready, sent = [], time.perf_counter()
-    return time.perf_counter() - started, pack(ready)
+    each = (time.perf_counter() - started) / (stream.finished - before)  # in the meantime others have finished as well
+    send((chunk.name, pack(ready)))
+    send((chunk.name, each * len(chunk.numbers)))
 
 
 def pack(value: Any) -> bytes:

@@ -56,8 +56,9 @@ def on_cluster(
         raise InputError(
             "runs on a cluster take Dask, which is not installed; install stylobate[cluster], or leave --dask out."
         ) from None
-    for name in ("distributed", "tornado", "asyncio"):  # what goes wrong is said here, in one sentence
-        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    for name in list(logging.root.manager.loggerDict):  # what goes wrong is said here, in one sentence
+        if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     local = LocalWorkers(thread_count(workers)) if address == LOCAL else None
     try:
         client = _connect(distributed.Client, address if local is None else local.address)

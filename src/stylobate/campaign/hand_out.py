@@ -1,7 +1,7 @@
 """Cases handed out to Dask workers in chunks, and what is done when workers are lost.
 
-At the end of a chunk the lanes of its worker run empty one after the other: a chunk must fill them several times. What has
-finished is sent at once, so that a long chunk costs nothing but the computing of a lost worker.
+A worker asks for the next chunk before its lanes run empty, and gets about ten seconds' worth, less towards the end: so
+that all workers end together. What has finished is sent at once: a lost worker costs nothing but computing.
 
 The scheduler computes a lost worker's chunks again by itself. A chunk that was on too many workers when they died is cut
 into parts, down to the one case. A single case is handed out once more alone, when nothing else is under way: only what
@@ -29,18 +29,14 @@ from .digests import samples_of
 #: A client and a future of ``distributed``, whose methods are typed for coroutines as well.
 Client = Future = Any
 
-#: A chunk takes about so long [s], and is at most so many times as large as what has been timed.
-LENGTH, GROWTH = 20.0, 8
+#: A chunk takes about so long, and at least so long [s], and is at most so many times as large as what has been timed.
+LENGTH, SHORTEST, GROWTH = 10.0, 0.25, 8
 
-#: Cases of a chunk before anything has been timed, and most.
-FIRST, MOST = 128, 20_000
+#: Cases of a chunk: before anything has been timed, fewest then, fewest, and most.
+FIRST, FEWEST_UNTIMED, FEWEST, MOST = 128, 16, 4, 20_000
 
-#: Fewest cases of a chunk while there are enough for all: of long runs, of short ones, and the time that decides [s].
-FEWEST_LONG, FEWEST, NOT_LONGER = 32, 128, 60.0
-
-#: Chunks on their way for each thread of the cluster; share of what is left for all threads that one chunk takes; and parts
-#: that a chunk is cut into.
-AHEAD, SHARE, PARTS = 2, 0.8, 8
+#: Share of what is left for each thread that one chunk takes; parts that a chunk is cut into.
+SHARE, PARTS = 0.5, 8
 
 #: Motions that the cluster keeps.
 MOTIONS = 512
@@ -80,6 +76,8 @@ class HandOut:
         self._again: deque[list[int]] = deque()
         self._suspects: deque[int] = deque()
         self._alone = ""  # the chunk of one that was sent when nothing else was under way
+        self._full: set[str] = set()  # chunks whose workers have not asked for the next one
+        self._asking: deque[str] = deque()  # workers that have, and have not got it
         self._next, self._made = 0, 0
         self._each = math.nan  # time of a case [s]
         self._largest = FIRST // GROWTH  # chunk that has been timed
@@ -97,6 +95,10 @@ class HandOut:
             name, some = came
             if isinstance(some, bytes):
                 yield from self._new(name, some)
+            elif isinstance(some, str):
+                self._more(name, some)
+            elif isinstance(some, float):
+                self._time(some, self._sizes.get(name, 1))
             elif name in self._running:
                 yield from self._ended(name, some)
 
@@ -114,7 +116,7 @@ class HandOut:
     def _send(self) -> bool:
         """Send as much as the cluster can use; whether anything is left to be sent."""
         self._count_threads()
-        while len(self._running) < AHEAD * self._threads and (numbers := self._take()):
+        while len(self._full) < self._threads and (numbers := self._take()):
             self._submit(numbers)
         if not self._running and self._threads and self._suspects:
             self._alone = self._submit([self._suspects.popleft()])
@@ -126,13 +128,13 @@ class HandOut:
         left = len(self.cases) - self._next
         if not left:
             return []
-        fewest, timed = FEWEST, FIRST
-        if not math.isnan(self._each):
-            fewest = int(min(max(NOT_LONGER / self._each, FEWEST_LONG), FEWEST))
-            timed = max(int(LENGTH / self._each), fewest)
-        at_first = math.ceil(len(self.cases) / self._threads)  # so that few cases are spread, and the last ones are not
-        fair = max(math.ceil(SHARE * left / self._threads), min(fewest, at_first))
-        count = max(1, min(left, fair, timed, GROWTH * self._largest, MOST))
+        share = math.ceil(SHARE * left / self._threads)
+        if math.isnan(self._each):  # few cases are spread over all threads
+            count = min(max(share, FEWEST_UNTIMED), FIRST, math.ceil(left / self._threads))
+        else:
+            shortest = max(FEWEST, math.ceil(SHORTEST / self._each))
+            count = min(max(share, shortest), max(int(LENGTH / self._each), shortest), GROWTH * self._largest, MOST)
+        count = min(count, left)
         self._next += count
         return list(range(self._next - count, self._next))
 
@@ -154,8 +156,10 @@ class HandOut:
         listed = [one for _, one in stones.values()]
         chunk = Chunk(name, law(), self.model, self.options, numbers, listed, stone, motion, factors, names)
         needed = [one for _, one in motions.values()]
-        future = self.client.submit(run_chunk, pack(chunk), needed, self._topic, key=name, pure=False)
+        where = {"workers": [self._asking.popleft()], "allow_other_workers": True} if self._asking else {}
+        future = self.client.submit(run_chunk, pack(chunk), needed, self._topic, key=name, pure=False, **where)
         self._running[name], self._sizes[name] = (future, set(numbers)), len(numbers)
+        self._full.add(name)
         future.add_done_callback(lambda one: self._inbox.put((name, one)))
         return name
 
@@ -185,6 +189,12 @@ class HandOut:
 
     # -- in ------------------------------------------------------------------------------------------------------
 
+    def _more(self, name: str, worker: str) -> None:
+        """A worker has room for the next chunk."""
+        if name in self._full:  # computed again, it asks again
+            self._full.remove(name)
+            self._asking.append(worker)
+
     def _new(self, name: str, some: bytes) -> Iterator[tuple[int, Measures]]:
         """What has not come in before: a chunk that is computed again sends everything again."""
         left = self._running[name][1] if name in self._running else set()
@@ -195,11 +205,8 @@ class HandOut:
 
     def _ended(self, name: str, future: Future) -> Iterator[tuple[int, Measures]]:
         if future.status == "finished":
-            took, some = future.result()
-            yield from self._new(name, some)
             numbers = self._pop(name)
             self._again.extend([numbers] if numbers else [])
-            self._time(took, self._sizes.pop(name))
             return
         numbers = self._pop(name)
         error = future.exception() if future.status == "error" else None
@@ -221,6 +228,8 @@ class HandOut:
         for key, (_, future) in list(self._motions.items()):
             if future.status == "error":  # its workers died; it is sent again with the chunk
                 del self._motions[key]
+        self._full.discard(name)
+        self._sizes.pop(name, None)
         return sorted(self._running.pop(name)[1])
 
     def _time(self, took: float, count: int) -> None:

@@ -10,7 +10,7 @@ from . import options as o
 
 
 def bench(
-    full: Annotated[bool, typer.Option("--full", help="Also time the domains of 768 cells.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="Also time the domains of 768 cells, and Dask workers.")] = False,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,

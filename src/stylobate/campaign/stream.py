@@ -1,0 +1,162 @@
+"""Lanes of a worker through which one chunk flows after the other: while the last cases of one run, the next ones begin.
+
+At the end of a batch its lanes run empty one by one, and a block with a single run in it costs as much as a full one. A
+worker that finished its chunks one at a time would pay for that with every chunk.
+"""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections import deque
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from ..kernels.run_codes import LANES
+from ..models.base import Case, Cases, Model, RunOptions
+from ..response import Measures
+
+#: Cases that wait for a lane, at least, and how long they last [s]: until the next chunk is here.
+FEWEST_WAITING, WAITING = 4, 0.5
+
+
+@dataclass
+class Part:
+    """The cases of one chunk, and what has finished of them.
+
+    Parameters
+    ----------
+    cases : Cases
+    model : Model
+    options : RunOptions
+    kind : bytes
+        Parts of the same kind have the same model, options and type of structure, and can share lanes.
+    """
+
+    cases: Cases
+    model: Model
+    options: RunOptions
+    kind: bytes
+    given: int = 0  # cases that are in lanes, or were
+    left: int = field(init=False)  # cases whose results have not been taken
+    _results: queue.SimpleQueue = field(init=False, default_factory=queue.SimpleQueue)
+
+    def __post_init__(self) -> None:
+        self.left = len(self.cases)
+
+    def put(self, result: tuple[int, Measures] | BaseException) -> None:
+        """A case has finished, or the run of all of them has failed."""
+        self._results.put(result)
+
+    def take(self, timeout: float) -> list[tuple[int, Measures]]:
+        """(index, measures) of what has finished; the first is waited for no longer than so [s]."""
+        found: list[tuple[int, Measures]] = []
+        while self.left:
+            try:
+                one = self._results.get(timeout=0.0 if found else timeout)
+            except queue.Empty:
+                break
+            if isinstance(one, BaseException):
+                raise one
+            found.append(one)
+            self.left -= 1
+        return found
+
+
+class Stream:
+    """A thread that runs the cases of the parts that are handed to it, in their order."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._waiting: deque[Part] = deque()  # parts with cases that have not been given to lanes
+        self._at_work = False
+        self.left, self.finished = 0, 0  # cases that have not finished, and that have
+        self.each = 0.0  # time of a case, of those that finished in the last run [s]
+
+    def add(self, part: Part) -> None:
+        """Run the cases of a part, behind those that wait already."""
+        with self._lock:
+            self._waiting.append(part)
+            self.left += part.left
+            if not self._at_work:
+                self._at_work = True
+                threading.Thread(target=self._work, name="stream", daemon=True).start()
+
+    @property
+    def wants_more(self) -> bool:
+        """Whether the lanes would soon run empty."""
+        waiting = WAITING / self.each if self.each else 0.0
+        return self.left <= LANES + max(FEWEST_WAITING, waiting)
+
+    def _work(self) -> None:
+        while True:
+            with self._lock:
+                if not self._waiting:
+                    self._at_work = False
+                    return
+                first = self._waiting[0]
+            self._run(first)
+
+    def _run(self, first: Part) -> None:
+        """Run a part, and those of its kind that come before its lanes are empty."""
+        feed = _Feed(self, first)
+        started, finished = time.perf_counter(), 0
+        try:
+            for index, measures in first.model.run_many(feed, first.options, 1):
+                part, number = feed.given.pop(index)
+                finished += 1
+                self._ended(1)
+                self.each = (time.perf_counter() - started) / finished
+                part.put((number, measures))
+        except BaseException as error:  # raised again where it is waited for
+            with self._lock:
+                parts = {id(part): part for part, _ in [*feed.given.values(), (first, 0)]}
+                self._waiting = deque(one for one in self._waiting if id(one) not in parts)
+            self._ended(len(feed.given) + sum(len(one.cases) - one.given for one in parts.values()))
+            for part in parts.values():
+                part.put(error)
+
+    def next_of(self, kind: bytes) -> tuple[Part, int] | None:
+        """The next case that can share lanes with those of a kind; None while there is none."""
+        with self._lock:
+            if not self._waiting or self._waiting[0].kind != kind:
+                return None
+            part = self._waiting[0]
+            part.given += 1
+            if part.given == len(part.cases):
+                self._waiting.popleft()
+            return part, part.given - 1
+
+    def _ended(self, count: int) -> None:
+        with self._lock:
+            self.left -= count
+            self.finished += count
+
+
+class _Feed(Sequence[Case]):
+    """Cases for lanes: an iterator that ends where there is none for now, and goes on if it is asked again."""
+
+    def __init__(self, stream: Stream, first: Part) -> None:
+        self.stream, self.first = stream, first
+        self.given: dict[int, tuple[Part, int]] = {}  # by the number of the case in the run
+        self._count = 0
+
+    def __len__(self) -> int:
+        return len(self.first.cases)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.first.cases[index]
+
+    def __iter__(self) -> Iterator[Case]:
+        return self
+
+    def __next__(self) -> Case:
+        found = self.stream.next_of(self.first.kind)
+        if found is None:
+            raise StopIteration
+        part, number = found
+        self.given[self._count] = found
+        self._count += 1
+        return part.cases[number]
