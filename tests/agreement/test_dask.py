@@ -1,13 +1,16 @@
 """Runs on a Dask cluster: the same rows to the bit as by threads, whatever happens to the workers."""
 
 import dataclasses
+import gc
 import json
 import logging
 import os
 import signal
+import socket
 import sys
 import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -21,6 +24,7 @@ from stylobate.campaign.chunk import Chunk, law, pack, results_of, unpack
 from stylobate.campaign.cluster import on_cluster
 from stylobate.campaign.executor import compute
 from stylobate.campaign.hand_out import HandOut
+from stylobate.campaign.local_workers import started
 from stylobate.campaign.runner import run_campaign
 from stylobate.campaign.stream import Stream
 from stylobate.cli.main import call
@@ -117,6 +121,20 @@ def test_the_recipe_for_slurm_and_a_study_on_its_cluster(cluster, tmp_path, monk
         assert json.loads(capsys.readouterr().out)["computed"] == 3
     tables = [(tmp_path / out / "study.parquet").read_bytes() for out in ("threads", "dask")]
     assert tables[0] == tables[1]
+
+
+def test_workers_of_which_one_dies_while_it_starts_are_started_again():
+    tries = []
+
+    def make():
+        tries.append(1)
+        if len(tries) < 3:
+            raise RuntimeError("Nanny failed to start.")
+        return "cluster"
+
+    assert started(make) == "cluster"
+    with pytest.raises(ZeroDivisionError):
+        started(lambda: 1 / 0)
 
 
 # -- without a cluster: the bookkeeping ------------------------------------------------------------------------------
@@ -230,12 +248,13 @@ class Asked(Client):
         return future
 
 
-def test_the_worker_that_asks_gets_the_next_chunk_and_the_last_ones_are_small():
+def test_the_worker_that_asks_gets_the_next_chunk_and_the_last_ones_are_small(monkeypatch):
     client = Asked()
     cases = Cases(300, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
     work, found = HandOut(client, cases, Poisonous(), RunOptions()), []
     work._count_threads()
-    work._each, work._largest, work._time = 0.1, 300, lambda *_: None  # as if it had been timed
+    work._each, work._largest = 0.1, 300  # as if it had been timed
+    monkeypatch.setattr(work, "_time", lambda *_: None)
     runs = work.results()
     while work._next < len(cases):
         found.append(next(runs)[0])
@@ -357,6 +376,27 @@ def test_an_unreachable_scheduler_is_one_sentence(address, monkeypatch, capsys):
     assert said.count("\n") == 1
     assert f"no Dask scheduler answers at {address!r}" in said
     assert time.monotonic() - started < 8.0
+
+
+def test_what_answers_and_is_no_scheduler_is_one_sentence(monkeypatch, capsys):
+    distributed = pytest.importorskip("distributed")
+    monkeypatch.setattr(module, "PATIENCE", 1.0)
+    closed = []
+    monkeypatch.setattr(distributed.Client, "close", lambda self, *_, **__: closed.append(self))
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        page = b"HTTP/1.1 400 Bad Request\r\n\r\n" + 200 * b"no scheduler "
+
+        def answer():
+            with suppress(OSError):
+                while True:
+                    server.accept()[0].sendall(page)
+
+        threading.Thread(target=answer, daemon=True).start()
+        address = f"tcp://127.0.0.1:{server.getsockname()[1]}"
+        with pytest.raises(st.InputError, match="no Dask scheduler answers at"), on_cluster(address):
+            pass
+        gc.collect()  # what would be closed now would be waited for, and would tell of it
+    assert closed == []
 
 
 def test_without_dask_the_remedy_is_named(monkeypatch):

@@ -79,9 +79,16 @@ def _connect(client: type[Client], address: str) -> Client:
 
     answers: queue.SimpleQueue = queue.SimpleQueue()
 
+    class Known(client):
+        """A client that waits for nobody at its end, unless it has come to a scheduler."""
+
+        def __del__(self) -> None:
+            if self.status == "running":
+                super().__del__()
+
     def ask() -> None:
         try:
-            answers.put(client(address, timeout=0.9 * PATIENCE, set_as_default=False, name="stylobate"))
+            answers.put(Known(address, timeout=0.9 * PATIENCE, set_as_default=False, name="stylobate"))
         except BaseException as error:
             answers.put(error)
 

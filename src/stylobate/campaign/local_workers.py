@@ -12,6 +12,7 @@ import sys
 import tempfile
 import threading
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Any
 
@@ -19,6 +20,9 @@ from ..errors import StylobateError
 
 #: Time until they end by force, and between looks at whether they live [s].
 _PATIENCE = 0.5
+
+#: Times that they are started before it is said that they do not.
+_TRIES = 3
 
 
 class LocalWorkers:
@@ -80,7 +84,7 @@ def serve(count: int) -> None:
     with tempfile.TemporaryDirectory(prefix="stylobate-workers-", ignore_cleanup_errors=True) as place:
         with setting({"distributed.scheduler.allowed-failures": 1}):
             how: dict[str, Any] = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
-            cluster = LocalCluster(n_workers=count, local_directory=place, **how)
+            cluster = started(lambda: LocalCluster(n_workers=count, local_directory=place, **how))
         print(cluster.scheduler_address, flush=True)
         threading.Thread(target=_keep_alive, args=(cluster,), daemon=True).start()
         nothing = os.open(os.devnull, os.O_WRONLY)
@@ -91,6 +95,14 @@ def serve(count: int) -> None:
             with suppress(Exception):
                 nanny.process.process._process.kill()  # at once: a compiled loop does not listen
     os._exit(0)
+
+
+def started(make: Callable[[], Any]) -> Any:
+    """What is made, at the last try at the latest: a worker that dies while it starts takes the whole cluster along."""
+    for _ in range(_TRIES - 1):
+        with suppress(Exception):
+            return make()
+    return make()
 
 
 def _keep_alive(cluster: Any) -> None:
