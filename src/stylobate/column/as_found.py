@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -147,7 +148,7 @@ class AsFound:
         _into_plane(self, "base_tilt", "base_azimuth")
 
     def __bool__(self) -> bool:
-        return self.base_tilt != 0.0 or any(one != FoundDrum(one.drum) for one in self.drums)
+        return self.base_tilt != 0.0 or any(one != _as_built(one.drum) for one in self.drums)
 
     @property
     def in_plane(self) -> bool:
@@ -165,7 +166,13 @@ class AsFound:
 
     def of(self, drum: int) -> FoundDrum:
         """What is found at a drum, numbered from 1."""
-        return next((one for one in self.drums if one.drum == drum), FoundDrum(drum))
+        return next((one for one in self.drums if one.drum == drum), None) or _as_built(drum)
+
+
+@lru_cache(maxsize=256)
+def _as_built(drum: int) -> FoundDrum:
+    """A drum of this number with nothing found at it."""
+    return FoundDrum(drum)
 
 
 #: What of a drum a plane model cannot take.
