@@ -80,6 +80,10 @@ def test_bad_input_is_one_sentence(place, capsys):
         (("ida", "paper-monolithic", place / "A.csv"), "no record that can be used"),
         (("ida", "paper-monolithic", "sample:el-centro-1940", "--im", "pgv@geomean"), "second horizontal"),
         (("ida", "paper-monolithic", "sample:el-centro-1940", "--levels", "0.1g"), "level '0.1g' of pgv"),
+        (
+            ("ida", "paper-monolithic", "sample:el-centro-1940", "--edp", "nothing"),
+            "measures are peak_top_displacement_m",
+        ),
     ):
         got = said(capsys, *arguments, code=2)
         assert got.out == ""

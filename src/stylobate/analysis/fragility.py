@@ -201,7 +201,7 @@ def fragility(
     clusters = np.arange(len(evidence.im)).astype(str).astype(object) if records_are_one else evidence.records
     count = len(np.unique(clusters))
     if count < FEWEST:
-        what = "runs" if records_are_one else "records"
+        what = ("run" if records_are_one else "record") + ("" if count == 1 else "s")
         remedy = f"give at least {FEWEST}" if records_are_one else (
             f"give at least {FEWEST}, or say --records-are-one to take every run for a record of its own"
         )  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -10,7 +11,10 @@ import numpy as np
 
 from ..column import Column
 from ..errors import InputError
+from ..models.base import Model
 from ..motion.intensity_specs import IntensityMeasure
+from ..outcome import Outcome
+from ..response import Measures, SpaceMeasures
 from . import verdicts as v
 
 if TYPE_CHECKING:
@@ -18,6 +22,23 @@ if TYPE_CHECKING:
 
 #: Shares of the records below the curves of all.
 SHARES = (0.16, 0.5, 0.84)
+
+
+def check_response(edp: str, column: Column, model: Model) -> None:
+    """Refuse a measure of the response that runs of this column will not have, before they are made."""
+    if column.links:  # what is measured of links has many names
+        return
+    space = SpaceMeasures(*[math.nan] * 4, (), ()) if "y" in model.axes else None
+    row = Measures(Outcome.AT_REST, True, *[math.nan] * 8, steps=0, space=space).row()
+    numbers = [name for name, value in row.items() if isinstance(value, float)]
+    if edp not in numbers:
+        raise unknown_response(edp, numbers)
+
+
+def unknown_response(edp: str, names: Iterable[str]) -> InputError:
+    """The sentence that runs have no such measure."""
+    known = [one for one in names if one.startswith(("peak_", "residual_"))]
+    return InputError(f"the runs have no measure {edp!r}; measures are {', '.join(known)}.")
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,8 +117,7 @@ class Ida:
             A measure of the response, as a column of the table of runs.
         """
         if edp not in self.runs:
-            numbers = [one for one in self.runs.columns if one.startswith(("peak_", "residual_"))]
-            raise InputError(f"the runs have no measure {edp!r}; measures are {', '.join(numbers)}.")
+            raise unknown_response(edp, self.runs.columns)
         found = []
         groups: Any = self.runs.groupby(["record", "realisation"], sort=False)
         for (record, realisation), rows in groups:

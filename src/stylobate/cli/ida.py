@@ -62,12 +62,14 @@ def ida(
     """
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
+    from ..analysis.ida_curves import check_response
     from ..column.files import load_column
     from ..motion.intensity_specs import parse_levels, parse_measure
     from . import console
 
     workers, after = o.the_threads(threads), o.the_tail(tail)
     measure, stone, how = parse_measure(im), load_column(column), o.the_model(model, settings)
+    check_response(edp, stone, how)
     twins = o.the_population(replicates, scatter, seed) or {}
     stripes = None if levels is None else parse_levels(levels, measure)
     records = o.the_request(context, motion=sources, separate=True).expand()
