@@ -213,6 +213,11 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
     return Survival(tuple(risk(fragility, one) for one in hazards), years)
 
 
+def years(value: float) -> str:
+    """A time for people."""
+    return f"{float(f'{value:.2g}'):,.0f} years" if value >= 10.0 else f"{value:.2g} years"
+
+
 def parse_age(text: str) -> float:
     """An age as typed, ``2400y`` [y]."""
     found = re.fullmatch(r"\s*([0-9.eE+]+)\s*(y|yr|a|years?)\s*", text)

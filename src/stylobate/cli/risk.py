@@ -40,6 +40,7 @@ def risk(
     """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""
     from ..analysis.hazard import read_hazard
     from ..analysis.risk import risk as rate_of
+    from ..analysis.risk import years
     from . import console
 
     o.the_threads(threads)
@@ -63,7 +64,7 @@ def risk(
     if as_json:
         console.emit(result)
         return
-    period = "never" if found.rate == 0.0 else f"once in {1.0 / found.rate:.3g} years"
+    period = "never" if found.rate == 0.0 else f"once in {years(1.0 / found.rate)}"
     most = max(result["deaggregation"], key=lambda one: one["annual_rate"])
     console.say(
         f"{result['name']}: {result['state']} {period}.",

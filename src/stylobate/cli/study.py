@@ -55,9 +55,8 @@ def run(
         return
     print(sentence(result))
     console.print_refused(refused)
-    print(
-        f"{len(files)} files in {out}: {', '.join(one.name for one in files[-2:])}, histories of {len(files) - 2} runs"
-    )
+    tables, histories = files[-3:], len(files) - 3
+    print(f"{len(files)} files in {out}: {', '.join(one.name for one in tables)}, histories of {histories} runs")
 
 
 def status(directory: StudyFolder, as_json: o.Json = False) -> None:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.risk import Risk, Survival
+from ..analysis.risk import Risk, Survival, years
 from ..motion.intensity_specs import parse_measure
 from .fragility import NARROW, logarithmic
 from .style import BLACK, BLUE, GREY, RED, page, panel, styled
@@ -42,7 +42,7 @@ def draw_risk(result: Risk, title: str | None = None, *, figure: Figure | SubFig
     lower.stairs(100.0 * share, result.edges[:-1], color=BLUE, linewidth=0.8)
     rest = 100.0 * result.parts[-1] / max(result.rate, 1e-300)
     if rest >= 0.5:
-        lower.annotate(f"{rest:.0f} % beyond", (0.02, 0.9), xycoords="axes fraction", ha="left", fontsize=8)
+        lower.set_title(f"{rest:.0f} % beyond", loc="right", fontsize=8)
     lower.set_ylabel("share of the rate [%]")
     lower.set_xlim(hazard.im[0], hazard.im[-1])
     lower.grid(True, axis="y")
@@ -82,8 +82,3 @@ def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None
     axes.grid(True, axis="x")
     axes.set_title(title or f"{years(result.age)} without {result.risks[0].fragility.evidence.state}", fontsize=9)
     return figure
-
-
-def years(value: float) -> str:
-    """A time for people."""
-    return f"{float(f'{value:.2g}'):,.0f} years" if value >= 10.0 else f"{value:.2g} years"

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..analysis import verdicts as v
+from ..analysis.risk import years
 from ..bibliography import cite, cite_run
 from ..column import Column
 from ..constants import g
@@ -216,7 +217,7 @@ def _risk(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     period = s.get("return_period_y")
     sentence = f"{s.get('name', 'The column')}: {s.get('state', 'collapse')} " + (
-        f"once in {period:.3g} years on average." if isinstance(period, float) else "never, under this hazard."
+        f"once in {years(period)} on average." if isinstance(period, float) else "never, under this hazard."
     )
     low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
     if n.NONE not in (low, high):
