@@ -389,7 +389,8 @@ def test_what_answers_and_is_no_scheduler_is_one_sentence(monkeypatch, capsys):
         def answer():
             with suppress(OSError):
                 while True:
-                    server.accept()[0].sendall(page)
+                    with server.accept()[0] as asking:
+                        asking.sendall(page)
 
         threading.Thread(target=answer, daemon=True).start()
         address = f"tcp://127.0.0.1:{server.getsockname()[1]}"

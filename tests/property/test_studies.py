@@ -146,12 +146,12 @@ def test_run_status_and_export_under_their_promised_names(folder, capsys):
     assert promised <= set(found)
     assert found["cases"] == found["finished"] == 12
     assert len(list((out / "histories").iterdir())) == 2
-    assert call(["study", "run", str(folder / "study.toml"), "--out", str(out)]) == 0
-    table = next(path.name for path in out.glob("study.*") if path.suffix != ".json")
-    assert f"5 files in {out}: {table}, asked-study.json, study.json, histories of 2 runs" in capsys.readouterr().out
     status = answer("study", "status", out)
     assert promised <= set(status)
     assert {key: status[key] for key in promised - {"files"}} == {key: found[key] for key in promised - {"files"}}
+    assert call(["study", "run", str(folder / "study.toml"), "--out", str(out)]) == 0
+    written = next(path.name for path in out.glob("study.*") if path.suffix != ".json")
+    assert f"5 files in {out}: {written}, asked-study.json, study.json, histories of 2 runs" in capsys.readouterr().out
     exported = answer("study", "export", out, "--to", folder / "t.csv")
     table = pandas.read_csv(folder / "t.csv")
     assert len(table) == exported["finished"] == 12
