@@ -253,3 +253,35 @@ def test_pdf(place, tmp_path, capsys):
     assert printed.startswith(b"%PDF-")
     assert len(re.findall(rb"/Type\s*/Page\b", printed)) >= 3
     assert b"/JavaScript" not in printed
+
+
+def test_what_opens_first_is_told_with_its_direction():
+    """A slab opens across its thin side, however it is shaken; its acceleration is that of the thin block, g d / 2 z."""
+    from stylobate.report.structure import what_opens
+
+    slab = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, depth=0.5)], st.Joint(5e10, 2.5e10))
+    along_x, words = what_opens(slab)
+    assert along_x == pytest.approx(0.5 * slab.gravity)
+    assert words == "0.5 g (joint 1)"
+    least, words = what_opens(slab, in_space=True)
+    assert least == pytest.approx(0.25 * slab.gravity, rel=1e-6)
+    assert re.fullmatch(r"0\.25 g \(joint 1; pushed towards (90|270)°, the weakest of all directions\)", words)
+    round_ = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0, section="circular")], st.Joint(5e10, 2.5e10))
+    assert what_opens(round_, in_space=True)[1].endswith("; in every direction)")
+    found = st.AsFound([st.FoundDrum(1, offset=0.1)])
+    assert what_opens(slab.replace(as_found=found))[1].endswith("; the weaker side along x)")
+    two = st.Column.of_drums(slab.drums * 2, slab.joints[0])
+    aside = st.AsFound([st.FoundDrum(2, offset=0.1, offset_azimuth=90.0)])  # its weight is 50 mm off the middle, 2 m up
+    least, words = what_opens(two.replace(as_found=aside))
+    assert least == pytest.approx(0.1 * slab.gravity, rel=1e-6)
+    assert words == "0.1 g (joint 1; pushed towards 90°, the weakest of all directions)"
+
+
+def test_a_monolith_has_no_drum_that_could_be_shifted():
+    from stylobate.outcome import Outcome
+
+    for one in Outcome:
+        assert "drum" not in one.sentence_of(1)
+        assert one.sentence_of(2) == one.sentence
+    block = st.simulate(st.preset("paper-monolithic"), st.harmonic(1.0, 0.5, 0.1), st.DistinctElement2D())
+    assert block.sentence == "The block stood still: its joint did not open."

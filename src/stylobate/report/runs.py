@@ -242,7 +242,7 @@ def _energy(r: Response) -> Section:
     share = abs(r.energy_imbalance)
     text = (
         "The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
-        f"friction, damping and impacts took. At the end {100.0 * share:.2g} % of the energy at stake is missing: of the "
+        f"friction, damping and impacts took. Missing at the end: {100.0 * share:.2g} % of the energy at stake, the "
         "largest of what was put in, what it takes to overturn, and what a fall sets free. A run that misses more than "
         f"{n.percent(IMBALANCE)} is warned of under the verdict."
     )

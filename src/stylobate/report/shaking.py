@@ -61,7 +61,12 @@ def motion_section(
         facts.append(("left out", "\n".join(left_out)))
     items: list[Item] = [*note, Facts(facts), _measures(motion)]
     if metadata.get("stage") in ("uncorrected", "raw counts"):
-        text = "Its source gives this record as uncorrected: see under processing whether its baseline was corrected."
+        corrected = any(word in one for one in done for word in ("baseline", "mean", "trend"))
+        text = "Its source gives this record as uncorrected; " + (
+            "what was corrected here stands under processing."
+            if corrected
+            else "its baseline was not corrected here either (--condition): velocities and displacements may drift."
+        )
         items.insert(len(note) + 1, Note([text], "fair"))
     if column is not None and motion.pga > 0.0:
         items.append(_beside(motion, column))
