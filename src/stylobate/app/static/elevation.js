@@ -26,7 +26,7 @@ export function drawElevation(canvas, found, { chosen = 0, faulty = 0, table = {
     c.strokeStyle = BLUE; c.lineWidth = 2.2;
     for (const [[a, b], [x, z]] of links) line(c, across(a), up(b), across(x), up(z));
     dimensions(c, outlines, across, up, left, right, low, high);
-    labels(c, outlines, found, table, across, up, right);
+    labels(c, outlines, found, place ? {} : table, across, up, right);
     if (views.length > 1) { c.fillStyle = INK; c.textAlign = "center"; c.textBaseline = "alphabetic"; c.fillText(`seen along ${name === "xz" ? "y" : "x"}`, x0, height - 6); }
   });
   return ([x, y]) => (placed.find(([, corners]) => inside(corners, x, y)) || [0])[0];
