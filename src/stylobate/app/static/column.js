@@ -11,7 +11,7 @@ const DEPTH = ["depth", "Depth", "m"];
 const FOUND = [["offset", "Offset", "m"], ["offset_azimuth", "Offset to", "°"], ["tilt", "Tilt", "°"], ["tilt_azimuth", "Tilt to", "°"], ["turn", "Turn", "°"]];
 const CHIPS = [["chip_left", "Left", "m"], ["chip_right", "Right", "m"]];
 const ROUND_CHIPS = [["chip_azimuth", "Right is at", "°"]], SQUARE_CHIPS = [["chip_front", "Front", "m"], ["chip_back", "Back", "m"]];
-const JOINT = [["friction_coefficient", "Friction", "tan φ"], ["normal_stiffness", "Normal", "N/m³"], ["shear_stiffness", "Shear", "N/m³"], ["cohesion", "Cohesion", "Pa"], ["ring_width", "Ring", "m"]];
+const JOINT = [["friction_coefficient", "Friction", "tan φ"], ["normal_stiffness", "Normal", "N/m³"], ["shear_stiffness", "Shear", "N/m³"], ["cohesion", "Cohe\u00adsion", "Pa"], ["ring_width", "Ring", "m"]];
 
 let panel, view = "sizes", chosen = 0, described = null, hit = () => 0, presets = {}, own = false;
 
@@ -151,7 +151,7 @@ function drums(table) {
       const hint = group === "override" ? table.joint[key] ?? (key === "friction_coefficient" ? tangent(table.joint.friction_angle ?? 35) : "") : group === "found" ? 0 : "";
       return el("td", {}, el("input", {
         value: given === undefined ? "" : tidy(given), placeholder: String(tidy(hint)), inputmode: "decimal", "data-field": `${group}.${number}.${key}`,
-        "aria-label": `${view === "chips" ? "chip, " : ""}${label.toLowerCase()} of ${group === "override" ? "the joint under " : ""}drum ${number} [${unit}]`,
+        "aria-label": `${view === "chips" ? "chip, " : ""}${label.toLowerCase().replace("\u00ad", "")} of ${group === "override" ? "the joint under " : ""}drum ${number} [${unit}]`,
         oninput: event => put(group, number, key, value(event.target.value)),
       }));
     });

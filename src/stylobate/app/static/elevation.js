@@ -26,7 +26,7 @@ export function drawElevation(canvas, found, { chosen = 0, faulty = 0, table = {
     c.strokeStyle = BLUE; c.lineWidth = 2.2;
     for (const [[a, b], [x, z]] of links) line(c, across(a), up(b), across(x), up(z));
     dimensions(c, outlines, across, up, left, right, low, high);
-    labels(c, outlines, found, place ? {} : table, across, up, right);
+    labels(c, outlines, found, place ? {} : table, across, up, right, (place + 1) * part - 4);
     if (views.length > 1) { c.fillStyle = INK; c.textAlign = "center"; c.textBaseline = "alphabetic"; c.fillText(`seen along ${name === "xz" ? "y" : "x"}`, x0, height - 6); }
   });
   return ([x, y]) => (placed.find(([, corners]) => inside(corners, x, y)) || [0])[0];
@@ -61,7 +61,7 @@ function dimensions(c, outlines, across, up, left, right, low, high) {
 const CHIPS = ["chip_left", "chip_right", "chip_front", "chip_back"];
 
 // Numbers of drums at the right, with what is found at them.
-function labels(c, outlines, found, table, across, up, right) {
+function labels(c, outlines, found, table, across, up, right, edge) {
   const about = new Map(((table.as_found || {}).drum || []).map(one => [one.index, one]));
   const laws = new Map((table.joint_override || []).map(one => [one.index, one]));
   const linked = new Map();
@@ -79,7 +79,7 @@ function labels(c, outlines, found, table, across, up, right) {
       CHIPS.some(key => one[key]) ? "chipped" : "", laws.has(i + 1) ? "own joint" : "", ...(linked.get(i + 1) || [])].filter(Boolean);
     if (last - y < 13 && !notes.length) return;
     c.fillStyle = notes.length ? "#8c1c13" : "#565149";
-    c.fillText(`${i + 1}${notes.length ? "  " + notes.join(", ") : ""}`, across(right) + 14, y);
+    c.fillText(`${i + 1}${notes.length ? "  " + notes.join(", ") : ""}`, across(right) + 14, y, Math.max(edge - across(right) - 14, 20));
     last = y;
   });
 }

@@ -114,7 +114,8 @@ function foundCritical(job) {
   place.dataset.key = "";
   tell(place, job, () => [
     el("p", { class: `verdict ${none ? "stands" : "collapsed"}` }, none ? `Up to ${asked.last} nothing of this motion brings the column down.` : `The column first collapses at ${number(r.critical_g)} g${r.critical_factor ? `, ${number(r.critical_factor)} times the motion` : ""}.`,
-      (r.alternation || []).length > 2 && el("small", {}, r.all_collapse_above_g === null ? "It stands again at some larger ones." : `It stands again at some larger ones, and always collapses above ${number(r.all_collapse_above_g)} g.`)),
+      !none && r.all_collapse_above_g !== r.critical_g && el("small", {}, r.all_collapse_above_g === null ? "It does not collapse at some larger ones." : `It does not collapse at some larger ones; above ${number(r.all_collapse_above_g)} g it always does.`),
+      r.undecided > 0 && el("small", {}, `${r.undecided} of ${r.runs} runs ended before their verdict was certain: let them go on after the motion.`)),
     facts([["runs", r.runs], ["amplitudes", `${asked.first} to ${asked.last}`], ["steps of", asked.step], ["undecided", r.undecided || ""], ["failed", r.failed || ""]]),
     warnings(job.warnings),
     !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go({ column: asked.column, model: asked.model, settings: asked.settings || {}, motion: near }) }, "Run it at this amplitude")),
