@@ -188,7 +188,12 @@ def overlap_edges(column: Column, at: SpaceGeometry, joint: int) -> Edges:
 
 def inside_overlap(column: Column, at: SpaceGeometry, joint: int, place: np.ndarray) -> float:
     """How far a place along a joint is inside both faces; negative outside [m]."""
-    discs, sides = overlap_edges(column, at, joint)
+    return inside(overlap_edges(column, at, joint), place)
+
+
+def inside(edges: Edges, place: np.ndarray) -> float:
+    """How far a place along a joint is inside the edges of an overlap; negative outside [m]."""
+    discs, sides = edges
     within = [radius - math.hypot(*(place - middle)) for middle, radius in discs]
     return min(within + [bound - float(normal @ place) for normal, bound in sides])
 
@@ -212,22 +217,23 @@ def weakest_uplift(column: Column) -> tuple[np.ndarray, np.ndarray]:
         [m/s²]; from x towards y [degrees], shapes (n,).
     """
     at, out, towards = space_geometry(column), np.full(column.n, math.inf), np.full(column.n, math.nan)
-    base = base_axes(column)
+    base, weight = base_axes(column), column.gravity * upward(column)
     for j in range(column.n):
+        edges = overlap_edges(column, at, j)
         for azimuth in np.arange(DIRECTIONS) * (2.0 * math.pi / DIRECTIONS):
             push = base.T @ (math.cos(azimuth), math.sin(azimuth), 0.0)
             low, high = 0.0, float(min(out[j], 100.0 * column.gravity))
-            if _carries(column, at, j, high * push):
+            if _carries(column, at, j, edges, weight + high * push):
                 continue
             for _ in range(HALVINGS):
                 middle = 0.5 * (low + high)
-                low, high = (middle, high) if _carries(column, at, j, middle * push) else (low, middle)
+                low, high = (middle, high) if _carries(column, at, j, edges, weight + middle * push) else (low, middle)
             if high < out[j] * (1.0 - 1e-9):  # of equal ones the first
                 towards[j] = (math.degrees(azimuth) + 180.0) % 360.0
             out[j] = high
     return out, towards
 
 
-def _carries(column: Column, at: SpaceGeometry, joint: int, push: np.ndarray) -> bool:
-    load = space_load(column, at, joint, column.gravity * upward(column) + push)
-    return load.normal > 0.0 and inside_overlap(column, at, joint, load.place) > 0.0
+def _carries(column: Column, at: SpaceGeometry, joint: int, edges: Edges, acceleration: np.ndarray) -> bool:
+    load = space_load(column, at, joint, acceleration)
+    return load.normal > 0.0 and inside(edges, load.place) > 0.0
