@@ -276,8 +276,12 @@ def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
     expect(found.locator(".verdict").first).to_contain_text("Half of the records bring collapse", timeout=60_000)
     expect(found).to_contain_text("of 10 records")
     expect(found).to_contain_text("notes-i")
-    expect(found.locator("img")).to_have_count(2)
-    until(lambda: found.evaluate("one => [...one.querySelectorAll('img')].every(img => img.naturalWidth > 300)"))
+    expect(found.locator("canvas[data-curves=ida]")).to_be_visible()
+    expect(found.locator("canvas[data-curves=fragility]")).to_be_visible()
+    blank = """one => [...one.querySelectorAll('canvas')].map(canvas => {
+        const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
+        return data.filter((value, k) => k % 4 === 3 && value > 0).length; })"""
+    assert min(found.evaluate(blank)) > 2000
 
     page.click("[data-tab=run]")
     page.locator("#critical summary").click()
@@ -286,6 +290,7 @@ def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
     page.click("text=Find it")
     said = page.locator("#run-said")
     expect(said.locator(".verdict:not(.sentence)")).to_contain_text("The column first collapses at", timeout=30_000)
+    expect(page.locator("canvas[data-curves=critical]")).to_be_visible()
     page.click("text=Run it at this amplitude")
     expect(said.locator(".verdict:not(.sentence)")).to_contain_text("The block collapsed", timeout=30_000)
 

@@ -28,6 +28,7 @@ from .answers import json_object, missing, refused
 from .asked import ASSEMBLY, COLUMN, FRAGILITY, RECORDS, RESULT, STUDY, JobAsked, commands, report_of, shown, study
 from .assemblies import assembly_of
 from .cells import new_cells
+from .curves import curves
 from .fields import column_field, domain_field
 from .job import Job
 from .records import Records
@@ -168,6 +169,13 @@ class JobAnswers:
         if job is None:
             return missing("job")
         return JSONResponse({"cells": await run_in_threadpool(new_cells, job.folder, set())})
+
+    async def curves(self, request: Request) -> Response:
+        """What can be drawn of an analysis."""
+        job = self._job(request)
+        if job is None:
+            return missing("job")
+        return JSONResponse(await run_in_threadpool(curves, job.folder))
 
     async def file(self, request: Request) -> Response:
         """A file of a job, to be taken away: one of those that its list names."""

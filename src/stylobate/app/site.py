@@ -212,6 +212,7 @@ def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = ())
         job("/{id}", JobAnswers.remove, "DELETE"),
         job("/{id}/film", JobAnswers.film),
         job("/{id}/cells", JobAnswers.cells),
+        job("/{id}/curves", JobAnswers.curves),
         job("/{id}/zip", JobAnswers.archive),
         job("/{id}/files/{name:path}", JobAnswers.file),
         job("/{id}/{act}", JobAnswers.act, "POST"),

@@ -1,6 +1,7 @@
 // Fragility: every record scaled until the column falls, and the curve that comes of it.
 
 import { get, post, upload } from "./api.js";
+import * as curves from "./curves.js";
 import { choice, el, facts, field, fill, find, mark, notice, number, select } from "./dom.js";
 import { isOpen, tell } from "./news.js";
 import * as motion from "./motion.js";
@@ -17,7 +18,7 @@ export function start(place, about) {
     if (keys.has("fragility") || keys.has("column") || keys.has("model")) render();
     if (keys.has("fragilityJob")) show();
     if (keys.has("motion")) { uploaded = motion.kept(); }
-    if (keys.has("tab") && state.tab === "fragility") { uploaded = [...new Map([...uploaded, ...motion.kept()].map(one => [one.id, one])).values()]; render(); }
+    if (keys.has("tab") && state.tab === "fragility") { uploaded = [...new Map([...uploaded, ...motion.kept()].map(one => [one.id, one])).values()]; render(); curves.redraw(); }
   });
   fill(panel, el("h1", {}, "Fragility"), el("p", { class: "lead" }, "Each record is scaled up until the column falls; from all of them comes the curve: how likely it falls at which intensity."),
     el("div", { class: "sheet left" }, el("div", { id: "fragility-asked", class: "card", "data-errors": true }), el("div", { id: "fragility-found" })));
@@ -74,7 +75,6 @@ export async function hear(news) {
   if (news.id !== state.fragilityJob) return;
   const job = !isOpen(news) && !news.results ? await get(`/api/jobs/${news.id}`).catch(() => news) : news;
   const [analysis, curve] = job.results || [], place = find("#fragility-found", panel);
-  const picture = (name, alt) => (job.files || []).includes(name) && el("img", { class: "figure", alt, src: `/api/jobs/${job.id}/files/${name}` });
   let card = find(".card[data-key]", place);
   if (!card || !isOpen(job)) card = el("div", { class: "card", "data-key": "" });
   tell(card, job, () => [
@@ -85,8 +85,8 @@ export async function hear(news) {
     (job.warnings || []).map(one => el("p", { class: "warning" }, one)), analysis && !isOpen(job) && run.files(job),
   ].flat());
   if (card.isConnected) return;
-  fill(place, card,
-  picture("fragility/fragility.png", "Fragility curve") && el("div", { class: "card" }, picture("fragility/fragility.png", "Fragility curve")),
-  picture("result/ida.png", "Incremental dynamic analysis: response over intensity") && el("div", { class: "card" }, picture("result/ida.png", "Incremental dynamic analysis: response over intensity")));
+  const figures = el("div", { class: "figures" });
+  fill(place, card, figures);
+  if (!isOpen(job)) curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
 }
 const said = s => `Half of the records bring ${s.state} at ${s.im} = ${number(s.median)} ${s.unit}.`;

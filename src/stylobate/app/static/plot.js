@@ -63,7 +63,9 @@ export function plot(canvas, series, { xLabel = "", yLabel = "", zero = true, lo
   c.save(); c.translate(11, (t + b) / 2); c.rotate(-Math.PI / 2); c.textAlign = "center"; c.textBaseline = "middle"; c.fillText(yLabel, 0, 0); c.restore();
   c.save(); c.beginPath(); c.rect(l, t - 2, r - l, b - t + 4); c.clip();
   for (const one of drawn) {
-    c.strokeStyle = one.color || INK; c.lineWidth = one.width || 1.2; c.setLineDash(one.dash || []); c.beginPath();
+    c.strokeStyle = one.color || INK; c.lineWidth = one.width || 1.2; c.setLineDash(one.dash || []);
+    if (one.dots) { one.y.forEach((y, i) => { if (y !== null) dot(c, one.dots, across(one.x[i]), up(y)); }); continue; }
+    c.beginPath();
     let open = false;
     one.y.forEach((y, i) => {
       if (y === null) { open = false; return; }
@@ -78,10 +80,19 @@ export function plot(canvas, series, { xLabel = "", yLabel = "", zero = true, lo
   named.forEach((one, k) => {
     const [x, y] = [places[k][0], 9 + 16 * places[k][1]];
     c.strokeStyle = one.color || INK; c.lineWidth = 1.6; c.setLineDash(one.dash || []);
-    c.beginPath(); c.moveTo(x, y); c.lineTo(x + 22, y); c.stroke(); c.setLineDash([]);
+    if (one.dots) dot(c, one.dots, x + 11, y); else { c.beginPath(); c.moveTo(x, y); c.lineTo(x + 22, y); c.stroke(); }
+    c.setLineDash([]);
     c.fillStyle = INK; c.fillText(one.label, x + 27, y);
   });
   return { across, left: l, right: r, top: t, bottom: b, first, last };
+}
+
+// A circle, a cross or a square.
+function dot(c, kind, x, y) {
+  c.beginPath(); c.fillStyle = "#fff";
+  if (kind === "x") { c.moveTo(x - 4, y - 4); c.lineTo(x + 4, y + 4); c.moveTo(x - 4, y + 4); c.lineTo(x + 4, y - 4); c.stroke(); return; }
+  if (kind === "o") c.arc(x, y, 3.6, 0, 7); else c.rect(x - 3.3, y - 3.3, 6.6, 6.6);
+  c.fill(); c.stroke();
 }
 
 // Where the names of lines stand: from the left, and in which line of text.

@@ -1,6 +1,7 @@
 // Run: model and certainty; the verdict; the column as it moves, with its histories in step.
 
 import { get, post } from "./api.js";
+import * as curves from "./curves.js";
 import { choice, el, facts, field, fill, find, later, length, mark, notice, number, select, warnings } from "./dom.js";
 import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
@@ -121,8 +122,7 @@ function foundCritical(job) {
     !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go({ column: asked.column, model: asked.model, settings: asked.settings || {}, motion: near }) }, "Run it at this amplitude")),
     files(job),
   ].flat());
-  fill(find("#run-film", panel), ["critical", "probability"].map(name => `result/${name}.png`).filter(name => (job.files || []).includes(name))
-    .map(name => el("div", { class: "card" }, el("img", { class: "figure", alt: "What each amplitude did to the column", src: `/api/jobs/${job.id}/files/${name}` }))));
+  curves.show(find("#run-film", panel), job.id).catch(error => notice(error.error || String(error)));
 }
 
 function waiting(job) {
@@ -240,5 +240,5 @@ const limits = (top, shown) => {
 const joints = (h, canvas) => [el("div", { class: "bar" }, el("select", { id: "joints", "aria-label": "what of the joints" },
   [["opening", "opening"], ["slip", "slip"], ...(h.twist ? [["twist", "twist"]] : [])].map(([key, text]) => el("option", { value: key }, text)))), canvas];
 
-function paint() { if (player) { plots.forEach(one => one.redraw()); player.fit(); } }
+function paint() { curves.redraw(); if (player) { plots.forEach(one => one.redraw()); player.fit(); } }
 export const current = () => followed;

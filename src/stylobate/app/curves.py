@@ -1,0 +1,121 @@
+"""Curves of analyses for the page, from their files: incremental dynamic analysis, fragility, critical amplitude."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from ..motion.intensity_specs import parse_measure
+from .asked import FRAGILITY, RESULT
+
+#: Room at the right of the largest response, for collapses; the points of a drawn fragility.
+ROOM, POINTS = 1.25, 120
+
+#: Share of the records by the column of the table that holds its curve.
+SHARES = {"16": "edp_16", "50": "edp_50", "84": "edp_84"}
+
+
+def curves(folder: Path) -> dict[str, Any]:
+    """What can be drawn of a job; what it has not computed is left out.
+
+    Parameters
+    ----------
+    folder : Path
+        Of the job.
+    """
+    found: dict[str, Any] = {}
+    if (folder / RESULT / "capacities.csv").is_file():
+        found["ida"] = _ida(folder / RESULT)
+    if (folder / FRAGILITY / "fragility.json").is_file():
+        found["fragility"] = _fragility(json.loads((folder / FRAGILITY / "fragility.json").read_text(encoding="utf-8")))
+    if (folder / RESULT / "critical.csv").is_file():
+        found["critical"] = [
+            [_number(row["amplitude_g"]), _number(row["peak_top_displacement_m"]), row["verdict"]]
+            for row in _rows(folder / RESULT / "critical.csv")
+        ]
+    return found
+
+
+def _ida(folder: Path) -> dict[str, Any]:
+    """Intensity over the response of every record, collapses as plateaus; and the curves of the records' shares."""
+    said = json.loads((folder / "ida.json").read_text(encoding="utf-8"))
+    runs: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    width = 1.0
+    for row in _rows(folder / "runs.csv"):
+        width = _number(row.get("base_width_m")) or 1.0
+        level, moved = _number(row["level"]), _number(row["peak_top_displacement_m"])
+        if level is not None and moved is not None:
+            runs.setdefault((row["record"], row["realisation"]), []).append((level, abs(moved) / width))
+    lines, ends = [], []
+    for row in _rows(folder / "capacities.csv"):
+        stands, falls = _number(row["stands_until"]), _number(row["collapses_from"])
+        below = [
+            (0.0, 0.0),
+            *sorted(
+                one for one in runs.get((row["record"], row["realisation"]), ()) if falls is None or one[0] < falls
+            ),
+        ]
+        lines.append({"name": row["record"], "x": [one[1] for one in below], "y": [one[0] for one in below]})
+        ends.append(None if falls is None else math.sqrt(stands * falls) if stands else 0.5 * falls)
+    right = ROOM * (max((max(one["x"]) for one in lines), default=0.0) or 1.0)
+    for line, end in zip(lines, ends, strict=True):
+        if end is not None:
+            line["x"] += [line["x"][-1], right]
+            line["y"] += [end, end]
+    shares = {}
+    for share, column in SHARES.items():
+        x, y = [0.0], [0.0]
+        for row in _rows(folder / "fractiles.csv"):
+            value, level = float(row[column] or "nan"), _number(row["im"])
+            if math.isnan(value) or level is None:
+                continue
+            x.append(min(value / width, right))
+            y.append(level)
+            if math.isinf(value):
+                break
+        shares[share] = {"x": _plain(x), "y": _plain(y)}
+    for line in lines:
+        line["x"], line["y"] = _plain(line["x"]), _plain(line["y"])
+    return {"records": lines, "shares": shares, "right": right, "words": _words(said)}
+
+
+def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
+    """The curve, the shares of the records with their intervals, and the interval of the median."""
+    median, beta = _number(said["median"]), _number(said["beta"])
+    points = [[_number(one[key]) for key in ("im", "share", "low", "high")] for one in said.get("points", ())]
+    points = [one for one in points if one[0] is not None]
+    interval = [_number(said["median_low"]), _number(said["median_high"])]
+    found = {"x": [], "y": [], "points": points, "median": interval, "state": said["state"], "words": _words(said)}
+    if median is None or not beta:
+        return found
+    ends = [one for one in (*(point[0] for point in points), *interval) if one is not None]
+    high = 1.1 * max(*ends, median * math.exp(2.5 * beta))
+    x = [high * (k + 1) / POINTS for k in range(POINTS)]
+    y = [0.5 * math.erfc(-math.log(one / median) / (beta * math.sqrt(2.0))) for one in x]
+    return found | {"x": _plain(x), "y": _plain(y)}
+
+
+def _words(said: Mapping[str, Any]) -> str:
+    return "intensity" if said["im"] == "im" else parse_measure(said["im"]).words
+
+
+def _rows(path: Path) -> Iterator[dict[str, str]]:
+    with path.open(encoding="utf-8", newline="") as file:
+        yield from csv.DictReader(file)
+
+
+def _number(value: Any) -> float | None:
+    """A finite number; None for anything else."""
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        return None
+    return number if math.isfinite(number) else None
+
+
+def _plain(values: list[float]) -> list[float]:
+    return [float(f"{one:.6g}") for one in values]
