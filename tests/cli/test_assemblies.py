@@ -269,13 +269,7 @@ def test_what_does_not_stand_cannot_settle(portal, capsys, tmp_path):
 )
 def test_other_commands_say_that_assemblies_are_for_run(arguments, refused, portal):
     message = refused(*(portal if one == "PORTAL" else one for one in arguments))
-    assert "describes an assembly of blocks, which 'run', 'critical' and 'study' take" in message
-
-
-def test_suite_says_it_too(refused, portal, tmp_path):
-    (tmp_path / "records").mkdir()
-    (tmp_path / "records" / "r.csv").write_text("time_s,ax_g\n0,0\n0.01,0.1\n0.02,0\n")
-    assert "which 'run', 'critical' and 'study' take" in refused("suite", portal, tmp_path / "records", *MODEL)
+    assert "describes an assembly of blocks, which 'run', 'critical', 'suite' and 'study' take" in message
 
 
 def test_animate_refuses_what_is_no_response(refused, portal):

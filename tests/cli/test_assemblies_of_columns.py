@@ -33,7 +33,7 @@ def test_two_columns_and_an_architrave(folder):
     assert found.joint == column.joints[-1]
 
 
-def test_critical_and_study_take_it(tmp_path, capsys):
+def test_critical_suite_and_study_take_it(tmp_path, capsys):
     # two slender blocks on soft joints, and a beam: 1.05 g for half a second throws them over, 0.05 g does not open a joint
     (tmp_path / "pillar.toml").write_text(
         "density = 2000.0\n[tapered]\nheight = 2.0\nbottom_width = 0.4\ntop_width = 0.4\ndrums = 1\n"
@@ -50,6 +50,12 @@ def test_critical_and_study_take_it(tmp_path, capsys):
     time = [0.01 * i for i in range(60)]
     record = "".join(f"{t:.2f},{0.05 if 0.1 < t < 0.5 else 0.0}\n" for t in time)
     (tmp_path / "weak.csv").write_text("time_s,ax_g\n" + record)
+    assert call(["suite", str(frame), str(tmp_path / "weak.csv"), "--out", str(tmp_path / "suite"), "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)["runs"]
+    assert row["collapsed"] is False
+    assert row["peak_displacement_m"] < 1e-2
+    assert "base_width_m" not in row
+    assert (tmp_path / "suite" / "suite.png").is_file()
     study = tmp_path / "study.toml"
     study.write_text('column = "frame.toml"\nmodel = "dem2d"\n[motions]\nfiles = ["weak.csv"]\n')
     assert call(["study", "run", str(study), "--out", str(tmp_path / "out"), "--json"]) == 0
@@ -81,7 +87,9 @@ def test_what_cannot_stand_is_said_in_one_sentence(folder, capsys, change, words
         (["critical", "{file}", "--model", "dem3d"], "is an assembly: use dem2d"),
         (["critical", "{file}", "--replicates", "5"], "only columns have twins"),
         (["limit", "{file}"], "describes an assembly of blocks"),
-        (["suite", "{file}", "sample:el-centro-1940"], "describes an assembly of blocks"),
+        (["suite", "{file}", "sample:el-centro-1940", "--replicates", "5"], "only columns have twins"),
+        (["suite", "{file}", "sample:el-centro-1940", "--also", "paper-monolithic"], "holds columns and assemblies"),
+        (["suite", "{file}", "sample:el-centro-1940", "--against", "omega_g_over_p"], "--against is 'omega_g_over_p'"),
     ],
 )
 def test_commands_that_do_not_take_it_say_so(folder, capsys, arguments, words):

@@ -73,6 +73,9 @@ def test_the_ledger_closes_with_every_kind_of_link(kind, tmp_path) -> None:
         assert links[0].peak_elongation > 3.0 * 4e3 / 3e7
     if kind == "brittle clamp":
         assert links[0].broken
+        told = response.summary()
+        assert told["links_broken"] == 1
+        assert told["links"][0]["broken_s"] == links[0].broken_at
         after = response.time > links[0].broken_at
         assert not response.links.tension[after].any()
         assert not response.links.shear[after].any()

@@ -1,4 +1,4 @@
-"""A suite of records: what each does to each column, beside how strong it is."""
+"""A suite of records: what each does to each column or assembly, beside how strong it is."""
 
 from __future__ import annotations
 
@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..campaign.cases import RELATIVE
 from ..campaign.runner import Progress, Stopped, run_campaign
 from ..campaign.twins import the_twins
 from ..column import Column
+from ..column.assembly import Assembly
 from ..column.scatter import Scatter
+from ..errors import InputError
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -46,8 +49,22 @@ INTENSITIES = {
 }
 
 
+def must_be_told(against: str, columns: Sequence[Column | Assembly]) -> None:
+    """Refuse a measure of records that there is not, or not of assemblies.
+
+    Raises
+    ------
+    InputError
+        The message names those that there are.
+    """
+    blocks = any(isinstance(one, Assembly) for one in columns)
+    known = [name for name in INTENSITIES if not (blocks and name in RELATIVE)]
+    if against not in known:
+        raise InputError(f"--against is {against!r}; allowed is {', '.join(known)}.")
+
+
 def suite_table(
-    columns: Column | Sequence[Column],
+    columns: Column | Assembly | Sequence[Column] | Sequence[Assembly],
     motions: Sequence[Motion],
     model: Model,
     *,
@@ -60,11 +77,11 @@ def suite_table(
     progress: Progress | None = None,
     ledger: str | Path | None = None,
 ) -> pandas.DataFrame:
-    """Shake every column with every record.
+    """Shake every column, or every assembly, with every record.
 
     Parameters
     ----------
-    columns : Column or sequence of Column
+    columns : Column or sequence of Column, or the same of Assembly
     motions : sequence of Motion
         E.g. ``read_suite(folder).motions``. The vertical component acts where a motion has one.
     model : Model
@@ -87,25 +104,28 @@ def suite_table(
     pandas.DataFrame
         One row per column and record, ``number`` that of the record: outcome and measures as the JSON keys of
         ``stylobate run``, the factor by which the record was multiplied, and its intensity measures along x, with
-        those that relate it to the column (:data:`INTENSITIES`). With twins, the probability of collapse with its interval,
-        and what 16, 50 and 84 % of them do not exceed.
+        those that relate it to the column (:data:`INTENSITIES`); an assembly has no slenderness. With twins, the probability
+        of collapse with its interval, and what 16, 50 and 84 % of them do not exceed.
 
     Raises
     ------
+    InputError
+        Columns and assemblies in one suite, or twins of an assembly.
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     import pandas
 
-    stands = [columns] if isinstance(columns, Column) else list(columns)
+    stands: list[Any] = [columns] if isinstance(columns, Column | Assembly) else list(columns)
+    if len({isinstance(one, Assembly) for one in stands}) > 1:
+        names = ", ".join(one.name for one in stands)
+        raise InputError(f"the suite holds columns and assemblies ({names}); give each kind a suite of its own.")
     records = [_record(motion) for motion in motions]
     rows: list[dict[str, Any]] = []
     for column in stands:
         for number, (motion, record) in enumerate(zip(motions, records, strict=True), 1):
-            relation = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
             named = {"number": number, "record": motion.name, "column": column.name} | direction_of(motion)
-            widths = {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
-            rows.append(named | widths | record | relation)
+            rows.append(named | _of_column(column, motion, record))
     cases = [Case(column, motion) for column in stands for motion in motions]
     own = len(cases)
     drawn = [the_twins(column, model, replicates, scatter, seed) for column in stands] if replicates else []
@@ -120,13 +140,22 @@ def suite_table(
         raise Stopped(found.rows.finished, len(cases), ledger)
     for i, (case, row, line) in enumerate(zip(cases[:own], found.rows, rows, strict=False)):
         if row is not None:
-            size = row["peak_top_displacement_m"] / case.column.base_width
-            line |= row | {"verdict": verdict(row), "peak_top_over_base_width": size, "model": model.name}
+            line |= row | {"verdict": verdict(row), "model": model.name}
+            if not isinstance(case.column, Assembly):
+                line["peak_top_over_base_width"] = row["peak_top_displacement_m"] / case.column.base_width
         if drawn:
             some = drawn[i // len(motions)]
             of_twins = [one for one in found.rows[own + i * replicates : own + (i + 1) * replicates] if one is not None]
             line |= Population(some.columns, tuple(of_twins), some.scatter, seed, some.left_out).columns
     return pandas.DataFrame(rows)
+
+
+def _of_column(column: Column | Assembly, motion: Motion, record: dict[str, Any]) -> dict[str, Any]:
+    """Measures of a record, with widths of the column and those that relate it to them; an assembly has none."""
+    if isinstance(column, Assembly):
+        return record
+    widths = {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
+    return widths | record | rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
 
 
 def _record(motion: Motion) -> dict[str, Any]:

@@ -1,10 +1,10 @@
-"""``stylobate suite``: what every record of a folder does to a column."""
+"""``stylobate suite``: what every record of a folder does to a column or an assembly."""
 
 from __future__ import annotations
 
 from collections import Counter
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -24,6 +24,8 @@ SHOWN = (
     "collapse_interval_low",
     "collapse_interval_high",
     "peak_top_displacement_m",
+    "peak_displacement_m",
+    "links_broken",
 )
 
 #: Motions of which is told what is left out.
@@ -36,7 +38,8 @@ def suite(
     sources: Annotated[list[Path], typer.Argument(metavar="DIR|FILE...", help="Folders of records, or records.")],
     model: o.ModelName = "dem2d",
     also: Annotated[
-        list[str] | None, typer.Option("--also", metavar="COLUMN", help="A further column; may be repeated.")
+        list[str] | None,
+        typer.Option("--also", metavar="COLUMN", help="A further column, or assembly; may be repeated."),
     ] = None,
     against: Annotated[
         str, typer.Option("--against", metavar="MEASURE", help="Measure of the records on the axis of the figure.")
@@ -62,22 +65,21 @@ def suite(
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
-    """Shake a column with every record of a folder.
+    """Shake a column, or an assembly of blocks (dem2d), with every record of a folder.
 
     A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them. With
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
     from ..analysis.directions import compass_of_shares, worst
-    from ..analysis.suite import INTENSITIES, suite_table
-    from ..column.files import load_column
+    from ..analysis.suite import must_be_told, suite_table
+    from ..column.assembly_files import load_structure
     from ..errors import InputError
     from ..models.shared.quiet import share_of
     from . import console
 
     workers, after = o.the_threads(threads), o.the_tail(tail)
-    if against not in INTENSITIES:
-        raise InputError(f"--against is {against!r}; allowed is {', '.join(INTENSITIES)}.")
-    stones = [load_column(name) for name in (column, *(also or ()))]
+    stones: list[Any] = [load_structure(name) for name in (column, *(also or ()))]
+    must_be_told(against, stones)
     names = [stone.name for stone in stones]
     if len(set(names)) < len(names):
         raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")

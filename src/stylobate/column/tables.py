@@ -125,8 +125,8 @@ def read_as(kind: Any, path: str | Path) -> Any:
     data = parse_toml(path)
     if describes_assembly(data):
         raise InputError(
-            f"{shown(path)} describes an assembly of blocks, which 'run', 'critical' and 'study' take (simulate_assembly "
-            "in Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
+            f"{shown(path)} describes an assembly of blocks, which 'run', 'critical', 'suite' and 'study' take "
+            "(simulate_assembly in Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
         )
     return made_of(kind, data, shown(path), shown(Path(path).stem))
 

@@ -1,4 +1,4 @@
-"""Peak response of columns to the records of a suite, against a measure of the records."""
+"""Peak response of columns or assemblies to the records of a suite, against a measure of the records."""
 
 from __future__ import annotations
 
@@ -23,6 +23,12 @@ SMALLEST = 1e-4
 #: More records than this are not numbered in the picture.
 MOST_NUMBERS = 40
 
+#: What is drawn, by the column of the table: of columns, of assemblies.
+PEAKS = {
+    "peak_top_over_base_width": "peak top displacement\n/ base width [-]",
+    "peak_displacement_m": "peak displacement\nof a block [m]",
+}
+
 _MARKS: dict[str, dict[str, Any]] = {
     "at rest": {"marker": "o", "color": GREY, "fillstyle": "none"},
     "rocked": {"marker": "o", "color": BLACK},
@@ -41,7 +47,7 @@ def draw_suite(
     *,
     figure: Figure | SubFigure | None = None,
 ) -> Figure:
-    """Peak top displacement over a measure of the records, one panel per column; the numbers are the records'.
+    """Peak displacement over a measure of the records, one panel per column or assembly; the numbers are the records'.
 
     Parameters
     ----------
@@ -65,7 +71,8 @@ def draw_suite(
     figure = page(figure, (WIDTH, 1.2 + 2.7 * len(columns)))
     panels = figure.subplots(len(columns), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     values = table[against].to_numpy(dtype=float)
-    peaks = table["peak_top_over_base_width"].to_numpy(dtype=float)
+    name = next(one for one in PEAKS if one in table)
+    peaks = table[name].to_numpy(dtype=float)
     groups = _groups(table)
     finite = peaks[np.isfinite(peaks) & (groups != v.COLLAPSED)]
     ceiling = 2.0 * max(float(finite.max(initial=0.0)), 0.5)
@@ -86,7 +93,7 @@ def draw_suite(
         axes.set_ylim(0.6 * floor, 1.8 * ceiling)
         axes.grid()
         axes.set_title(f"{column}, {title or table['model'].iloc[0]}")
-        axes.set_ylabel("peak top displacement\n/ base width [-]")
+        axes.set_ylabel(PEAKS[name])
     drawn = values[np.isfinite(values)]
     if drawn.size and drawn.min() > 0.0 and drawn.max() > 5.0 * drawn.min():
         panels[-1].set_xscale("log")

@@ -164,6 +164,8 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     ]
     fell = any(found.get("collapsed") for found in verdicts.values())
     keys = ["column", "record", "pga_g", "pgv_m_s", "verdict", "collapse_probability", "peak_top_displacement_m"]
+    if "peak_displacement_m" in (result.summary["runs"] or [{}])[0]:
+        keys[-1] = "peak_displacement_m"
     items: list[Item] = [
         _table(result.summary["runs"], keys, "One row per record; all measures are in suite.csv.", "verdict")
     ]

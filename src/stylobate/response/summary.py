@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .links import row_of
+
 if TYPE_CHECKING:
+    from .measures import Measures
     from .recorded import Recorded
 
 
@@ -33,8 +36,7 @@ def _of_column(response: Recorded) -> dict:
                 row[name] = [one if i + 1 < first else None for i, one in enumerate(row[name])]
         if m.collapse is not None:
             row["collapse"] = m.collapse.to_dict() | {"side": m.collapse.side}
-    if m.links:
-        row["links"] = [link.row() for link in m.links]
+    row |= _of_links(m)
     if response.mechanism is not None:
         row["mechanism"] = asdict(response.mechanism) | {"sentence": response.mechanism.describe()}
     return row
@@ -60,7 +62,12 @@ def _of_blocks(response: Recorded) -> dict:
         "energy_imbalance": m.energy_imbalance,
         "time_step_s": m.time_step,
         "steps": m.steps,
+        **_of_links(m),
     }
+
+
+def _of_links(m: Measures) -> dict:
+    return row_of(m.links) | {"links": [link.row() for link in m.links]} if m.links else {}
 
 
 def _finite(values: np.ndarray) -> list[float | None]:
