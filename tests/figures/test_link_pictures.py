@@ -6,10 +6,14 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.column.assembly import Assembly, Block
+from stylobate.column.block_links import block_link
 from stylobate.plots.animation import draw_frame
 from stylobate.plots.filmstrip import draw_filmstrip
 from stylobate.plots.link_marks import link_marks
+from stylobate.plots.player import film_data
 from stylobate.plots.scene import scene_of
+from stylobate.simulate import simulate_assembly
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.2)
 LINKS = (
@@ -32,6 +36,31 @@ def test_marks_stand_where_the_links_are_and_know_which_are_broken(response) -> 
     assert first[1][0] == pytest.approx(np.array([(0.3, 0.0), (0.3, 1.1)]), abs=1e-4)
     assert [broken for _, broken in first] == [False, False]
     assert [broken for _, broken in last] == [True, False]
+
+
+def test_players_are_told_of_them(response) -> None:
+    (dowel, tie) = film_data(scene_of(response), np.array([0, 5]))["links"]
+    assert dowel[:3] == [0, [0.1, 0.0, 0.2], 0]  # over the joint's middle by its embedment, on the lower drum
+    assert dowel[4] == response.measures.links[0].broken_at
+    assert tie == [None, [0.3, 0.0, 0.0], 1, [0.3, 0.0, 0.2], None]
+
+
+def test_marks_between_blocks_stay_on_them() -> None:
+    blocks = (
+        Block(((0.0, 0.0), (1.0, 0.0), (1.0, 0.5), (0.0, 0.5)), 2000.0, "a"),
+        Block(((1.0, 0.0), (2.0, 0.0), (2.0, 0.5), (1.0, 0.5)), 2000.0, "b"),
+    )
+    links = (
+        block_link("clamp", ("a", "b"), (0.8, 0.4), (1.2, 0.4), axial_stiffness=1e7, shear_stiffness=1e7),
+        block_link("dowel", ("ground", "a"), (0.5, 0.0), shear_stiffness=1e7, embedment=0.1),
+    )
+    pair = Assembly(blocks, JOINT, "pair", links=links)
+    found = simulate_assembly(pair, st.harmonic(frequency=2.0, amplitude=1.0, duration=0.05))
+    marks = link_marks(scene_of(found), 0)
+    assert marks[0][0] == pytest.approx(np.array([(0.8, 0.4), (1.2, 0.4)]), abs=1e-4)
+    assert marks[1][0] == pytest.approx(np.array([(0.5, -0.1), (0.5, 0.1)]), abs=1e-4)
+    clamp, dowel = film_data(scene_of(found), np.array([0]))["links"]
+    assert (clamp[0], clamp[2], dowel[0]) == (0, 1, None)
 
 
 def test_strips_and_frames_draw_them(response) -> None:

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import math
+from typing import NamedTuple
+
 import numpy as np
 from matplotlib.axes import Axes
 
@@ -9,49 +12,58 @@ from ..column import Column
 from ..column.assembly import Assembly
 from ..column.link_loads import strokes
 from ..column.placed_links import strokes_between
-from ..response import Response
 from ..response.poses import exaggerated, rotation_matrices
 from .scene import Scene
 from .style import BLUE, RED
 
 
+class Mark(NamedTuple):
+    """The mark of a link: a body by its number and a place in its axes for either end, or no body and a place in space [m].
+
+    ``broken`` is when it broke [s], infinite if it is whole.
+    """
+
+    lower: tuple[int | None, np.ndarray]
+    upper: tuple[int | None, np.ndarray]
+    broken: float
+
+
+def marks_of(scene: Scene) -> list[Mark]:
+    """Marks of every link but layers."""
+    structure = scene.response.structure
+    broken = {one.name: one.broken_at for one in scene.response.measures.links if one.broken}
+    if isinstance(structure, Assembly):
+
+        def on_block(body: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
+            x, z = structure.bodies[body].origin
+            return body, np.array([place[0] - x, 0.0, place[1] - z])
+
+        found = [(one, on_block(*lower), on_block(*upper)) for one, lower, upper in strokes_between(structure)]
+    elif isinstance(structure, Column):
+
+        def on_drum(body: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
+            return (None, scene.base @ place) if body == 0 else (body - 1, place)
+
+        found = [(one, on_drum(*lower), on_drum(*upper)) for one, lower, upper in strokes(structure)]
+    else:
+        return []
+    return [Mark(lower, upper, broken.get(link.name, math.inf)) for link, lower, upper in found]
+
+
 def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.ndarray, bool]]:
     """Ends of every link but layers as seen at a recorded state [m], shape (2, 2), and whether it is broken."""
-    response, column = scene.response, scene.response.structure
-    if isinstance(column, Assembly):
-        return _between_blocks(response, column, index, factor)
-    if not isinstance(column, Column) or not column.links:
+    marks = marks_of(scene)
+    if not marks:
         return []
-    poses = exaggerated(response.poses, index, factor)
+    poses = exaggerated(scene.response.poses, index, factor)
     turns, places = scene.upright @ rotation_matrices(poses.orientation), poses.position @ scene.upright.T
-    broken = {one.name: one.broken_at for one in response.measures.links}
 
-    def seen(body: int, place: np.ndarray) -> np.ndarray:
-        point = scene.base @ place if body == 0 else places[body - 1] + turns[body - 1] @ place
+    def seen(body: int | None, place: np.ndarray) -> np.ndarray:
+        point = place if body is None else places[body] + turns[body] @ place
         return point[[0, 2]] if scene.seen_from is None else scene.seen_from.across(point)
 
-    marks = []
-    for link, lower, upper in strokes(column):
-        ends = np.array([seen(*lower), seen(*upper)])
-        marks.append((ends, response.time[index] >= broken.get(link.name, np.inf)))
-    return marks
-
-
-def _between_blocks(response: Response, assembly: Assembly, index: int, factor: float) -> list[tuple[np.ndarray, bool]]:
-    if not assembly.links:
-        return []
-    poses = exaggerated(response.poses, index, factor)
-    turns = rotation_matrices(poses.orientation)
-    broken = {one.name: one.broken_at for one in response.measures.links}
-
-    def seen(body: int, place: np.ndarray) -> np.ndarray:
-        x, z = assembly.bodies[body].origin
-        return (poses.position[body] + turns[body] @ (np.array([place[0] - x, 0.0, place[1] - z])))[[0, 2]]
-
-    marks = []
-    for link, lower, upper in strokes_between(assembly):
-        marks.append((np.array([seen(*lower), seen(*upper)]), response.time[index] >= broken.get(link.name, np.inf)))
-    return marks
+    now = scene.response.time[index]
+    return [(np.array([seen(*one.lower), seen(*one.upper)]), now >= one.broken) for one in marks]
 
 
 def draw_links(axes: Axes, scene: Scene, index: int, factor: float = 1.0) -> None:

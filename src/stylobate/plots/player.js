@@ -49,6 +49,17 @@ function drawBar(c, width, length, scale) {
   c.fillRect(width - 12 - length * scale, 12, length * scale, 3);
   c.fillText(+length.toPrecision(3) + " m", width - 12 - Math.max(length * scale / 2, 16), 19);
 }
+// Links, over the bodies: whole ones in blue, broken ones in red and dotted; "screen" says where a place in space is drawn.
+function drawLinks(c, data, k, factor, screen) {
+  for (const [below, low, above, high, broken] of data.links) {
+    const ends = [[below, low], [above, high]].map(([i, place]) =>
+      screen(i === null ? place : placed(place, magnified(data.poses[k][i], data.start[i], factor))));
+    const gone = broken !== null && data.time[k] >= broken;
+    c.strokeStyle = gone ? "#b2182b" : "#2166ac"; c.lineWidth = 2; c.setLineDash(gone ? [2, 3] : []);
+    c.beginPath(); ends.forEach(end => c.lineTo(...end)); c.stroke();
+  }
+  c.setLineDash([]);
+}
 // Seen along y: moved and zoomed by hand.
 function planePainter(data, film) {
   const [left, right, bottom, ceiling] = data.view;
@@ -76,6 +87,7 @@ function planePainter(data, film) {
         outline(vertices.map(corner => placed(corner, pose))).forEach(([x, z]) => c.lineTo(across(x), up(z)));
         c.closePath(); c.fill(); c.stroke();
       });
+      drawLinks(c, data, k, factor, ([x, , z]) => [across(x), up(z)]);
       drawBar(c, width, data.bar / (zoom > 3 ? 10 : zoom < 0.4 ? 0.1 : 1), scale);
     },
   };

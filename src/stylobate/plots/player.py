@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +14,7 @@ from ..atomic import replacing
 from ..response import Response
 from ..response.poses import quaternions, rotation_matrices
 from .animation import SHAPE, film_of, frame_indices
+from .link_marks import marks_of
 from .scene import Scene, scale_bar
 from .solids import COLOURS, DIFFUSE, LIGHT
 from .view import OBLIQUE, View
@@ -87,6 +89,7 @@ def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE, leas
         "slope": scene.slope,
         "ground": scene.ground[indices].round(5).tolist(),
         "peak": float(np.abs(scene.ground).max()),
+        "links": _links(scene, shown),
     }
     if scene.ground_across is not None:
         data |= {
@@ -95,6 +98,20 @@ def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE, leas
             "space": _in_space(scene, seen_from),
         }
     return data
+
+
+def _links(scene: Scene, shown: list[int]) -> list[list]:
+    """Marks of links: for either end the body in the picture, or none, and a place [m]; and when it broke [s]."""
+
+    def end(body: int | None, place: np.ndarray) -> list:
+        if body is not None and body not in shown:  # a ground without ends
+            body, place = None, place + scene.response.body_position[0, body]
+        return [None if body is None else shown.index(body), place.round(5).tolist()]
+
+    return [
+        [*end(*one.lower), *end(*one.upper), one.broken if math.isfinite(one.broken) else None]
+        for one in marks_of(scene)
+    ]
 
 
 def _upright(scene: Scene, position: np.ndarray, orientation: np.ndarray) -> np.ndarray:

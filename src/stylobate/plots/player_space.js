@@ -90,6 +90,7 @@ function spacePainter(data, film) {
           path(corners.map(j => points[j])); c.fill(); c.stroke();
         }
       }
+      drawLinks(c, data, k, factor, screen);
       drawBar(c, width, data.bar / (zoom > 3 ? 10 : zoom < 0.4 ? 0.1 : 1), scale);
     },
   };
