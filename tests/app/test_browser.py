@@ -275,7 +275,7 @@ def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
     found = page.locator("#fragility-found")
     expect(found.locator(".verdict").first).to_contain_text("Half of the records bring collapse", timeout=60_000)
     expect(found).to_contain_text("of 10 records")
-    expect(found).to_contain_text("notes-i")
+    expect(found).to_contain_text("notes <i>.txt was left out")
     expect(found.locator("canvas[data-curves=ida]")).to_be_visible()
     expect(found.locator("canvas[data-curves=fragility]")).to_be_visible()
     blank = """one => [...one.querySelectorAll('canvas')].map(canvas => {

@@ -12,7 +12,7 @@ from ..atomic import replacing
 from ..plots.animation import film_of, frame_indices
 from ..plots.player import film_data
 from ..plots.view import OBLIQUE
-from ..response import Response, load_response
+from ..response import Response
 from ..response.histories import ENERGY_TERMS
 
 #: Least width over height of a film: upright, for phones.
@@ -22,9 +22,9 @@ SHAPE = 0.9
 MOST, BEST, LEAST = 60_000, 30.0, 4.0
 
 
-def write_film(response: Path, target: Path) -> Path:
-    """Write the film of a recorded response."""
-    content = json.dumps(film(load_response(response)), separators=(",", ":"))
+def write_film(response: Response, target: Path) -> Path:
+    """Write the film of a response."""
+    content = json.dumps(film(response), separators=(",", ":"))
     with replacing(target) as partial:
         partial.write_text(content, encoding="utf-8")
     return target

@@ -54,6 +54,7 @@ class Job:
     warnings: list[str] = field(default_factory=list)
     results: list[dict[str, Any]] = field(default_factory=list)
     version: int = 0
+    filmed: bool = False
     _files: list[str] | None = field(default=None, init=False, repr=False, compare=False)
 
     @property
@@ -80,7 +81,7 @@ class Job:
         plain = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in left_out}
         plain["commands"] = [shown(one) for one in self.commands]
         plain["files"] = [] if self.open else self.files()
-        plain["film"] = (self.folder / "film.json").is_file()
+        plain["film"] = (self.filmed or not self.open) and (self.folder / "film.json").is_file()
         return plain
 
     def save(self) -> None:

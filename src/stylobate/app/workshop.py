@@ -229,7 +229,7 @@ class Workshop:
         if job is None or job.state != WAITING:
             return None
         self._current, job.state, job.started = job.id, RUNNING, time.time()
-        job.results, job.warnings = [], []
+        job.results, job.warnings, job.filmed = [], [], False
         self._changed(job)
         return job
 
@@ -281,6 +281,10 @@ class Workshop:
         if "progress" in what:
             job.done, job.total = what["progress"]
             job.what = what["what"]
+            self._changed(job)
+            return False
+        if "film" in what:
+            job.filmed = True
             self._changed(job)
             return False
         if "code" not in what:

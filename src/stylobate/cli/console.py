@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pandas
 
+    from ..response import Response
+
 #: The command line that is run, as typed, and what was warned of since it began.
 COMMAND: list[str] = []
 WARNED: list[str] = []
@@ -166,6 +168,15 @@ def done_with(*ledgers: Path | None) -> None:
 
 #: Hears of progress (title, done, all) instead of a bar, where a command is run for somebody else than a terminal.
 LISTENER: Callable[[str, float, float], None] | None = None
+
+#: Sees what a run has come to before its files are written, where somebody waits for it.
+VIEWER: Callable[[Response], None] | None = None
+
+
+def show(response: Response) -> None:
+    """Let it be seen, where somebody waits for it."""
+    if VIEWER is not None:
+        VIEWER(response)
 
 
 @contextmanager

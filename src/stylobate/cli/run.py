@@ -242,6 +242,7 @@ def conclude(
     with console.folder(out, *names, *pictures) as folder:
         with console.progress("seconds of motion") as progress:
             response, population = follow(motion, progress=progress)
+        console.show(response)
         taken = model.taken(motion)
         summary, files = response.summary() | o.input_facts(taken) | direction_of(motion), []
         if population is not None:

@@ -16,11 +16,15 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout, suppress
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..errors import StylobateError
 from . import signals
+
+if TYPE_CHECKING:
+    from ..response import Response
 
 #: Least time between two lines about progress [s].
 PACE = 0.1
@@ -104,27 +108,34 @@ def warm(tell: Callable[..., None]) -> None:
 
 
 def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
-    """Run the commands of a job, and make the film of a run."""
-    from ..app.film import write_film
+    """Run the commands of a job; the film of a run is told of as soon as there is one."""
+    from . import console
     from .main import call
 
     os.chdir(job["folder"])
     for number, command in enumerate(job["commands"]):
         said, complained = io.StringIO(), io.StringIO()
+        console.VIEWER = partial(make_film, job["id"], tell) if command[0] == "run" else None
         with redirect_stdout(said), redirect_stderr(complained):
             code = call([*command, "--json"])
+        console.VIEWER = None
         lines = [one.removeprefix("stylobate: ") for one in complained.getvalue().splitlines()]
         tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines)
         if code:
             return
-        response = Path("result/response.nc")
-        if command[0] == "run" and response.is_file():
-            try:
-                write_film(response, Path("film.json"))
-            except StylobateError as error:
-                complaint = f"warning: there is no film: {error}"
-                tell(id=job["id"], number=number, code=0, said="", complained=[complaint])
     tell(id=job["id"], done=True)
+
+
+def make_film(job: str, tell: Callable[..., None], response: Response) -> None:
+    """Make the film of a run, in the folder of its job."""
+    from ..app.film import write_film
+
+    try:
+        write_film(response, Path("film.json"))
+    except StylobateError as error:
+        print(f"stylobate: warning: there is no film: {error}", file=sys.stderr)
+        return
+    tell(id=job, film=True)
 
 
 if __name__ == "__main__":

@@ -81,12 +81,14 @@ export async function hear(news) {
     curve && el("p", { class: "verdict" }, said(curve)),
     curve && facts([["median", `${number(curve.median)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
-    Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, `${name} was left out: ${why}`)),
-    (job.warnings || []).map(one => el("p", { class: "warning" }, one)), analysis && !isOpen(job) && run.files(job),
+    Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, named(`${name} was left out: ${why}`))),
+    (job.warnings || []).map(one => el("p", { class: "warning" }, named(one))), analysis && !isOpen(job) && run.files(job),
   ].flat());
   if (card.isConnected) return;
   const figures = el("div", { class: "figures" });
   fill(place, card, figures);
   if (!isOpen(job)) curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
 }
+// Files have names of their own here; people know them by those that they had.
+const named = text => uploaded.reduce((said, one) => said.replace(new RegExp(`[\\w-]*-${one.id}(\\.\\w+)?`, "g"), () => one.name), text);
 const said = s => `Half of the records bring ${s.state} at ${s.im} = ${number(s.median)} ${s.unit}.`;

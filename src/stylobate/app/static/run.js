@@ -96,10 +96,10 @@ export async function hear(job) {
   if (job.id !== state.job) return;
   followed = job;
   said(job);
-  if (job.state === "done" && job.film && loaded !== job.id) {
-    loaded = job.id;
+  if (["running", "done"].includes(job.state) && job.film && loaded !== job.id) {  // the film is there before all files are
+    loaded = job.id; data = null;
     const found = await get(`/api/jobs/${job.id}/film`).catch(error => { notice(error.error); return null; });
-    if (found && state.job === job.id) { data = found; film(found); said(job); }
+    if (found && state.job === job.id) { data = found; film(found); said(followed); }
   } else if (job.state === "done" && job.kind === "critical") {
     loaded = "";
     foundCritical(job);
