@@ -96,14 +96,17 @@ def warm(tell: Callable[..., None]) -> None:
     """Load compiled code and libraries before the first job comes."""
     import h5netcdf  # noqa: F401
 
-    from .. import DistinctElement2D, harmonic, preset, simulate
+    from .. import DistinctElement2D, certainty, harmonic, preset
     from ..app.film import film
     from ..motion import writing  # noqa: F401
     from .main import call
 
     with redirect_stdout(io.StringIO()), redirect_stderr(io.StringIO()):
         call(["run", "paper-12-drums", "--harmonic=1Hz,0.05g,0.1s", "--json"])
-        film(simulate(preset("paper-12-drums"), harmonic(1.0, 0.5, 0.1), DistinctElement2D()))
+        made = certainty(preset("paper-12-drums"), harmonic(1.0, 0.5, 0.1), DistinctElement2D())
+        film(made.response)
+        made.response.to_xarray()
+        made.population.table.to_csv()
     tell(ready=True)
 
 
