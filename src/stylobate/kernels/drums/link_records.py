@@ -22,6 +22,7 @@ Legend of ``lane[1 + m]``, link m (row 0 is the lane itself; one number for all 
     mpeak mpull    largest force in shear and in tension [N];  mfar mmost  largest slip, and lift or elongation [m]
     mover          by how much it may leave its slack within the next chunk of steps [m]
     mwhen          step after which it was found broken; −1
+    mfill          nothing
     mhold          largest moment that it can set, whole, against overturning about a joint that it crosses [N m]
 
 Of ``watch``: hold, the same of all whole links by joint, one joint after the other [N m]; 0 without links. The records are
@@ -31,6 +32,9 @@ those of columns without links too, so that what both share is compiled once.
 import numpy as np
 
 from ..run_codes import LANES
+
+#: Numbers in a line of the cache.
+LINE = 8
 
 #: Most joints of a column.
 MOST_JOINTS = 200
@@ -45,12 +49,17 @@ OWN = (
 
 
 def link_fields() -> list[tuple]:
-    """Fields that the records of lanes have besides: their rows behind the first, where there are some, are links."""
+    """Fields that the records of lanes have besides: their rows behind the first, where there are some, are links.
+
+    Filled up to whole lines of the cache behind what lanes share, so that what each lane has of its own begins on one in
+    every row: a vector that lies across two lines costs two accesses.
+    """
+    shared = [*((name, np.int64) for name in NUMBERS.split()), *((name, np.float64) for name in SHARED.split())]
     return [
-        *((name, np.int64) for name in NUMBERS.split()),
-        *((name, np.float64) for name in SHARED.split()),
         *((name, np.float64, (LANES,)) for name in OWN.split()),
         ("mwhen", np.int64, (LANES,)),
+        *shared,
+        ("mfill", np.float64, (-len(shared) % LINE,)),
     ]
 
 
