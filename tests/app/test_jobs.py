@@ -56,7 +56,8 @@ def test_a_killed_process_costs_one_sentence(fresh, asked, how, tmp_path):
         end = time.monotonic() + 10.0
         while fresh.get(f"/api/jobs/{job}").json()["total"] == 0 and time.monotonic() < end:
             time.sleep(0.02)
-        os.kill(worker_of(tmp_path), signal.SIGKILL)
+        for process in workers_of(tmp_path):
+            os.kill(process, signal.SIGKILL)
     found = ended(fresh, job)
     assert found["state"] == "failed"
     assert found["sentence"].startswith("The process that computes was ended from outside")
@@ -64,13 +65,8 @@ def test_a_killed_process_costs_one_sentence(fresh, asked, how, tmp_path):
     assert ended(fresh, fresh.post("/api/jobs", json=asked).json()["id"])["state"] == "done"
 
 
-def worker_of(folder):
-    """The process whose log lies in a folder."""
-    return workers_of(folder).pop()
-
-
 def workers_of(folder):
-    """All of them."""
+    """The processes whose log lies in a folder: that which does jobs, and the one that stands by."""
     log, found = os.path.realpath(folder / "worker.log"), set()
     for process in filter(str.isdecimal, os.listdir("/proc") if os.path.isdir("/proc") else ()):
         with suppress(OSError):

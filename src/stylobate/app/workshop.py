@@ -202,6 +202,8 @@ class Workshop:
             with self._wake:
                 self._wake.wait_for(lambda: self._closing or self._queue, LOOK)
             if self._closing or process.over or not self._queue:
+                if process.ready:
+                    self._stand_by(process)
                 continue
             with self._lock:
                 job = self._taken(process)
@@ -212,9 +214,11 @@ class Workshop:
                 self._follow(job, process)
             finally:
                 self._current = None
-        for one in (self._process, self._spare):
-            if one is not None:
-                one.put_away()
+        both = [one for one in (self._process, self._spare) if one is not None]
+        for one in both:
+            one.tell()
+        for one in both:
+            one.put_away()
         for one in self._leaving:
             one.join()
 
@@ -246,6 +250,11 @@ class Workshop:
             self._news()
         return self._process
 
+    def _stand_by(self, process: Process) -> None:
+        """Have a second process at hand, for a short job that comes while a long one is computed: libraries take seconds."""
+        if self._spare is None and not self._closing and not process.over:
+            self._spare = self._new()
+
     def _leave(self, process: Process) -> None:
         """Let a process end by itself, and go on meanwhile."""
         leaving = threading.Thread(target=process.put_away, name="leaving", daemon=True)
@@ -258,8 +267,8 @@ class Workshop:
     def _follow(self, job: Job, process: Process) -> None:
         """Hand a job to the process and hear what becomes of it."""
         process.give({"id": job.id, "folder": str(job.folder), "commands": job.commands})
-        if job.kind in LONG and self._spare is None:
-            self._spare = self._new()  # for a short job that comes meanwhile, and must not wait for libraries
+        if job.kind in LONG:
+            self._stand_by(process)
         for what in process.says():
             if what.get("id") == job.id and self._hear(job, what):
                 return
