@@ -37,6 +37,7 @@ def test_fragility(curve, tmp_path):
     assert "peak ground velocity [m/s]" in said
     assert "probability of collapse" in said
     assert r"\$x\$_{" in said
+    assert said.count("if all that is undecided did, or none") == 1
     # two bands, and for each curve the two extremes that its open runs leave
     assert len(figure.axes[0].lines) >= 2 * (1 + 2)
     assert all(file.stat().st_size > 5000 for file in plots.save(figure, tmp_path / "f"))

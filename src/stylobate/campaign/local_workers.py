@@ -21,6 +21,13 @@ from ..errors import StylobateError
 #: Time until they end by force, and between looks at whether they live [s].
 _PATIENCE = 0.5
 
+#: Of Dask: a chunk that has died with two workers is told; nothing is measured that nobody looks at.
+_SETTINGS = {
+    "distributed.scheduler.allowed-failures": 1,
+    "distributed.worker.profile.enabled": False,
+    "distributed.admin.system-monitor.interval": "10s",
+}
+
 #: Times that they are started before it is said that they do not.
 _TRIES = 3
 
@@ -82,8 +89,9 @@ def serve(count: int) -> None:
     from distributed import LocalCluster
 
     with tempfile.TemporaryDirectory(prefix="stylobate-workers-", ignore_cleanup_errors=True) as place:
-        with setting({"distributed.scheduler.allowed-failures": 1}):
+        with setting(_SETTINGS):
             how: dict[str, Any] = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
+            how["memory_limit"] = None  # nobody measures it ten times a second
             cluster = started(lambda: LocalCluster(n_workers=count, local_directory=place, **how))
         print(cluster.scheduler_address, flush=True)
         threading.Thread(target=_keep_alive, args=(cluster,), daemon=True).start()

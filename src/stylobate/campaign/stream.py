@@ -19,7 +19,7 @@ from ..models.base import Case, Cases, Model, RunOptions
 from ..response import Measures
 
 #: Cases that wait for a lane, at least, and how long they last [s]: until the next chunk is here.
-FEWEST_WAITING, WAITING = 4, 0.5
+FEWEST_WAITING, WAITING = 8, 1.5
 
 
 @dataclass

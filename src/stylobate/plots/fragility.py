@@ -12,7 +12,7 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from ..analysis.fragility import Fragility, curve
 from ..motion.intensity_specs import parse_measure
-from .style import BLACK, BLUE, RED, legend_below, panel, styled
+from .style import BLACK, BLUE, GREY, RED, legend_below, panel, styled
 
 #: Width and height of a picture for one column of a printed page, where its text is still legible [inch].
 NARROW = (4.4, 3.7)
@@ -53,13 +53,14 @@ def draw_fragility(
     low = max(values.min(), min(below for below, _ in steep))
     high = min(values.max(), max([above for _, above in steep] + [one.points.im.max() for one in found]))
     x = np.geomspace(low / 1.1, high * 1.2, 300)
+    fine = {"linewidth": 0.7, "linestyle": (0, (1, 1.5))}
     for one, look in zip(found, _LOOKS * len(found)):
         colour = look["color"]
         below, above = one.interval(x)
         axes.fill_between(x, below, above, color=colour, alpha=0.18, linewidth=0.0)
         if one.evidence.count(-1) + one.evidence.count(-2):
             for extreme in one.extremes:
-                axes.plot(x, curve(x, *extreme), color=colour, linewidth=0.7, linestyle=(0, (1, 1.5)))
+                axes.plot(x, curve(x, *extreme), color=colour, **fine)
         name = one.evidence.name if len(found) > 1 else "lognormal"
         badly = ", fits badly" if one.p_value < BADLY else ""
         label = f"{name}: {one.median:.3g} {one.evidence.unit}, β {one.beta:.2f}, {one.records} records{badly}"
@@ -70,6 +71,8 @@ def draw_fragility(
             p.im, p.share, bars, color=colour, linestyle="none", marker=look["marker"], markersize=3.4, linewidth=0.8,
             markerfacecolor="white",
         )  # fmt: skip
+    if any(one.evidence.count(-1) + one.evidence.count(-2) for one in found):
+        axes.plot([], [], color=GREY if len(found) > 1 else RED, label="if all that is undecided did, or none", **fine)
     axes.set(ylim=(-0.03, 1.03), xlim=(x[0], x[-1]))
     logarithmic(axes)
     measure, state = found[0].evidence.measure, found[0].evidence.state
