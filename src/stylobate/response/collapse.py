@@ -84,3 +84,11 @@ def in_plane(time: float, joint: int, side: float, *, slid_off: bool = False) ->
     slid_off : bool
     """
     return Collapse(float(time), int(joint), SLID_OFF if slid_off else OVERTURNED, 0.0 if side > 0 else math.pi)
+
+
+def what_is_lost(lost: Collapse, drums: int) -> str:
+    """The part of a column of so many drums that is lost, and how, in words."""
+    joint = lost.joint or 1
+    part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
+    how = f"left the support at joint {joint}" if lost.mechanism == SLID_OFF else f"overturned about joint {joint}"
+    return f"{part} {how}"

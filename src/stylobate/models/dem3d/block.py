@@ -22,6 +22,7 @@ from ..drums.block import CALLS_PER_RUN, DrumBlock
 from ..drums.histories import ledger_imbalance
 from ..drums.links import put_links, with_link_histories
 from ..drums.packing import whole_steps
+from ..drums.pose import sink
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
 from ..start import check_in_plane
@@ -111,7 +112,7 @@ class SpaceBlock(DrumBlock):
         for array, fields in ((self.drum, drums), (self.joint, joints)):
             for name, values in fields.items():
                 array[name][..., lane] = values
-        self.sink(lane, force)
+        sink(self, lane, force)
 
     def lift(self, joint: np.ndarray, lane: int) -> float:
         """What the base carries [N]."""

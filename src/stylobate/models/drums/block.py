@@ -9,22 +9,21 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.link_loads import is_pretensioned
 from ...constants import DEGREE
-from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
 from ...outcome import Outcome, classify
 from ...response import Collapse, LinkMeasures, Measures
-from ...response.collapse import SLID_OFF, in_plane
+from ...response.collapse import in_plane, what_is_lost
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
 from ..shared.ground import along_base
 from ..shared.lanes import aligned_zeros, longest_piece
-from ..start import Start, check_in_plane
+from ..start import check_in_plane
 from .histories import ledger_imbalance
-from .links import acting, held_at_start, link_measures, link_snapshot, put_links, set_free, without_tension
+from .links import acting, link_measures, link_snapshot, put_links
 from .packing import PackedColumn, whole_steps
-from .pose import leans_right, placed
+from .pose import check_takes_pose, leans_right, placed, sink
+from .pretension import held_at_start, pressed_joints, set_free
 from .standing import lowest_barrier, stands_for_good
 
 #: Calls of the kernel per run.
@@ -141,19 +140,13 @@ class DrumBlock:
             self.take_pose(lane, case.column, start)
         self.half_a_step_back(lane)
         self.start[lane] = self.energies(lane)
-        self.pressed[lane] = self.stored_by_pretension(lane, case.column)
+        self.pressed[lane] = pressed_joints(self, lane, case.column) if self.tied else 0.0
         if start is not None:  # what the pose and the velocity hold above the column upright
             self.rest[lane] += self.start[lane, 1:4].sum()
 
     def check_start(self, column: Any) -> None:
         """Refuse a start that is not one for this column."""
-        if not isinstance(self.options.start, Start):
-            raise InputError(f"a toss is for a specimen, and {column.name!r} is a column; give a Start.")
-        if column.as_found:
-            raise InputError(
-                f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
-            )
-        column.must_be_without_links("a start from a pose")
+        check_takes_pose(self.options.start, column)
 
     def take_pose(self, lane: int, column: Any, start: Any) -> None:
         """Tilt a column that stands in a lane."""
@@ -163,30 +156,11 @@ class DrumBlock:
             self.drum[name][:, lane] = values
         self.joint["fs"][0, :, lane] = 0.0
         self.joint["fs"][0, -1 if leans_right(start) else 0, lane] = push
-        self.sink(lane, lift)
+        sink(self, lane, lift)
 
     def lift(self, joint: np.ndarray, lane: int) -> float:
         """What the base carries [N]."""
         return float(joint["fz"][0, lane])
-
-    def sink(self, lane: int, force: float) -> None:
-        """Lower the whole column until the base carries a force [N]."""
-        joint, state = self.joint.copy(), self.lane.copy()
-        state["dt"][0, lane] = 0.0
-        z = self.drum["z"][1:, lane].copy()
-
-        def carried(depth: float) -> float:
-            self.drum["z"][1:, lane] = z - depth
-            self.kernel.forces(self.drum, joint, state)
-            return self.lift(joint, lane)
-
-        low, high = 0.0, 1e-12
-        while carried(high) < force:
-            high *= 2.0
-        while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
-            middle = 0.5 * (low + high)
-            low, high = (middle, high) if carried(middle) < force else (low, middle)
-        carried(high)
 
     def half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
@@ -282,9 +256,10 @@ class DrumBlock:
     def energies(self, lane: int) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
         # the forces at the present positions, found as the next step will find them, on a copy
-        return self._energies(lane, self.drum, self.joint.copy(), self.lane.copy())
+        return self.energies_of(lane, self.drum, self.joint.copy(), self.lane.copy())
 
-    def _energies(self, lane: int, drum: np.ndarray, joint: np.ndarray, state: np.ndarray) -> np.ndarray:
+    def energies_of(self, lane: int, drum: np.ndarray, joint: np.ndarray, state: np.ndarray) -> np.ndarray:
+        """The same of these records, of which those of joints and lanes are changed."""
         ground = np.zeros(1, self.ground.dtype)
         self.put_ground(ground, lane, self.ground_acceleration(lane, self.time(lane)))
         state["dt"][0, lane] = self.dt[lane]
@@ -292,21 +267,6 @@ class DrumBlock:
         out = np.empty(6)
         self.kernel.ledger(drum, joint, state, ground, 0, self.dt[lane], lane, out)
         return out
-
-    def stored_by_pretension(self, lane: int, column: Any) -> float:
-        """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J].
-
-        Their elastic energy is larger by more than this, because what stands on them has sunk.
-        """
-        if not self.tied or not is_pretensioned(column):
-            return 0.0
-        drum, joint, state = self.drum.copy(), self.joint.copy(), self.lane.copy()
-        for array, fields in zip((drum, joint, state), self.pack(without_tension(column)).fields, strict=True):
-            for name, values in fields.items():
-                array[name][..., lane] = values
-        state["mon"][1:, lane] = state["mft"][1:, lane] = 0.0
-        bare = self._energies(lane, drum, joint, state)
-        return float((self.start[lane] - bare)[2:4].sum()) - held_at_start(column)
 
     def residual_acceleration(self, lane: int) -> float:
         """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
@@ -421,12 +381,7 @@ class DrumBlock:
             return ledger.out_of_balance(imbalance)
         if outcome is not Outcome.COLLAPSED:
             return ""
-        lost = self.collapse(lane)
-        joint, parted = lost.joint or 1, lost.mechanism == SLID_OFF
-        drums = len(self.drum) - 1
-        part = "the whole column" if joint == 1 else f"drums {joint} to {drums}" if joint < drums else f"drum {drums}"
-        how = f"left the support at joint {joint}" if parted else f"overturned about joint {joint}"
-        return f"{part} {how}, {self.direction(lane)}"
+        return f"{what_is_lost(self.collapse(lane), len(self.drum) - 1)}, {self.direction(lane)}"
 
     def direction(self, lane: int) -> str:
         """Where a collapse goes, in words."""

@@ -244,31 +244,6 @@ def put_links(records: np.ndarray, packed: PackedLinks, lane: int, step: float) 
     records["mdt"][1:, lane] = step
 
 
-def held_at_start(column: Column) -> float:
-    """Elastic energy of pretensioned links [J]."""
-    return sum(0.5 * one.pretension**2 / one.axial_stiffness for one in acting(column) if one.pretension)
-
-
-def without_tension(column: Column) -> Column:
-    """The column with those of its links alone that hold nothing at the start."""
-    return column.replace(links=tuple(one for one in column.links if not getattr(one, "pretension", 0.0)))
-
-
-def set_free(column: Column, records: np.ndarray, lane: int, pressed: float) -> float:
-    """Energy of pretension that a lane's links, and the joints that they press, have given away since the start [J].
-
-    What the joints had, ``pressed`` [J], falls with the square of the tension; they are taken to have lost as much of it as
-    the link that has lost most.
-    """
-    free = least = 0.0
-    for m, one in enumerate(acting(column)):
-        if one.pretension:
-            left = min(float(records["mft"][1 + m, lane]) / one.pretension, 1.0) ** 2
-            free += 0.5 * one.pretension**2 / one.axial_stiffness * (1.0 - left)
-            least = max(least, 1.0 - left)
-    return free + least * max(pressed, 0.0)
-
-
 def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
     """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
     shear = np.hypot(records["mfx"][:, lane], records["mfy"][:, lane])

@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
+from ...errors import InputError
 from ..start import Start
+
+
+def check_takes_pose(start: Any, column: Any) -> None:
+    """Refuse a start that is not one for this column."""
+    if not isinstance(start, Start):
+        raise InputError(f"a toss is for a specimen, and {column.name!r} is a column; give a Start.")
+    if column.as_found:
+        raise InputError(
+            f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
+        )
+    column.must_be_without_links("a start from a pose")
 
 
 def placed(
@@ -56,3 +69,23 @@ def placed(
 def leans_right(start: Start) -> bool:
     """Whether a column that starts in the plane leans towards x."""
     return math.cos(start.azimuth) > 0.0
+
+
+def sink(block: Any, lane: int, force: float) -> None:
+    """Lower the whole column in a lane of a block until the base carries a force [N]."""
+    joint, state = block.joint.copy(), block.lane.copy()
+    state["dt"][0, lane] = 0.0
+    z = block.drum["z"][1:, lane].copy()
+
+    def carried(depth: float) -> float:
+        block.drum["z"][1:, lane] = z - depth
+        block.kernel.forces(block.drum, joint, state)
+        return block.lift(joint, lane)
+
+    low, high = 0.0, 1e-12
+    while carried(high) < force:
+        high *= 2.0
+    while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if carried(middle) < force else (low, middle)
+    carried(high)
