@@ -207,7 +207,7 @@ def test_an_assembly_is_told_apart_from_a_column(client):
     assert client.post("/api/column/file", content=ASSEMBLY.encode()).json() == {"assembly": ASSEMBLY}
     told = client.post("/api/assembly", json={"assembly": ASSEMBLY}).json()
     assert told["facts"] | {"digest": ""} == {
-        "name": "portal", "blocks": 1, "fixed": 0, "joints": 1, "mass": 7500.0, "height": 3.0, "digest": ""
+        "name": "portal", "blocks": 1, "fixed": 0, "joints": 1, "links": 0, "mass": 7500.0, "height": 3.0, "digest": ""
     }  # fmt: skip
     assert told["outlines"]["xz"] == [[[0.0, 0.0], [1.0, 0.0], [1.0, 3.0], [0.0, 3.0]]]
     asked = {"kind": "run", "assembly": ASSEMBLY, "motion": {"kind": "harmonic", "text": "1Hz,0.1g,1s"}}

@@ -6,6 +6,7 @@ import json
 import math
 import random
 import tomllib
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -56,7 +57,29 @@ def file(rng: random.Random) -> str:
     if len(names) > 1 and rng.random() < 0.1:
         lines += ["[[joint_override]]", f"between = [{', '.join(rng.sample(names, 2))}]"]
         lines += [f"normal_stiffness = {value(1e7, 1e12)}", f"shear_stiffness = {value(1e7, 1e12)}"]
+    if names and rng.random() < 0.3:
+        lines += link(rng, names, value)
     return "\n".join(lines) + "\n"
+
+
+def link(rng: random.Random, names: list[str], value: Callable[[float, float], str]) -> list[str]:
+    """A link between two bodies, now and then one that cannot be."""
+    kind = rng.choice(("clamp", "dowel", "bar", "layer", "tie", "core", "clmp"))
+    one, other = rng.choice(names), rng.choice([*names, '"ground"'])
+    lines = ["[[link]]", f'kind = "{kind}"', f"between = [{one}, {other}]"]
+    if kind in ("clamp", "tie", "core") or rng.random() < 0.1:
+        lines += [f"{end} = [{value(-1.0, 1.0)}, {value(0.0, 2.0)}]" for end in ("at", "to")]
+    if rng.random() < 0.3 and kind != "layer":
+        lines += ['material = "titanium"', f"diameter = {value(0.01, 0.05)}", f"embedment = {value(0.05, 0.2)}"]
+    else:
+        lines += [
+            f"{name} = {value(1e5, 1e8)}" for name in ("axial_stiffness", "shear_stiffness") if rng.random() < 0.8
+        ]
+    if rng.random() < 0.3:
+        lines.append(
+            f"{rng.choice(('axial_capacity', 'shear_capacity', 'pretension', 'clearance'))} = {value(0.0, 1e4)}"
+        )
+    return lines
 
 
 def polygon(rng: random.Random, number: int, strange: float) -> list[tuple[str, str]]:

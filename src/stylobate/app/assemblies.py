@@ -9,6 +9,7 @@ from typing import Any
 
 from ..column.assembly import Assembly
 from ..column.assembly_files import read_assembly
+from ..column.placed_links import strokes_between
 from ..column.presets import PRESETS
 from ..column.toml import parse_toml
 from ..errors import InputError
@@ -68,9 +69,15 @@ def describe(text: str) -> dict[str, Any]:
             "blocks": len(assembly.blocks),
             "fixed": len(assembly.blocks) - len(moving),
             "joints": len(assembly.joints),
+            "links": len(assembly.links),
             "mass": sum(one.properties[0] for one in moving),
             "height": max(z for one in assembly.blocks for _, z in one.vertices),
             "digest": assembly.digest,
+        },
+        "links": {
+            "xz": [
+                [low.round(4).tolist(), high.round(4).tolist()] for _, (_, low), (_, high) in strokes_between(assembly)
+            ]
         },
         "outlines": {"xz": [one.corners.round(4).tolist() for one in assembly.blocks]},
         "held": [one.fixed for one in assembly.blocks],

@@ -2,7 +2,7 @@
 
 import { check as ask, latest } from "./api.js";
 import { el, facts, fill, find, length, mark, number, save, warnings } from "./dom.js";
-import { BROWN, INK, SAND, sharp } from "./plot.js";
+import { BLUE, BROWN, INK, SAND, sharp } from "./plot.js";
 import { change, state } from "./state.js";
 
 let described = null;
@@ -32,7 +32,7 @@ async function show(panel) {
   if (found instanceof Error) { mark(panel, found); return; }
   described = found;
   const f = found.facts;
-  fill(find("#column-facts", panel), facts([["assembly", f.name], ["blocks", f.blocks], ["held", f.fixed || ""], ["joints", f.joints], ["mass", `${number(f.mass / 1000)} t`], ["height", length(f.height)]]), warnings(found.warnings));
+  fill(find("#column-facts", panel), facts([["assembly", f.name], ["blocks", f.blocks], ["held", f.fixed || ""], ["joints", f.joints], ["links", f.links || ""], ["mass", `${number(f.mass / 1000)} t`], ["height", length(f.height)]]), warnings(found.warnings));
   draw(find("canvas", panel));
 }
 
@@ -48,7 +48,9 @@ export function draw(canvas) {
     c.beginPath(); corners.forEach(([x, z]) => c.lineTo(across(x), up(z))); c.closePath();
     c.fillStyle = described.held[i] ? "#dcdcdc" : SAND; c.strokeStyle = BROWN; c.lineWidth = 1.1; c.fill(); c.stroke();
   });
-  c.strokeStyle = c.fillStyle = INK; c.lineWidth = 1.6;
+  c.strokeStyle = BLUE; c.lineWidth = 1.6;
+  for (const ends of described.links.xz) { c.beginPath(); ends.forEach(([x, z]) => c.lineTo(across(x), up(z))); c.stroke(); }
+  c.strokeStyle = c.fillStyle = INK;
   if (ground !== null) { c.beginPath(); c.moveTo(10, up(ground)); c.lineTo(width - 10, up(ground)); c.stroke(); }
   c.textAlign = "center"; c.textBaseline = "top"; c.fillText(`${number(right - left, 4)} m × ${number(high - low, 4)} m`, width / 2, height - 24);
 }
