@@ -127,18 +127,22 @@ def ida(
     shown = "" if measure.unit == "-" else f" {measure.unit}"
     half = result["capacity_50"]
     facts = {
-        "runs": f"{result['runs']} of {result['records']} records, {result['wall_s']:.1f} s",
-        "collapses": f"under {fell} of {len(curves)} curves"
+        "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",
+        "collapses": f"under {fell} of {_count(len(curves), 'curve')}"
         + (f", half of them up to {measure.name} = {half:.3g}{shown}" if half < float("inf") else ""),
-        "resurrections": f"{result['resurrections']} runs stand above a collapse, in {result['curves_with_resurrections']} "
-        "curves",
+        "resurrections": f"{_count(result['resurrections'], 'run')} above a collapse that stand, in "
+        f"{_count(result['curves_with_resurrections'], 'curve')}",
     }
     if result["undecided"] or result["failed"]:
         facts["open"] = f"{result['undecided']} undecided, {result['failed']} failed; go on with --tail 5s"
-    console.say(f"{stone.name}, {how.name}: {len(curves)} curves over {measure.words}.", facts, files)
+    console.say(f"{stone.name}, {how.name}: {_count(len(curves), 'curve')} over {measure.words}.", facts, files)
     if len(best):
         console.print_table(best.drop(columns=["beta_low", "beta_high"]), digits=3)
     console.print_refused(records.refused)
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
 
 
 def the_facts(about: Path | None, sources: list[Path], names: list[str]) -> dict[str, dict[str, float]]:

@@ -55,7 +55,7 @@ def draw_directions(
             angle[at], values[at], "o", color=RED, markersize=8.0, fillstyle="none", markeredgewidth=1.8, label=label
         )
     axes.set_ylim(0.0, rim * 1.02)
-    axes.set_rlabel_position(22.5)
+    axes.set_rlabel_position(15.0)  # between the lines, where no interval is drawn
     axes.set_title(in_lines(title or compass.name) if title is None else f"{in_lines(title)}\n{compass.name}", pad=14.0)
     figure.legend(loc="outside lower center", ncols=3)
     return figure
