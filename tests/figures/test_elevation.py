@@ -1,6 +1,7 @@
 """Elevations: every dimension is written where it is true, what is as found and links are marked."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -96,3 +97,11 @@ def rocking():
     column = COLUMN.replace(joints=(JOINT,) * 3)
     made = st.simulate(column, st.harmonic(2.0, 0.0, 0.02), st.DistinctElement3D())
     return dataclasses.replace(made)
+
+
+def test_long_names_of_drums_in_assemblies_are_cut_to_what_fits():
+    folder = Path(__file__).parents[2] / "gallery" / "assemblies"
+    (axes,) = plots.draw_elevation(st.read_assembly(folder / "clamped.toml")).axes
+    assert words(axes).count("drum 5") == 3
+    assert "west" in words(axes)
+    assert not any(one.startswith("column") for one in words(axes))

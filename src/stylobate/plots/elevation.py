@@ -277,6 +277,8 @@ def _assembly(structure: Assembly, title: str | None, ax: Axes | None) -> Figure
         axes.fill(*shape.T, facecolor=face, edgecolor=edge, linewidth=0.9)
         wide, high_ = np.ptp(shape, axis=0) / sheet.metres
         name = str(k) if many else block.name
+        if 4.2 * len(name) > max(wide, high_):  # of "column 1, drum 5" the drum
+            name = name.rpartition(", ")[2]
         turned = wide < 4.2 * len(name) and high_ > wide
         words = {"fontsize": 6.5 if many else WORDS, "ha": "center", "va": "center", "rotation": 90 if turned else 0}
         middle = _middle(shape)
