@@ -229,6 +229,23 @@ def test_chunks_are_about_as_long_as_they_should_be():
     assert len(few.chunks) >= 20  # as many workers as there are have something to do
 
 
+class Seen(Poisonous):
+    """Its peaks are the first samples."""
+
+    def run_many(self, cases, options, threads):
+        for index, measures in super().run_many(cases, options, threads):
+            yield index, dataclasses.replace(measures, peak_top_displacement=float(cases[index].motion.samples[0]))
+
+
+def test_motions_that_are_made_one_by_one_are_not_taken_for_one_another(monkeypatch):
+    """Numbers of arrays that are gone are given again: the arrays of a chunk are kept until it is sent."""
+
+    monkeypatch.setattr("stylobate.campaign.hand_out.MOTIONS", 8)
+    cases = Cases(100, lambda n: Case(COLUMN, st.Motion(0.01, np.full(200, float(n)))))
+    found = dict(HandOut(Client(), cases, Seen(), RunOptions()).results())
+    assert [found[n].peak_top_displacement for n in range(100)] == list(range(100))
+
+
 class Asked(Client):
     """Its workers ask for more before they have finished."""
 

@@ -98,3 +98,29 @@ def test_wood_is_as_strong_in_tension_as_its_standard_says():
     bar = st.Bar(joint=1, diameter=0.01, embedment=0.5, material="wood")
     strong = [one.axial_capacity for one in properties(column.replace(links=[tie, bar]))]
     assert strong == pytest.approx([18e6 * np.pi * 0.1**2 / 4.0, 18e6 * np.pi * 0.01**2 / 4.0])
+
+
+@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+def test_a_column_that_only_its_pretension_holds_up_is_computed(model):
+    """The weight of the upper drum passes 50 mm beyond its joint; the core presses it back. All of its joints counts."""
+    drum = st.Drum(1.0, 0.5, 0.5, 2500.0, depth=0.5)
+    held = st.Core(at=(0.15, 0.0), to=(-0.15, 0.0), axial_stiffness=1e7, pretension=6e4)
+    found = st.AsFound((st.FoundDrum(2, offset=0.3),))
+    joint = st.Joint(1e10, 5e9, friction_coefficient=0.7)
+    column = st.Column.of_drums([drum, drum], joint).replace(links=(held,), as_found=found)
+    response = st.simulate(column, st.Motion(0.01, np.zeros(11)), model)
+    assert response.outcome is st.Outcome.AT_REST
+    assert not response.decided
+    assert "which no tail decides" in response.sentence
+
+
+@pytest.mark.parametrize("at", [(0.3, 0.0), (-0.3, 0.0), (0.0, 0.3)])
+@pytest.mark.parametrize("share", [1.0, 3.0])
+def test_a_strap_beside_the_axis_lowers_what_opens_a_joint(at, share):
+    """a W h/2 = W b/2 + P (b/2 − e) g about the edge away from the strap, b = 0.5 m, h = 2 m, e = 0.3 m."""
+    drum = st.Drum(2.0, 0.5, 0.5, 2500.0, depth=0.5)
+    pull = share * drum.mass * G
+    column = st.Column.of_drums([drum], JOINT).replace(
+        links=(st.Tie(at=at, axial_stiffness=1e7, pretension=pull),), gravity=G
+    )
+    assert column.uplift_acceleration == pytest.approx(G * (0.25 + share * (0.25 - 0.3)), rel=1e-9)

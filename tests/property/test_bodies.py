@@ -157,13 +157,13 @@ def test_responses_and_motions_show_themselves():
     motion = st.harmonic(1.0, 0.25 * st.g, 1.0)
     response = st.simulate(preset("paper-monolithic"), motion, st.HousnerBlock())
     assert "\n" not in repr(response)
-    for word in ("paper-monolithic", "harmonic 1 Hz", "housner", "energy imbalance", response.outcome.sentence):
+    for word in ("paper-monolithic", "harmonic 1 Hz", "housner", "energy imbalance", response.outcome.sentence_of(1)):
         assert word in repr(response)
     assert len(repr(response)) < 600
     assert "\n" not in repr(motion)
     assert len(repr(motion)) < 200
     page = response._repr_html_()
-    assert response.outcome.sentence in page
+    assert response.outcome.sentence_of(1) in page
     assert page.count("<polygon") >= 2
     assert "peak_top_displacement_m" in page
     assert "peak_top_displacement" in dir(response)

@@ -140,14 +140,14 @@ class HandOut:
 
     def _submit(self, numbers: list[int]) -> str:
         stones: dict[int, tuple[int, Any]] = {}
-        motions: dict[tuple, tuple[int, Future]] = {}
+        motions: dict[tuple, tuple[int, Future, Motion]] = {}  # the motions, so that nothing else gets their addresses
         stone, motion, factors, names = [], [], [], []
         for number in numbers:
             column, shaking = self.cases[number]
             stone.append(stones.setdefault(id(column), (len(stones), column))[0])
             key = samples_of(shaking)
             if key not in motions:
-                motions[key] = len(motions), self._sent(key, shaking)
+                motions[key] = len(motions), self._sent(key, shaking), shaking
             motion.append(motions[key][0])
             factors.append(shaking.factor)
             names.append(shaking.name)
@@ -155,7 +155,7 @@ class HandOut:
         name = f"{self._topic}-{self._made}"
         listed = [one for _, one in stones.values()]
         chunk = Chunk(name, law(), self.model, self.options, numbers, listed, stone, motion, factors, names)
-        needed = [one for _, one in motions.values()]
+        needed = [one for _, one, _ in motions.values()]
         where = {"workers": [self._asking.popleft()], "allow_other_workers": True} if self._asking else {}
         future = self.client.submit(run_chunk, pack(chunk), needed, self._topic, key=name, pure=False, **where)
         self._running[name], self._sizes[name] = (future, set(numbers)), len(numbers)

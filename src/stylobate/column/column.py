@@ -22,7 +22,7 @@ from .found_geometry import check_as_found, uplift_accelerations
 from .found_in_space import smallest_uplift
 from .joint import Joint, without_unsaid
 from .link_checks import check_links
-from .link_loads import is_pretensioned
+from .link_loads import is_pretensioned, pulls_in_plane
 from .links import Link
 from .materials import material
 from .stack import Stack
@@ -286,10 +286,11 @@ class Column(Stack):
         """Static horizontal acceleration that opens each joint of the rigid stack above it [m/s²], shape (n,).
 
         A uniform acceleration a overturns the part above joint i about the edge of its contact section when
-        a (z_C − z_i) > g d_i / 2. As found, the smaller one of both directions; out of the plane, the smallest of all.
+        a (z_C − z_i) > g d_i / 2. As found, and pulled by pretensioned links, the smaller one of both directions; out of the
+        plane, the smallest of all.
         """
-        if self.as_found:
-            if not self.as_found.in_plane:
+        if self.as_found or is_pretensioned(self):
+            if not (self.as_found.in_plane and pulls_in_plane(self)):
                 return smallest_uplift(self)
             return np.abs(uplift_accelerations(self)).min(axis=1)
         out = np.empty(self.n)

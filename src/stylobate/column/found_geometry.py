@@ -131,16 +131,22 @@ def uplift_accelerations(column: Column) -> np.ndarray:
     Notes
     -----
     Weight and inertia force d × (g − a) = 0 about the end of the contact, with d from there to the centroid and the
-    acceleration a (cos β, −sin β) along and normal to a base of slope β.
+    acceleration a (cos β, −sin β) along and normal to a base of slope β. Pretensioned links move the place at which the
+    joint is pressed, and press it more.
     """
     at, weight, slope = geometry(column), gravity_vector(column), column.as_found.base_tilt * DEGREE
+    pulled = is_pretensioned(column)
     out = np.empty((column.n, 2))
     for j in range(column.n):
         mass = column.masses[j:]
         centroid = mass @ at.centroid[j:] / mass.sum()
-        for k, side in enumerate((1, -1)):
+        load = joint_load(column, at, j) if pulled else None
+        for k, (side, end) in enumerate(((1, at.high[j]), (-1, at.low[j]))):
             d = centroid - at.end(j, side)
-            out[j, k] = (d[1] * weight[0] - d[0] * weight[1]) / (d[0] * math.sin(slope) + d[1] * math.cos(slope))
+            moment = d[1] * weight[0] - d[0] * weight[1]  # over the mass
+            if load is not None:
+                moment = load.normal * (load.place - end) / mass.sum()
+            out[j, k] = moment / (d[0] * math.sin(slope) + d[1] * math.cos(slope))
     return out
 
 

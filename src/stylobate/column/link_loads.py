@@ -17,6 +17,11 @@ def is_pretensioned(column: Column) -> bool:
     return any(getattr(link, "pretension", 0.0) > 0.0 for link in column.links)
 
 
+def pulls_in_plane(column: Column) -> bool:
+    """Whether what pretensioned links pull has no part across the plane of x and z."""
+    return not any(link.low[1] or link.high[1] for link in properties(column) if link.pretension)
+
+
 def crosses(link: LinkProperties, joint: int) -> bool:
     """Whether a link crosses joint 0 … n−1."""
     return link.lower <= joint < link.upper

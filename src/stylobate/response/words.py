@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..column import Column
+from ..column.link_loads import is_pretensioned
 from ..outcome import Outcome
 from .links import sentence_of as sentence_of_links
 
@@ -32,12 +33,19 @@ def sentence_of(response: Recorded) -> str:
     if m.reason:
         words.append(f"Reason: {m.reason}.")
     if not m.decided and m.outcome is not Outcome.FAILED:
-        words.append(UNDECIDED)
+        pulled = isinstance(response.structure, Column) and is_pretensioned(response.structure)
+        words.append(UNDECIDED_PULLED if pulled else UNDECIDED)
     return " ".join(words)
 
 
 #: Sentence for a run that ended before its verdict was certain.
 UNDECIDED = "The verdict may still change: at the end it is far from rest; go on with --tail 5s."
+
+#: The same of a column whose links pulled from the start: what they and the joints that they press hold counts against it.
+UNDECIDED_PULLED = (
+    "The verdict may still change: at the end it is not at rest (go on with --tail 5s), or it is, and what its pretension "
+    "holds could overturn it if it came free, which no tail decides."
+)
 
 
 def describe(response: Recorded) -> str:

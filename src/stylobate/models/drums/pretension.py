@@ -8,13 +8,15 @@ import numpy as np
 
 from ...column import Column
 from ...column.link_loads import is_pretensioned
+from ...errors import InputError
 from .links import acting
 
 
 def pressed_joints(block: Any, lane: int, column: Column) -> float:
     """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J].
 
-    Their elastic energy is larger by more than this, because what stands on them has sunk.
+    Their elastic energy is larger by more than this, because what stands on them has sunk. Where only the pretension holds
+    the column up there is no weight alone, and all that the joints hold counts.
 
     Parameters
     ----------
@@ -25,13 +27,17 @@ def pressed_joints(block: Any, lane: int, column: Column) -> float:
     """
     if not is_pretensioned(column):
         return 0.0
+    try:
+        bare = without_tension(column)
+    except InputError:  # it cannot stand
+        return float(block.start[lane, 3]) - held_at_start(column)
     drum, joint, state = block.drum.copy(), block.joint.copy(), block.lane.copy()
-    for array, fields in zip((drum, joint, state), block.pack(without_tension(column)).fields, strict=True):
+    for array, fields in zip((drum, joint, state), block.pack(bare).fields, strict=True):
         for name, values in fields.items():
             array[name][..., lane] = values
     state["mon"][1:, lane] = state["mft"][1:, lane] = 0.0
-    bare = block.energies_of(lane, drum, joint, state)
-    return float((block.start[lane] - bare)[2:4].sum()) - held_at_start(column)
+    alone = block.energies_of(lane, drum, joint, state)
+    return float((block.start[lane] - alone)[2:4].sum()) - held_at_start(column)
 
 
 def held_at_start(column: Column) -> float:
