@@ -201,4 +201,10 @@ def test_the_command_goes_all_round_a_column_with_links(tmp_path, capsys):
     assert said["weakest_azimuth_deg"] == 180.0
     assert (out / "directions.png").is_file()
     assert call(["limit", str(file), "--directions", "0:270:4"]) == 0
-    assert "0 N" not in capsys.readouterr().out
+    assert "torsion" not in capsys.readouterr().out
+    drum = st.Drum(4.0, 1.0, 1.0, 2500.0, "circular")
+    write_column(with_links(st.Column.of_drums([drum], ROUGH), *tied.links), file)
+    assert call(["limit", str(file), "--directions", "0:90:2"]) == 0
+    said = capsys.readouterr().out
+    assert "torsion" in said
+    assert "3e+04 N of 3e+04 N, yields" in said

@@ -28,7 +28,7 @@ def check_response(edp: str, column: Column, model: Model) -> None:
     """Refuse a measure of the response that runs of this column will not have, before they are made."""
     if column.links:  # what is measured of links has many names
         return
-    space = SpaceMeasures(*[math.nan] * 4, (), ()) if "y" in model.axes else None
+    space = SpaceMeasures(math.nan, math.nan, math.nan, math.nan, (), ()) if "y" in model.axes else None
     row = Measures(Outcome.AT_REST, True, *[math.nan] * 8, steps=0, space=space).row()
     numbers = [name for name, value in row.items() if isinstance(value, float)]
     if edp not in numbers:
