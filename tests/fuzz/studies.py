@@ -142,7 +142,7 @@ def kept(folder: Path) -> set[int]:
 def line(folder: Path, options: list[str]) -> list[str]:
     """The command, and the files that it reads."""
     if not (folder / "study.toml").exists():
-        steps = [f"{0.01 * i:.2f},{0.4 * math.sin(0.02 * math.pi * i):.6f}" for i in range(1601)]
+        steps = [f"{0.01 * i:.2f},{0.4 * math.sin(0.02 * math.pi * i):.6f}" for i in range(1001)]
         files = {"study.toml": STUDY, "column.toml": COLUMN, "wave.csv": "\n".join(["time_s,ax_g", *steps])}
         for name, text in files.items():
             (folder / name).write_text(text)
