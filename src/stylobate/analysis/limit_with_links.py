@@ -1,9 +1,9 @@
 """Limit analysis in space with links: what contact and links can bear together, by linear programmes that grow.
 
 Each joint carries at points of the rim of its overlap, pressed only and within Coulomb's cone at each, with whatever
-distribution of pressure bears most; links carry up to their capacities. That is the lower bound theorem with associated
-flow. Points and directions of friction are added where the mechanism of the last programme would open or slip against them,
-until none is left that changes the multiplier.  # theory/limit_analysis
+distribution of pressure bears most; links carry up to their capacities. That is the exact multiplier for associated flow,
+and an upper bound for dry friction. Points and directions of friction are added where the mechanism of the last programme
+would open or slip against them, until none is left that changes the multiplier.  # theory/limit_analysis
 """
 
 from __future__ import annotations
@@ -223,7 +223,7 @@ class SpaceProgramme:
                 f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
             )
         joint, mode = self._mechanism(rates)
-        return SpaceLimit(multiplier, joint, mode, self._held(forces))
+        return SpaceLimit(multiplier + 0.0, joint, mode, self._held(forces))
 
     def _programme(self, live: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
         """Largest multiplier with what there is, forces over the weight, and velocities and rates that are dual to them."""
