@@ -11,7 +11,7 @@ import numpy as np
 
 from ...column.specimen import Specimen
 from ...errors import InputError
-from ...kernels.run_codes import COLLAPSED, FAILED
+from ...kernels.run_codes import COLLAPSED, FAILED, LANES
 from ...outcome import Outcome, classify
 from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED
@@ -134,7 +134,7 @@ class SpecimenBlock(SpaceBlock):
         kn, ks = vertex_stiffness(specimen)
         for array in (self.drum, self.joint, self.lane):
             for name in array.dtype.names or ():
-                if array.dtype[name].shape:  # others are of links, which specimens have none of
+                if array.dtype[name].shape[-1:] == (LANES,):  # others are of links, which specimens have none of
                     array[name][..., lane] = 0.0
         joint, drum = self.joint, self.drum
         m = len(vertices)
