@@ -10,7 +10,9 @@ import pytest
 import stylobate as st
 
 G = 9.80665
-MODELS = [st.DistinctElement2D(), st.DistinctElement3D()]
+ELEMENTS = [st.DistinctElement2D(), st.DistinctElement3D()]
+MODELS = [*ELEMENTS, st.RigidBlock()]
+PLANE = [st.DistinctElement2D(), st.RigidBlock()]
 
 
 def block(width: float, height: float, friction: float, *links: st.Link) -> st.Column:
@@ -90,7 +92,7 @@ def test_a_tied_block_overturns_at_the_multiplier_by_hand(model, plastic) -> Non
     assert above.links.tension[-1, 0] == (pytest.approx(force, rel=1e-9) if plastic else 0.0)
 
 
-@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
+@pytest.mark.parametrize("model", ELEMENTS, ids=lambda model: model.name)
 @pytest.mark.parametrize("kind", ["none", "core", "strap", "bar"])
 def test_pretension_moves_the_uplift_by_hand(model, kind) -> None:
     """The heel opens when m a H = m g b + T (b + x), T at x from the middle towards the face that opens.
@@ -118,25 +120,27 @@ def test_pretension_moves_the_uplift_by_hand(model, kind) -> None:
     assert ground == pytest.approx(expected, rel=0.03)
 
 
-def test_a_sliding_layer_limits_the_acceleration_to_its_friction() -> None:
+@pytest.mark.parametrize("model", PLANE, ids=lambda model: model.name)
+def test_a_sliding_layer_limits_the_acceleration_to_its_friction(model) -> None:
     """μ g, seen in the absolute velocity over 10 ms; the springs of the joint ring by 1 % of it."""
     layer = st.Layer(joint=1, friction_coefficient=0.08)
     column = block(1.0, 0.6, 0.7, layer)
-    response = st.simulate(column, st.harmonic(frequency=1.0, amplitude=3.0, duration=2.0), st.DistinctElement2D())
+    response = st.simulate(column, st.harmonic(frequency=1.0, amplitude=3.0, duration=2.0), model)
     place = response.drum_x[:, 0] + response.ground_displacement
     step = response.time[1] - response.time[0]
     acceleration = np.diff(place, 2)[:-1] / step**2
     assert np.abs(acceleration).max() == pytest.approx(0.08 * G, rel=0.03)
 
 
-def test_a_damping_layer_takes_the_work_of_its_dashpot() -> None:
+@pytest.mark.parametrize("model", PLANE, ids=lambda model: model.name)
+def test_a_damping_layer_takes_the_work_of_its_dashpot(model) -> None:
     """A block on a layer without friction, a spring and a dashpot is a damped oscillator: m, k, c."""
     mass, stiffness, ratio = 2500.0, 2500.0 * (2 * math.pi) ** 2, 0.2
     dash = 2.0 * ratio * math.sqrt(stiffness * mass)
     layer = st.Layer(joint=1, friction_coefficient=0.0, shear_stiffness=stiffness, damping=dash)
     column = block(1.0, 1.0, 0.7, layer)
     motion = st.harmonic(frequency=1.0, amplitude=0.5, duration=8.0)
-    response = st.simulate(column, motion, st.DistinctElement2D())
+    response = st.simulate(column, motion, model)
     late = response.time > 6.0
     assert np.abs(response.joint_slip[late, 0]).max() == pytest.approx(0.5 / (2 * math.pi) ** 2 / (2 * ratio), rel=0.01)
     assert response.links.slip.max() == pytest.approx(np.abs(response.joint_slip).max(), rel=1e-6)

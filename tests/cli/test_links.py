@@ -32,7 +32,7 @@ def test_run_tells_which_links_broke_and_models_without_links_refuse(tmp_path, c
     assert found["links_broken"] == len(broken) == 2
     assert found["first_link_broken_s"] == min(one["broken_s"] for one in broken) == min(found["link_broken_s"])
     assert [one["joint"] for one in found["links"]] == [1, 2]
-    assert call([*line, "--model", "rigid-block"]) == 2
+    assert call([*line, "--model", "rigid-beam"]) == 2
     said = capsys.readouterr().err
     assert "knows no links" in said
     assert "Traceback" not in said

@@ -22,6 +22,7 @@ from ..drums import lanes
 from ..drums.body import kinetic_and_gravitational, move
 from ..drums.frame import run_chunks
 from ..drums.lanes import check_finite, fill_ground, joint_state
+from ..drums.link_records import link_fields
 from ..jit import apart, kernel, strict
 from ..run_codes import LANES
 from .interface_law import compression, compression_with_strength, shear
@@ -42,7 +43,7 @@ def block_types(crushing, damped):
     return (
         drum,
         np.dtype(joint),
-        np.dtype(fields("dt g gx beta alpha local work shear visc px pz")),
+        np.dtype(fields("dt g gx beta alpha local work shear visc px pz") + link_fields()),
         ground,
         feed,
         watch,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
@@ -10,8 +11,12 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ...column import Column
+from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
 from ...motion import Motion
+from ..base import RunOptions
+from ..drums.block import DrumBlock
+from ..drums.links import kind_of, link_stiffness, plane_links, with_links
 from ..drums.packing import PackedColumn, drum_fields, lane_fields
 from ..drums.stepped import SteppedDrums
 from ..shared import stable_step as shared
@@ -66,8 +71,10 @@ class RigidBlock(SteppedDrums):
         "A compressive strength shortens the levers of the joints while they are pressed; it takes no energy, does no "
         "damage that stays, and does not shorten a drum.",
         "A drum touches its neighbours only; what comes down is not followed.",
-        "Columns that are not as built are refused.",
+        "Columns that are not as built are refused, and links with pretension.",
     )
+    takes_links: ClassVar[bool] = True
+
     compressive_strength: float | None = None
     step_factor: float = 0.2
 
@@ -79,8 +86,14 @@ class RigidBlock(SteppedDrums):
     # -- before the run ------------------------------------------------------------------------------------------
 
     def check(self, column: Column, motion: Motion) -> None:
-        """Refuse an unstable step and joints that crush under the weight; say what a plane model leaves out."""
+        """Refuse an unstable step, joints that crush under the weight, and pretension; say what a plane model leaves out."""
         super().check(column, motion)
+        if is_pretensioned(column):
+            pull = max(getattr(link, "pretension", 0.0) for link in column.links)
+            raise InputError(
+                f"rigid-block begins with joints that the weight alone presses, and a link of {column.name!r} has a "
+                f"pretension of {pull:g} N; use dem2d or dem3d, or leave the pretension out."
+            )
         if self.compressive_strength is not None:
             stress = column.joint_weights / column.joint_areas
             worst = int(np.argmax(stress))
@@ -92,11 +105,18 @@ class RigidBlock(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kernel(self) -> Any:
-        """Module of kernels."""
-        from ...kernels.rigid_block import step as rigid_block
+    def kind(self, column: Column) -> tuple:
+        """Number of drums, and the links if there are some."""
+        return (column.n, *kind_of(column))
 
-        return rigid_block
+    def kernel(self, links: int = 0) -> Any:
+        """Module of kernels, for so many links."""
+        return importlib.import_module(f"...kernels.rigid_block.{'linked' if links else 'step'}", __package__)
+
+    def make_block(self, drums: int, options: RunOptions, links: int = 0, which: tuple = ()) -> DrumBlock:
+        """A block of lanes for columns of so many drums, and of so many links which these are."""
+        kernel, types = self.kernel(links), self.record_types()
+        return DrumBlock(kernel, types, self.pack, drums, options, self.cost(drums), links)
 
     def record_types(self) -> tuple:
         """Record types of the kernel's arrays."""
@@ -128,7 +148,7 @@ def _pack(column: Column, model: RigidBlock) -> PackedColumn:
         "km": with_free_top(km),
         "ks": with_free_top(ks),
         "co": with_free_top([joint.cohesion for joint in column.joints] * area),
-        "mu": with_free_top([joint.tan_phi for joint in column.joints]),
+        "mu": with_free_top(column.friction),
         "crush": crush,
         "tau": np.zeros(n + 1),
         "chi": np.ones(n + 1),
@@ -138,7 +158,8 @@ def _pack(column: Column, model: RigidBlock) -> PackedColumn:
     }
     drums = drum_fields(column, column.joint_weights / kn)
     lane = lane_fields(column, model.stiffness_damping, model.mass_damping)
-    return PackedColumn((drums, joint_fields, lane), model.step_for(column), _toes(column, strength))
+    links = plane_links(column, drums)
+    return PackedColumn((drums, joint_fields, lane), model.step_for(column), _toes(column, strength), links)
 
 
 def _toes(column: Column, strength: float | None) -> np.ndarray:
@@ -166,4 +187,5 @@ def stable_step(column: Column, stiffness_damping: float = 0.0) -> float:
     strain = BlockStack.of_column(column).compatibility()
     stiffness = strain.T @ (np.stack((kn, ks, km), axis=1).ravel()[:, None] * strain)
     inverse = 1.0 / np.stack((column.masses, column.masses, column.inertias), axis=1).ravel()
-    return shared.stable_step(shared.highest_frequency(stiffness, inverse), stiffness_damping)
+    frequency = shared.highest_frequency(stiffness, inverse)
+    return shared.stable_step(*with_links(link_stiffness(column), frequency, stiffness_damping))
