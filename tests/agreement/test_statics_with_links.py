@@ -92,3 +92,28 @@ def test_a_dowelled_round_block_slides_in_a_slow_ramp_in_any_direction_where_the
     held, slid = runs["residual_joint_slip_m"]
     assert held < 1e-3
     assert slid > 0.1
+
+
+DOWELS = [st.Dowel(joint=j, shear_stiffness=1e8, shear_capacity=8e4) for j in (1, 2, 3)]
+BARS = [
+    st.Bar(joint=j, at=(x, 0.0), shear_stiffness=0.0, axial_stiffness=2e8, axial_capacity=1e4)
+    for j in (1, 2, 3)
+    for x in (-0.3, 0.3)
+]
+
+
+@pytest.mark.parametrize(
+    "model", [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()], ids=lambda m: m.name
+)
+@pytest.mark.parametrize(
+    ("section", "links", "azimuth"),
+    [("circular", [st.Core(axial_stiffness=1e8, axial_capacity=2e4), *DOWELS], 50.0), ("rectangular", BARS, 35.0)],
+    ids=["round with core and dowels", "square with bars"],
+)
+def test_three_drums_with_links_fall_where_the_limit_analysis_says(model, section, links, azimuth):
+    # along x in the plane, towards an azimuth in space
+    column = st.Column.of_drums([st.Drum(1.0, 0.9, 0.9, 2500.0, section)] * 3, STIFF).replace(links=links)
+    space = model.name == "dem3d"
+    limit = limit_in_space(column, azimuth).multiplier if space else limit_analysis(column).multiplier
+    motions = [ramp(level * limit, azimuth if space else None) for level in (0.98, 1.02)]
+    assert list(st.simulate_many(column, motions, model)["collapsed"]) == [False, True]
