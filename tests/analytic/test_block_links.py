@@ -78,6 +78,7 @@ def test_a_clamp_holds_against_both_senses_behind_its_slack() -> None:
         response = simulate_assembly(gap, push(sign * 1.0, 1.0, 3.0), model)
         assert response.links.elongation[-1, 0] == pytest.approx(sign * (2e-3 + 1e3 / 1e6), rel=0.02)
         assert response.links.tension[-1, 0] == pytest.approx(sign * 1e3, rel=0.05)
+        assert response.measures.links[0].peak_elongation >= np.abs(response.links.elongation).max() > 2e-3
 
 
 @pytest.mark.parametrize("share", [0.0, 0.5, 3.0], ids=["bare", "yielding", "as one block"])

@@ -149,7 +149,8 @@ def look_at_links(links, step):
     for m in range(links.shape[0]):
         k = links[m]
         k.mfar[0] = max(k.mfar[0], k.mslip[0])
-        k.mmost[0] = max(k.mmost[0], k.mlong[0])
+        # a clamp may be lost by being pressed, too
+        k.mmost[0] = max(k.mmost[0], abs(k.mlong[0]) if k.mboth != 0 else k.mlong[0])
         if k.mon[0] == 0.0 and k.mwhen[0] < 0:
             k.mwhen[0] = step
 
