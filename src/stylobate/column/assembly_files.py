@@ -15,6 +15,7 @@ from .block_links import BlockLink, block_link
 from .column import Column
 from .files import joint_from_dict, load_column
 from .joint import Joint
+from .link_tables import LinkNumbers
 from .materials import Material, material
 from .presets import PRESETS
 from .standing import BeamTable, ColumnsTable, lay, stand
@@ -45,7 +46,7 @@ class BetweenTable(Table):
     cohesion: float | None = None
 
 
-class BlockLinkTable(Table):
+class BlockLinkTable(LinkNumbers):
     """``[[link]]``: what links two bodies by name; ``at`` and ``to`` are its ends, x and z, or x, y and z [m]."""
 
     kind: str
@@ -53,25 +54,7 @@ class BlockLinkTable(Table):
     name: str = ""
     at: list[float] | None = None
     to: list[float] | None = None
-    diameter: float | None = None
     section: list[float] | None = None
-    embedment: float | None = None
-    material: str | None = None
-    hole: float | None = None
-    shear_stiffness: float | None = None
-    shear_capacity: float | None = None
-    clearance: float | None = None
-    failure: str | None = None
-    axial_stiffness: float | None = None
-    axial_capacity: float | None = None
-    bond: float | None = None
-    ultimate_slip: float | None = None
-    ultimate_elongation: float | None = None
-    pretension: float | None = None
-    friction_coefficient: float | None = None
-    damping: float | None = None
-    stone_modulus: float | None = None
-    stone_strength: float | None = None
 
 
 class AssemblyTable(Table):

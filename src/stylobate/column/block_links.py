@@ -9,8 +9,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..errors import InputError, suggest
+from .link_kinds import KINDS
 from .link_laws import across_numbers, clamp_numbers, line_numbers
-from .links import KINDS, LONGEST, Clamp, Layer, Link, Tie
+from .links import LONGEST, Clamp, Layer, Link, Tie
 
 #: Kinds of links of assemblies by their name in files.
 BLOCK_KINDS: dict[str, type[Link]] = {**KINDS, Clamp.kind: Clamp}

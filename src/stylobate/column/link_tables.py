@@ -5,23 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..errors import InputError
-from .links import Link, Tie, link_from_dict
+from .link_kinds import link_from_dict
+from .links import Link, Tie
 from .toml import Table
 
 
-class LinkTable(Table):
-    """``[[link]]``: a link, or one alike in several joints; lengths in m, forces in N, stiffness in N/m."""
+class LinkNumbers(Table):
+    """What ``[[link]]`` says of a link itself, in the files of columns and of assemblies."""
 
-    kind: str
-    name: str | None = None
-    joint: int | None = None
-    joints: str | list[int] | None = None
-    at: list[float] | None = None
-    to: list[float] | None = None
-    from_drum: int | None = None
-    to_drum: int | None = None
-    from_height: float | None = None
-    to_height: float | None = None
     diameter: float | None = None
     embedment: float | None = None
     material: str | None = None
@@ -40,6 +31,21 @@ class LinkTable(Table):
     damping: float | None = None
     stone_modulus: float | None = None
     stone_strength: float | None = None
+
+
+class LinkTable(LinkNumbers):
+    """``[[link]]``: a link, or one alike in several joints; lengths in m, forces in N, stiffness in N/m."""
+
+    kind: str
+    name: str | None = None
+    joint: int | None = None
+    joints: str | list[int] | None = None
+    at: list[float] | None = None
+    to: list[float] | None = None
+    from_drum: int | None = None
+    to_drum: int | None = None
+    from_height: float | None = None
+    to_height: float | None = None
 
 
 def links_of(tables: Sequence[LinkTable], joints: int) -> tuple[Link, ...]:

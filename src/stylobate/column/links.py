@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -358,33 +357,6 @@ class Layer(Link):
         self._range("ultimate_slip", 0.0, LONGEST, "m", open_low=True)
         if self.friction_coefficient is None and not self.shear_stiffness and not self.damping:
             raise InputError("a layer has neither friction_coefficient, shear_stiffness nor damping; give one.")
-
-
-#: Kinds of links of columns by their name in files.
-KINDS: dict[str, type[Link]] = {one.kind: one for one in (Dowel, Bar, Tie, Core, Layer)}
-
-
-def link_from_dict(fields: Mapping[str, Any]) -> Link:
-    """The link that :meth:`Link.to_dict` described.
-
-    Raises
-    ------
-    InputError
-        A kind that is not known, a value that the kind does not have, or one outside its range.
-    """
-    kind = str(fields.get("kind", ""))
-    if kind not in KINDS:
-        raise InputError(f"kind of a link is {kind!r}; {suggest(kind, KINDS)}allowed are {', '.join(KINDS)}.")
-    made: Any = KINDS[kind]
-    known = {one.name for one in dataclasses.fields(made)}
-    values: dict[str, Any] = {name: value for name, value in fields.items() if name != "kind" and value is not None}
-    for name in values:
-        if name not in known:
-            allowed = sorted(known)
-            raise InputError(f"a {kind} has no {name!r}; {suggest(name, allowed)}it has {', '.join(allowed)}.")
-    if "joint" in known and "joint" not in values:
-        raise InputError(f"a {kind} has no joint; give its number, 1 at the base.")
-    return made(**{name: tuple(value) if isinstance(value, list) else value for name, value in values.items()})
 
 
 def _pair(link: Any, name: str) -> None:

@@ -7,7 +7,7 @@ import math
 from types import SimpleNamespace
 
 from ..drums.frame import run_chunks
-from ..drums.links import add_to_ledger, look_at_links, note_slack, pulled, shear, some_leaves
+from ..drums.links import add_all, add_to_ledger, look_at_links, look_for_slack, note_slack, pulled, shear
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, LANES
 from . import bed_forces, chipped_forces, corner_forces, rim_forces
@@ -166,17 +166,7 @@ def straight(drum, joint, lane, m):
 @kernel
 def add_links(drum, joint, lane):
     """Adds the forces of all links; brings their memory from t_{n−1} to t_n."""
-    for m in range(1, lane.shape[0]):
-        k = lane[m]
-        if k.mline != 0:
-            straight(drum, joint, lane, m)
-        elif k.mnear != 0:
-            if k.mks > 0.0:
-                across(drum, joint, lane, m)
-            if k.mc > 0.0:
-                slowed(drum, joint, lane, m)
-            if k.mten != 0:
-                against_opening(drum, joint, lane, m)
+    add_all(straight, across, slowed, against_opening, drum, joint, lane)
 
 
 @apart
@@ -202,11 +192,7 @@ def length_of(x, y):
 @kernel
 def look_ahead(drum, joint, lane, watch):
     """Which links may hold something within the next chunk of steps: all but dowels far within their slack."""
-    for m in range(1, lane.shape[0]):
-        k = lane[m]
-        if k.mline == 0 and k.mten == 0 and k.mc == 0.0:
-            slack_left(drum, lane, m)
-            k.mnear = 1 if some_leaves(lane, m, watch) else 0
+    look_for_slack(slack_left, drum, lane, watch)
 
 
 @strict

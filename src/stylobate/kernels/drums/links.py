@@ -122,3 +122,29 @@ def add_to_ledger(lane, l, out):
         out[3] += released(k.mfx[l], k.mfy[l], k.mks) + released(k.mft[l], 0.0, k.mka[l])
         out[4] += k.mlost[l]
         out[5] += k.mdrag[l]
+
+
+@law
+def add_all(straight, across, slowed, against_opening, drum, joint, lane):
+    """Adds the forces of all links to those of the joints; a model gives its loop over the lanes for each kind of force."""
+    for m in range(1, lane.shape[0]):
+        k = lane[m]
+        if k.mline != 0:
+            straight(drum, joint, lane, m)
+        elif k.mnear != 0:
+            if k.mks > 0.0:
+                across(drum, joint, lane, m)
+            if k.mc > 0.0:
+                slowed(drum, joint, lane, m)
+            if k.mten != 0:
+                against_opening(drum, joint, lane, m)
+
+
+@law
+def look_for_slack(slack_left, drum, lane, watch):
+    """Which links may hold something within the next chunk of steps: all but dowels far within their slack."""
+    for m in range(1, lane.shape[0]):
+        k = lane[m]
+        if k.mline == 0 and k.mten == 0 and k.mc == 0.0:
+            slack_left(drum, lane, m)
+            k.mnear = 1 if some_leaves(lane, m, watch) else 0

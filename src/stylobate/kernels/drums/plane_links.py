@@ -5,11 +5,30 @@ Records and legend of links: ``link_records.py``; their laws: ``links.py``.
 
 import math
 
-from ..jit import apart, kernel
+from ..jit import apart, kernel, law
 from ..run_codes import CHUNK, LANES
 from . import contact as ct
 from .lanes import upper_face
-from .links import note_slack, pulled, shear, some_leaves
+from .links import add_all, look_for_slack, note_slack, pulled, shear
+
+
+@law
+def at_joint(u, v, k, l):
+    """Direction of the face below; the upper centroid and the place of a link on that drum, along the face and over it."""
+    cl, sl = upper_face(v, l)
+    ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, v.ht[l])
+    return cl, sl, ps, pq, ps + s * u.hb[l] + c * k.mbx[l], pq - c * u.hb[l] + s * k.mbx[l]
+
+
+@law
+def slipping(u, v, l, cl, sl, ps, pq, at_s, at_q):
+    """Speed at which that place slips along the face below [m/s]."""
+    dvx = u.vx[l] - v.vx[l]
+    dvz = u.vz[l] - v.vz[l]
+    vs = cl * dvx + sl * dvz
+    vq = cl * dvz - sl * dvx
+    speed, _ = ct.contact_velocity(at_s, at_q, 0.0, 1.0, ps, pq, v.ht[l], vs, vq, u.w[l], v.w[l])
+    return speed
 
 
 @apart
@@ -23,11 +42,7 @@ def across(drum, joint, lane, m):
     deepest, reach, lost = k.mdeep, k.mreach, k.mus
     half = 0.5 / max(stiffness, 1e-300)
     for l in range(LANES):
-        cl, sl = upper_face(v, l)
-        ht = v.ht[l]
-        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
-        at_s = ps + s * u.hb[l] + c * k.mbx[l]
-        at_q = pq - c * u.hb[l] + s * k.mbx[l]
+        cl, sl, _, pq, at_s, at_q = at_joint(u, v, k, l)
         slip = at_s - k.mpx[l]
         side = 1.0 if slip > 0.0 else -1.0
         held, more, back, whole, out = shear(
@@ -51,7 +66,7 @@ def across(drum, joint, lane, m):
         e.fx[l] += cl * fs
         e.fz[l] += sl * fs
         e.mu_[l] -= (at_q - pq) * fs
-        e.ml[l] -= (at_q + ht) * fs
+        e.ml[l] -= (at_q + v.ht[l]) * fs
 
 
 @apart
@@ -63,23 +78,15 @@ def slowed(drum, joint, lane, m):
     e = joint[k.mlow]
     dash = k.mc
     for l in range(LANES):
-        cl, sl = upper_face(v, l)
-        ht = v.ht[l]
-        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
-        at_s = ps + s * u.hb[l] + c * k.mbx[l]
-        at_q = pq - c * u.hb[l] + s * k.mbx[l]
-        dvx = u.vx[l] - v.vx[l]
-        dvz = u.vz[l] - v.vz[l]
-        vs = cl * dvx + sl * dvz
-        vq = cl * dvz - sl * dvx
-        speed, _ = ct.contact_velocity(at_s, at_q, 0.0, 1.0, ps, pq, ht, vs, vq, u.w[l], v.w[l])
+        cl, sl, ps, pq, at_s, at_q = at_joint(u, v, k, l)
+        speed = slipping(u, v, l, cl, sl, ps, pq, at_s, at_q)
         fs = -dash * speed * k.mon[l]
         k.mdrag[l] -= 0.5 * k.mdt[l] * (fs + k.mdx[l]) * speed
         k.mdx[l] = fs
         e.fx[l] += cl * fs
         e.fz[l] += sl * fs
         e.mu_[l] -= (at_q - pq) * fs
-        e.ml[l] -= (at_q + ht) * fs
+        e.ml[l] -= (at_q + v.ht[l]) * fs
 
 
 @apart
@@ -90,11 +97,7 @@ def against_opening(drum, joint, lane, m):
     v = drum[k.mlow]
     e = joint[k.mlow]
     for l in range(LANES):
-        cl, sl = upper_face(v, l)
-        ht = v.ht[l]
-        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
-        at_s = ps + s * u.hb[l] + c * k.mbx[l]
-        at_q = pq - c * u.hb[l] + s * k.mbx[l]
+        cl, sl, ps, _, at_s, at_q = at_joint(u, v, k, l)
         pull = pulled(k, l, at_q)
         e.fx[l] += sl * pull
         e.fz[l] -= cl * pull
@@ -144,17 +147,7 @@ def straight(drum, joint, lane, m):
 @kernel
 def add_links(drum, joint, lane):
     """Adds the forces of all links at t_n to those of the joints; brings their memory from t_{n−1} to t_n."""
-    for m in range(1, lane.shape[0]):
-        k = lane[m]
-        if k.mline != 0:
-            straight(drum, joint, lane, m)
-        elif k.mnear != 0:
-            if k.mks > 0.0:
-                across(drum, joint, lane, m)
-            if k.mc > 0.0:
-                slowed(drum, joint, lane, m)
-            if k.mten != 0:
-                against_opening(drum, joint, lane, m)
+    add_all(straight, across, slowed, against_opening, drum, joint, lane)
 
 
 @apart
@@ -164,23 +157,12 @@ def slack_left(drum, lane, m):
     u = drum[k.mup]
     v = drum[k.mlow]
     for l in range(LANES):
-        cl, sl = upper_face(v, l)
-        ht = v.ht[l]
-        ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
-        at_s = ps + s * u.hb[l] + c * k.mbx[l]
-        at_q = pq - c * u.hb[l] + s * k.mbx[l]
-        dvx = u.vx[l] - v.vx[l]
-        dvz = u.vz[l] - v.vz[l]
-        vs, vq = cl * dvx + sl * dvz, cl * dvz - sl * dvx
-        speed, _ = ct.contact_velocity(at_s, at_q, 0.0, 1.0, ps, pq, ht, vs, vq, u.w[l], v.w[l])
+        cl, sl, ps, pq, at_s, at_q = at_joint(u, v, k, l)
+        speed = slipping(u, v, l, cl, sl, ps, pq, at_s, at_q)
         note_slack(k, l, abs(at_s - k.mpx[l]), abs(at_s - k.msx[l]), abs(speed), CHUNK * k.mdt[l])
 
 
 @kernel
 def look_ahead(drum, joint, lane, watch):
     """Which links may hold something within the next chunk of steps: all but dowels far within their slack."""
-    for m in range(1, lane.shape[0]):
-        k = lane[m]
-        if k.mline == 0 and k.mten == 0 and k.mc == 0.0:
-            slack_left(drum, lane, m)
-            k.mnear = 1 if some_leaves(lane, m, watch) else 0
+    look_for_slack(slack_left, drum, lane, watch)
