@@ -119,7 +119,9 @@ def _place(where: list[str | int]) -> str:
     if not where:
         return ""
     if isinstance(where[-1], int):
-        return f" in [[{where[-2]}]] number {where[-1] + 1}"
+        *outer, number = where
+        path = ".".join(str(part) for part in outer if isinstance(part, str))
+        return f" in [[{path}]] number {number + 1}"
     return f" in [{'.'.join(map(str, where))}]"
 
 
