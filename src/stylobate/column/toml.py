@@ -123,9 +123,8 @@ def _place(where: list[str | int]) -> str:
     if not where:
         return ""
     if isinstance(where[-1], int):
-        *outer, number = where
-        path = ".".join(str(part) for part in outer if isinstance(part, str))
-        return f" in [[{path}]] number {number + 1}"
+        path = ".".join(part for part in where if isinstance(part, str))
+        return f" in [[{path}]] number {where[-1] + 1}"
     return f" in [{'.'.join(map(str, where))}]"
 
 

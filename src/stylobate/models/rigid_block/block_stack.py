@@ -171,6 +171,11 @@ class BlockStack:
             **_stiffness(column.joints, area, second, column.friction),
         )
 
+    def with_capacities(self, capacity: np.ndarray) -> BlockStack:
+        """The same stack whose links have other capacities [N], shape (links,)."""
+        links = zip(self.links, capacity.tolist(), strict=True)
+        return replace(self, links=tuple(replace(one, capacity=most) for one, most in links))
+
     def mirrored(self) -> BlockStack:
         """The same stack with left and right changed."""
         flip = np.array([-1.0, 1.0])
