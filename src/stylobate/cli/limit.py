@@ -34,6 +34,7 @@ def limit(
     pattern: Pattern = None,
     tilt: Tilt = "0",
     compressive_strength: Strength = None,
+    project: o.Project = None,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
@@ -45,12 +46,11 @@ def limit(
     """
     from ..analysis.limit import limit_analysis
     from ..analysis.limit_directions import limit_directions
-    from ..column.files import load_column
     from ..motion.ranges import azimuth_range
     from . import console
 
     o.the_threads(threads)
-    stone = load_column(column)
+    stone = o.the_column(column, project)
     loads = the_loads(pattern, tilt, compressive_strength)
     azimuths = None if directions is None else azimuth_range(directions).tolist()
     around = azimuths is not None or bool(stone.as_found)
