@@ -8,6 +8,7 @@ from scipy.integrate import quad
 
 import stylobate as st
 from stylobate.column.presets import preset
+from stylobate.column.scatter import Scatter, scattered_columns
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
 SHAPES = [(0.82, 1.11, 1.08), (5.0, 0.96, 0.66), (0.3, 2.0, 0.4), (1.0, 0.5, 0.9), (1.0, 1.0, 1.0)]
@@ -91,6 +92,48 @@ def test_a_drum_that_widens_upward_is_said_and_computed():
     with pytest.warns(st.OutOfRangeWarning, match=r"drum 1 of .* widens upward"):
         column = st.Column.of_drums([st.Drum(1.0, 0.5, 0.9, 2000.0)], JOINT)
     assert column.base_width == 0.5
+
+
+def column_of(*widths):
+    return st.Column.of_drums([st.Drum(0.8, low, high, 2000.0) for low, high in widths], JOINT, name="c")
+
+
+@pytest.mark.parametrize(
+    "capital",
+    [
+        [(0.85, 1.15)],  # an echinus
+        [(0.84, 0.84), (0.80, 1.15), (1.20, 1.20)],  # a necking, an echinus that springs from inside it, an abacus
+        [(0.85, 1.2), (1.2, 1.3)],  # a capital in two, a block that flares on it
+    ],
+)
+def test_a_capital_on_a_shaft_is_no_mistake(capital):
+    assert column_of((1.0, 0.9), (0.9, 0.85), *capital).n == 2 + len(capital)  # a warning is an error here
+
+
+@pytest.mark.parametrize(
+    ("widths", "said"),
+    [
+        ([(1.0, 0.9), (0.8, 0.9), (0.8, 0.7)], "drum 2 of 'c' widens upward"),
+        ([(1.0, 0.9), (0.8, 0.9)], "drum 2 of 'c' widens upward"),
+        ([(0.7, 0.8), (0.8, 0.9), (0.9, 1.0)], "'c' widens upward from its base"),
+    ],
+)
+def test_widths_that_fit_better_swapped_are_said(widths, said):
+    with pytest.warns(st.OutOfRangeWarning, match=said) as seen:
+        column_of(*widths)
+    assert len(seen) == 1
+
+
+def test_twins_are_not_warned_of_again():
+    with pytest.warns(st.OutOfRangeWarning, match="widens upward"):
+        column = column_of((1.0, 0.9), (0.8, 0.9))
+    # warnings are errors here
+    assert len(scattered_columns(column, Scatter(), 15, 1)) == 15
+    assert column.replace(name="d").name == "d"
+    with pytest.raises(TypeError, match="no field 'nme'"):
+        column.replace(nme="d")
+    with pytest.warns(st.OutOfRangeWarning, match="widens upward"):
+        column_of((1.0, 0.9)).replace(drums=column.drums, joints=column.joints)
 
 
 @pytest.mark.parametrize(

@@ -84,6 +84,9 @@ def test_a_column_with_a_material_is_written_and_read_back(tmp_path):
 @pytest.mark.parametrize(
     ("name", "more", "said"),
     [
+        ("Pentelic marble", "", "there is no material 'Pentelic marble'; the nearest are 'marble, dry' ("),
+        ("Pentelic marbel worn", "", "the nearest are 'marble, worn' ("),
+        ("Carrara", "", "there is no material 'Carrara'; stones are marble, limestone"),
         ("marbel, worn", "", "there is no material 'marbel, worn'; the nearest are 'marble, worn'"),
         ("brick", "", "there is no material 'brick'; "),
         ("tuff", "", "no friction of 'tuff, dry' is published"),

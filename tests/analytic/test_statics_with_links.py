@@ -89,6 +89,56 @@ def test_a_core_and_a_bar_hold_at_their_capacity_in_the_joint_that_gives_way():
     assert limit_analysis(barred).multiplier == pytest.approx(column.joint_uplift_accelerations[1] / column.gravity)
 
 
+DOWEL = {"joint": 1, "shear_stiffness": 1e8}
+#: Weight times what friction of 0.1 lacks of the rocking multiplier of the block, 1/4.
+MISSING = 0.15 * WEIGHT
+
+
+@pytest.mark.parametrize(
+    ("joint", "capacities", "least", "yields", "idle"),
+    [
+        (ROUGH, [5.5e3], [0.0], [False], [True]),  # friction alone carries until it rocks
+        (SMOOTH, [5.5e3], [5.5e3], [True], [False]),  # it slides
+        (SMOOTH, [2e4], [MISSING], [False], [False]),  # it rocks while the dowel holds what friction does not
+        (SMOOTH, [1e4, 1e4], [MISSING - 1e4] * 2, [False] * 2, [False] * 2),
+        (SMOOTH, [2e4, 2e4], [0.0] * 2, [False] * 2, [False] * 2),  # one of the two is needed, no matter which
+    ],
+)
+def test_what_a_dowel_must_hold_by_hand(joint, capacities, least, yields, idle):
+    """Of a face of answers the least force, in the plane, in its mirror and in space; 1e-5: ten times what (L4) leaves."""
+    places = [(-0.1, 0.0), (0.1, 0.0)]  # in a line with the push: nothing twists
+    dowels = [st.Dowel(at=at, shear_capacity=one, **DOWEL) for at, one in zip(places, capacities, strict=False)]
+    column = with_links(st.Column.of_drums(BLOCK.drums, joint), *dowels)
+    for found in (limit_analysis(column), limit_analysis(column, direction=180.0), limit_in_space(column, 0.0)):
+        assert [abs(one.force) for one in found.links] == pytest.approx(least, rel=1e-5, abs=1e-9)
+        assert [one.yields for one in found.links] == yields
+        assert [one.idle for one in found.links] == idle
+
+
+def test_a_column_that_friction_carries_is_not_said_to_use_its_dowels(tmp_path, capsys):
+    """Twelve drums that overturn about the base: no dowel need act, in the plane and round in space."""
+    column = st.preset("paper-12-drums")
+    column = with_links(column, *(st.Dowel(joint=j, shear_stiffness=1e8, shear_capacity=5488.0) for j in range(2, 13)))
+    assert all(one.idle and not one.yields and one.force == 0.0 for one in limit_analysis(column).links)
+    file = write_column(column, tmp_path / "dowelled.toml")
+    assert call(["limit", str(file)]) == 0
+    said = capsys.readouterr().out
+    assert said.count("need not act (capacity 5488 N)") == 11
+    assert "yields" not in said
+
+
+def test_a_bar_is_told_by_what_it_does(tmp_path, capsys):
+    """Pushed to the right the bar in the axis holds W b + T b with b half the width; its shear is left to friction."""
+    bar = st.Bar(joint=1, shear_stiffness=1e8, shear_capacity=1e4, axial_stiffness=1e8, axial_capacity=2e4)
+    column = with_links(BLOCK, bar)
+    assert limit_analysis(column).multiplier == pytest.approx((WEIGHT + 2e4) * 0.5 / (WEIGHT * 2.0), rel=1e-9)
+    assert call(["limit", str(write_column(column, tmp_path / "bar.toml"))]) == 0
+    said = capsys.readouterr().out
+    assert "bar in joint 1, shear" in said
+    assert "need not act (capacity 1e+04 N)" in said
+    assert "2e+04 N of 2e+04 N, yields" in said
+
+
 def test_a_layer_lowers_the_friction_and_a_spring_without_capacity_is_no_strength():
     layer = st.Layer(joint=1, friction_coefficient=0.08, shear_stiffness=1e5)
     assert limit_analysis(with_links(BLOCK, layer)).multiplier == pytest.approx(0.08, rel=1e-9)

@@ -33,6 +33,45 @@ def test_two_columns_and_an_architrave(folder):
     assert found.joint == column.joints[-1]
 
 
+COLONNADE = """
+[[column]]
+file = "column5.toml"
+number = 4
+spacing = 2.3
+[[beam]]
+on = [1, 2]
+overhang = [0.4, 0]
+height = 0.5
+[[beam]]
+on = [2, 3]
+length = 2.3
+height = 0.5
+[[beam]]
+between = ["column 3", "column 4"]
+overhang = [0.0, 0.4]
+height = 0.5
+"""
+
+
+def test_architraves_that_meet_on_an_axis_share_the_top_of_the_column(folder):
+    """Ends by overhang, by length and by names; each rests on its half, and they touch without an overlap."""
+    path = folder / "colonnade.toml"
+    path.write_text(COLONNADE)
+    found = st.read_assembly(path)
+    beams = found.blocks[-3:]
+    ends = [(one.corners[:, 0].min(), one.corners[:, 0].max()) for one in beams]
+    assert ends == [pytest.approx(one) for one in ((-0.4, 2.3), (2.3, 4.6), (4.6, 7.3))]
+    names = [one.name for one in found.bodies]
+    touching = {frozenset((names[joint.lower], names[joint.upper])) for joint in found.joints}
+    for beam, left, right in ((1, 1, 2), (2, 2, 3), (3, 3, 4)):
+        for column in (left, right):
+            assert {f"architrave {beam}", f"column {column}, drum 5"} in touching
+    assert {"architrave 1", "architrave 2"} in touching
+    path.write_text(COLONNADE.replace("overhang = [0.4, 0]", "overhang = 0.4"))
+    with pytest.raises(st.InputError, match="block 'architrave 2' and block 'architrave 1' overlap by 400 mm"):
+        st.read_assembly(path)
+
+
 def test_critical_suite_and_study_take_it(tmp_path, capsys):
     # two slender blocks on soft joints, and a beam: 1.05 g for half a second throws them over, 0.05 g does not open a joint
     (tmp_path / "pillar.toml").write_text(
@@ -68,7 +107,16 @@ def test_critical_suite_and_study_take_it(tmp_path, capsys):
     [
         (("number = 2", ""), "needs at = [...], or number and spacing"),
         (("spacing = 2.6", ""), "have no spacing"),
-        (("length = 3.4", "length = 1.0"), "reaches from 0.8 to 1.8 m, and column 1 stands at 0 m"),
+        (("length = 3.4", "length = 1.0"), "reaches from 0.8 to 1.8 m, and 'column 1' stands at 0 m"),
+        (("length = 3.4", "centre = 1.0"), "has a centre and no length"),
+        (("length = 3.4", "length = 3.4\noverhang = 0.1"), "has a length and an overhang"),
+        (("length = 3.4", "overhang = [0.1]"), "has 1 values; give one, or that on the left and right"),
+        (("length = 3.4", "overhang = -0.1"), "overhang of beam 'architrave' is -0.1 m; allowed is [0, 100] m"),
+        (("length = 3.4", "overhang = 'x'"), "'overhang' in [[beam]] number 1 is 'x'; it must be a number or a list"),
+        (("depth = 0.6", "between = ['column 1', 'colum 2']"), "'colum 2'; did you mean column 2?"),
+        (("depth = 0.6", "between = ['column 1']"), "lies between 1 columns; name two different ones"),
+        (("depth = 0.6", "between = ['column 1', 'column 2']\non = [1, 2]"), "has on and between"),
+        (("length = 3.4", "on = [1]"), "lies on one axis and has no length"),
         (("depth = 0.6", "depth = 0.6\non = [1, 3]"), "lies on column 3; the file has columns 1 to 2"),
         (("column5.toml", "column6.toml"), "column6.toml"),
         (("spacing = 2.6", "spacing = 0.5"), "overlap"),

@@ -7,8 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as some
 
 import stylobate as st
+from stylobate.column.assembly_files import read_assembly
 from stylobate.column.files import column_from_dict, load_column, read_column, write_column
 from stylobate.column.presets import PRESETS, preset
+from stylobate.errors import InputError
 
 LENGTHS = some.floats(1e-3, 1e3)
 
@@ -113,8 +115,13 @@ friction_angle = 25.0
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        (("density = 1600.0", "density = 2.3"), "density is 2.3 kg/m³: is the unit right"),
-        (("height = 5.0", "height = 500.0"), "a drum is 41.6667 m high: is the unit right"),
+        (("density = 1600.0", "density = 2.3"), r"density of drum 1 is 2.3 kg/m³.*was it meant in g/cm³\?"),
+        (("density = 1600.0", "density = 25"), r"density of drum 1 is 25 kg/m³.*was it meant in kN/m³\?"),
+        (("height = 5.0", "height = 680.0"), r"height of the column is 680 m.*was it meant in cm\?"),
+        (("bottom_width = 0.96", "bottom_width = 86.0"), r"width of the lower face of drum 1 is 86 m.*meant in cm\?"),
+        # σ = 1600 × 9.81 × 5 Pa × 0.81/0.96 on 5e7 N/m³
+        (("normal_stiffness = 5.0e10", "normal_stiffness = 5.0e7"), r"drum 1 sinks by 1.3 mm.*was it meant in kN/m³\?"),
+        (("normal_stiffness = 5.0e10", "normal_stiffness = 50.0"), r"normal_stiffness is 50 N/m³.*meant in N/mm³\?"),
         (("friction_angle = 35.0", "friction_angle = 0.65"), "friction_angle is 0.65 degrees"),
     ],
 )
@@ -251,7 +258,7 @@ def test_a_column_that_is_neither_preset_nor_file(tmp_path):
     ("line", "said"),
     [
         ("friction_coefficient = 3.5", "friction_coefficient is 3.5, and nobody has measured more than 2"),
-        ("normal_stiffness = 5e6", "normal_stiffness is 5e\\+06 N/m³, and nobody has measured less than 1e\\+07"),
+        ("normal_stiffness = 5e6", "normal_stiffness is 5e\\+06 N/m³, and nobody has measured but 1e\\+07"),
         ("shear_stiffness = 5e13", "shear_stiffness is 5e\\+13 N/m³, and nobody has measured"),
     ],
 )
@@ -282,3 +289,47 @@ def test_a_taper_in_depth_goes_through_a_file(tmp_path):
     assert again.digest == column.digest
     assert column_from_dict(column.to_dict()) == column
     assert "top_depth" not in st.preset("paper-12-drums").to_dict()["drums"][0]
+
+
+def test_one_drum_too_high_is_told_apart_from_a_column_too_high(tmp_path):
+    drums = "".join(f"[[drum]]\nheight = {h}\nbottom_width = 1.0\ntop_width = 1.0\n" for h in (0.86, 86.0, 0.86))
+    law = "[joint]\nnormal_stiffness = 5e10\nshear_stiffness = 2.5e10\n"
+    path = tmp_path / "column.toml"
+    path.write_text(f"density = 2500.0\n{drums}{law}")
+    with pytest.warns(st.OutOfRangeWarning) as seen:
+        read_column(path)
+    assert [str(one.message) for one in seen] == [
+        "'column': the height of drum 2 is 86 m, and drums have 0.005 to 30 m: was it meant in cm?"
+    ]
+
+
+def test_a_key_of_a_table_in_a_table_is_told_by_the_whole_path(tmp_path):
+    path = tmp_path / "column.toml"
+    path.write_text(TAPERED + "\n[[as_found.drum]]\nindex = 2\nofset = 0.01\n")
+    with pytest.raises(
+        InputError, match=r"unknown key 'ofset' in \[\[as_found\.drum\]\] number 1; did you mean 'offset'"
+    ):
+        read_column(path)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("height = 86.0", r"size of block 'a' is 86 m.*was it meant in"),
+        ("density = 2.5", r"density of block 'a' is 2.5 kg/m³.*was it meant in g/cm³\?"),
+        ("normal_stiffness = 5e7", r"block 'a' sinks by 2 mm into its joint.*was it meant in kN/m³\?"),
+    ],
+)
+def test_blocks_of_an_assembly_are_doubted_as_drums_are(line, said, tmp_path):
+    values = {"height": "4.0", "density": "2500.0", "normal_stiffness": "5e10"}
+    name, _, value = line.partition(" = ")
+    values[name] = value
+    h = values["height"]
+    path = tmp_path / "block.toml"
+    path.write_text(
+        f"density = {values['density']}\n[joint]\nnormal_stiffness = {values['normal_stiffness']}\nshear_stiffness = 2e10\n"
+        f"[[block]]\nname = 'a'\nvertices = [[0.0, 0.0], [0.8, 0.0], [0.8, {h}], [0.0, {h}]]\n"
+    )
+    with pytest.warns(st.OutOfRangeWarning, match=said) as seen:
+        read_assembly(path)
+    assert len(seen) == 1

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ..column import Column
 from ..errors import InputError
 from ..models.rigid_block.block_stack import BlockStack
+from .least_forces import Borne, Needed, needed_forces
 from .limit_programmes import ACTIVE, Facets, equilibrium_matrix, kinematic_bound, non_associated, static_bound
 from .static_loads import check_standing, crushing_forces, gravity_forces, horizontal_forces
 
@@ -37,16 +39,18 @@ class ActiveJoint:
 
 @dataclass(frozen=True)
 class LinkForce:
-    """What a link holds at collapse.
+    """What a link must hold at collapse: forces at the collapse multiplier need not be unique.
 
     Parameters
     ----------
     name, action : str
         The link, and what it does: ``shear``, ``closing`` of its joint, or a ``line`` in tension.
     force, capacity : float
-        [N]; of shear towards +x on the part below positive.
+        The least that it holds in any answer, and what it can hold [N]; of shear towards +x on the part below positive.
     yields : bool
-        Whether it takes part in the mechanism with all its capacity.
+        Whether it holds all its capacity in every answer.
+    idle : bool
+        Whether it need not act; all links that are idle may be left out together.
     """
 
     name: str
@@ -54,6 +58,7 @@ class LinkForce:
     force: float
     capacity: float
     yields: bool
+    idle: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,13 +76,14 @@ class LimitResult:
         x, z [m], rotation counter-clockwise positive [rad], shape (n, 3).
     active : tuple of ActiveJoint
     compression, shear, eccentricity : array
-        Joint forces at collapse: N [N], V [N] on the part above, towards +x positive, and M/N [m], shape (n,).
+        Joint forces at collapse: N [N], V [N] on the part above, towards +x positive, and M/N [m], shape (n,); with links
+        those of one answer, in which those that need not act do not.
     at_limit : tuple of int
         Joints whose strength is used up, whether or not the mechanism shown uses them; counted from 1.
     flow : str
         Flow rule of the mechanism that is shown.
     links : tuple of LinkForce
-        What each link holds at collapse.
+        What each link must hold at collapse.
     """
 
     multiplier: float
@@ -148,18 +154,38 @@ def limit_analysis(
     live = horizontal_forces(stack, pattern)
     check_standing(stack, dead, strength, base_tilt)
     equilibrium = equilibrium_matrix(stack)
+
+    def bear(facets: Facets) -> Borne:
+        lower, forces, slopes = static_bound(equilibrium, dead, live, facets)
+        # The crushing domain is curved: its tangents are added where the last answer left it.  (Kelley's cutting planes)
+        while facets.cut(forces, strength):
+            lower, forces, slopes = static_bound(equilibrium, dead, live, facets)
+        return Borne(lower, facets.worth(slopes), -forces[3 * stack.n :], forces)
+
     facets = Facets(stack)
-    lower, forces = static_bound(equilibrium, dead, live, facets)
-    # The crushing domain is curved: its tangents are added where the last answer left it.  (Kelley's cutting planes)
-    while facets.cut(forces, strength):
-        lower, forces = static_bound(equilibrium, dead, live, facets)
+    whole = bear(facets)
+    lower, forces, links = whole.multiplier, whole.forces, ()
+    if stack.links:
+        capacity = np.array([one.capacity for one in stack.links])
+        needed = needed_forces(lambda some, _: bear(Facets(stack.with_capacities(some))), capacity, whole)
+        forces, links = needed.forces, link_forces(stack.links, needed)
     upper, rates, multipliers = kinematic_bound(equilibrium, dead, live, facets)
     other = non_associated(equilibrium, live, facets, forces) if flow == "non-associated" else None
     if other is not None:
         rates, multipliers = other
     control = _top_movement(rates)
     shown = "associated" if other is None else flow
-    return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, shown)
+    return _result(stack, lower, upper, forces, rates / control, multipliers / control, facets, shown, links)
+
+
+def link_forces(links: Sequence[Any], needed: Needed) -> tuple[LinkForce, ...]:
+    """What the links of a programme, which have a name, an action and a capacity, must hold."""
+    return tuple(
+        LinkForce(
+            one.name, one.action, float(needed.least[k]), one.capacity, bool(needed.yields[k]), bool(needed.idle[k])
+        )
+        for k, one in enumerate(links)
+    )
 
 
 def towards(column: Column | BlockStack, direction: float) -> BlockStack:
@@ -185,18 +211,14 @@ def _result(
     multipliers: np.ndarray,
     facets: Facets,
     flow: str,
+    links: tuple[LinkForce, ...],
 ) -> LimitResult:
     threshold, n = ACTIVE * multipliers.max(), stack.n
     places, kinds = facets.place, facets.kind
     moving = [k for k, rate in enumerate(multipliers) if rate > threshold]
     active = [ActiveJoint(places[k] + 1, kinds[k], float(multipliers[k])) for k in moving if places[k] < n]
-    yielding = {places[k] - n for k in moving if places[k] >= n and kinds[k] != "slack"}
     joints = forces[: 3 * n].reshape(-1, 3)
     compression = joints[:, 0]
-    links = tuple(
-        LinkForce(one.name, one.action, -float(forces[3 * n + k]), one.capacity, k in yielding)
-        for k, one in enumerate(stack.links)
-    )
     return LimitResult(
         multiplier=0.5 * (lower + upper),
         lower=lower,

@@ -37,7 +37,7 @@ class DirectionLimit:
     mode : str
         ``rocking``, ``sliding`` or, with links, ``twisting``.
     links : tuple of LinkForce
-        What each link holds then; of shear its size.
+        What each link must hold then; of shear its size.
     """
 
     azimuth: float

@@ -93,6 +93,14 @@ class Facets:
                     out[k, 3 * place] = 0.0
         return out
 
+    def worth(self, slopes: np.ndarray) -> np.ndarray:
+        """By how much a larger capacity of each link raises λ [1/N], of ∂λ/∂k of the facets; shape (links,)."""
+        found = np.zeros(len(self.stack.links))
+        for place, kind, slope in zip(self.place, self.kind, slopes, strict=True):
+            if place >= self.stack.n and kind != "slack":
+                found[place - self.stack.n] += slope
+        return found
+
     def used(self, forces: np.ndarray) -> np.ndarray:
         """Which facets the forces have used up, shape (facets,)."""
         left_over = np.array(self.bound) - self.matrix() @ forces
@@ -103,8 +111,8 @@ class Facets:
 
 def static_bound(
     equilibrium: np.ndarray, dead: np.ndarray, live: np.ndarray, facets: Facets
-) -> tuple[float, np.ndarray]:
-    """Largest λ in equilibrium with admissible forces (lower bound theorem), and these forces."""
+) -> tuple[float, np.ndarray, np.ndarray]:
+    """Largest λ in equilibrium with admissible forces (lower bound theorem), these forces, and ∂λ/∂k of the facets [1/N]."""
     from scipy.optimize import linprog
 
     size = len(equilibrium)
@@ -127,7 +135,7 @@ def static_bound(
             f"the column bears any push, because {' and '.join(endless[:2]) or 'a link'} has no capacity; give it one [N]."
         )
     _check_solved(found, "static")
-    return float(found.x[-1]), found.x[:-1] * scale
+    return float(found.x[-1]), found.x[:-1] * scale, -found.ineqlin.marginals / scale
 
 
 def kinematic_bound(

@@ -21,7 +21,8 @@ from ..column.link_loads import own_places
 from ..constants import DEGREE
 from ..errors import InputError, StylobateError
 from ..models.rigid_block.stack_links import LINE, SHEAR, actions, is_strength
-from .limit import LinkForce
+from .least_forces import Borne, needed_forces
+from .limit import LinkForce, link_forces
 
 #: Points of a rim and directions of friction to begin with; directions that are looked at for more.
 POINTS, WAYS, LOOKS = 8, 4, 360
@@ -31,6 +32,9 @@ ROUNDS, CLOSE = 60, 1e-7
 
 #: A joint takes part in the mechanism with more than this share of the fastest one [-].
 MOVES = 1e-5
+
+
+_TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
 
 
 class SpaceLimit(NamedTuple):
@@ -212,40 +216,66 @@ class SpaceProgramme:
         push = base_axes(self.column).T @ (math.cos(angle), math.sin(angle), 0.0)
         live = self._body_force(push)
         self.begin(push)
+        links = [k for k, one in enumerate(self.holders) if one.name]
+        every = np.array([one.capacity for one in self.holders])
+
+        def borne(multiplier: float, forces: np.ndarray, _: np.ndarray, prices: np.ndarray) -> Borne:
+            return Borne(multiplier, prices[links] / self.weight, self._held(forces)[links], forces)
+
+        def bear(some: np.ndarray, enough: float) -> Borne:
+            capacity = every.copy()
+            capacity[links] = some
+            return borne(*self._converged(live, capacity, enough))
+
+        found = self._converged(live, every)
+        joint, mode = self._mechanism(found[2])
+        needed = needed_forces(bear, every[links], borne(*found))
+        return SpaceLimit(found[0] + 0.0, joint, mode, link_forces([self.holders[k] for k in links], needed))
+
+    def _converged(
+        self, live: np.ndarray, capacity: np.ndarray, enough: float = math.inf
+    ) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+        """The answer of the programme for capacities of the holders [N]: it grows until its bounds have met.
+
+        Or until the multiplier, of which it only knows more and more, is ``enough``.
+        """
         gap = math.inf
         for _ in range(ROUNDS):
-            multiplier, forces, rates, prices = self._programme(live)
-            gap = self._grow(rates, prices)
-            if gap <= CLOSE * max(abs(multiplier), 1e-3):
-                break
-        else:
-            raise StylobateError(
-                f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
-            )
-        joint, mode = self._mechanism(rates)
-        return SpaceLimit(multiplier + 0.0, joint, mode, self._held(forces))
+            found = self._programme(live, capacity)
+            if found[0] >= enough:
+                return found
+            gap = self._grow(found[2], found[3], capacity)
+            if gap <= CLOSE * max(abs(found[0]), 1e-3):
+                return found
+        raise StylobateError(
+            f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
+        )
 
-    def _programme(self, live: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
+    def _programme(self, live: np.ndarray, capacity: np.ndarray) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
         """Largest multiplier with what there is, forces over the weight, and velocities and rates that are dual to them."""
         from scipy.optimize import linprog
         from scipy.sparse import coo_array
 
         owner = np.array(self.owner)
-        bounded = [k for k, one in enumerate(self.holders) if math.isfinite(one.capacity)]
+        bounded = np.flatnonzero(np.isfinite(capacity) & (capacity > 0.0))
+        left_out = (owner >= 0) & (capacity[owner] == 0.0)
         row = np.full(len(self.holders) + 1, -1)
         row[bounded] = np.arange(len(bounded))
         held = np.flatnonzero(row[owner] >= 0)
         rows = coo_array((np.ones(len(held)), (row[owner[held]], held)), (len(bounded), len(owner) + 1))
-        found = linprog(
-            np.append(np.zeros(len(owner)), -1.0),
-            A_ub=rows if bounded else None,
-            b_ub=[self.holders[k].capacity / self.weight for k in bounded] if bounded else None,
-            A_eq=np.column_stack((*self.columns, live)),
-            b_eq=-self.dead,
-            bounds=[(0.0, None)] * len(owner) + [(None, None)],
-            method="highs",
-            options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
-        )
+        for presolve in (True, False):  # on a face of many answers HiGHS may come to no end with its presolve
+            found = linprog(
+                np.append(np.zeros(len(owner)), -1.0),
+                A_ub=rows if len(bounded) else None,
+                b_ub=capacity[bounded] / self.weight if len(bounded) else None,
+                A_eq=np.column_stack((*self.columns, live)),
+                b_eq=-self.dead,
+                bounds=[(0.0, 0.0 if out else None) for out in left_out] + [(None, None)],
+                method="highs",
+                options=_TIGHT | {"presolve": presolve},
+            )
+            if found.status in (0, 3):
+                break
         if found.status == 3:
             endless = [one.name for one in self.holders if one.capacity == math.inf]
             raise InputError(
@@ -255,13 +285,21 @@ class SpaceProgramme:
         if found.status != 0:
             raise StylobateError(f"the programme of the limit analysis was not solved: {found.message}")
         prices = np.zeros(len(self.holders))
-        if bounded:
+        if len(bounded):
             prices[bounded] = -found.ineqlin.marginals
-        return float(found.x[-1]), found.x[:-1], -found.eqlin.marginals.reshape(-1, 6), prices
+        rates = -found.eqlin.marginals.reshape(-1, 6)
+        for k in np.flatnonzero(capacity == 0.0):  # what the first newton of it would be worth
+            speed = self._strain_rate(self.holders[k], rates)
+            prices[k] = np.hypot(*speed) if len(speed) == 2 else max(-float(speed[0]), 0.0)
+        return float(found.x[-1]), found.x[:-1], rates, prices
 
-    def _grow(self, rates: np.ndarray, prices: np.ndarray) -> float:
+    def _strain_rate(self, one: _Holder, rates: np.ndarray) -> np.ndarray:
+        """Velocity of the upper end of a holder from its lower one, along its axes."""
+        return one.axes.T @ (self._velocity(one.upper, one.high, rates) - self._velocity(one.lower, one.low, rates))
+
+    def _grow(self, rates: np.ndarray, prices: np.ndarray, capacity: np.ndarray) -> float:
         """Add what the mechanism works against; how far the multiplier may be below the largest one, at most [g]."""
-        most = 1.0 + sum(one.capacity for one in self.holders if math.isfinite(one.capacity)) / self.weight
+        most = 1.0 + float(capacity[np.isfinite(capacity)].sum()) / self.weight
         gap = 0.0
         for rim in self.rims:
             least, place, way = self._worst(rim, rates)
@@ -271,13 +309,11 @@ class SpaceProgramme:
         for k, one in enumerate(self.holders):
             if one.axes.shape[1] == 1:
                 continue
-            speed = one.axes.T @ (
-                self._velocity(one.upper, one.high, rates) - self._velocity(one.lower, one.low, rates)
-            )
+            speed = self._strain_rate(one, rates)
             size = float(np.hypot(*speed))
             short = size - prices[k]
             if short > 0.0 and size > 0.0:
-                gap += short * (one.capacity / self.weight if math.isfinite(one.capacity) else most)
+                gap += short * (capacity[k] / self.weight if math.isfinite(capacity[k]) else most)
                 self.hold(k, -speed / size)
         return gap
 
@@ -320,16 +356,13 @@ class SpaceProgramme:
         joint = int(np.argmax(found.max(axis=1) > MOVES * found.max()))
         return joint + 1, ("rocking", "sliding", "twisting")[int(np.argmax(found[joint]))]
 
-    def _held(self, forces: np.ndarray) -> tuple[LinkForce, ...]:
-        found = []
-        for k, one in enumerate(self.holders):
-            if not one.name:
-                continue
-            mine = [i for i in range(len(forces)) if self.owner[i] == k]
-            size = float(np.linalg.norm(sum(forces[i] * self.ways[i] for i in mine))) * self.weight
-            used = float(sum(forces[i] for i in mine)) * self.weight
-            found.append(LinkForce(one.name, one.action, size, one.capacity, used > one.capacity * (1.0 - 1e-6)))
-        return tuple(found)
+    def _held(self, forces: np.ndarray) -> np.ndarray:
+        """Size of what each holder holds [N], shape (holders,)."""
+        found = np.zeros((len(self.holders), 2))
+        owner = np.array(self.owner[: len(forces)])
+        for i in np.flatnonzero((owner >= 0) & (forces > 0.0)):
+            found[owner[i], : len(self.ways[i])] += forces[i] * self.ways[i]
+        return np.hypot(*found.T) * self.weight
 
 
 def _way(angle: float) -> Any:

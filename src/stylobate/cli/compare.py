@@ -76,6 +76,7 @@ def compare(
         list[str] | None,
         typer.Option("--set", metavar="MODEL.NAME=VALUE", help="Option of one of the models; may be repeated."),
     ] = None,
+    project: o.Project = None,
     threads: o.Threads = None,
     dask: o.Dask = None,
     out: o.Out = None,
@@ -87,7 +88,6 @@ def compare(
     fragility curves under the same records with paired differences, and what the links bore.
     """
     from ..analysis.compare import compare_domains, compare_models
-    from ..column.files import load_column
     from ..motion.orientation import keep_axes
     from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
@@ -102,7 +102,8 @@ def compare(
         workers = o.the_threads(threads)
         request = o.the_request(context, separate=True)
         after = o.the_tail(tail)
-        compare_states.run(states, request, how, im, levels, state, twins, after, workers, out, as_json)
+        columns = {label: o.the_column(text, project) for label, text in states.items()}
+        compare_states.run(columns, request, how, im, levels, state, twins, after, workers, out, as_json)
         return
     if column is None or models is None:
         raise InputError("nothing is compared; give a column with --models, or states with --as-built and --with.")
@@ -110,7 +111,7 @@ def compare(
     if len(set(names)) != len(names):
         raise InputError(f"--models is {models!r}, with a model given twice; give each once.")
     count, after = o.the_threads(threads), o.the_tail(tail)
-    stone = load_column(column)
+    stone = o.the_column(column, project)
     chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
     result: dict[str, Any] = {"models": names}

@@ -9,6 +9,7 @@ from ..errors import InputError
 
 if TYPE_CHECKING:
     from ..analysis.states import StateComparison
+    from ..column import Column
     from ..models.base import Model
     from ..motion.request import MotionRequest
 
@@ -29,7 +30,7 @@ def the_states(as_built: str | None, as_found: str | None, strengthened: list[st
 
 
 def run(
-    states: dict[str, str],
+    columns: dict[str, Column],
     request: MotionRequest,
     model: Model,
     im: str | None,
@@ -45,14 +46,12 @@ def run(
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
     from ..campaign.study_files import levels_of
-    from ..column.files import load_column
     from . import console
 
     if (im is None) != (levels is None):
         raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
                          "0.2m/s:1.6m/s:8.")  # fmt: skip
     parse_state(state)
-    columns = {label: load_column(text) for label, text in states.items()}
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
     motions = request.expand()
     how = (

@@ -49,6 +49,7 @@ def critical(
     tail: o.Tail = "0s",
     whole: o.Whole = False,
     settings: o.Settings = None,
+    project: o.Project = None,
     replicates: o.Replicates = None,
     scatter: o.ScatterSizes = None,
     seed: o.Seed = None,
@@ -63,14 +64,13 @@ def critical(
     run on one grid. With --replicates, the probability of collapse over the amplitude, with its interval.
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
-    from ..column.assembly_files import load_structure
     from ..motion.specs import parse_acceleration
     from . import console
 
     asked = o.the_request(context)
     grid = [parse_acceleration(text) for text in (start, stop, step)]
     amplitude_grid(*grid)
-    stone: Any = load_structure(column)
+    stone: Any = o.the_structure(column, project)
     how = o.the_model(model, settings)
     after, count = o.the_tail(tail), o.the_threads(threads)
     twins = o.the_population(replicates, scatter, seed) or {}

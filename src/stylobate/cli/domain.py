@@ -53,6 +53,7 @@ def domain(
         bool, typer.Option("--half-step", help="Run it again with half of the time step and count what differs.")
     ] = False,
     settings: o.Settings = None,
+    project: o.Project = None,
     threads: o.Threads = None,
     dask: o.Dask = None,
     out: o.Out = None,
@@ -68,7 +69,7 @@ def domain(
     from . import console
 
     count = o.the_threads(threads)
-    study = _study(what, model, frequencies, amplitudes, duration, tail, settings)
+    study = _study(what, model, frequencies, amplitudes, duration, tail, settings, project)
     if replicates is not None:
         if half_step:
             raise InputError("--half-step is for a domain without --replicates; give one of the two.")
@@ -270,9 +271,9 @@ def _study(
     duration: str | None,
     tail: str | None,
     settings: list[str] | None,
+    project: str | None,
 ) -> Study:
     from ..campaign.study import Study, is_study, read_study
-    from ..column.files import load_column
     from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
 
@@ -283,13 +284,14 @@ def _study(
         "--duration": duration,
         "--tail": tail,
         "--set": settings,
+        "--project": project,
     }
     if Path(what).is_file() and is_study(what):
         for option, value in given.items():
             if value:
                 raise InputError(f"{what} is a study file and {option} is given as well; state it in the file.")
         return read_study(what)
-    column = load_column(what)
+    column = o.the_column(what, project)
     return Study(
         column,
         o.the_model(model or "dem2d", settings),

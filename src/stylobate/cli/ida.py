@@ -51,6 +51,7 @@ def ida(
     tail: o.Tail = "0s",
     whole: o.Whole = False,
     settings: o.Settings = None,
+    project: o.Project = None,
     threads: o.Threads = None,
     dask: o.Dask = None,
     out: o.Out = None,
@@ -63,12 +64,11 @@ def ida(
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response
-    from ..column.files import load_column
     from ..motion.intensity_specs import parse_levels, parse_measure
     from . import console
 
     workers, after = o.the_threads(threads), o.the_tail(tail)
-    measure, stone, how = parse_measure(im), load_column(column), o.the_model(model, settings)
+    measure, stone, how = parse_measure(im), o.the_column(column, project), o.the_model(model, settings)
     check_response(edp, stone, how)
     twins = o.the_population(replicates, scatter, seed) or {}
     stripes = None if levels is None else parse_levels(levels, measure)

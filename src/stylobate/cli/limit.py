@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -33,6 +34,7 @@ def limit(
     pattern: Pattern = None,
     tilt: Tilt = "0",
     compressive_strength: Strength = None,
+    project: o.Project = None,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
@@ -44,12 +46,11 @@ def limit(
     """
     from ..analysis.limit import limit_analysis
     from ..analysis.limit_directions import limit_directions
-    from ..column.files import load_column
     from ..motion.ranges import azimuth_range
     from . import console
 
     o.the_threads(threads)
-    stone = load_column(column)
+    stone = o.the_column(column, project)
     loads = the_loads(pattern, tilt, compressive_strength)
     azimuths = None if directions is None else azimuth_range(directions).tolist()
     around = azimuths is not None or bool(stone.as_found)
@@ -100,11 +101,9 @@ def limit(
             + (", seen from behind" if weakest else ""),
             "joints at their strength": ", ".join(map(str, found.at_limit)),
         }
-    facts |= {
-        one["link"]: f"{one['force_n']:.4g} N of {one['capacity_n']:.4g} N" + (", yields" if one["yields"] else "")
-        for one in summary["links"]
-        if one["force_n"] or one["yields"]
-    }
+    names = [one["link"] for one in summary["links"]]
+    for one in summary["links"]:
+        facts[one["link"] if names.count(one["link"]) == 1 else f"{one['link']}, {one['action']}"] = link_words(one)
     console.say(f"{sentence}.", facts, files)
 
 
@@ -144,9 +143,27 @@ def summarize(found: LimitResult) -> dict:
     }
 
 
+def link_words(row: dict) -> str:
+    """What a link must hold, for people."""
+    capacity = f"{row['capacity_n']:.4g} N" if math.isfinite(row["capacity_n"]) else "no limit"
+    if row["need_not_act"]:
+        return f"need not act (capacity {capacity})"
+    force = f"{abs(row['force_n']):.4g} N of {capacity}"
+    if row["yields"]:
+        return f"{force}, yields"
+    return f"at least {force}" + ("" if row["force_n"] else ", where others act for it")
+
+
 def link_rows(links: Sequence[LinkForce]) -> list[dict]:
-    """What links hold, in the JSON object."""
+    """What links must hold, in the JSON object."""
     return [
-        {"link": one.name, "action": one.action, "force_n": one.force, "capacity_n": one.capacity, "yields": one.yields}
+        {
+            "link": one.name,
+            "action": one.action,
+            "force_n": one.force,
+            "capacity_n": one.capacity,
+            "yields": one.yields,
+            "need_not_act": one.idle,
+        }
         for one in links
     ]

@@ -10,6 +10,7 @@ import typer
 from ..errors import InputError
 
 if TYPE_CHECKING:
+    from ..column import Column
     from ..column.scatter import Scatter
     from ..models.base import Model
     from ..motion import Motion
@@ -43,6 +44,14 @@ def _columns(incomplete: str) -> list[str]:
 ColumnName = Annotated[
     str,
     typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).", autocompletion=_columns),
+]
+Project = Annotated[
+    str | None,
+    typer.Option(
+        "--project",
+        metavar="AZIMUTH",
+        help="What is found out of the plane, projected onto the vertical plane of this azimuth, such as 30deg.",
+    ),
 ]
 StructureName = Annotated[
     str,
@@ -155,6 +164,36 @@ Dask = Annotated[
         "--dask", metavar="ADDRESS|local", help="Compute on a Dask cluster: its scheduler, or local for workers here."
     ),
 ]
+
+
+def the_column(name: str, project: str | None = None) -> Column:
+    """The preset or the column of a file of that name, in a vertical plane where one is asked for."""
+    from ..column.files import load_column
+
+    return _in_plane(load_column(name), project)
+
+
+def the_structure(name: str, project: str | None = None) -> Any:
+    """As :func:`the_column`, or the assembly of a file."""
+    from ..column.assembly_files import load_structure
+
+    return _in_plane(load_structure(name), project)
+
+
+def _in_plane(structure: Any, project: str | None) -> Any:
+    from ..column import Column
+    from ..column.projection import projected
+    from ..motion.specs import parse_angle
+
+    if project is None:
+        return structure
+    if not isinstance(structure, Column):
+        raise InputError(f"--project is for columns, and {structure.name!r} is an assembly, which lies in a plane.")
+    try:
+        azimuth = parse_angle(project)
+    except InputError:
+        raise InputError(f"--project is {project!r}; write it with its unit, such as 30deg.") from None
+    return projected(structure, azimuth)
 
 
 def the_model(name: str, settings: list[str] | None) -> Model:

@@ -57,6 +57,7 @@ def pushover(
     pattern: Pattern = None,
     tilt: Tilt = "0",
     compressive_strength: Strength = None,
+    project: o.Project = None,
     threads: o.Threads = None,
     out: o.Out = None,
     as_json: o.Json = False,
@@ -70,11 +71,10 @@ def pushover(
     from ..analysis.limit import limit_analysis, towards
     from ..analysis.limit_directions import limit_directions
     from ..analysis.pushover import pushover as follow
-    from ..column.files import load_column
     from . import console
 
     o.the_threads(threads)
-    stone = load_column(column)
+    stone = o.the_column(column, project)
     loads = the_loads(pattern, tilt, compressive_strength)
     far = None if to is None else number("--to", to)
     site = None if check is None else CodeSite.typed(check)

@@ -65,6 +65,7 @@ def run(
         str, typer.Option("--output-interval", metavar="TIME", help="Time between recorded states.")
     ] = "0.01s",
     settings: o.Settings = None,
+    project: o.Project = None,
     replicates: o.Replicates = None,
     scatter: o.ScatterSizes = None,
     seed: o.Seed = None,
@@ -80,13 +81,12 @@ def run(
     several directions, is one run after the other.
     """
     from ..analysis.directions import worst
-    from ..column.assembly_files import load_structure
     from ..motion.specs import parse_time
     from . import console
 
     count = o.the_threads(threads)  # a single run has one thread; columns like it have all
     asked = o.the_request(context)
-    stone = load_structure(column)
+    stone = o.the_structure(column, project)
     how = o.the_model(model, settings)
     found = asked.expand(stone.frequency_parameter)
     interval, length = parse_time(output_interval), o.the_tail(tail)

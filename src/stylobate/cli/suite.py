@@ -57,6 +57,7 @@ def suite(
     tail: o.Tail = "0s",
     whole: o.Whole = False,
     settings: o.Settings = None,
+    project: o.Project = None,
     replicates: o.Replicates = None,
     scatter: o.ScatterSizes = None,
     seed: o.Seed = None,
@@ -72,13 +73,12 @@ def suite(
     """
     from ..analysis.directions import compass_of_shares, worst
     from ..analysis.suite import must_be_told, suite_table
-    from ..column.assembly_files import load_structure
     from ..errors import InputError
     from ..models.shared.quiet import share_of
     from . import console
 
     workers, after = o.the_threads(threads), o.the_tail(tail)
-    stones: list[Any] = [load_structure(name) for name in (column, *(also or ()))]
+    stones: list[Any] = [o.the_structure(name, project) for name in (column, *(also or ()))]
     must_be_told(against, stones)
     names = [stone.name for stone in stones]
     if len(set(names)) < len(names):

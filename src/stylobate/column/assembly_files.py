@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning
@@ -17,6 +19,7 @@ from .files import joint_from_dict, load_column
 from .joint import Joint
 from .link_tables import LinkNumbers
 from .materials import Material, material
+from .plausible import COLUMN, DENSITY, first, joint_doubts, sinking_doubt
 from .presets import PRESETS
 from .standing import BeamTable, ColumnsTable, lay, stand
 from .tables import JointTable, describes_assembly, joint_fields
@@ -166,9 +169,8 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
     else:
         joint = _law(table.joint, stone, "[joint]")
     links += [_link(one, number) for number, one in enumerate(table.link or [], 1)]
-    laws = (joint, *(block.surface for block in blocks if block.surface), *(law for _, _, law in overrides))
-    for doubt in [doubt for law in laws for doubt in law.doubts][:1]:
-        warnings.warn(f"{doubt}: is the unit right?", OutOfRangeWarning, stacklevel=4)
+    for doubt in _doubts(blocks[len(standing) :], joint, [law for _, _, law in overrides], table.gravity):
+        warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
     return Assembly(
         tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
     )
@@ -184,3 +186,20 @@ def _link(table: BlockLinkTable, number: int) -> BlockLink:
 def _law(table: Table | None, stone: Material | None, where: str) -> Joint:
     given = {} if table is None else table.model_dump(exclude={"between"})
     return Joint(**joint_fields(given, stone, where))
+
+
+def _doubts(blocks: Sequence[Block], joint: Joint, others: Sequence[Joint], gravity: float) -> list[str]:
+    """What of the blocks that come from no column looks like a slip of units, each kind once."""
+    free = [one for one in blocks if not one.fixed]
+    doubts = first(COLUMN.doubt(f"the size of block {one.name!r}", one.size, "stones have") for one in free)
+    doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in free)
+    laws = [joint, *(one.surface for one in blocks if one.surface), *others]
+    beyond = first(joint_doubts(law) for law in dict.fromkeys(laws))
+    heavy = [(one, one.surface or joint, one.density * gravity * float(np.ptp(one.corners[:, 1]))) for one in free]
+    return doubts + (
+        beyond
+        or first(
+            sinking_doubt(f"block {one.name!r}", weight / law.normal_stiffness, law.normal_stiffness)
+            for one, law, weight in heavy
+        )
+    )

@@ -25,6 +25,7 @@ from .link_checks import check_links
 from .link_loads import is_pretensioned, pulls_in_plane
 from .links import Link
 from .materials import material
+from .plausible import shape_doubts
 from .stack import Stack
 
 MAX_DRUMS = 200
@@ -65,7 +66,7 @@ class Column(Stack):
     Warns
     -----
     OutOfRangeWarning
-        A drum that widens upward: allowed, but said.
+        A drum that widens upward and is no capital, or a column that does: allowed, but said.
     """
 
     drums: tuple[Drum, ...]
@@ -77,6 +78,14 @@ class Column(Stack):
     links: tuple[Link, ...] = ()
 
     def __post_init__(self) -> None:
+        self._check()
+        self._say_doubts()
+
+    def _say_doubts(self) -> None:
+        for doubt in shape_doubts(self, self.name):
+            warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
+
+    def _check(self) -> None:
         object.__setattr__(self, "drums", tuple(self.drums))
         object.__setattr__(self, "joints", tuple(self.joints))
         object.__setattr__(self, "links", tuple(self.links))
@@ -96,15 +105,6 @@ class Column(Stack):
             check_links(self)
         if self.as_found or is_pretensioned(self):
             check_as_found(self)
-        wide = [i + 1 for i, drum in enumerate(self.drums) if drum.top_width > drum.bottom_width * (1 + 1e-12)]
-        if wide:
-            which = ", ".join(map(str, wide[:5])) + (" …" if len(wide) > 5 else "")
-            warnings.warn(
-                f"drum {which} of {self.name!r} widens upward (top_width > bottom_width); "
-                "this is computed as given: swap the widths if it was not meant.",
-                OutOfRangeWarning,
-                stacklevel=3,
-            )
 
     def _check_rings(self) -> None:
         for j, joint in enumerate(self.joints):
@@ -236,8 +236,17 @@ class Column(Stack):
         return read_as(cls, path)
 
     def replace(self, **changes) -> Column:
-        """A copy with some fields changed (``dataclasses.replace``)."""
-        return dataclasses.replace(self, **changes)
+        """A copy with some fields changed, checked as any column; what was warned of is not warned of again."""
+        fields = {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+        if unknown := changes.keys() - fields:
+            raise TypeError(f"a column has no field {min(unknown)!r}; it has {', '.join(fields)}")
+        copy = object.__new__(type(self))
+        for name, value in (fields | changes).items():
+            object.__setattr__(copy, name, value)
+        copy._check()
+        if "drums" in changes and not shape_doubts(self, self.name):
+            copy._say_doubts()
+        return copy
 
     def with_joint(self, **changes) -> Column:
         """A copy with the same change made to every joint, e.g. ``with_joint(friction_angle=10.0)``."""

@@ -13,10 +13,6 @@ from .drum import LENGTHS
 DEFAULT_FRICTION_ANGLE = 35.0
 
 
-#: Beyond these nobody has measured joints of stone: friction coefficient [-], stiffness [N/m³].
-ROUGHEST, SOFTEST, STIFFEST = 2.0, 1e7, 1e13
-
-
 @dataclass(frozen=True)
 class Joint:
     """Stiffness and strength of a dry joint, per unit of area; no tension.
@@ -71,22 +67,6 @@ class Joint:
             angle = check_range("friction_angle of a joint", angle, 0.0, 90.0, unit="degrees", open_high=True)
             object.__setattr__(self, "friction_angle", angle)
             object.__setattr__(self, "friction_coefficient", math.tan(angle * DEGREE))
-
-    @property
-    def doubts(self) -> list[str]:
-        """What is beyond all that was measured on joints of stone, in words."""
-        found = []
-        if self.tan_phi > ROUGHEST:
-            found.append(
-                f"friction_coefficient is {self.tan_phi:.4g}, and nobody has measured more than {ROUGHEST:g} on stone"
-            )
-        for name in ("normal_stiffness", "shear_stiffness"):
-            value = getattr(self, name)
-            if not SOFTEST <= value <= STIFFEST:
-                found.append(
-                    f"{name} is {value:g} N/m³, and nobody has measured less than {SOFTEST:g} or more than {STIFFEST:g}"
-                )
-        return found
 
     @property
     def tan_phi(self) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from dataclasses import asdict, dataclass
 from difflib import get_close_matches
 from typing import Any
@@ -147,10 +148,22 @@ def material(name: str) -> Material:
     key = ", ".join(part.strip().lower() for part in str(name).split(","))
     found = MATERIALS.get(key) or MATERIALS.get(f"{key}, dry")
     if found is None:
-        near = get_close_matches(key, MATERIALS, 3, 0.4)
+        near = _nearest(key)
         nearest = f"the nearest are {', '.join(map(repr, near))}" if near else f"stones are {', '.join(_STONES)}"
         raise InputError(f"there is no material {name!r}; {nearest} (states are {', '.join(_STATES)}).")
     return found
+
+
+#: How alike two words are of which one is taken for a misspelling of the other [-].
+ALIKE = 0.75
+
+
+def _nearest(key: str) -> list[str]:
+    """Names of the materials whose stone a name holds, misspelt or not, in the states that it holds; dry without any."""
+    words = re.findall(r"[^\W\d_]+", key)
+    stones = [stone for word in words for stone in get_close_matches(word, _STONES, 1, ALIKE)]
+    states = [state for state in _STATES if any(get_close_matches(word, state.split(), 1, ALIKE) for word in words)]
+    return [f"{stone}, {state}" for stone in dict.fromkeys(stones) for state in states or ["dry"]]
 
 
 def _unit_weight(low: float, high: float, source: str, note: str) -> Quantity:

@@ -105,6 +105,11 @@ class Stack:
         """Static weight N_i carried by each joint [N], shape (n,)."""
         return np.cumsum(self.masses[::-1])[::-1] * self.gravity
 
+    @cached_property
+    def joint_closures(self) -> np.ndarray:
+        """By how much each joint closes under the weight that it carries [m], shape (n,)."""
+        return self.joint_weights / (np.array([joint.normal_stiffness for joint in self.joints]) * self.joint_areas)
+
     # -- the whole of it as one body ----------------------------------------------------------------------------------
 
     @property

@@ -7,10 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import InputError, check_range
+from ..errors import InputError, check_range, suggest
 from .as_blocks import links_of_column, of_column
 from .assembly import TOUCHING, Block
 from .block_links import BlockLink
+from .drum import LENGTHS
 from .files import load_column
 from .joint import Joint
 from .tables import JointTable
@@ -28,21 +29,28 @@ class ColumnsTable(Table):
 
 
 class BeamTable(Table):
-    """``[[beam]]``: a block that lies on columns; lengths in m, ``centre`` the x of its middle."""
+    """``[[beam]]``: a block that lies on columns; lengths in m.
 
-    length: float
+    It reaches from the first to the last axis of the columns under it, ``overhang`` beyond; or it has a ``length``, and
+    ``centre`` is the x of its middle. ``between`` names two columns, ``on`` counts those under it from 1.
+    """
+
     height: float
+    length: float | None = None
+    overhang: float | list[float] | None = None
     depth: float = 1.0
     name: str | None = None
     centre: float | None = None
+    between: list[str] | None = None
     on: list[int] | None = None
     density: float | None = None
     surface: JointTable | None = None
 
 
 class Standing(NamedTuple):
-    """A column that stands: its place, the ends and the level of its top [m], and the law of its topmost joint."""
+    """A column that stands: its name, its place, the ends and the level of its top [m], the law of its topmost joint."""
 
+    name: str
     place: float
     left: float
     right: float
@@ -99,7 +107,7 @@ def stand(
             else:
                 level = top[1][1]
             left, right = sorted(corner[0] for corner in top)
-            found.append(Standing(x, left, right, level, column.joints[-1]))
+            found.append(Standing(name, x, left, right, level, column.joints[-1]))
     return blocks, found, links
 
 
@@ -126,33 +134,68 @@ def _moved(block: Block, name: str, x: float, z: float) -> Block:
 
 
 def lay(table: BeamTable, name: str, density: float, columns: Sequence[Standing], surface: Joint | None) -> Block:
-    """A beam on the columns that it names, counted from 1 in the order of the file; on all of them by default.
+    """A beam on the columns that it names, on all of them by default; what ends on an axis lies on half of that top.
 
     Raises
     ------
     InputError
         Columns that are not there, tops that are not level with one another, or a beam that does not reach them.
     """
-    numbers = list(range(1, len(columns) + 1)) if table.on is None else table.on
-    wrong = next((one for one in numbers if not 1 <= one <= len(columns)), None)
-    if not numbers or wrong is not None:
-        what = "no column" if wrong is None else f"column {wrong}"
-        raise InputError(f"beam {name!r} lies on {what}; the file has columns 1 to {len(columns)}.")
-    under = [columns[one - 1] for one in numbers]
+    under = _under(table, name, columns)
     levels = [one.level for one in under]
     if not max(levels) - min(levels) <= 1e-9 * max(1.0, max(levels)):
         raise InputError(
             f"beam {name!r} lies on tops at {', '.join(f'{one:g}' for one in levels)} m; give columns of one height that "
             "stand upright."
         )
-    places = [one.place for one in under]
-    middle = 0.5 * (min(places) + max(places)) if table.centre is None else table.centre
-    left, right, low = middle - 0.5 * table.length, middle + 0.5 * table.length, levels[0]
-    for number, one in zip(numbers, under, strict=True):
-        if not left < one.place < right:
+    left, right = _ends(table, name, [one.place for one in under])
+    low, near = levels[0], 1e-9 * max(1.0, abs(left), abs(right))
+    for one in under:
+        if not left - near <= one.place <= right + near:
             raise InputError(
-                f"beam {name!r} reaches from {left:g} to {right:g} m, and column {number} stands at {one.place:g} m; make "
-                "it longer, or say on = [...]."
+                f"beam {name!r} reaches from {left:g} to {right:g} m, and {one.name!r} stands at {one.place:g} m; make it "
+                "reach the axis, or say on which columns it lies: on = [...]."
             )
     corners = ((left, low), (right, low), (right, low + table.height), (left, low + table.height))
     return Block(corners, density, name, table.depth, surface=surface)
+
+
+def _under(table: BeamTable, name: str, columns: Sequence[Standing]) -> list[Standing]:
+    """The columns that a beam names."""
+    if table.on is not None and table.between is not None:
+        raise InputError(f"beam {name!r} has on and between; give one of the two.")
+    if table.between is not None:
+        named = {one.name: one for one in columns}
+        for one in table.between:
+            if one not in named:
+                known = f"the columns are {', '.join(named) or 'none'}"
+                raise InputError(f"beam {name!r} lies between {one!r}; {suggest(one, named)}{known}.")
+        if len(set(table.between)) != 2 or len(table.between) != 2:
+            raise InputError(f"beam {name!r} lies between {len(table.between)} columns; name two different ones.")
+        return [named[one] for one in table.between]
+    numbers = list(range(1, len(columns) + 1)) if table.on is None else table.on
+    wrong = next((one for one in numbers if not 1 <= one <= len(columns)), None)
+    if not numbers or wrong is not None:
+        what = "no column" if wrong is None else f"column {wrong}"
+        raise InputError(f"beam {name!r} lies on {what}; the file has columns 1 to {len(columns)}.")
+    return [columns[one - 1] for one in numbers]
+
+
+def _ends(table: BeamTable, name: str, places: Sequence[float]) -> tuple[float, float]:
+    """Where a beam begins and ends [m]."""
+    first, last = min(places), max(places)
+    if table.length is not None:
+        if table.overhang is not None:
+            raise InputError(f"beam {name!r} has a length and an overhang; give one of the two.")
+        length = check_range(f"length of beam {name!r}", table.length, *LENGTHS, unit="m")
+        middle = 0.5 * (first + last) if table.centre is None else table.centre
+        return middle - 0.5 * length, middle + 0.5 * length
+    if table.centre is not None:
+        raise InputError(f"beam {name!r} has a centre and no length; give its length [m], or leave the centre out.")
+    given = table.overhang if isinstance(table.overhang, list) else [table.overhang or 0.0] * 2
+    if len(given) != 2:
+        raise InputError(f"overhang of beam {name!r} has {len(given)} values; give one, or that on the left and right.")
+    left, right = (check_range(f"overhang of beam {name!r}", one, 0.0, 100.0, unit="m") for one in given)
+    if last + right - first + left <= 0.0:
+        raise InputError(f"beam {name!r} lies on one axis and has no length; give it one, or an overhang [m].")
+    return first - left, last + right

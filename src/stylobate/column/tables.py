@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ from .drum import Drum
 from .joint import Joint
 from .link_tables import LinkTable, links_of
 from .materials import Material, material
+from .plausible import unit_doubts
 from .toml import Table, checked, parse_toml
 
 
@@ -162,39 +162,11 @@ def describes_assembly(data: dict[str, Any]) -> bool:
     return "block" in data or "beam" in data or isinstance(data.get("column"), list)
 
 
-#: What stone and columns are like: density [kg/m³], height of a drum [m], friction angle [degrees].
-DENSITIES, TALLEST, SLIPPERIEST = (500.0, 5000.0), 30.0, 3.0
-
-
-def _doubt_units(column: Any, friction_angles: Sequence[float | None]) -> None:
-    """Say what looks like a slip of units.
-
-    Warns
-    -----
-    OutOfRangeWarning
-        Values that no stone column has.
-    """
-    doubts = [
-        f"density is {drum.density:g} kg/m³"
-        for drum in column.drums
-        if not DENSITIES[0] <= drum.density <= DENSITIES[1]
-    ]
-    doubts += [f"a drum is {drum.height:g} m high" for drum in column.drums if drum.height > TALLEST]
-    doubts += [
-        f"friction_angle is {angle:g} degrees (a coefficient is friction_coefficient)"
-        for angle in friction_angles
-        if angle is not None and angle < SLIPPERIEST
-    ]
-    doubts += [doubt for joint in dict.fromkeys(column.joints) for doubt in joint.doubts]
-    if doubts:
-        warnings.warn(f"{doubts[0]}: is the unit right?", OutOfRangeWarning, stacklevel=5)
-
-
 def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     column = _as_built(kind, table, default_name)
-    _doubt_units(
-        column, [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
-    )
+    typed = [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
+    for doubt in unit_doubts(column, typed):
+        warnings.warn(f"{column.name!r}: {doubt}", OutOfRangeWarning, stacklevel=5)
     changes: dict[str, Any] = {}
     if table.as_found is not None:
         some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())

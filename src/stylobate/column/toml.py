@@ -89,12 +89,16 @@ def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
         found = error.errors()
     # A misspelt key is also a missing one: the spelling is what helps.
     first = next((item for item in found if item["type"] == "extra_forbidden"), found[0])
-    raise InputError(f"{source}: {_sentence(first, schema)}")
+    raise InputError(f"{source}: {_sentence(first, schema, found)}")
 
 
-def _sentence(item: Any, schema: type[Table]) -> str:
+def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:
     *where, key = item["loc"] or ("",)
-    kind, value = item["type"], item["input"]
+    kind, value, alternatives = item["type"], item["input"], [_EXPECTED.get(item["type"])]
+    if isinstance(key, str) and key not in _keys(schema, where) and where and kind != "extra_forbidden":
+        # One of several types that the key may have: told of the key, with all of them.
+        alternatives += [_EXPECTED.get(one["type"]) for one in others if one["loc"][:-1] == item["loc"][:-1]]
+        *where, key = where
     position = ""
     while isinstance(key, int):  # an element of a list: name it by the list
         where, key, position = where[:-1], where[-1], f"{position}number {key + 1} of "
@@ -109,7 +113,7 @@ def _sentence(item: Any, schema: type[Table]) -> str:
     if kind == "literal_error":
         expected = item["ctx"]["expected"]
     else:
-        expected = _EXPECTED.get(kind)
+        expected = " or ".join(dict.fromkeys(one for one in alternatives if one)) or None
     if expected is None:
         return f"{position}{key!r}{place} is {value!r}: {item['msg'].lower()}."
     return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}."
@@ -119,7 +123,8 @@ def _place(where: list[str | int]) -> str:
     if not where:
         return ""
     if isinstance(where[-1], int):
-        return f" in [[{where[-2]}]] number {where[-1] + 1}"
+        path = ".".join(part for part in where if isinstance(part, str))
+        return f" in [[{path}]] number {where[-1] + 1}"
     return f" in [{'.'.join(map(str, where))}]"
 
 

@@ -135,7 +135,8 @@ class Model:
         elif "y" not in self.axes and not column.as_found.in_plane:
             raise InputError(
                 f"{self.name} computes the plane of x and z, and {column.name!r} is found out of it "
-                "(an azimuth other than 0 and 180, or a turn); use dem3d, or leave these out."
+                "(an azimuth other than 0 and 180, or a turn); use dem3d, project it onto a plane (--project AZIMUTH), or "
+                "leave these out."
             )
         if isinstance(column, Column) and not self.takes_rings:
             column.must_carry_on_whole_faces(self.name)

@@ -187,7 +187,12 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     if held := [one for one in s.get("links", ()) if one.get("force_n")]:
         body = [[str(one[key]) if key in ("link", "action") else n.plain(one[key]) for key in _LINK] for one in held]
         items.append(
-            Rows([key.replace("_", " ") for key in _LINK], body, "Links: force [N] and capacity [N].", numbers=True)
+            Rows(
+                [key.replace("_", " ") for key in _LINK],
+                body,
+                "Links that must act: the least force that they hold [N], capacity [N]; the others need not.",
+                numbers=True,
+            )
         )
     return (sentence, " plain"), items
 

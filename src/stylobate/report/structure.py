@@ -6,6 +6,7 @@ from ..column import Column
 from ..column.as_found import FoundDrum
 from ..column.assembly import FAR_AWAY, Assembly
 from ..column.found_in_space import weakest_uplift
+from ..column.plausible import unit_doubts
 from ..column.specimen import Specimen
 from ..constants import g
 from ..plots import draw_elevation
@@ -41,8 +42,7 @@ def _column(column: Column) -> list[Item]:
         found.append(_as_found(column))
     if column.links:
         found.append(_links(column))
-    if doubts := sorted({text for joint in column.joints for text in joint.doubts}):
-        found += [f"Beyond what was measured on stone: {text}." for text in doubts]
+    found += [f"Beyond what columns of stone are known to be: {doubt}" for doubt in unit_doubts(column)]
     return found
 
 

@@ -133,7 +133,8 @@ class BlockStack:
         if not column.as_found.in_plane:
             raise InputError(
                 f"{column.name!r} is found out of the plane of x and z, and the statics of blocks are plane; "
-                "'limit' goes round it in space, 'pushover' takes no azimuths and turns."
+                "'limit' goes round it in space; project it onto a plane (--project AZIMUTH), or leave azimuths "
+                "and turns out."
             )
         at, n = geometry(column), column.n
         along = np.column_stack((np.cos(at.lean), np.sin(at.lean)))
@@ -170,6 +171,11 @@ class BlockStack:
             links=stack_links(column),
             **_stiffness(column.joints, area, second, column.friction),
         )
+
+    def with_capacities(self, capacity: np.ndarray) -> BlockStack:
+        """The same stack whose links have other capacities [N], shape (links,)."""
+        links = zip(self.links, capacity.tolist(), strict=True)
+        return replace(self, links=tuple(replace(one, capacity=most) for one, most in links))
 
     def mirrored(self) -> BlockStack:
         """The same stack with left and right changed."""

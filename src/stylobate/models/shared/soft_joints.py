@@ -28,8 +28,7 @@ def check_sinking(column: Column) -> None:
     InputError
         It sinks by more than a hundredth of its height, or a drum by half of its own.
     """
-    stiffness = np.array([joint.normal_stiffness for joint in column.joints]) * column.joint_areas
-    closure = column.joint_weights / stiffness
+    closure = column.joint_closures
     share = float(closure.sum()) / column.height
     if share > LARGEST_SINKING:
         softest = min(joint.normal_stiffness for joint in column.joints)

@@ -1,0 +1,225 @@
+"""A column found out of the plane, projected onto a vertical plane: what of it lies there, and what is lost."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+import warnings
+from typing import NamedTuple
+
+import numpy as np
+
+from ..constants import DEGREE
+from ..errors import InputError, OutOfRangeWarning, check_range
+from .as_found import AS_BUILT, AsFound, FoundDrum
+from .column import Column
+from .drum import Drum
+from .found_geometry import geometry, joint_load
+from .found_in_space import Edges, overlap_edges, space_geometry, space_load
+from .links import Dowel, Layer, Link, Tie
+
+#: Lengths [m], angles [degrees] and shares of a direction below this are rounding.
+NOTHING = 1e-9
+
+
+class Projection(NamedTuple):
+    """A column in a plane, and in words what of it lies across that plane and is lost."""
+
+    column: Column
+    lost: tuple[str, ...]
+
+
+def projected(column: Column, azimuth: float) -> Column:
+    """The column in the vertical plane of an azimuth, in which x points there, for models in the plane.
+
+    Parameters
+    ----------
+    column : Column
+    azimuth : float
+        From x towards y [degrees].
+
+    Raises
+    ------
+    InputError
+        As in :func:`project`.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        What lies across the plane and is lost.
+    """
+    found = project(column, azimuth)
+    lost = f"left out is what lies across it: {'; '.join(found.lost)}" if found.lost else "nothing of it lies across"
+    plane = f"the vertical plane of azimuth {azimuth:g}°, along which x of the motion acts"
+    warnings.warn(f"{column.name!r} is projected onto {plane}; {lost}.", OutOfRangeWarning, stacklevel=2)
+    return found.column
+
+
+def project(column: Column, azimuth: float) -> Projection:
+    """A column in the vertical plane of an azimuth, and what is lost.
+
+    Parameters
+    ----------
+    column : Column
+    azimuth : float
+        From x towards y [degrees].
+
+    Raises
+    ------
+    InputError
+        Rectangular drums in a plane across their edges, or a column that is not in equilibrium in the plane.
+
+    Notes
+    -----
+    Offsets d and the tangents of leans and of the base's slope τ keep their parts along the plane, d cos(φ − α) and
+    tan τ cos(ψ − α). Each joint keeps the section of its contact by the plane through the place at which it is pressed, so
+    that the lever of its weight to either side is that in space; what the section is shorter than the faces is a chip.
+    Links keep their places along the plane and beside it, as links of a plane column have them.
+    """
+    angle = check_range("the azimuth of a projection", azimuth, -360.0, 360.0, unit="degrees")
+    way = _exact(angle)
+    drums = column.drums if column.section == "circular" else tuple(_seen(drum, way, column) for drum in column.drums)
+    found, at = column.as_found, space_geometry(column)
+    ones = [found.of(i + 1) for i in range(column.n)]
+    offsets = [_parts(one.offset, one.offset_azimuth, angle) for one in ones]
+    leans = [_angles(one.tilt, one.tilt_azimuth, angle) for one in ones]
+    slope = _angles(found.base_tilt, found.base_azimuth, angle)
+    whole = AsFound(
+        tuple(FoundDrum(i, offset[0], lean[0]) for i, (offset, lean) in enumerate(zip(offsets, leans, strict=True), 1)),
+        slope[0],
+    )
+    name = f"{column.name}, projected onto {angle:g}°"
+    links = tuple(_turned(link, at.turned, angle) for link in column.links)
+    try:
+        plane = column.replace(drums=drums, as_found=whole, name=name, links=links)
+        chips = [_chips(column, plane, j, way) for j in range(column.n)]
+        kept = tuple(
+            dataclasses.replace(one, chip_left=left, chip_right=right)
+            for one, (left, right) in zip(whole.drums, chips, strict=True)
+        )
+        as_found = AsFound(tuple(one for one in kept if one != FoundDrum(one.drum)), slope[0])
+        result = plane.replace(as_found=as_found or AS_BUILT)
+    except InputError as error:
+        raise InputError(f"{column.name!r} cannot be projected onto azimuth {angle:g}°: {error}") from None
+    across = [
+        _most("offsets", "mm", [1e3 * one[1] for one in offsets]),
+        _most("leans", "°", [one[1] for one in leans]),
+        _most("turns", "°", [one.turn for one in ones]),
+        f"the slope of the base across, {abs(slope[1]):.3g}°" if abs(slope[1]) > NOTHING else "",
+        _chipped(ones, kept),
+        _beside(links),
+    ]
+    return Projection(result, tuple(text for text in across if text))
+
+
+def _exact(angle: float) -> np.ndarray:
+    """Direction of an azimuth [degrees], along the axes without rounding."""
+    way = np.array([math.cos(angle * DEGREE), math.sin(angle * DEGREE)])
+    return np.where(np.abs(way) < NOTHING, 0.0, way)
+
+
+def _parts(size: float, azimuth: float, plane: float) -> tuple[float, float]:
+    """Parts of a length at an azimuth along a plane and across it."""
+    along, across = _exact(azimuth - plane)
+    return size * float(along), size * float(across)
+
+
+def _angles(angle: float, azimuth: float, plane: float) -> tuple[float, float]:
+    """Angles [degrees] of what leans towards an azimuth, as seen in a plane and across it."""
+    along, across = _parts(math.tan(angle * DEGREE), azimuth, plane)
+    return math.atan(along) / DEGREE, math.atan(across) / DEGREE
+
+
+def _seen(drum: Drum, way: np.ndarray, column: Column) -> Drum:
+    """A rectangular drum as seen across a plane along its edges."""
+    if way[1] == 0.0:
+        return drum
+    if way[0] == 0.0:
+        return dataclasses.replace(
+            drum, bottom_width=drum.depth, top_width=drum.upper_depth, depth=drum.bottom_width, top_depth=drum.top_width
+        )
+    raise InputError(
+        f"the drums of {column.name!r} are rectangular, and a plane across their edges cuts them into no rectangles; "
+        "project it onto 0, 90, 180 or 270 degrees, or use dem3d."
+    )
+
+
+def _turned(link: Link, turned: np.ndarray, plane: float) -> Link:
+    """A link with its places along a plane and beside it, where its drums have turned them [rad]."""
+
+    def place(point: tuple[float, float], drum: int) -> tuple[float, float]:
+        own = float(turned[drum - 1]) if drum else 0.0
+        c, s = _exact(own / DEGREE - plane)
+        return float(c * point[0] - s * point[1]), float(s * point[0] + c * point[1])
+
+    if isinstance(link, Tie):
+        upper = len(turned) if link.to_drum is None else link.to_drum
+        ends = {"at": place(link.at, link.from_drum), "to": place(link.at if link.to is None else link.to, upper)}
+        return dataclasses.replace(link, **ends)
+    assert isinstance(link, (Dowel, Layer))
+    return dataclasses.replace(link, at=place(link.at, link.joint))
+
+
+def section(edges: Edges, place: np.ndarray, way: np.ndarray) -> tuple[float, float]:
+    """How far a contact reaches from a place within it against a direction and along it [m]."""
+    out = []
+    for toward in (-way, way):
+        reach = math.inf
+        for middle, radius in edges.discs:
+            off = place - middle
+            along = float(toward @ off)
+            reach = min(reach, math.sqrt(max(along * along + radius * radius - float(off @ off), 0.0)) - along)
+        for normal, bound in edges.sides:
+            speed = float(toward @ normal)
+            if speed > 1e-12:
+                reach = min(reach, (bound - float(normal @ place)) / speed)
+        out.append(reach)
+    return out[0], out[1]
+
+
+def _chips(column: Column, plane: Column, joint: int, way: np.ndarray) -> tuple[float, float]:
+    """What the drum on a joint lacks in the plane to the left and the right, so that its contact is the section in space."""
+    at = space_geometry(column)
+    load = space_load(column, at, joint)
+    behind, ahead = section(overlap_edges(column, at, joint), load.place, way)
+    flat = geometry(plane)
+    place = joint_load(plane, flat, joint).place
+    middle, half = plane.as_found.of(joint + 1).offset, 0.5 * plane.drums[joint].bottom_width
+    left, right = place - behind, place + ahead
+    near = 1e-7 * half  # of what is equal but for rounding
+    return (
+        left - (middle - half) if left > flat.low[joint] + near else 0.0,
+        middle + half - right if right < flat.high[joint] - near else 0.0,
+    )
+
+
+def _most(what: str, unit: str, values: list[float]) -> str:
+    """The largest of some values that the drums have, in words; empty if there is none."""
+    sizes = np.abs(values)
+    worst = int(sizes.argmax())
+    if sizes[worst] <= NOTHING:
+        return ""
+    across = "" if what == "turns" else " across"
+    return f"{what}{across} of up to {sizes[worst]:.3g} {unit} (drum {worst + 1})".replace(" °", "°")
+
+
+def _chipped(ones: list[FoundDrum], kept: tuple[FoundDrum, ...]) -> str:
+    """The chips of which the plane shows something else."""
+    told = []
+    for one, now in zip(ones, kept, strict=True):
+        before, after = sorted(part for part in one.chips if part), sorted(part for part in now.chips if part)
+        if before and not (len(before) == len(after) and np.allclose(before, after, rtol=1e-6)):
+            words = " and ".join(f"{1e3 * part:.3g}" for part in before)
+            left = " and ".join(f"{1e3 * part:.3g}" for part in after) or "none"
+            told.append(f"drum {one.drum} has chips of {words} mm, the plane shows {left}")
+    return ", ".join(told)
+
+
+def _beside(links: tuple[Link, ...]) -> str:
+    """The links that are beside the plane."""
+    far = [max(abs(link.at[1]), abs((getattr(link, "to", None) or link.at)[1])) for link in links]
+    beside = [one for one in far if one > NOTHING]
+    if not beside:
+        return ""
+    number = "a link acts" if len(beside) == 1 else f"{len(beside)} links act"
+    return f"{number} beside it, by up to {max(beside):.3g} m, without the torsion of that"
