@@ -1,6 +1,7 @@
 """What others may try: names of hosts, other sites, sizes, paths, scripts in names."""
 
 import json
+import logging
 import socket
 import time
 from contextlib import suppress
@@ -275,6 +276,24 @@ def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
         while again.recv(1000):
             pass
     assert time.monotonic() - started < 4.0
+
+
+def test_a_body_that_is_none_is_refused_without_a_complaint(client):
+    """Whoever reaches the port could fill the terminal of the person who serves the page."""
+    heard, logger = [], logging.getLogger("uvicorn.error")
+    handler = logging.Handler(logging.ERROR)
+    handler.emit = heard.append
+    logger.addHandler(handler)
+    try:
+        for path in (b"/api/records", b"/api/jobs", b"/none"):
+            for host in (b"127.0.0.1", b"evil.example"):
+                head = b"POST %b HTTP/1.1\r\nhost: %b\r\ntransfer-encoding: chunked\r\n\r\nzz\r\n\r\n" % (path, host)
+                with half_sent(client.base_url.port, head) as line:
+                    assert line.recv(12) == b"HTTP/1.1 400"
+        assert client.get("/api/jobs").status_code == 200
+    finally:
+        logger.removeHandler(handler)
+    assert heard == []
 
 
 def test_a_body_that_stops_is_given_up(client, home, monkeypatch):
