@@ -18,14 +18,16 @@ REAL = (sys.executable, "-m", "stylobate.cli.worker")
 
 
 @contextmanager
-def served(folder, worker=FAKE):
-    """A client of the page while it is served from a folder."""
+def served(folder, worker=FAKE, keys=None):
+    """A client of the page while it is served from a folder; with keys it has visited the address that holds the token."""
     with listening_at("127.0.0.1", 0) as listening:
-        server = server_of(create_app(folder, worker))
-        thread = threading.Thread(target=server.run, args=([listening],))
+        server = server_of(create_app(folder, worker, keys=keys))
+        thread = threading.Thread(target=server.run, args=([listening],), daemon=True)
         thread.start()
         try:
             with httpx.Client(base_url=f"http://127.0.0.1:{listening.getsockname()[1]}", timeout=30.0) as client:
+                if keys is not None:
+                    client.get(keys.printed("/")).raise_for_status()
                 yield client
         finally:
             server.should_exit = True

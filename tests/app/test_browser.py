@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from page_server import REAL, browser, served
 
+from stylobate.app.keys import Keys
+
 playwright = pytest.importorskip("playwright.sync_api", reason="needs playwright")
 pytestmark = [
     pytest.mark.skipif(browser() is None, reason="needs Chromium, which this machine does not have"),
@@ -16,13 +18,16 @@ pytestmark = [
 #: Ratio of the luminances of text and what is behind it, at least (WCAG 2.2, AA): of text, and of large text.
 AA, AA_LARGE = 4.5, 3.0
 
+#: What lets the browser in.
+KEYS = Keys()
+
 #: Tells what of a page is fainter than that.
 FAINT = Path(__file__).with_name("contrast.js").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
-    with served(tmp_path_factory.mktemp("page"), REAL) as client:
+    with served(tmp_path_factory.mktemp("page"), REAL, KEYS) as client:
         yield str(client.base_url).rstrip("/")
 
 
@@ -53,7 +58,7 @@ def open_page(chromium, site):
             ),
         )
         page.on("request", lambda one: asked.append(one.url))
-        page.goto(site)
+        page.goto(site + KEYS.printed("/"))
         page.wait_for_selector("html[data-ready]")
         opened.append(page)
         return page
@@ -172,6 +177,26 @@ def test_by_keyboard_alone(open_page):
         page.keyboard.press("ArrowUp")
     playwright.expect(page.locator('[data-field="azimuth"]')).to_have_value("15")
     playwright.expect(page.locator("#motion-facts")).to_contain_text("y 0.0776 g")
+
+
+def test_an_elevation_has_its_own_labels_until_the_next_is_known(open_page):
+    page, expect = open_page(1440), playwright.expect
+    page.locator("#column input[value=found]").check()
+    page.fill('[data-field="found.2.offset"]', "0.05")
+    elevation = page.locator("canvas.elevation")
+    empty = elevation.evaluate("canvas => canvas.toDataURL()")
+    until(lambda: elevation.evaluate("canvas => canvas.toDataURL()") != empty)
+    before, held = elevation.evaluate("canvas => canvas.toDataURL()"), []
+    page.route("**/api/column", lambda route: held.append(route))
+    page.select_option("[data-field=preset]", "paper-monolithic")
+    expect(elevation).to_have_class("elevation past")
+    assert elevation.evaluate("canvas => canvas.toDataURL()") == before
+    until(lambda: page.wait_for_timeout(20) or held)
+    held[0].continue_()
+    expect(elevation).to_have_class("elevation")
+    expect(page.locator("#column-facts")).to_contain_text("5 m")
+    assert elevation.evaluate("canvas => canvas.toDataURL()") != before
+    assert "?" not in page.url  # the token is kept in a cookie alone
 
 
 def tab_to(page, selector):

@@ -1,12 +1,16 @@
 """What others may try: names of hosts, other sites, sizes, paths, scripts in names."""
 
 import json
+import logging
 import socket
+import time
+from contextlib import suppress
 
+import httpx
 import pytest
-from page_server import ended
+from page_server import ended, served
 
-from stylobate.app import guard, records
+from stylobate.app import connections, guard, records
 from stylobate.app.guard import Guard
 from stylobate.app.records import FILE, generated_name
 
@@ -194,6 +198,110 @@ def test_what_is_no_object_is_refused_in_a_sentence(client, body):
         answer = client.post(path, content=body)
         assert answer.status_code == 422
         assert answer.json()["error"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [r'"\ud800"', r'"a\udfffb"', "NaN", "-Infinity", "1e999", "1" * 400, "[" * 30 + "]" * 30, r'{"\ud800": 1}'],
+)
+def test_what_no_file_can_hold_is_refused_before_it_is_kept(client, asked, text):
+    """A job that held it could be shown to nobody, nor could the list that it is in."""
+    body = json.dumps(asked | {"page": {"x": "HERE"}}).replace('"HERE"', text)
+    for path in ("/api/column", "/api/motion", "/api/jobs", "/api/assembly"):
+        answer = client.post(path, content=body)
+        assert answer.status_code == 422, answer.text
+        assert answer.json()["error"].startswith("the request ")
+    assert client.get("/api/jobs").status_code == 200
+
+
+def test_a_job_that_an_earlier_page_kept_is_shown_and_can_be_removed(tmp_path):
+    """Whatever it holds."""
+    for name, title in (("a1", "\ud800"), ("b2", "well")):
+        (tmp_path / "jobs" / name).mkdir(parents=True)
+        kept = {"id": name, "folder": None, "kind": "run", "title": title, "commands": [["run", title]],
+                "asked": {"x": title},
+                "state": "done", "created": 1.0, "results": [{"x": float("nan"), "y": title}]}  # fmt: skip
+        (tmp_path / "jobs" / name / "job.json").write_text(json.dumps(kept))
+    (tmp_path / "jobs" / "c3").mkdir()
+    (tmp_path / "jobs" / "c3" / "job.json").write_text(json.dumps(kept | {"id": "c3", "created": "yesterday"}))
+    with served(tmp_path) as page:
+        assert [one["title"] for one in page.get("/api/jobs").json()["jobs"]] == ["\ud800", "well"]
+        assert page.get("/api/jobs/a1").json()["results"] == [{"x": None, "y": "\ud800"}]
+        assert page.get("/api/jobs/a1/zip").status_code == 200
+        assert page.get("/api/jobs/a1/commands.txt").text == "stylobate run '\\ud800'\n"
+        assert page.delete("/api/jobs/a1").status_code == 200
+        assert [one["id"] for one in page.get("/api/jobs").json()["jobs"]] == ["b2"]
+
+
+def half_sent(port, head=b"GET / HTTP/1.1\r\nhost: 127"):
+    """A connection with the beginning of a request."""
+    line = socket.create_connection(("127.0.0.1", port), 5.0)
+    line.sendall(head)
+    return line
+
+
+def test_half_sent_heads_lock_nobody_out(client, monkeypatch):
+    """Those that have been silent for longest are cut off where there are too many."""
+    monkeypatch.setattr(connections, "SILENT", 20)
+    lines = [half_sent(client.base_url.port) for _ in range(50)]
+    try:
+        with suppress(ConnectionResetError):
+            assert lines[0].recv(1) == b""
+        with httpx.Client(base_url=client.base_url) as other:
+            assert other.get("/api/jobs").status_code == 200
+        lines[-1].sendall(b".0.0.1\r\n\r\n")
+        assert lines[-1].recv(12) == b"HTTP/1.1 200"
+    finally:
+        for one in lines:
+            one.close()
+
+
+def test_a_head_has_a_limited_time_and_size(client, monkeypatch):
+    monkeypatch.setattr(connections, "PATIENCE", 0.4)
+    port, started = client.base_url.port, time.monotonic()
+    with half_sent(port) as silent, half_sent(port, b"") as mute, half_sent(port) as slow:
+        with suppress(OSError):
+            while time.monotonic() - started < 3.0:  # one byte after the other does not make it last
+                slow.sendall(b"1")
+                time.sleep(0.02)
+        assert time.monotonic() - started < 2.0
+        assert [one.recv(1) for one in (silent, mute)] == [b"", b""]
+    with half_sent(port, b"GET / HTTP/1.1\r\nhost: 127.0.0.1\r\nx: " + b"y" * (2 * connections.HEAD)) as large:
+        assert large.recv(12) == b"HTTP/1.1 400"
+    with half_sent(
+        port, b"GET /api/jobs HTTP/1.1\r\nhost: 127.0.0.1\r\n\r\n"
+    ) as again:  # the next one on a line as well
+        assert again.recv(12) == b"HTTP/1.1 200"
+        again.sendall(b"GET /api/jo")
+        while again.recv(1000):
+            pass
+    assert time.monotonic() - started < 4.0
+
+
+def test_a_body_that_is_none_is_refused_without_a_complaint(client):
+    """Whoever reaches the port could fill the terminal of the person who serves the page."""
+    heard, logger = [], logging.getLogger("uvicorn.error")
+    handler = logging.Handler(logging.ERROR)
+    handler.emit = heard.append
+    logger.addHandler(handler)
+    try:
+        for path in (b"/api/records", b"/api/jobs", b"/none"):
+            for host in (b"127.0.0.1", b"evil.example"):
+                head = b"POST %b HTTP/1.1\r\nhost: %b\r\ntransfer-encoding: chunked\r\n\r\nzz\r\n\r\n" % (path, host)
+                with half_sent(client.base_url.port, head) as line:
+                    assert line.recv(12) == b"HTTP/1.1 400"
+        assert client.get("/api/jobs").status_code == 200
+    finally:
+        logger.removeHandler(handler)
+    assert heard == []
+
+
+def test_a_body_that_stops_is_given_up(client, home, monkeypatch):
+    monkeypatch.setattr(guard, "SILENCE", 0.2)
+    head = b"POST /api/records HTTP/1.1\r\nhost: 127.0.0.1\r\ncontent-length: 100\r\n\r\n1 2\n"
+    with half_sent(client.base_url.port, head) as line:
+        assert line.recv(12) == b"HTTP/1.1 408"
+    assert list((home / "records").glob(".*")) == []
 
 
 def test_thousands_of_drums_are_refused_at_once(client, table):

@@ -199,7 +199,7 @@ def test_a_job_has_copies_of_its_records(fresh, asked, tmp_path):
     kept = fresh.post("/api/records", content=b"time_s,ax_g\n0,0.1\n0.01,0.2\n", headers={"x-name": "a.csv"}).json()
     job = fresh.post("/api/jobs", json=asked | {"motion": {"kind": "record", "text": kept["id"]}}).json()
     fresh.delete(f"/api/records/{kept['id']}")
-    name = f"records/a-{kept['id']}.csv"
+    name = f"records/{kept['id']}/a-{kept['id']}.csv"
     assert f"--motion={name}" in job["commands"][0]
     assert name in ended(fresh, job["id"])["files"]
     assert "a.csv" in job["title"]
@@ -246,11 +246,12 @@ def test_a_run_takes_over_a_process_that_stands_by(fresh, asked, tmp_path):
 
 
 def test_files_that_come_together_are_one_record(fresh, asked):
-    """Components in files of their own; a description of the station goes with every record, as readers look for it."""
+    """Components in files of their own; a description of the station goes with the records that it came together with."""
     first = fresh.post("/api/records", content=b"1 2\n", headers={"x-name": "a.at2"}).json()
     both = fresh.post(f"/api/records?with={first['id']}", content=b"3 4\n", headers={"x-name": "b.at2"}).json()
     assert (both["id"], both["name"], both["files"]) == (first["id"], "a.at2, b.at2", 2)
-    fresh.post("/api/records", content=b"<xml/>", headers={"x-name": "station.xml"})
+    fresh.post(f"/api/records?beside={first['id']}", content=b"<xml/>", headers={"x-name": "station.xml"})
+    fresh.post("/api/records", content=b"<xml/>", headers={"x-name": "of-others.xml"})
     job = fresh.post("/api/jobs", json=asked | {"motion": {"kind": "record", "text": both["id"]}}).json()
     assert job["commands"][0].count("--motion=records/") == 2
     suffixes = [one.rpartition(".")[2] for one in ended(fresh, job["id"])["files"] if one.startswith("records/")]
@@ -260,4 +261,4 @@ def test_files_that_come_together_are_one_record(fresh, asked):
     gone = fresh.post("/api/records?with=none", content=b"5 6\n")
     assert (gone.status_code, "upload it again" in gone.json()["error"]) == (422, True)
     assert fresh.delete(f"/api/records/{both['id']}").status_code == 200
-    assert len(fresh.get("/api/records").json()["records"]) == 1
+    assert len(fresh.get("/api/records").json()["records"]) == 2

@@ -9,7 +9,9 @@ import sys
 import httpx
 import pytest
 
+from stylobate.app.folder import held
 from stylobate.cli.main import call
+from stylobate.errors import InputError
 
 
 def test_the_address_comes_first_and_the_end_is_clean(tmp_path):
@@ -28,7 +30,9 @@ def test_the_address_comes_first_and_the_end_is_clean(tmp_path):
         address = page.stdout.readline().strip()
         assert address.startswith("http://127.0.0.1:")
         assert "stylobate" in httpx.get(address).text
-        assert len(list(tmp_path.iterdir())) == 1  # where records and jobs are kept until the end
+        assert httpx.get(address.partition("?")[0]).status_code == 403
+        (place,) = tmp_path.iterdir()  # where records and jobs are kept until the end
+        assert place.stat().st_mode & 0o077 == 0
         page.send_signal(signal.SIGINT)
         _, complaints = page.communicate(timeout=20)
     finally:
@@ -55,6 +59,31 @@ def test_a_missing_extra_is_said_in_one_sentence(capsys, monkeypatch, missing):
     said = capsys.readouterr().err
     assert missing in said
     assert "pip install stylobate[app]" in said
+
+
+def test_a_folder_is_of_one_page_at_a_time(tmp_path, capsys, monkeypatch):
+    """A second one would end the jobs of the first; what this one keeps, nobody else on the machine can read."""
+    monkeypatch.setattr("uvicorn.Server.run", lambda *_: pytest.fail("it was served"))
+    kept = tmp_path / "kept"
+    with held(kept):
+        assert kept.stat().st_mode & 0o777 == 0o700
+        assert call(["serve", "--port", "0", "--no-browser", "--out", str(kept)]) == 2
+        said = capsys.readouterr().err
+        assert said.startswith(f"stylobate: {kept} is not free: a page is served from it already; ")
+        assert said.count("\n") == 1
+    with held(kept):  # it is free again
+        pass
+
+
+def test_parts_of_a_folder_are_made_private_or_refused(tmp_path):
+    for name in ("jobs", "records"):
+        (tmp_path / name).mkdir(mode=0o755)
+    with held(tmp_path):
+        assert {(tmp_path / name).stat().st_mode & 0o777 for name in ("jobs", "records")} == {0o700}
+    (tmp_path / "jobs").rmdir()
+    (tmp_path / "jobs").symlink_to(tmp_path / "records")
+    with pytest.raises(InputError, match="is a link"), held(tmp_path):
+        pass
 
 
 def test_a_port_that_cannot_be_is_refused(capsys):

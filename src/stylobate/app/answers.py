@@ -3,13 +3,32 @@
 from __future__ import annotations
 
 import json
+import math
 from typing import Any
 
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
 
+from ..column.toml import check_values
 from ..errors import InputError, StylobateError
-from .guard import TooLarge
+from .guard import TooLarge, TooSlow
+from .words import in_page_words
+
+
+class Answer(JSONResponse):
+    """A JSON object that every browser can read, whatever it holds."""
+
+    def render(self, content: Any) -> bytes:
+        """The object as ASCII; null for what is no number."""
+        return as_json(content).encode()
+
+
+def as_json(content: Any) -> str:
+    """Content as JSON in ASCII: halves of characters, which a file of earlier versions may hold, stay escaped."""
+    try:
+        return json.dumps(content, allow_nan=False, separators=(",", ":"))
+    except ValueError:
+        return json.dumps(json.loads(json.dumps(content), parse_constant=lambda _: None))
 
 
 async def json_object(request: Request) -> dict[str, Any]:
@@ -18,53 +37,87 @@ async def json_object(request: Request) -> dict[str, Any]:
     Raises
     ------
     InputError
-        It holds none.
+        It holds none, or what no file can hold.
     """
     try:
-        found = json.loads(await request.body())
+        found = json.loads(await request.body(), parse_constant=_finite, parse_float=_finite)
     except (ValueError, RecursionError):
         found = None
     if not isinstance(found, dict):
-        raise InputError("the request holds no JSON object; reload the page.")
+        raise InputError("the request holds no JSON object of finite numbers; reload the page.")
+    check_values(found, "the request")
     return found
+
+
+def _finite(text: str) -> float:
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(text)
+    return number
 
 
 def found_wrong(error: InputError, field: str | None) -> Response:
     """The answer to a question that was put well, about something that cannot be."""
-    return JSONResponse({"error": str(error), "field": field})
+    return _about(error, 200, field)
 
 
 def refused(error: InputError, field: str | None) -> Response:
     """The answer to what cannot be done."""
-    return JSONResponse({"error": str(error), "field": field}, 422)
+    return _about(error, 422, field)
 
 
 def missing(what: str) -> Response:
     """The answer about what is not here."""
-    return JSONResponse({"error": f"there is no such {what}; reload the page."}, 404)
+    return Answer({"error": f"there is no such {what}; reload the page."}, 404)
+
+
+def _about(error: Exception | str, code: int, field: str | None = None, **headers: str) -> Response:
+    return Answer({"error": in_page_words(str(error)), "field": field}, code, headers)
 
 
 async def _on_input(request: Request, error: Exception) -> Response:
-    return JSONResponse({"error": str(error), "field": None}, 422)
+    return _about(error, 422)
 
 
 async def _on_too_large(request: Request, error: Exception) -> Response:
-    return JSONResponse({"error": str(error)}, 413, {"connection": "close"})
+    return _about(error, 413, connection="close")
+
+
+async def _on_too_slow(request: Request, error: Exception) -> Response:
+    return _about(error, 408, connection="close")
 
 
 async def _on_failure(request: Request, error: Exception) -> Response:
-    return JSONResponse({"error": f"{error}"[:300]}, 500)
+    return _about(f"{error}"[:300], 500)
+
+
+async def _on_disk(request: Request, error: Exception) -> Response:
+    why = getattr(error, "strerror", None) or type(error).__name__
+    return _about(
+        f"a file of the page cannot be written or read: {why}; make room on the disk, or reload the page.", 500
+    )
 
 
 async def _on_missing(request: Request, error: Exception) -> Response:
     return missing("page")
 
 
+async def _on_other_method(request: Request, error: Exception) -> Response:
+    return _about("that cannot be asked for in this way; reload the page.", 405)
+
+
+async def _on_gone(request: Request, error: Exception) -> Response:
+    return _about("the request broke off; send it again.", 400)  # nobody hears it
+
+
 #: What is answered where something goes wrong.
 HANDLERS: dict[Any, Any] = {
     TooLarge: _on_too_large,
+    TooSlow: _on_too_slow,
+    ClientDisconnect: _on_gone,
     InputError: _on_input,
     StylobateError: _on_failure,
-    OSError: _on_failure,
+    OSError: _on_disk,
     404: _on_missing,
+    405: _on_other_method,
 }

@@ -13,12 +13,13 @@ from ..column.toml import Table
 from ..errors import InputError
 from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_time
+from .folder import RECORDS
 
-#: Files of a job: its column or assembly, the study of a domain, where its records lie, and where its commands write.
-COLUMN, ASSEMBLY, STUDY, RECORDS, RESULT, FRAGILITY, REPORT = (
-    *("column.toml", "assembly.toml", "study.toml", "records", "result", "fragility", "report.html"),
+#: Files of a job: its column or assembly, the study of a domain, and where its commands write; its records lie in a folder
+#: that is called as that of the page.
+COLUMN, ASSEMBLY, STUDY, RESULT, FRAGILITY, REPORT = (
+    *("column.toml", "assembly.toml", "study.toml", "result", "fragility", "report.html"),
 )
-
 
 #: Most cells of a domain.
 CELLS = 20_000

@@ -13,6 +13,7 @@ from ..column.placed_links import strokes_between
 from ..column.presets import PRESETS
 from ..column.toml import parse_toml
 from ..errors import InputError
+from .words import warned
 
 #: Largest assembly file: the address in the browser holds it [characters].
 LARGEST = 100_000
@@ -47,7 +48,7 @@ def _only_presets(tables: Any) -> None:
         if file not in PRESETS:
             raise InputError(
                 f"a column of the assembly comes from {str(file)[:100]!r}; the page has only presets at hand "
-                f"({', '.join(PRESETS)}): give such a name, or run it on the command line."
+                f"({', '.join(PRESETS)}): give such a name."
             )
 
 
@@ -82,5 +83,5 @@ def describe(text: str) -> dict[str, Any]:
         "outlines": {"xz": [one.corners.round(4).tolist() for one in assembly.blocks]},
         "held": [one.fixed for one in assembly.blocks],
         "ground": assembly.ground,
-        "warnings": list(dict.fromkeys(str(one.message) for one in doubts)),
+        "warnings": warned(doubts),
     }

@@ -20,6 +20,7 @@ from ..errors import InputError
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
 from ..response.shapes import hull
+from .words import warned
 
 #: What messages about a column call it at first; on the page that goes without saying.
 SOURCE = "the column"
@@ -83,7 +84,7 @@ def describe(table: Mapping[str, Any]) -> dict[str, Any]:
         "joints": [
             {"width": float(column.joint_widths[i]), "friction": joint.tan_phi} for i, joint in enumerate(column.joints)
         ],
-        "warnings": list(dict.fromkeys(str(one.message) for one in doubts)),
+        "warnings": warned(doubts),
     }
 
 

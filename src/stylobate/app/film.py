@@ -14,6 +14,7 @@ from ..plots.player import film_data
 from ..plots.view import OBLIQUE
 from ..response import Response
 from ..response.histories import ENERGY_TERMS
+from .words import in_page_words
 
 #: Least width over height of a film: upright, for phones.
 SHAPE = 0.9
@@ -38,7 +39,7 @@ def film(response: Response) -> dict[str, Any]:
     wanted = frame_indices(response.time, min(rate, 4900.0 / length), 1.0)
     indices = np.unique(np.append(wanted, len(response.time) - 1))
     return {
-        "sentence": response.sentence,
+        "sentence": in_page_words(response.sentence),
         "film": film_data(scene, indices, least=SHAPE),
         "histories": _histories(response, indices),
     }

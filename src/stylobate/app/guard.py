@@ -1,12 +1,15 @@
-"""What may come in and what goes out: names of hosts, origins, sizes of bodies, and the headers of every answer."""
+"""What may come in and what goes out: keys, names of hosts, origins, sizes of bodies, and the headers of every answer."""
 
 from __future__ import annotations
 
+import asyncio
 import ipaddress
 from collections.abc import Awaitable, Callable, MutableMapping
 from typing import Any
 
-from starlette.responses import JSONResponse
+from starlette.responses import JSONResponse, PlainTextResponse
+
+from .keys import CLOSED, Keys
 
 Message = MutableMapping[str, Any]
 Receive = Callable[[], Awaitable[Message]]
@@ -17,6 +20,9 @@ LOOPBACK = ("127.0.0.1", "localhost", "[::1]")
 
 #: Largest body of a request but uploads of records [bytes].
 BODY = 1_000_000
+
+#: Longest silence in the middle of a body [s].
+SILENCE = 30.0
 
 #: What a browser may do with a page of ours: nothing from elsewhere, no code but our files, in no frame of others.
 POLICY = "; ".join(
@@ -39,6 +45,10 @@ class TooLarge(Exception):
     """A body is larger than it may be; the message says how large that is. The application answers it with 413."""
 
 
+class TooSlow(Exception):
+    """A body has stopped coming in. The application answers it with 408."""
+
+
 def is_loopback(host: str) -> bool:
     """Whether an address is one of this machine alone."""
     try:
@@ -58,10 +68,14 @@ class Guard:
         Names under which this machine may be called, besides those of the loopback.
     uploads : dict
         Paths with bodies larger than :data:`BODY`, and their largest size [bytes].
+    keys : Keys, optional
+        What lets a request in; without them whoever reaches this machine may come in.
     """
 
-    def __init__(self, app: Any, hosts: tuple[str, ...] = (), uploads: dict[str, int] | None = None) -> None:
-        self.app, self.hosts, self.uploads = app, {*LOOPBACK, *hosts}, uploads or {}
+    def __init__(
+        self, app: Any, hosts: tuple[str, ...] = (), uploads: dict[str, int] | None = None, keys: Keys | None = None
+    ) -> None:
+        self.app, self.hosts, self.uploads, self.keys = app, {*LOOPBACK, *hosts}, uploads or {}, keys
 
     async def __call__(self, scope: dict[str, Any], receive: Receive, send: Send) -> None:
         """Answer a request (ASGI)."""
@@ -70,17 +84,27 @@ class Guard:
             return
         headers = {name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]}
         most = self.uploads.get(scope["path"], BODY)
+        added = dict(HEADERS)
 
         async def sent(message: Message) -> None:
             if message["type"] == "http.response.start":
                 given = {name for name, _ in message["headers"]}
-                new = [(name.encode(), value.encode()) for name, value in HEADERS.items()]
+                new = [(name.encode(), value.encode()) for name, value in added.items()]
                 message["headers"] = [*message["headers"], *(one for one in new if one[0] not in given)]
             await send(message)
 
         refusal = self._refusal(scope, headers, most)
+        if refusal is None and self.keys is not None:
+            admitted = self.keys.admits(scope, headers)
+            if admitted is None:
+                added["set-cookie"] = self.keys.cookie(scope)
+            elif not admitted:
+                refusal = 403, CLOSED
         if refusal is not None:
-            await JSONResponse({"error": refusal[1]}, refusal[0])(scope, receive, sent)
+            code, sentence = refusal
+            page = scope["path"] == "/"  # a person reads it
+            answer = PlainTextResponse(sentence, code) if page else JSONResponse({"error": sentence}, code)
+            await answer(scope, receive, sent)
             return
         await self.app(scope, self._measured(receive, most), sent)
 
@@ -101,13 +125,16 @@ class Guard:
         return None
 
     def _measured(self, receive: Receive, most: int) -> Receive:
-        """The body, counted while it comes in: its announced length may be wrong, or missing."""
-        seen = 0
+        """The body, counted while it comes in: its announced length may be wrong, or missing, or it may never end."""
+        seen, more = 0, True
 
         async def measured() -> Message:
-            nonlocal seen
-            message = await receive()
-            seen += len(message.get("body", b""))
+            nonlocal seen, more
+            try:
+                message = await asyncio.wait_for(receive(), SILENCE if more else None)
+            except TimeoutError:
+                raise TooSlow(f"nothing more has come in for {SILENCE:g} s; send it again.") from None
+            seen, more = seen + len(message.get("body", b"")), message.get("more_body", False)
             if seen > most:
                 raise TooLarge(too_large(most))
             return message

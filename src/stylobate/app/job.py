@@ -11,6 +11,7 @@ from typing import Any
 from ..atomic import replacing
 from ..own_files import LIST
 from .asked import shown
+from .words import in_page_words
 
 #: States of a job: it waits, is computed, has ended well, was refused as bad input, failed, or was stopped.
 WAITING, RUNNING, DONE, REFUSED, FAILED, CANCELLED = "waiting", "running", "done", "refused", "failed", "cancelled"
@@ -79,10 +80,15 @@ class Job:
         """For the page; less what was asked and what came of it, unless all of it is wanted."""
         left_out = ("folder", "_files") if whole else ("folder", "_files", "asked", "results")
         plain = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in left_out}
+        plain |= {key: in_page_words(plain[key]) for key in ("sentence", "warnings", "results") if key in plain}
         plain["commands"] = [shown(one) for one in self.commands]
         plain["files"] = [] if self.open else self.files()
         plain["film"] = (self.filmed or not self.open) and (self.folder / "film.json").is_file()
         return plain
+
+    def lines(self) -> bytes:
+        """Its command lines as a text file."""
+        return "".join(f"{shown(one)}\n" for one in self.commands).encode("utf-8", "backslashreplace")
 
     def save(self) -> None:
         """Keep it in its folder."""
@@ -96,6 +102,7 @@ class Job:
         """The job that a folder keeps; None where it keeps none."""
         try:
             job = cls(**json.loads((folder / JOB).read_text(encoding="utf-8")) | {"folder": folder})
+            job.created = float(job.created)
         except (OSError, ValueError, TypeError):
             return None
         if job.open:

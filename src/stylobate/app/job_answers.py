@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import json
 import shutil
 import tempfile
 import time
@@ -16,7 +15,7 @@ from typing import IO, Any
 import tomli_w
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, Response, StreamingResponse
+from starlette.responses import FileResponse, Response, StreamingResponse
 
 from ..column import Column
 from ..column.assembly import Assembly
@@ -24,12 +23,13 @@ from ..column.files import write_column
 from ..column.toml import checked
 from ..errors import InputError
 from . import columns
-from .answers import json_object, missing, refused
-from .asked import ASSEMBLY, COLUMN, FRAGILITY, RECORDS, RESULT, STUDY, JobAsked, commands, report_of, shown, study
+from .answers import Answer, as_json, json_object, missing, refused
+from .asked import ASSEMBLY, COLUMN, FRAGILITY, RESULT, STUDY, JobAsked, commands, report_of, study
 from .assemblies import assembly_of
 from .cells import new_cells
 from .curves import curves
 from .fields import column_field, domain_field
+from .folder import RECORDS
 from .job import Job
 from .records import Records
 from .workshop import Workshop
@@ -40,6 +40,9 @@ PICTURES = {"png": "image/png", "svg": "image/svg+xml", "html": "text/html"}
 #: Time between two looks at the cells of a domain, least time between two pieces of news, longest silence on that line [s];
 #: most that listen.
 LOOK, PACE, SILENCE, LISTENERS = 0.15, 0.02, 10.0, 24
+
+#: What a job is repeated with, as a file of its own.
+LINES = "commands.txt"
 
 #: A file with all others of a job: kept in memory up to this size, and sent in such pieces [bytes].
 IN_MEMORY, PIECE = 20_000_000, 200_000
@@ -83,7 +86,7 @@ class JobAnswers:
 
     async def listed(self, request: Request) -> Response:
         """All jobs."""
-        return JSONResponse({"jobs": [self._shown(job) for job in self.workshop.jobs.values()]})
+        return Answer({"jobs": [self._shown(job) for job in self.workshop.jobs.values()]})
 
     async def new(self, request: Request) -> Response:
         """Put a job into the queue."""
@@ -100,7 +103,7 @@ class JobAnswers:
         wanted = [one for one in asked.records if not one.startswith("sample:")]
         if asked.motion is not None and asked.motion.kind == "record":
             wanted.append(asked.motion.text)
-        names = {one: [Path(path).name for path in self.records.paths(one)] for one in wanted}
+        names = {one: self.records.names(one) for one in wanted}
         lines = commands(asked, names)
 
         def prepare(folder: Path) -> None:
@@ -114,12 +117,12 @@ class JobAnswers:
 
         title = _title(asked, stone.name, self.records)
         job = await run_in_threadpool(self.workshop.submit, asked.kind, title, lines, body, prepare)
-        return JSONResponse(self._shown(job), 201)
+        return Answer(self._shown(job), 201)
 
     async def one(self, request: Request) -> Response:
         """One job."""
         job = self._job(request)
-        return missing("job") if job is None else JSONResponse(self._shown(job, True))
+        return missing("job") if job is None else Answer(self._shown(job, True))
 
     async def act(self, request: Request) -> Response:
         """Cancel a job, or do it again."""
@@ -127,12 +130,12 @@ class JobAnswers:
         if job is None:
             return missing("job")
         if request.path_params["act"] == "report":
-            return JSONResponse(self._shown(await run_in_threadpool(self._report, job)), 201)
+            return Answer(self._shown(await run_in_threadpool(self._report, job)), 201)
         act = {"cancel": self.workshop.cancel, "again": self.workshop.again}.get(request.path_params["act"])
         if act is None:
             return missing("action")
         await run_in_threadpool(act, job)
-        return JSONResponse(self._shown(job))
+        return Answer(self._shown(job))
 
     def _report(self, job: Job) -> Job:
         """A job that makes the report of another one, of copies of its results."""
@@ -153,7 +156,7 @@ class JobAnswers:
         if job is None:
             return missing("job")
         await run_in_threadpool(self.workshop.remove, job)
-        return JSONResponse({})
+        return Answer({})
 
     async def film(self, request: Request) -> Response:
         """The film of a run."""
@@ -168,14 +171,14 @@ class JobAnswers:
         job = self._job(request)
         if job is None:
             return missing("job")
-        return JSONResponse({"cells": await run_in_threadpool(new_cells, job.folder, set())})
+        return Answer({"cells": await run_in_threadpool(new_cells, job.folder, set())})
 
     async def curves(self, request: Request) -> Response:
         """What can be drawn of an analysis."""
         job = self._job(request)
         if job is None:
             return missing("job")
-        return JSONResponse(await run_in_threadpool(curves, job.folder))
+        return Answer(await run_in_threadpool(curves, job.folder))
 
     async def file(self, request: Request) -> Response:
         """A file of a job, to be taken away: one of those that its list names."""
@@ -195,6 +198,14 @@ class JobAnswers:
             content_disposition_type=disposition,
         )
 
+    async def lines(self, request: Request) -> Response:
+        """What to type to do a job again without the page."""
+        job = self._job(request)
+        if job is None:
+            return missing("job")
+        headers = {"content-disposition": f'attachment; filename="{LINES}"'}
+        return Response(job.lines(), media_type="text/plain; charset=utf-8", headers=headers)
+
     async def archive(self, request: Request) -> Response:
         """All files of a job in one, with its command lines: what another machine needs to do it again."""
         job = self._job(request)
@@ -208,7 +219,7 @@ class JobAnswers:
     async def events(self, request: Request) -> Response:
         """A line on which jobs say what becomes of them, and a domain its cells (server-sent events)."""
         if len(self.listeners) >= LISTENERS:
-            return JSONResponse({"error": f"{LISTENERS} pages are open already; close one."}, 503)
+            return Answer({"error": f"{LISTENERS} pages are open already; close one."}, 503)
         followed = self.workshop.jobs.get(request.query_params.get("job", ""))
         return StreamingResponse(self._events(followed), media_type="text/event-stream")
 
@@ -260,7 +271,7 @@ def _structure(asked: JobAsked) -> Column | Assembly:
     """What stands: a column, or an assembly, of which runs alone are made here."""
     if asked.assembly is not None:
         if asked.kind != "run":
-            raise InputError(f"a {asked.kind} takes a column here; go back to one, or use the command line.")
+            raise InputError(f"a {asked.kind} takes a column here; go back to one.")
         return assembly_of(asked.assembly)
     if asked.column is None:
         raise InputError("there is neither a column nor an assembly; choose a column.")
@@ -284,7 +295,7 @@ def _title(asked: JobAsked, name: str, records: Records) -> str:
 
 
 def _event(kind: str, what: Any) -> str:
-    return f"event: {kind}\ndata: {json.dumps(what)}\n\n"
+    return f"event: {kind}\ndata: {as_json(what)}\n\n"
 
 
 def _packed(job: Job) -> IO[bytes]:
@@ -292,8 +303,7 @@ def _packed(job: Job) -> IO[bytes]:
     file = tempfile.SpooledTemporaryFile(IN_MEMORY)  # noqa: SIM115 (it is closed when it has been sent)
     try:
         with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as packed:
-            lines = "".join(f"{shown(one)}\n" for one in job.commands)
-            packed.writestr(f"{job.id}/commands.txt", lines)
+            packed.writestr(f"{job.id}/{LINES}", job.lines())
             for name in job.files():
                 with suppress(FileNotFoundError):  # a job that is computed replaces its files
                     packed.write(job.folder / name, f"{job.id}/{name}")

@@ -14,6 +14,7 @@ from ..constants import g
 from ..motion import Motion, MotionRequest
 from ..motion.intensity import motion_summary, rocking_measures
 from .asked import MotionAsked
+from .words import warned
 
 #: Most points of a plotted line, and of the path in plan.
 POINTS, PATH = 2400, 1500
@@ -49,7 +50,7 @@ def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) ->
         "duration": motion.duration,
         "lines": {axis: _thinned(motion.time, values / g) for axis, values in motion.components.items()},
         "path": _path(motion),
-        "warnings": list(dict.fromkeys(str(one.message) for one in doubts)),
+        "warnings": warned(doubts),
     }
 
 

@@ -12,6 +12,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from .folder import private_file
+
 #: Time that a process has to stop by itself when it is told to [s].
 PATIENCE = 3.0
 
@@ -33,7 +35,7 @@ class Process:
     """
 
     def __init__(self, command: Sequence[str], log: Path, heard: Callable[[], None]) -> None:
-        with log.open("ab") as file:
+        with open(log, "ab", opener=private_file) as file:
             self._process = subprocess.Popen(
                 list(command), stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=file, text=True, encoding="utf-8",
                 bufsize=1, start_new_session=True,

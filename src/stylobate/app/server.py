@@ -14,18 +14,21 @@ from typing import Any
 import uvicorn
 
 from ..errors import InputError
+from .connections import BACKLOG, HEAD, Connection
+from .folder import held
 from .guard import is_loopback
+from .keys import Keys
 from .site import create_app
 
-#: Most connections at a time.
-CONNECTIONS = 200
+#: Most connections at a time, silent ones included.
+CONNECTIONS = 300
 
 #: Time that open lines have to end when the server is stopped [s].
 PATIENCE = 1
 
 
 def serve(host: str, port: int, folder: Path | None, worker: Sequence[str], browser: bool = True) -> None:
-    """Serve the page until it is stopped (Ctrl-C); its address is the first line that is printed.
+    """Serve the page until it is stopped (Ctrl-C); its address, with the token that lets in, is the first line printed.
 
     Parameters
     ----------
@@ -43,19 +46,19 @@ def serve(host: str, port: int, folder: Path | None, worker: Sequence[str], brow
     Raises
     ------
     InputError
-        The address cannot be used.
+        The address cannot be used, or another page is served from the folder.
     """
-    listening = listening_at(host, port)
-    with listening, tempfile.TemporaryDirectory(prefix="stylobate-") if folder is None else nullcontext(folder) as kept:
+    place = tempfile.TemporaryDirectory(prefix="stylobate-") if folder is None else nullcontext(str(folder))
+    with listening_at(host, port) as listening, place as kept, held(Path(kept)):
         name = f"[{host}]" if ":" in host else host
-        address = f"http://{name}:{listening.getsockname()[1]}/"
-        print(address, flush=True)
+        address, keys = f"http://{name}:{listening.getsockname()[1]}/", Keys()
+        app = create_app(Path(kept), worker, (name,), keys)
+        print(keys.printed(address), flush=True)
         if not is_loopback(host):
-            print(f"Everyone who reaches {host} can use this page and its files.", flush=True)
-        app = create_app(Path(kept), worker, (name,))
+            print(f"Whoever reaches {host} and has this address can use the page and its files.", flush=True)
         server = server_of(app)
         if browser:
-            threading.Timer(0.3, webbrowser.open, (address,)).start()
+            threading.Timer(0.3, webbrowser.open, (keys.once(address),)).start()
         server.run([listening])
 
 
@@ -69,6 +72,10 @@ def server_of(app: Any) -> uvicorn.Server:
             server_header=False,
             timeout_graceful_shutdown=PATIENCE,
             loop="asyncio",
+            http=Connection,
+            ws="none",
+            h11_max_incomplete_event_size=HEAD,
+            backlog=BACKLOG,
             limit_concurrency=CONNECTIONS,
         )
     )

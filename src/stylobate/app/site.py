@@ -13,7 +13,7 @@ from urllib.parse import unquote
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import FileResponse, JSONResponse, PlainTextResponse, Response
+from starlette.responses import FileResponse, PlainTextResponse, Response
 from starlette.routing import Route
 
 from ..column.assembly_files import is_assembly
@@ -24,12 +24,15 @@ from ..motion.readers.component import UnstatedError
 from ..motion.readers.samples import samples
 from ..version import __version__
 from . import assemblies, columns, motions
-from .answers import HANDLERS, found_wrong, json_object, missing
-from .asked import COLUMN, RECORDS, MotionAsked
+from .answers import HANDLERS, Answer, found_wrong, json_object, missing
+from .asked import COLUMN, MotionAsked
 from .fields import column_field, motion_field
+from .folder import JOBS, RECORDS
 from .guard import Guard
-from .job_answers import JobAnswers
+from .job_answers import LINES, JobAnswers
+from .keys import Keys
 from .records import FILE, Record, Records
+from .words import LABELS
 from .workshop import Workshop
 
 STATIC = Path(__file__).with_name("static")
@@ -55,7 +58,7 @@ class Site:
 
     def __init__(self, folder: Path, worker: Sequence[str]) -> None:
         self.records = Records(folder / RECORDS)
-        self.workshop = Workshop(folder / "jobs", worker)
+        self.workshop = Workshop(folder / JOBS, worker)
         self.jobs = JobAnswers(self.records, self.workshop)
         self._reading = asyncio.Semaphore(2)  # a record of the largest size takes some hundred MB while it is read
 
@@ -75,7 +78,7 @@ class Site:
     async def about(self, request: Request) -> Response:
         """What there is to choose from."""
         listed = [{"name": one.name, "about": one.about} for one in samples().values()]
-        return JSONResponse({"version": __version__, "presets": columns.presets(), "samples": listed})
+        return Answer({"version": __version__, "presets": columns.presets(), "samples": listed, "labels": LABELS})
 
     # -- columns and motions -------------------------------------------------------------------------------------
 
@@ -84,7 +87,7 @@ class Site:
         table = await json_object(request)
         try:
             columns.refuse_large(table)
-            return JSONResponse(await run_in_threadpool(columns.describe, table))
+            return Answer(await run_in_threadpool(columns.describe, table))
         except InputError as error:
             return found_wrong(error, column_field(str(error), table))
 
@@ -105,8 +108,8 @@ class Site:
                 if is_assembly(path):
                     text = path.read_text(encoding="utf-8")
                     await run_in_threadpool(assemblies.assembly_of, text)
-                    return JSONResponse({"assembly": text})
-                return JSONResponse({"table": await run_in_threadpool(columns.tables_in, path)})
+                    return Answer({"assembly": text})
+                return Answer({"table": await run_in_threadpool(columns.tables_in, path)})
             except InputError as error:
                 raise InputError(str(error).replace(f"{folder}/", "")) from None
 
@@ -114,7 +117,7 @@ class Site:
         """What is shown of an assembly."""
         text = (await json_object(request)).get("assembly")
         try:
-            return JSONResponse(await run_in_threadpool(assemblies.describe, str(text)))
+            return Answer(await run_in_threadpool(assemblies.describe, str(text)))
         except InputError as error:
             return found_wrong(error, None)
 
@@ -131,7 +134,7 @@ class Site:
                 column = None
         try:
             async with self._reading:
-                return JSONResponse(await run_in_threadpool(motions.describe, asked, files, column))
+                return Answer(await run_in_threadpool(motions.describe, asked, files, column))
         except InputError as error:
             sentence = str(error)
             unstated = "dt" if "step" in sentence else "unit"
@@ -142,25 +145,26 @@ class Site:
     async def record(self, request: Request) -> Response:
         """Keep an uploaded record; its name comes along in a header."""
         name = unquote(request.headers.get("x-name", "record"))
-        kept = await self.records.receive(name, request.stream(), request.query_params.get("with", ""))
-        return JSONResponse(_of_record(kept))
+        joined, beside = (request.query_params.get(key, "") for key in ("with", "beside"))
+        kept = await self.records.receive(name, request.stream(), joined, beside)
+        return Answer(_of_record(kept))
 
     async def record_list(self, request: Request) -> Response:
         """Records that are here."""
         kept = self.records.kept.values()
-        return JSONResponse({"records": [_of_record(one) for one in kept]})
+        return Answer({"records": [_of_record(one) for one in kept]})
 
     async def record_remove(self, request: Request) -> Response:
         """Forget one."""
         self.records.remove(request.path_params["id"])
-        return JSONResponse({})
+        return Answer({})
 
 
 def _of_record(record: Record) -> dict[str, Any]:
     return {"id": record.id, "name": record.name, "size": record.size, "files": len(record.files)}
 
 
-def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = ()) -> Any:
+def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = (), keys: Keys | None = None) -> Any:
     """The application (ASGI).
 
     Parameters
@@ -171,6 +175,8 @@ def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = ())
         The command line of the process that does the jobs.
     hosts : tuple of str
         Names under which this machine may be called, besides those of the loopback.
+    keys : Keys, optional
+        What lets a request in; without them whoever reaches this machine may use the page.
     """
     site: list[Site] = []
 
@@ -214,9 +220,10 @@ def create_app(folder: Path, worker: Sequence[str], hosts: tuple[str, ...] = ())
         job("/{id}/cells", JobAnswers.cells),
         job("/{id}/curves", JobAnswers.curves),
         job("/{id}/zip", JobAnswers.archive),
+        job(f"/{{id}}/{LINES}", JobAnswers.lines),
         job("/{id}/files/{name:path}", JobAnswers.file),
         job("/{id}/{act}", JobAnswers.act, "POST"),
         at("/api/events", lambda site, request: site.jobs.events(request)),
     ]
     app = Starlette(routes=routes, lifespan=lifespan, exception_handlers=HANDLERS)
-    return Guard(app, hosts, {"/api/records": FILE})
+    return Guard(app, hosts, {"/api/records": FILE}, keys)

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from .folder import private
 from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
 from .process import PATIENCE, Process
 
@@ -48,8 +49,7 @@ class Workshop:
     """
 
     def __init__(self, folder: Path, worker: Sequence[str], told: Callable[[], None] = lambda: None) -> None:
-        self.folder, self.worker, self.told = folder, list(worker), told
-        self.folder.mkdir(parents=True, exist_ok=True)
+        self.folder, self.worker, self.told = private(folder), list(worker), told
         self._log = self.folder.parent / LOG
         self._log.unlink(missing_ok=True)
         loaded = [Job.load(one) for one in self.folder.iterdir() if one.is_dir()]

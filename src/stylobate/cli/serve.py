@@ -29,10 +29,9 @@ def serve(
 ) -> None:
     """A page to explore columns: edit, shake, watch, and map what stands and what falls.
 
-    Prints its address as the first line, and serves this machine alone until it is stopped (Ctrl-C). Needs the extra 'app'.
+    Prints its address as the first line, with the token that lets in, and serves this machine alone until it is stopped
+    (Ctrl-C). Needs the extra 'app'.
     """
-    from ..atomic import output_folder
-
     if not 0 <= port <= 65535:
         raise InputError(f"--port is {port}; allowed is 0 to 65535.")
     try:
@@ -43,9 +42,6 @@ def serve(
         raise InputError(
             f"the page needs {error.name}, which is not installed; install it with 'pip install stylobate[app]'."
         ) from None
-    if out is not None:
-        with output_folder(out):
-            pass
     signal.set_wakeup_fd(-1)  # the server ends by itself, and puts away what it has open
     with suppress(KeyboardInterrupt):
         run(host, port, out, WORKER, browser=not no_browser)

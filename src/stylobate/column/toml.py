@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 import typing
 from pathlib import Path
@@ -61,24 +62,35 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
         raise InputError(f"{name} is nested too deeply; {_NESTING}.") from None
     except ValueError:  # what Python refuses to turn into an integer
         raise InputError(f"{name} holds a whole number of thousands of digits; {_DIGITS}.") from None
-    _check_values(found, name)
+    check_values(found, name)
     return found
 
 
 _NESTING = f"allowed are {DEEPEST} levels of tables and lists"
+#: Half of a character, as JSON and UTF-16 may write it: no file can hold it.
+_HALF = re.compile("[\ud800-\udfff]")
 _DIGITS = f"allowed are whole numbers up to {LARGEST:g}"
 
 
-def _check_values(data: dict[str, Any], name: str) -> None:
+def check_values(data: dict[str, Any], name: str) -> None:
+    """Refuse numbers, texts and levels that nothing here can hold.
+
+    Raises
+    ------
+    InputError
+        Something in ``data``, which messages call ``name``, is none of that.
+    """
     left: list[tuple[Any, int]] = [(data, 0)]
     while left:
         value, depth = left.pop()
         if isinstance(value, int) and abs(value) > LARGEST:
             raise InputError(f"{name} holds a whole number beyond {LARGEST:g}; {_DIGITS}.")
+        if isinstance(value, str) and (half := _HALF.search(value)):
+            raise InputError(f"{name} holds half a character, {half[0]!a}; write the whole one.")
         if isinstance(value, (dict, list)):
             if depth > DEEPEST:
                 raise InputError(f"{name} is nested too deeply; {_NESTING}.")
-            left += [(one, depth + 1) for one in (value.values() if isinstance(value, dict) else value)]
+            left += [(one, depth + 1) for one in ((*value, *value.values()) if isinstance(value, dict) else value)]
 
 
 def checked(data: dict[str, Any], schema: type[T], source: str) -> T:

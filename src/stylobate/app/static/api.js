@@ -7,7 +7,7 @@ export class Refused extends Error {
 async function ask(method, path, body, headers = {}) {
   let answer;
   try { answer = await fetch(path, { method, body, headers }); }
-  catch { throw new Refused(0, { error: "The page is not served any more: start stylobate serve again." }); }
+  catch { throw new Refused(0, { error: "The page is not served any more: start it again, and open its new address." }); }
   if (answer.ok) return answer;
   let said = null;
   try { said = await answer.json(); } catch { /* no sentence */ }

@@ -72,8 +72,8 @@ function latestCheck() {
   const asking = latest(table => ask("/api/column", table));
   return async () => {
     if (state.assembly) return;
-    const found = await asking(state.column);
-    if (!found) return;
+    const table = state.column, found = await asking(table);
+    if (!found || state.assembly) return;
     if (found instanceof Error) {
       mark(panel, found);
       const faulty = /^(?:drum|found|override)\.(\d+)\./.exec(found.field || "");
@@ -81,7 +81,7 @@ function latestCheck() {
       paint(faulty ? +faulty[1] : 0);
     } else {
       mark(panel, null);
-      described = found;
+      described = { ...found, table };
       fill(find("#column-facts", panel), summary(found.facts), warnings(found.warnings));
       paint();
     }
@@ -89,13 +89,15 @@ function latestCheck() {
   };
 }
 
+// What is drawn is one column with what is said of that one: until the next is known, the last, paler where another one stands.
 let drawn = null;
 function paint(faulty = 0) {
   const canvas = find("canvas", panel);
   if (!canvas || !canvas.clientWidth) return;
   drawn = described || drawn;
   if (state.assembly) assembly.draw(canvas);
-  else if (drawn) hit = drawElevation(canvas, drawn, { chosen, faulty, table: state.column });
+  else if (drawn) hit = drawElevation(canvas, drawn, { chosen, faulty });
+  canvas.classList.toggle("past", Boolean(described) && described.table !== state.column && !state.assembly);
 }
 
 function summary(f) {

@@ -1,5 +1,8 @@
 // Small tools for elements: made, found, told apart; and numbers as people read them.
 
+// What fields are called, by what they stand for on the command line: messages of the library are put in the same words.
+export const labels = {};
+
 export const find = (selector, from = document) => from.querySelector(selector);
 
 // el("p", { class: "hint", onclick: f }, "text", child): attributes, listeners (on…) and properties (values) of an element.

@@ -1,7 +1,7 @@
 // Domain: what stands and what falls over frequency and amplitude, cell by cell as it is computed.
 
 import { get, post } from "./api.js";
-import { el, field, fill, find, later, length, mark, notice, number } from "./dom.js";
+import { el, field, fill, find, labels, later, length, mark, notice, number } from "./dom.js";
 import { tell } from "./news.js";
 import { CYCLE, INK, SAND, said, sharp, ticks } from "./plot.js";
 import * as run from "./run.js";
@@ -32,7 +32,7 @@ function render() {
       el("div", {}, el("div", { class: "card", id: "domain-asked", "data-errors": true }, el("p", { class: "hint", id: "domain-case" }),
         el("div", { class: "row tight" }, box("f0", "Hz, from"), box("f1", "to"), box("fn", "values")),
         el("div", { class: "row tight" }, box("a0", "g, from"), box("a1", "to"), box("an", "values")),
-        el("div", { class: "row" }, box("duration", "Each for [s]"), field("then go on for [s]", el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
+        el("div", { class: "row" }, box("duration", `${labels.duration} [s]`), field(`${labels.tail} [s]`, el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
         el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Map it"), el("small", { class: "hint", id: "domain-count" }))),
       el("div", { class: "card", id: "domain-said", "aria-live": "polite", hidden: true })),
       el("div", { class: "card" }, el("div", { class: "map" }, canvas), el("p", { class: "hint", id: "domain-cell", role: "status" }, "Point at a cell."), el("ul", { class: "legend" },

@@ -4,7 +4,7 @@ import { number } from "./dom.js";
 import { BLUE, BROWN, INK, RED, SAND, sharp } from "./plot.js";
 
 // Draws the elevation; returns a function that tells which drum (from 1) lies at a point of the canvas, 0 for none.
-export function drawElevation(canvas, found, { chosen = 0, faulty = 0, table = {} } = {}) {
+export function drawElevation(canvas, found, { chosen = 0, faulty = 0 } = {}) {
   const [c, width, height] = sharp(canvas);
   const views = Object.entries(found.outlines), part = width / views.length, placed = [];
   views.forEach(([name, outlines], place) => {
@@ -26,7 +26,7 @@ export function drawElevation(canvas, found, { chosen = 0, faulty = 0, table = {
     c.strokeStyle = BLUE; c.lineWidth = 2.2;
     for (const [[a, b], [x, z]] of links) line(c, across(a), up(b), across(x), up(z));
     dimensions(c, outlines, across, up, left, right, low, high);
-    labels(c, outlines, found, place ? {} : table, across, up, right, (place + 1) * part - 4);
+    labels(c, outlines, found, place ? {} : found.table, across, up, right, (place + 1) * part - 4);
     if (views.length > 1) { c.fillStyle = INK; c.textAlign = "center"; c.textBaseline = "alphabetic"; c.fillText(`seen along ${name === "xz" ? "y" : "x"}`, x0, height - 6); }
   });
   return ([x, y]) => (placed.find(([, corners]) => inside(corners, x, y)) || [0])[0];

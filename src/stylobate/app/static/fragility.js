@@ -2,7 +2,7 @@
 
 import { get, post, upload } from "./api.js";
 import * as curves from "./curves.js";
-import { choice, el, facts, field, fill, find, mark, notice, number, select } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, mark, notice, number, select } from "./dom.js";
 import { isOpen, tell } from "./news.js";
 import * as motion from "./motion.js";
 import * as run from "./run.js";
@@ -40,10 +40,10 @@ function render() {
       el("button", { type: "button", onclick: () => folder.click() }, "Upload a folder …"), folder,
       el("button", { type: "button", class: "quiet", onclick: () => set({ records: s.records.length === list.length ? [] : list.map(one => one[0]) }) }, "All or none")),
     el("ul", { class: "pick" }, list.map(([id, name, about]) => el("li", {}, el("label", { title: about }, el("input", { type: "checkbox", checked: s.records.includes(id), "data-key": id, onchange: tick(id) }), name)))),
-    el("div", { class: "row" }, field("Intensity", select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
-      field("Runs of a record", el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", onchange: event => set({ runs: event.target.value.trim() }) })),
-      field("Unit, where a file states none", select(motion.UNITS.map(one => [one, one || "as stated"]), s.unit, unit => set({ unit }), { "data-field": "unit" }))),
-    choice("state", "Limit state", STATES, s.state, one => set({ state: one })),
+    el("div", { class: "row" }, field(labels.im, select(MEASURES, s.im, im => set({ im }), { "data-field": "im" })),
+      field(labels.runs, el("input", { value: s.runs, inputmode: "numeric", "data-field": "runs", onchange: event => set({ runs: event.target.value.trim() }) })),
+      field(`${labels.unit}, where a file states none`, select(motion.UNITS.map(one => [one, one || "as stated"]), s.unit, unit => set({ unit }), { "data-field": "unit" }))),
+    choice("state", labels.state, STATES, s.state, one => set({ state: one })),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Compute"), el("small", { class: "hint" }, `${s.records.length} records${s.records.length < 10 ? "; a fragility takes ten" : ""}`)));
   find(".pick", place).scrollTop = down;
   if (focused) { const again = find(`[data-key="${CSS.escape(focused)}"]`, place); if (again) again.focus(); }
@@ -51,8 +51,9 @@ function render() {
 
 async function take(files) {
   if (files.length > 300) { notice(`${files.length} files are too many at once; choose up to 300.`); return; }
+  let first = null;  // what describes a station holds for those that it came together with
   for (const file of files) {
-    try { const one = await upload("/api/records", file); uploaded = [...uploaded, one]; if (isRecord(one)) set({ records: [...state.fragility.records, one.id] }); }
+    try { const one = await upload("/api/records" + (first ? `?beside=${first.id}` : ""), file); first ||= one; uploaded = [...uploaded, one]; if (isRecord(one)) set({ records: [...state.fragility.records, one.id] }); }
     catch (error) { notice(`${file.name}: ${error.error}`); }
   }
 }
@@ -90,5 +91,5 @@ export async function hear(news) {
   if (!isOpen(job)) curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
 }
 // Files have names of their own here; people know them by those that they had.
-const named = text => uploaded.reduce((said, one) => said.replace(new RegExp(`[\\w-]*-${one.id}(\\.\\w+)?`, "g"), () => one.name), text);
+const named = text => uploaded.reduce((said, one) => said.replace(new RegExp(`[\\w/-]*-${one.id}(\\.\\w+)?`, "g"), () => one.name), text);
 const said = s => `Half of the records bring ${s.state} at ${s.im} = ${number(s.median)} ${s.unit}.`;

@@ -2,7 +2,7 @@
 
 import { get } from "./api.js";
 import * as column from "./column.js";
-import { find, notice } from "./dom.js";
+import { find, labels, notice } from "./dom.js";
 import * as domain from "./domain.js";
 import * as fragility from "./fragility.js";
 import * as jobs from "./jobs.js";
@@ -42,9 +42,11 @@ function status() {
 }
 
 async function begin() {
+  if (location.search) history.replaceState(null, "", location.pathname + location.hash);  // what let the browser in is kept in its cookie
   Object.assign(state, read());
   showTab();
   const [about, kept] = await Promise.all([get("/api/about"), get("/api/records")]);
+  Object.assign(labels, about.labels);
   if (!state.column) state.column = structuredClone(about.presets[state.preset] || Object.values(about.presets)[0]);
   listen(keys => {
     if (keys.has("tab")) { showTab(); }

@@ -2,11 +2,11 @@
 
 import { check as question, latest, remove, upload } from "./api.js";
 import { dial } from "./dial.js";
-import { choice, el, facts, field, fill, find, later, mark, notice, number, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, later, mark, notice, number, select, warnings } from "./dom.js";
 import { BLUE, GREY, INK, plot } from "./plot.js";
 import { change, changeMotion, listen, state } from "./state.js";
 
-const KINDS = [["harmonic", "Harmonic"], ["pulse", "Pulse"], ["sample", "Sample"], ["record", "Record"], ["synthetic", "Simulated"]];
+const kinds = () => [["harmonic", labels.harmonic], ["pulse", labels.pulse], ["sample", "Sample"], ["record", labels.motion], ["synthetic", labels.synthetic]];
 const SHAPES = ["rectangular", "half-sine", "sine", "cosine", "ricker", "antisymmetric-ricker", "gabor", "mavroeidis-papageorgiou"];
 export const UNITS = ["", "g", "m/s2", "cm/s2", "mm/s2", "mg", "in/s2", "ft/s2"];
 
@@ -72,7 +72,7 @@ function controls() {
   const frequency = slider("frequency", "Frequency", "Hz", 0.1, 10, 0.01, true), amplitude = slider("amplitude", "Amplitude", "g", 0.01, 1.5, 0.01);
   if (m.kind === "harmonic") {
     return [frequency, amplitude, slider("duration", "Duration", "s", 1, 60, 0.5),
-      el("label", { class: "check" }, el("input", { type: "checkbox", checked: m.both, onchange: event => set({ both: event.target.checked }, true) }), "a second sine along y"),
+      el("label", { class: "check" }, el("input", { type: "checkbox", checked: m.both, onchange: event => set({ both: event.target.checked }, true) }), labels.across),
       m.both && slider("across", "Amplitude along y", "g", 0.01, 1.5, 0.01), m.both && slider("phase", "Phase along y", "°", 0, 360, 5)];
   }
   if (m.kind === "pulse") return [field("Shape", select(SHAPES.map(one => [one, one]), m.shape, shape => set({ shape }), { "data-field": "shape" })), frequency, amplitude];
@@ -82,20 +82,20 @@ function controls() {
   }
   if (m.kind === "record") return record(m);
   return [field("Region, magnitude, distance, seed", el("input", { value: m.region, "data-field": "region", oninput: event => set({ region: event.target.value }) })),
-    el("p", { class: "hint" }, "As on the command line: greece,6.5Mw,20km,seed=3.")];
+    el("p", { class: "hint" }, "Such as greece,6.5Mw,20km,seed=3.")];
 }
-const component = () => field("Component as x (number, label or azimuth; as recorded if empty)",
+const component = () => field(`${labels.component} (number, label or azimuth; as recorded if empty)`,
   el("input", { value: state.motion.component, "data-field": "component", oninput: event => set({ component: event.target.value.trim() }) }));
 
 function record(m) {
   const files = el("input", { type: "file", multiple: true, hidden: true, "data-upload": "record", onchange: event => take([...event.target.files]) });
   return [
     el("div", { class: "row" }, el("button", { type: "button", onclick: () => files.click() }, "Upload a record …"), files),
-    el("p", { class: "hint" }, "Any strong-motion format that the command line reads, up to 32 MB; the format is found. Several files at once are one record: its components, or its StationXML. Or drop files here."),
+    el("p", { class: "hint" }, "Any of the known strong-motion formats, up to 32 MB; the format is found. Several files at once are one record: its components, or its StationXML. Or drop files here."),
     records.length > 0 && field("Uploaded", select([["", "choose"], ...records.map(one => [one.id, one.name])], m.record, choose, { "data-field": "record" })),
     m.record && el("div", { class: "row" },
-      field("Unit, where the file states none", select(UNITS.map(one => [one, one || "as stated"]), m.unit, unit => set({ unit }), { "data-field": "unit" })),
-      field("Step [s], without times", el("input", { value: m.dt, inputmode: "decimal", "data-field": "dt", oninput: event => set({ dt: event.target.value.trim() }) }))),
+      field(`${labels.unit}, where the file states none`, select(UNITS.map(one => [one, one || "as stated"]), m.unit, unit => set({ unit }), { "data-field": "unit" })),
+      field(`${labels.dt} [s], without times`, el("input", { value: m.dt, inputmode: "decimal", "data-field": "dt", oninput: event => set({ dt: event.target.value.trim() }) }))),
     m.record && component(),
     m.record && el("button", { type: "button", class: "quiet", onclick: forget }, "Forget this record"),
   ];
@@ -125,7 +125,7 @@ async function forget() {
 function render() {
   const m = state.motion;
   const canvas = el("canvas", {}), azimuth = el("input", { value: m.azimuth, inputmode: "decimal", "data-field": "azimuth", oninput: event => { const given = event.target.value.trim(); turner.show(given); set({ azimuth: given }); } });
-  const left = el("div", { class: "card", "data-errors": true }, choice("kind", "What shakes", KINDS, m.kind, kind => set({ kind }, true)), el("fieldset", {}, controls()));
+  const left = el("div", { class: "card", "data-errors": true }, choice("kind", "What shakes", kinds(), m.kind, kind => set({ kind }, true)), el("fieldset", {}, controls()));
   left.ondragover = event => { event.preventDefault(); left.classList.add("drop"); };
   left.ondragleave = () => left.classList.remove("drop");
   left.ondrop = event => { event.preventDefault(); left.classList.remove("drop"); take([...event.dataTransfer.files]); };
@@ -134,11 +134,11 @@ function render() {
     el("div", { class: "sheet left" },
       el("div", {}, left,
         el("div", { class: "card" }, el("h2", {}, "Direction and size"),
-          el("div", { class: "dial" }, canvas, el("div", {}, field("Azimuth, from x towards y [°]", azimuth),
+          el("div", { class: "dial" }, canvas, el("div", {}, field(`${labels.azimuth}, from x towards y [°]`, azimuth),
             el("button", { type: "button", class: "quiet", onclick: () => { azimuth.value = ""; turner.show(""); set({ azimuth: "" }); } }, "As it is"))),
           el("div", { class: "row" },
-            field("Scale to a peak of [g]", el("input", { value: m.pga, inputmode: "decimal", placeholder: "as it is", "data-field": "pga", oninput: event => set({ pga: event.target.value.trim() }) })),
-            el("label", { class: "check" }, el("input", { type: "checkbox", checked: m.vertical, onchange: event => set({ vertical: event.target.checked }) }), "vertical component acts")))),
+            field(`${labels.pga} [g]`, el("input", { value: m.pga, inputmode: "decimal", placeholder: "as it is", "data-field": "pga", oninput: event => set({ pga: event.target.value.trim() }) })),
+            el("label", { class: "check" }, el("input", { type: "checkbox", checked: m.vertical, onchange: event => set({ vertical: event.target.checked }) }), labels.vertical)))),
       el("div", {},
         el("div", { class: "card" }, el("h2", { id: "motion-name" }, words()), el("canvas", { class: "plot", role: "img", "aria-label": "Acceleration of the ground over time" })),
         el("div", { class: "card", id: "motion-facts", "aria-live": "polite" }),

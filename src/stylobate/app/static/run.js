@@ -2,7 +2,7 @@
 
 import { get, post } from "./api.js";
 import * as curves from "./curves.js";
-import { choice, el, facts, field, fill, find, later, length, mark, notice, number, select, warnings } from "./dom.js";
+import { choice, el, facts, field, fill, find, labels, later, length, mark, notice, number, select, warnings } from "./dom.js";
 import * as motion from "./motion.js";
 import { isOpen, tell } from "./news.js";
 import { BLUE, CYCLE, INK, moving, plot } from "./plot.js";
@@ -38,12 +38,12 @@ function renderAsked() {
   find("#run-case", panel).textContent = `${state.assembly ? "The assembly" : `${column.name || "column"}, ${(column.drum || []).length} drums`} · ${motion.words()}`;
   const place = find("#run-asked", panel), had = document.activeElement && document.activeElement.dataset.field;
   fill(place,
-    field("Model", select(MODELS.filter(([key]) => !state.assembly || key === "dem2d").map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
+    field(labels.model, select(MODELS.filter(([key]) => !state.assembly || key === "dem2d").map(([key, text]) => [key, text]), state.model, model => change({ model, settings: {} }), { "data-field": "model" })),
     el("p", { class: "hint" }, about ? about[2] : ""),
     state.model === "dem3d" && choice("law", "Contact in space", [["rim", "rim"], ["bed", "bed"]], state.settings.law || "rim", law => change({ settings: { ...state.settings, law } })),
     el("div", { class: "row" },
-      !state.assembly && field("Columns like this one", el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
-      field("Go on after the motion [s]", el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
+      !state.assembly && field(labels.replicates, el("input", { value: state.replicates, placeholder: "15", inputmode: "numeric", "data-field": "replicates", oninput: event => change({ replicates: event.target.value.trim() }) })),
+      field(`${labels.tail} [s]`, el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
     !state.assembly && el("p", { class: "hint" }, "How sure the verdict is: columns that differ by what nobody has measured."),
     el("div", { class: "row" }, el("button", { type: "button", class: "primary", id: "go", onclick: go }, "Run"), el("small", { class: "hint" }, "Ctrl + Enter")),
     !state.assembly && critical());
@@ -55,7 +55,7 @@ function critical() {
   const box = (key, label) => field(label, el("input", { value: state.critical[key], inputmode: "decimal", "data-field": `critical.${key}`,
     oninput: event => change({ critical: { ...state.critical, [key]: event.target.value.trim() } }) }));
   return el("details", { id: "critical", open: criticalOpen }, el("summary", { onclick: () => { criticalOpen = !find("#critical", panel).open; } }, "What amplitude brings it down?"),
-    el("div", { class: "row tight" }, box("first", "From [g]"), box("last", "to [g]"), box("step", "steps of [g]")),
+    el("div", { class: "row tight" }, box("first", `${labels.from} [g]`), box("last", `${labels.to} [g]`), box("step", `${labels.step} [g]`)),
     el("div", { class: "row" }, el("button", { type: "button", onclick: goCritical }, "Find it"), el("small", { class: "hint" }, "the motion above, made larger step by step")));
 }
 let criticalOpen = false;
@@ -168,9 +168,9 @@ function measures(r) {
 
 export function files(job) {
   const link = name => el("li", {}, el("a", { href: `/api/jobs/${job.id}/files/${name.split("/").map(encodeURIComponent).join("/")}`, download: name.split("/").pop() }, name));
-  return [report(job), el("details", {}, el("summary", {}, "Command line and files"),
-    job.commands.map(one => el("code", { class: "command" }, one)),
-    (job.files || []).length > 0 && el("p", {}, el("a", { class: "button", href: `/api/jobs/${job.id}/zip`, download: `stylobate-${job.kind}-${job.id}.zip` }, "Save all in one ZIP file")),
+  return [report(job), el("details", {}, el("summary", {}, "Files"),
+    (job.files || []).length > 0 && el("p", {}, el("a", { class: "button", href: `/api/jobs/${job.id}/zip`, download: `stylobate-${job.kind}-${job.id}.zip` }, "Save all in one ZIP file"), " ",
+      el("a", { class: "button", href: `/api/jobs/${job.id}/commands.txt`, download: "commands.txt" }, "Save what repeats it without the page")),
     el("ul", {}, (job.files || []).map(link)))];
 }
 

@@ -1,0 +1,68 @@
+"""The page's own words: what its fields are called, and sentences about options of the command line in terms of these."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from collections.abc import Sequence
+from typing import Any
+
+#: What a field of the page is called, by the option of the command line that it stands for; the scripts of the page take
+#: them from here.
+LABELS = {
+    "harmonic": "Harmonic",
+    "across": "a second sine along y",
+    "pulse": "Pulse",
+    "synthetic": "Simulated",
+    "motion": "Record",
+    "unit": "Unit",
+    "dt": "Step",
+    "component": "Component as x",
+    "azimuth": "Azimuth",
+    "pga": "Scale to a peak of",
+    "vertical": "vertical component acts",
+    "model": "Model",
+    "replicates": "Columns like this one",
+    "tail": "Time after the motion",
+    "from": "From",
+    "to": "to",
+    "step": "steps of",
+    "duration": "Each for",
+    "im": "Intensity",
+    "runs": "Runs of a record",
+    "state": "Limit state",
+}
+
+_OPTION = re.compile(r"(?<![\w-])--([a-z](?:[a-z-]*[a-z])?)(?: [A-Z]{2,}(?:\.\w+)?\b)?")
+_ASIDE = re.compile(r"\s*\(([^()]*(?<![\w-])--[a-z][^()]*)\)")
+
+
+def in_page_words(said: Any) -> Any:
+    """Sentences for somebody who sees fields, not options; in lists and in values of tables as well.
+
+    An option that the page has a field for becomes the field's name; an aside about any other is left out.
+
+    Parameters
+    ----------
+    said : text, list, dict, or anything else, which stays as it is
+    """
+    if isinstance(said, str):
+        return _OPTION.sub(_named, _ASIDE.sub(_kept, said)) if "--" in said else said
+    if isinstance(said, dict):
+        return {key: in_page_words(value) for key, value in said.items()}
+    if isinstance(said, (list, tuple)):
+        return [in_page_words(value) for value in said]
+    return said
+
+
+def warned(doubts: Sequence[warnings.WarningMessage]) -> list[str]:
+    """Warnings for the page, each once."""
+    return list(dict.fromkeys(in_page_words(str(one.message)) for one in doubts))
+
+
+def _kept(aside: re.Match[str]) -> str:
+    return aside[0] if all(option in LABELS for option in _OPTION.findall(aside[1])) else ""
+
+
+def _named(option: re.Match[str]) -> str:
+    return f"“{LABELS.get(option[1], option[1].replace('-', ' '))}”"

@@ -1,0 +1,97 @@
+"""The page speaks of its fields: no sentence that it can show names an option of the command line."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+import stylobate
+from stylobate.app.job import Job
+from stylobate.app.words import LABELS, in_page_words
+
+SOURCE = Path(stylobate.__file__).parent
+STATIC = SOURCE / "app" / "static"
+OPTION = re.compile(r"(?<![\w-])--[a-z]")
+
+
+def sentences():
+    """Every text of the package that names an option, with names for what is filled in."""
+    for path in sorted(SOURCE.rglob("*.py")):
+        if path.is_relative_to(SOURCE / "cli") and "worker" not in path.name:
+            continue  # what commands say is told by the worker: see below
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.JoinedStr):
+                yield "".join(one.value if isinstance(one, ast.Constant) else "X" for one in node.values)
+            elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                yield node.value
+
+
+def test_no_sentence_of_the_library_names_an_option():
+    named = [one for one in sentences() if OPTION.search(one)]
+    assert len(named) > 50
+    assert [one for one in named if OPTION.search(in_page_words(one))] == []
+
+
+@pytest.mark.parametrize(
+    ("said", "shown"),
+    [
+        ("a states no unit: unit='g' (--unit g), or 'gal'.", "a states no unit: unit='g' (“Unit” g), or 'gal'."),
+        ("take it off (--condition baseline).", "take it off."),
+        ("far from rest; go on with --tail 5s.", "far from rest; go on with “Time after the motion” 5s."),
+        ("--azimuth is 'x'; write it with its unit.", "“Azimuth” is 'x'; write it with its unit."),
+        ("leave it out or give --motion FILE.", "leave it out or give “Record”."),
+        ("choose another --until-rest, or --tail", "choose another “until rest”, or “Time after the motion”"),
+        ("a drum -- or two--three - is -1 m; <!-- no -->", "a drum -- or two--three - is -1 m; <!-- no -->"),
+    ],
+)  # fmt: skip
+def test_options_become_fields(said, shown):
+    assert in_page_words(said) == shown
+    assert in_page_words({"a": [said, 1, None]}) == {"a": [shown, 1, None]}
+
+
+def test_the_scripts_take_the_names_of_fields_from_one_list():
+    scripts = "".join(one.read_text(encoding="utf-8") for one in STATIC.glob("*.js"))
+    assert {name for name in LABELS if f"labels.{name}" not in scripts} == set()
+    assert set(re.findall(r"labels\.(\w+)", scripts)) == set(LABELS)
+
+
+def test_the_page_itself_names_no_option():
+    for path in STATIC.glob("*.*"):
+        if path.suffix in (".js", ".html"):
+            text = path.read_text(encoding="utf-8")
+            assert OPTION.search(text) is None
+            assert "command line" not in re.sub(r"(?m)//.*$", "", text)
+
+
+def test_what_a_job_says_is_in_words_of_the_page(tmp_path):
+    job = Job("a", tmp_path, "run", "one", [["run", "--tail=5s"]], {"column": {"name": "--tail"}})
+    job.sentence, job.warnings, job.results = (
+        "go on with --tail 5s.",
+        ["give --dt 0.01s."],
+        [{"certainty": {"sentence": "--tail"}}],
+    )
+    told = job.to_dict()
+    assert OPTION.search(str([told["sentence"], told["warnings"], told["results"]])) is None
+    assert told["asked"]["column"]["name"] == "--tail"  # what was typed stays
+    assert job.lines() == b"stylobate run --tail=5s\n"
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [
+        {"kind": "harmonic", "text": "1Hz,abc,4s"},
+        {"kind": "pulse", "text": "ricker"},
+        {"kind": "synthetic", "text": "nowhere"},
+        {"kind": "harmonic", "text": "1Hz,0.3g,4s", "azimuth": "xdeg"},
+        {"kind": "harmonic", "text": "1Hz,0.3g,4s", "unit": "g"},
+        {"kind": "harmonic", "text": "1Hz,?g,4s"},
+        {"kind": "pulse", "text": "ricker,1Hz,0.1g", "across": "1Hz,0.1g,90deg"},
+        {"kind": "record"},
+    ],
+)
+def test_no_error_names_an_option(client, motion):
+    if motion["kind"] == "record":
+        motion = motion | {"text": client.post("/api/records", content=b"0 1\n1 2\n2 3\n3 4\n").json()["id"]}
+    error = client.post("/api/motion", json={"motion": motion}).json()["error"]
+    assert OPTION.search(error) is None, error
