@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from stylobate.constants import g
-from stylobate.errors import InputError
+from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import (
     Motion,
     arias_intensity,
@@ -27,6 +27,7 @@ from stylobate.motion import (
     rotated_spectrum,
     significant_duration,
 )
+from stylobate.motion.intensity import displacement_drift, warn_of_drift
 
 PERIODS = np.array([0.03, 0.1, 0.33, 0.7, 1.0, 1.9, 4.0])
 
@@ -185,6 +186,23 @@ def test_one_component_has_no_directions():
         rotated_spectrum(Motion(0.01, [0.0, 1.0]))
     with pytest.raises(InputError, match="no component 'z'"):
         response_spectrum(Motion(0.01, [0.0, 1.0]), component="z")
+
+
+def test_a_displacement_that_double_integration_leaves_is_told_with_its_size():
+    offset = Motion(0.01, np.full(1001, 0.02), np.sin(2.0 * np.pi * np.arange(1001) * 0.01), metadata={"file": "a.csv"})
+    assert displacement_drift(offset) == pytest.approx(0.5 * 0.02 * 10.0**2)
+    # A sine from rest leaves 1/ω² ω T = T/ω; an antisymmetric pulse comes back.
+    assert displacement_drift(offset, "y") == pytest.approx(10.0 / (2.0 * np.pi), rel=1e-3)
+    with pytest.warns(OutOfRangeWarning) as seen:
+        warn_of_drift(offset)
+    assert [str(one.message)[:44] for one in seen] == [
+        f"{offset.name}: the peak displacement of component {axis}"[:44] for axis in "xy"
+    ]
+    assert "1 m stand at the end" in str(seen[0].message)
+    back = Motion(0.01, ricker(1.0, 3.0).samples * 3.0)
+    assert displacement_drift(back) == 0.0
+    assert motion_summary(back, spectrum=False)["pgd_drift_m"] == {"x": 0.0}
+    assert motion_summary(offset, spectrum=False)["pgd_drift_m"]["x"] == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("size", [0.0, 2.0])

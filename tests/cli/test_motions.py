@@ -322,7 +322,7 @@ def test_the_files_of_the_components_make_one_record(command, tmp_path):
     for stream, size in (("HNE", 1.0), ("HNN", 0.5), ("HNZ", 0.2)):
         head = ("EVENT_NAME: SMALL", "NETWORK: IT", "STATION_CODE: ABC", "SAMPLING_INTERVAL_S: 0.01", "NDATA: 300",
                 f"STREAM: {stream}", "UNITS: cm/s^2", "DATA_TYPE: ACCELERATION")  # fmt: skip
-        values = (f"{size * 300 * math.sin(0.06 * i):.6f}" for i in range(300))
+        values = (f"{size * 300 * math.cos(0.06 * i):.6f}" for i in range(300))
         (tmp_path / f"{stream}.asc").write_text("\n".join([*head, *values]) + "\n")
     paths = [tmp_path / f"{stream}.asc" for stream in ("HNE", "HNN", "HNZ")]
     assert command("motion", *paths, "--json")["components"] == ["x", "y", "z"]

@@ -66,7 +66,7 @@ def test_headers_that_name_the_unit(put, text):
 
 
 def test_three_components_and_the_vertical(put):
-    motion = read_motion(put("time_s,ax_g,ay_g,az_m_s2\n0,1,2,3\n0.5,-1,-2,-3\n1.0,0,0,0\n"))
+    motion = read_motion(put("time_s,ax_g,ay_g,az_m_s2\n0,1,2,3\n0.05,-1,-2,-3\n0.10,0,0,0\n"))
     assert list(motion.components) == ["x", "y", "z"]
     assert motion.vertical == pytest.approx([3.0, -3.0, 0.0])
     assert motion.metadata["unit"] == "g, m/s2"
@@ -75,8 +75,8 @@ def test_three_components_and_the_vertical(put):
 def test_bare_columns(put):
     two = read_motion(put("0.00 0.1\n0.02 -0.1\n0.04 0.0\n"), unit="g")
     assert (two.dt, two.pga) == (0.02, pytest.approx(0.1 * g))
-    one = read_motion(put("title\n0.1\n-0.1\n0.0\n"), unit="m/s2", dt=0.01)
-    assert (one.dt, one.pga, one.metadata["header"]) == (0.01, 0.1, ("title",))
+    one = read_motion(put("# title: Athens 1999\n0.1\n-0.1\n0.0\n"), unit="m/s2", dt=0.01)
+    assert (one.dt, one.pga, one.metadata["header"]) == (0.01, 0.1, ("# title: Athens 1999",))
     glued = read_motion(put("0.00-0.1\n0.02-0.2\n0.04 0.3\n"), unit="g")
     assert glued.acceleration == pytest.approx([-0.1 * g, -0.2 * g, 0.3 * g])
     fortran = read_motion(put("0.1D+01\n-1.0d0\n0.0\n"), unit="gal", dt=0.01)
@@ -84,8 +84,8 @@ def test_bare_columns(put):
 
 
 def test_other_code_pages(put):
-    assert read_motion(put("# Mexicali, Hidr\xe1ulica\ntime_s,ax_g\n0,1\n1,-1\n".encode("latin-1"))).dt == 1.0
-    assert read_motion(put("time_s,ax_g\n0,1\n1,-1\n".encode("utf-16"))).dt == 1.0
+    assert read_motion(put("# Mexicali, Hidr\xe1ulica\ntime_s,ax_g\n0,1\n0.1,-1\n".encode("latin-1"))).dt == 0.1
+    assert read_motion(put("time_s,ax_g\n0,1\n0.1,-1\n".encode("utf-16"))).dt == 0.1
 
 
 def test_rounded_times_are_equal_steps(put):
@@ -104,7 +104,7 @@ def test_unequal_steps_are_refused_or_resampled_on_demand(put):
 
 def test_an_offset_is_noticed(put):
     with pytest.warns(OutOfRangeWarning, match="mean of component x is 0.5 g"):
-        read_motion(put("time_s,ax_g\n0,0.4\n1,0.6\n"))
+        read_motion(put("time_s,ax_g\n0,0.4\n0.1,0.6\n"))
 
 
 def test_a_peak_beyond_all_records_is_noticed(put):
@@ -112,11 +112,6 @@ def test_a_peak_beyond_all_records_is_noticed(put):
     with pytest.warns(OutOfRangeWarning, match="200 g, more than was ever recorded; check the unit"):
         read_motion(path, unit="g")
     assert read_motion(path, unit="gal").pga == pytest.approx(2.0)
-
-
-def test_columns_that_are_not_accelerations_are_left_out_and_said(put):
-    motion = read_motion(put("time_s,ax_g,vx\n0,1,5\n0.1,-1,5\n"))
-    assert motion.metadata["columns_left_out"] == ("vx",)
 
 
 @pytest.mark.parametrize(
@@ -139,7 +134,8 @@ def test_columns_that_are_not_accelerations_are_left_out_and_said(put):
         ("time_s,ax_g\n0,1,2\n1,1,2\n", {}, "3 numbers under 2 column names"),
         ("1 2 3 4 5 6\n1 2 3 4 5 6\n", {"unit": "g", "dt": 0.01}, "rows of 6 numbers"),
         ("time_s,ax_g\n0,1\n0,1\n", {}, "time goes from 0 s to 0 s"),
-        ("time_s,ax_g\n0,1\n1,1\n2,0\n", {"dt": 0.5}, "leave dt out"),
+        ("time_s,ax_g\n0,1\n0.1,1\n0.2,0\n", {"dt": 0.05}, "leave dt out"),
+        ("0,15\n0,25\n1,35\n", {"unit": "g", "dt": 0.01}, "one number with a decimal comma or two numbers"),
         ("words only\n", {}, "no format that is known"),
         ("", {}, "empty"),
         ("0.1\n", {"unit": "g", "dt": 0.1}, "one row"),
@@ -152,6 +148,37 @@ def test_columns_that_are_not_accelerations_are_left_out_and_said(put):
 def test_files_that_are_refused(put, text, options, said):
     with pytest.raises(InputError, match=said):
         read_motion(put(text), **options)
+
+
+# -- steps that no accelerograph has --------------------------------------------------------------------------------
+
+MILLISECONDS = "".join(f"{10 * i},{(-1) ** i}\n" for i in range(20))
+
+
+@pytest.mark.parametrize(
+    ("text", "options", "said"),
+    [
+        ("time_s,ax_g\n" + MILLISECONDS, {}, r"is 10 s; allowed is 0\.0002 to 0\.2 s.*name the column time_ms"),
+        (MILLISECONDS, {"unit": "g"}, "is 10 s; allowed"),
+        ("time_s,ax_g\n0,1\n10,-1\n20,1\n31,0\n", {"dt": 0.01}, "the median step of the times of record.txt is 10 s"),
+        ("time_ms,ax_g\n0,1\n0.01,-1\n0.02,1\n", {}, "is 1e-05 s"),
+        ("# dt_s: 10\nax_g\n1\n-1\n", {}, "is 10 s"),
+        ("# DT= 5\nax_g\n1\n-1\n", {}, "is 5 s"),
+        ("1\n-1\n", {"unit": "g", "dt": 10.0}, "is 10 s"),
+    ],
+)
+def test_steps_that_no_accelerograph_has_are_refused_wherever_they_come_from(put, text, options, said):
+    with pytest.raises(InputError, match=said):
+        read_motion(put(text), **options)
+
+
+def test_milliseconds_that_are_named_are_read(put):
+    assert read_motion(put("time_ms,ax_g\n" + MILLISECONDS)).dt == 0.01
+
+
+def test_decimal_commas_between_blanks_are_read(put):
+    motion = read_motion(put("time acc\n0,00\t0,1\n0,01\t-0,2\n0,02\t0,1\n"), unit="g")
+    assert motion.acceleration == pytest.approx([0.1 * g, -0.2 * g, 0.1 * g])
 
 
 def test_a_folder_and_a_missing_file_are_refused(tmp_path):

@@ -1,6 +1,7 @@
 """Records that are damaged, cut or odd: what a header states is compared with what was read, and nothing is guessed."""
 
 import io
+import re
 import warnings
 from pathlib import Path
 
@@ -14,6 +15,7 @@ from fuzz.record_files import (
     bhrc,
     csmip_v2,
     esm,
+    fortran,
     geonet,
     itaca,
     knet,
@@ -92,11 +94,56 @@ def test_damaged_miniseed_is_refused_with_what_obspy_says(put):
 # -- cut files ------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", ["csmip_v2", "csmip_v1", "cosmos", "renadic", "bhrc", "usc"])
+@pytest.mark.parametrize("name", ["csmip_v2", "csmip_v1", "cosmos", "renadic", "bhrc"])
 def test_a_missing_end_mark_is_a_cut_file(name, put):
     lines = FORMATS[name][0].rstrip("\n").splitlines(keepends=True)
     with pytest.raises(InputError, match="without the mark"):
         read(put("".join(lines[:-1])))
+
+
+def test_a_usc_file_with_all_its_points_is_whole_without_a_mark(put):
+    text = FORMATS["usc"][0]
+    lines = text.rstrip("\n").splitlines(keepends=True)
+    whole = read(put(text))
+    assert read(put("".join(lines[:-1]))).digest == whole.digest
+    marks = "------- END OF RECORD -------\n"
+    assert read(put(text.replace(marks, ""))).digest == whole.digest  # between two channels neither
+    with pytest.raises(InputError, match="without the mark"):
+        read(put("".join(lines[:-2])))
+    with pytest.raises(InputError, match="without the mark"):
+        read(put("".join(lines[:-1]).rstrip("\n")[:-1] + "\n"))
+
+
+@pytest.mark.parametrize("lost", ["data", "comment", "last"])
+def test_a_line_that_is_lost_from_film_does_not_vanish_in_the_tolerance_at_its_end(lost, put):
+    text = smc_v1()
+    assert "8 numbers beyond the 80" in read(put(text)).processing[0]
+    lines = text.splitlines(keepends=True)
+    first = next(k for k, line in enumerate(lines) if line.startswith("|")) + 2
+    gone = {"data": first + 4, "comment": first - 1, "last": len(lines) - 2}[lost]
+    said = "comment lines that the header promises" if lost == "comment" else "a gap beyond"
+    with pytest.raises(InputError, match=said):
+        read(put("".join(lines[:gone] + lines[gone + 1 :])))
+
+
+def test_a_gap_in_the_times_of_film_is_warned_about(put):
+    text = smc_v1(stray=0.41)  # the stray line goes on at the steps before it
+    assert "is missing" not in warned(put(text))
+    lines = text.splitlines(keepends=True)
+    assert "line 33: the time goes from" in warned(put("".join(lines[:32] + lines[33:])))
+
+
+def smc_v1(stray=0.8):
+    """Ten lines of four times and accelerations each, and a stray line behind them."""
+    text = FORMATS["smc"][0]
+    head = text[: text.index("|a comment\n") + len("|a comment\n")].replace("2 CORRECTED", "1 UNCORRECTED")
+    head = head.replace(f"{COUNT:10d}", f"{80:10d}")
+    lines = head.splitlines(keepends=True)
+    lines[22:24] = [re.sub(r"-?\d\.\d{7}E[+-]\d\d", " 1.7000000E+38", line) for line in lines[22:24]]
+    times = np.concatenate([0.01 * np.arange(40), stray + 0.01 * np.arange(4)])
+    values = np.round(np.sin(times * 20.0), 3)
+    numbers = [fortran(one) for pair in zip(times, values) for one in pair]
+    return "".join(lines) + "".join("".join(numbers[i : i + 8]) + "\n" for i in range(0, 88, 8))
 
 
 def test_blocks_of_velocity_and_displacement_are_counted(put):
@@ -270,7 +317,7 @@ def test_columns_named_in_a_comment_are_read_with_their_sense(put):
 @pytest.mark.parametrize(
     ("text", "options", "said"),
     [
-        ("# columns: Time U(+); N(+); E(+)\n0 1 2\n0.1 1 2\n", {"unit": "gal"}, "names 4 columns .time, U, N, E."),
+        ("# columns: Time U(+); N(+); E(+)\n0 1 2\n0.1 1 2\n", {"unit": "gal"}, "names 4 columns"),
         ("# unit of data: furlong\n0 1\n0.1 -1\n", {}, "names a unit that is not known"),
         ("# acceleration in gal\n0 1\n0.1 -1\n", {"unit": "g"}, "says gal, but unit is given as 'g'"),
         ("# in gal\n# unit: g\n0 1\n0.1 -1\n", {}, "name different units"),

@@ -79,6 +79,13 @@ def test_a_misspelt_kind_is_answered_with_the_right_one():
         parse_pulse("riker,1Hz,0.3g")
 
 
+@pytest.mark.parametrize("kind", sorted(PULSES))
+@pytest.mark.parametrize("rest", ["1Hz", "0.3g", "1.0,0.3g", "1Hz,0.3parsec", "1Hz,0.3g,30deg", "1Hz,2Hz,0.3g"])
+def test_a_bad_pulse_is_answered_with_an_example_of_its_own_kind(kind, rest):
+    with pytest.raises(InputError, match=f"as '{kind},1.0Hz,0.3g'"):
+        parse_pulse(f"{kind},{rest}")
+
+
 @given(st.text(max_size=40))
 def test_any_text_is_understood_or_refused(text):
     for parse in (parse_acceleration, parse_time, parse_frequency):

@@ -91,7 +91,9 @@ def read_table(source: str | Path) -> pandas.DataFrame:
         if place.suffix == ".parquet":
             table = pandas.read_parquet(place)
         else:
-            table = pandas.read_csv(place, comment="#", skipinitialspace=True)
+            with place.open("rb") as file:  # comments stand above the table; a name below may hold the same mark
+                above = next((k for k, line in enumerate(file) if not line.lstrip().startswith(b"#")), 0)
+            table = pandas.read_csv(place, skiprows=above, skipinitialspace=True)
     except (ValueError, OSError, ImportError, pandas.errors.ParserError) as error:
         raise InputError(f"{shown(place)} is no table that can be read ({str(error).splitlines()[0]}).") from None
     if "record" not in table or not len(table):

@@ -12,7 +12,7 @@ import numpy as np
 from ..column import Column
 from ..constants import g
 from ..motion import Motion, MotionRequest
-from ..motion.intensity import motion_summary, rocking_measures
+from ..motion.intensity import motion_summary, rocking_measures, warn_of_drift
 from .asked import MotionAsked
 from .words import warned
 
@@ -41,6 +41,7 @@ def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) ->
         request = MotionRequest.typed(**asked.words(files))
         motion = request.motion(None if column is None else column.frequency_parameter)
         summary = motion_summary(motion, spectrum=False)
+        warn_of_drift(motion)
         relative = None
         if column is not None and motion.pga > 0.0:
             relative = rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)

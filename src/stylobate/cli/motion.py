@@ -34,7 +34,7 @@ def motion(
     Format, unit as found, step, duration, and the peaks of each component; with --out, pictures, and the motion as
     columns of text.
     """
-    from ..motion.intensity import motion_summary
+    from ..motion.intensity import motion_summary, warn_of_drift
     from . import console
 
     if samples == bool(files):
@@ -44,6 +44,7 @@ def motion(
     o.the_threads(threads)  # reading has one thread
     found = o.the_request(context, motion=files).motion()
     summary, written = motion_summary(found), []
+    warn_of_drift(found)
     with console.folder(out, "motion.json", "motion.csv", "motion", "spectra") as folder:
         if folder is not None:
             from .. import plots

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any
 
 import numpy as np
 
 from ..constants import g
-from ..errors import check_range
+from ..errors import OutOfRangeWarning, check_range
 from .integration import absolute_integral, arias, displacement, square_integral, time_above
 from .motion import Motion, peak_velocity
 from .pulse_match import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
+
+#: A displacement that has not come back by the end of a record is drift from this share of its peak on [-], where it
+#: also exceeds what a column would be surveyed to [m].
+DRIFT_SHARE, SMALLEST_DRIFT = 0.5, 0.1
 
 
 def peak_ground_velocity(motion: Motion, component: str = "x") -> float:
@@ -21,8 +26,33 @@ def peak_ground_velocity(motion: Motion, component: str = "x") -> float:
 
 
 def peak_ground_displacement(motion: Motion, component: str = "x") -> float:
-    """Largest absolute displacement from rest [m]; meaningless where the baseline was not corrected."""
+    """Largest absolute displacement from rest [m]; where :func:`displacement_drift` is not zero, it is the drift's."""
     return float(np.abs(displacement(motion.components[component], motion.dt)).max())
+
+
+def displacement_drift(motion: Motion, component: str = "x") -> float:
+    """Displacement at the end, where it makes most of the peak and more than 0.1 m; else 0 [m].
+
+    An offset of the baseline grows with the square of time under double integration; a ground that shook comes back, or
+    stops within metres of a fault.
+    """
+    path = displacement(motion.components[component], motion.dt)
+    last = float(path[-1])
+    return last if abs(last) > max(DRIFT_SHARE * float(np.abs(path).max()), SMALLEST_DRIFT) else 0.0
+
+
+def warn_of_drift(motion: Motion) -> None:
+    """Warn of peak displacements of a record that double integration has made; computed motions have no baseline."""
+    for axis in motion.components if "file" in motion.metadata else ():
+        if drift := displacement_drift(motion, axis):
+            peak = peak_ground_displacement(motion, axis)
+            warnings.warn(
+                f"{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
+                f"leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; correct "
+                "it before a displacement is taken from it (--condition baseline).",
+                OutOfRangeWarning,
+                stacklevel=3,
+            )
 
 
 def arias_intensity(motion: Motion, component: str = "x") -> float:
@@ -134,6 +164,7 @@ def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
         "pga_g": {axis: float(np.abs(a).max()) / g for axis, a in axes.items()},
         "pgv_m_s": {axis: peak_velocity(a, dt) for axis, a in axes.items()},
         "pgd_m": {axis: float(np.abs(displacement(a, dt)).max()) for axis, a in axes.items()},
+        "pgd_drift_m": {axis: displacement_drift(motion, axis) for axis in axes},
         "final_velocity_m_s": {axis: _final_velocity(a, dt) for axis, a in axes.items()},
         "arias_m_s": {axis: arias(a, dt) for axis, a in axes.items()},
         "cav_m_s": {axis: absolute_integral(a, dt) for axis, a in axes.items()},

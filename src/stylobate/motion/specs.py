@@ -228,6 +228,7 @@ def parse_pulse(
         raise InputError(
             f"kind of pulse is {kind.strip()!r}; {suggest(key, PULSES)}allowed is {', '.join(PULSES)}: {example!r}."
         )
+    example = f"{key},1.0Hz,0.3g"
     found = _parts(parts, text, "--pulse", example)
     _only(found, ("frequency", "acceleration", "time"), text, "--pulse", example)
     amplitude = _amplitude(found, text, "--pulse", example, allow_unknown)

@@ -33,6 +33,29 @@ def check_step(dt: float | None, file: str, line: int) -> float:
     return dt
 
 
+def check_sampling(dt: float, what: str) -> float:
+    """A step of samples that is one of accelerographs, wherever it comes from; milliseconds are no seconds.
+
+    Parameters
+    ----------
+    dt : float
+        [s]
+    what : str
+        Whose step, for the message.
+    """
+    if not SHORTEST_STEP <= dt <= LONGEST_STEP:
+        thousandth = dt > LONGEST_STEP and 1e-3 * dt >= SHORTEST_STEP
+        remedy = (
+            f"if it counts milliseconds, name the column time_ms (without times: --dt {dt:g}ms)"
+            if thousandth
+            else "mend it"
+        )
+        raise InputError(
+            f"{what} is {dt:g} s; allowed is {SHORTEST_STEP:g} to {LONGEST_STEP:g} s, as accelerographs have: {remedy}."
+        )
+    return dt
+
+
 def check_same_step(first: float, second: float, file: str, line: int) -> None:
     """Two statements of one step agree, but for rounding."""
     if abs(first - second) > 0.01 * first:

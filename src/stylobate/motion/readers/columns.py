@@ -3,25 +3,29 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import numpy as np
 
 from ...errors import InputError
 from ..motion import Motion
-from ..specs import TIME_UNITS, acceleration_unit
+from ..specs import acceleration_unit
 from .checks import CUT, check_length, check_peak, check_same_step
-from .comments import Stated, stated
+from .comments import Stated, header_of, is_fact, stated
 from .component import Component, UnstatedError
+from .headers import Header
+from .names import Name
 from .record import oriented
 from .source import Source
 from .steps import ROUNDING_SHARE, first_bad_step, step_of
-from .tables import number_rows, read_series, read_table
+from .tables import check_commas, number_rows, read_series, read_table
+from .vocabulary import time_unit
 
 #: Lines of text that may stand above the numbers.
 MAX_TITLE_LINES = 60
+#: Rows from which on a first column that grows in equal steps is one of times.
+FEWEST_STEPS = 4
 _COMMENT = ("#", "%", "!", "//", ";", "*", "'", '"#')
-_FIELD = re.compile(r"""["']?\s*(?P<name>[^()\[\]"']*?)\s*(?:[(\[]\s*(?P<unit>[^)\]]*)\s*[)\]])?\s*["']?""")
-_AXES = {"ax": "x", "ay": "y", "az": "z", "a": "x", "acc": "x", "accel": "x", "acceleration": "x"}
 _NUMERIC = re.compile(r"[\s.eEdD+\-,;]*\d[\s\d.eEdD+\-,;]*")
 
 
@@ -44,25 +48,25 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     lines = source.lines
     start = _first_row(lines)
     assert start is not None
-    titles = [line.strip() for line in lines[:start] if line.strip()]
+    numbered = {line.strip(): number for number, line in enumerate(lines[:start], 1) if line.strip()}
+    titles = list(numbered)
     comments = _comments(titles)
-    names = _column_names(lines, start)
     rows, first = number_rows(lines, start)
-    said = stated(_free(titles, names), source.name) if names is None else Stated()
-    series = None if names is not None else read_series(rows, first, source.name, said)
+    header, units = header_of(titles)
+    named = header.line if header is not None and header.unknown is None else None
+    if header is None or header.speaks_of_all is not None:
+        check_commas(lines[start:], source.name, start)
+    said = stated([line for line in _free(titles) if line != named], source.name)
+    series = read_series(rows, first, source.name, said, header)
     table = read_table(rows, first, source.name) if series is None else series
-    columns = table.shape[1]
     if len(table) < 2:
         raise InputError(f"{source.name}, line {first + 1}: one row of numbers; give one row per time, at least two.")
-    if names is not None and len(names) != columns:
-        raise InputError(
-            f"{source.name}, line {first + 1}: {columns} numbers under {len(names)} column names; every row needs "
-            "one per name."
-        )
-    if names is None:
-        components, time, unit_found = _bare(table, source.name, unit, dt, said)
-    else:
-        components, time, unit_found = _named(table, names, source.name, unit)
+    names = _names(table, header, units, f"{source.name}, line {numbered.get(header.line if header else '', start)}")
+    for line in titles:
+        if header is not None and line != header.line:
+            _check_other(Header(line), names, table, header, source.name)
+    said = said if header is None or said.unit is not None else replace(said, unit=_unit_of_all(header))
+    components, time, unit_found = _components(table, names, source.name, unit, said)
     if time is not None:
         _set_step(components, time, dt, comments, source.name, first)
     elif "dt_s" in comments:
@@ -71,6 +75,8 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     elif said.step is not None:
         for one in components:
             one.dt = said.step
+    elif dt is None:
+        raise UnstatedError(f"{source.name} has no time column; state the step: dt=0.01 (--dt 0.01s).")
     _check(components, said, source.name, first)
     if "sha256" in comments:
         _check_digest(components, comments["sha256"], source.name)
@@ -79,8 +85,6 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
             one.azimuth = _comment_number(comments, f"azimuth_{axis}_deg", source.name)
     facts = {"format": "columns of text", "unit": unit_found, "stage": comments.get("stage")}
     facts |= {key: comments[key] for key in ("station", "network", "event", "start_time", "terms") if key in comments}
-    if names is not None and (other := [name for name, _ in names if name not in ("t", "x", "y", "z")]):
-        facts["columns_left_out"] = tuple(other)
     if titles:
         facts["header"] = tuple(titles[:MAX_TITLE_LINES])
     if time is not None and abs(time[0]) > 0.0:
@@ -88,7 +92,7 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     return components, facts
 
 
-def _free(titles: list[str], names: object) -> list[str]:
+def _free(titles: list[str]) -> list[str]:
     """Lines that may speak of the columns: not those of our own that say what was done."""
     return [line for line in titles if not re.match(r"#\s*(processing \d+|name|event|station|terms)\s*:", line)]
 
@@ -118,6 +122,8 @@ def _check_digest(components: list[Component], written: str, file: str) -> None:
             f"{file}: the numbers are not those that were written with the line '# sha256: …'; fetch the file again, or "
             "remove that line if you changed them."
         )
+    for one in components:
+        one.proven = True
 
 
 def _first_row(lines: list[str]) -> int | None:
@@ -145,118 +151,69 @@ def _comment_number(comments: dict[str, str], key: str, file: str) -> float:
         raise InputError(f"{file}: the comment {key} is {comments[key]!r}; it should be a number.") from None
 
 
-def _column_names(lines: list[str], start: int) -> list[tuple[str, str | None]] | None:
-    """Names and units of the columns from the last line above the numbers, if it is a header of ours or alike."""
-    above = [line.strip() for line in lines[:start] if line.strip()]
-    if not above:
-        return None
-    text = above[-1].lstrip("#%! ").strip()
-    separator = next((mark for mark in (",", ";", "\t") if mark in text), None)
-    fields = [
-        field.strip() for field in (text.split(separator) if separator else re.split(r"\s{2,}|\s(?=a[xyz]_)", text))
-    ]
-    names = [_column_name(field) for field in fields]
-    known = [name for name in names if name[0] in ("t", "x", "y", "z")]
-    return names if any(name[0] in ("x", "y", "z") for name in known) else None
+def _names(table: np.ndarray, header: Header | None, units: list[str] | None, place: str) -> tuple[Name, ...]:
+    """What every column is: as the line above says, else time (known by its growth), then x, y, z."""
+    grows = [bool((np.diff(one) >= 0.0).all() and one[-1] > one[0]) for one in table.T]
+    columns = len(grows)
+    grows = grows if columns > 1 else [False]
+    if header is not None and not (columns > 1 + grows[0] and units is None and header.speaks_of_all is not None):
+        steady = grows[0] and len(table) >= FEWEST_STEPS and step_of(table[:, 0]) is not None
+        return header.names(grows, steady, units, place)
+    plain = [Name("time")] * grows[0] + [Name("acceleration", axis) for axis in "XYZ"]
+    if columns > len(plain):
+        raise InputError(
+            f"{place.partition(', line')[0]} has rows of {columns} numbers without column names, and no format that is "
+            "known here; give one column of acceleration, or time and up to three components, or a header such as "
+            "time_s,ax_g."
+        )
+    return tuple(plain[:columns])
 
 
-def _column_name(field: str) -> tuple[str, str | None]:
-    """``time_s`` → ("t", "s"), ``ax_m_s2`` → ("x", "m_s2"), ``acceleration (cm/s^2)`` → ("x", "cm/s^2")."""
-    found = _FIELD.fullmatch(field)
-    name, unit = (found.group("name").lower(), found.group("unit")) if found else (field.lower(), None)
-    name = name.strip().rstrip(",")
-    head, _, tail = name.partition("_")
-    if head in ("time", "t"):
-        return "t", unit or tail or None
-    if head in _AXES:
-        return _AXES[head], unit or tail or None
-    return name, unit
+def _unit_of_all(header: Header) -> str | None:
+    return None if header.speaks_of_all is None else header.speaks_of_all.unit
 
 
-def _named(
-    table: np.ndarray, names: list[tuple[str, str | None]], file: str, unit: str | None
+def _check_other(other: Header, names: tuple[Name, ...], table: np.ndarray, header: Header, file: str) -> None:
+    """No other line above the numbers names the columns in another way."""
+    if other.unknown is not None or other.units or is_fact(other.line) or other.speaks_of_all is not None:
+        return
+    found = [one for fields in (len(names), len(names) - 1) if fields > 1 for one in other.readings(fields)]
+    kinds = [(name.kind, name.direction, name.sign) for name in names]
+    if found and all([(n.kind, n.direction, n.sign) for n in one] not in (kinds, kinds[1:]) for one in found):
+        raise InputError(
+            f"{file}: {other.line!r} and {header.line!r} name different columns; keep the one that is right."
+        )
+
+
+def _components(
+    table: np.ndarray, names: tuple[Name, ...], file: str, unit: str | None, said: Stated
 ) -> tuple[list[Component], np.ndarray | None, str]:
-    keys = [name for name, _ in names]
-    for key in ("t", "x", "y", "z"):
-        if keys.count(key) > 1:
-            raise InputError(f"{file}: {keys.count(key)} columns are named as {key}; name each column once.")
-    if "x" not in keys:
-        raise InputError(f"{file}: no column holds the horizontal acceleration ax_…; name it ax_g or ax_m_s2.")
+    """Components of columns whose names are known, x and y before z where axes are named, and their times."""
+    timed = next((i for i, name in enumerate(names) if name.kind == "time"), None)
+    axes = [name.direction or "X" for name in names if name.kind != "time"]
+    ranks = {"X": 0, "Y": 1, "Z": 2} if "X" in axes else {}
+    order = sorted((i for i in range(len(names)) if i != timed), key=lambda i: ranks.get(names[i].direction, 0))
     components, units = [], []
-    for axis in "xyz":
-        if axis not in keys:
-            continue
-        stated = names[keys.index(axis)][1]
+    for i in order:
+        name = names[i]
+        label = name.direction or "X"
+        stated = name.unit or said.unit
         if stated is None and unit is None:
-            raise UnstatedError(_no_unit(f"{file}: column a{axis}"))
-        label, size = acceleration_unit(stated or unit or "")
+            raise UnstatedError(_no_unit(file if len(order) == 1 else f"{file}: column {i + 1} ({label})"))
+        shown, size = acceleration_unit(stated or unit or "")
         if stated and unit and acceleration_unit(unit)[1] != size:
-            raise InputError(f"{file}: the header says {stated!r}, but unit is given as {unit!r}; leave the unit out.")
-        units.append(label)
-        components.append(Component(_scaled(table[:, keys.index(axis)], size), np.nan, axis, vertical=axis == "z"))
-    time = None
-    if "t" in keys:
-        scale = TIME_UNITS.get((names[keys.index("t")][1] or "s").lower())
-        if scale is None:
-            raise InputError(f"{file}: unit of time is {names[keys.index('t')][1]!r}; allowed is s or ms.")
-        time = _scaled(table[:, keys.index("t")], scale)
-    return components, time, ", ".join(dict.fromkeys(units))
-
-
-def _bare(
-    table: np.ndarray, file: str, unit: str | None, dt: float | None, said: Stated
-) -> tuple[list[Component], np.ndarray | None, str]:
-    """Numbers without column names: as the lines above them say, else time, then x, y, z; time is known by its growth."""
-    columns = table.shape[1]
-    grows = columns > 1 and bool((np.diff(table[:, 0]) >= 0.0).all() and table[-1, 0] > table[0, 0])
-    order = _order(said, columns, grows, file)
-    if order is None:
-        labels = [("time", 1.0)] * grows + [(axis, 1.0) for axis in "xyz"]
-        if columns > len(labels):
-            raise InputError(
-                f"{file} has rows of {columns} numbers without column names, and no format that is known here; give "
-                "one column of acceleration, or time and up to three components, or a header such as time_s,ax_g."
-            )
-        order = tuple(labels[:columns])
-    if unit is None and said.unit is None:
-        raise UnstatedError(_no_unit(file))
-    label, size = acceleration_unit(unit or said.unit or "")
-    if unit is not None and said.unit is not None and acceleration_unit(said.unit)[1] != size:
-        raise InputError(f"{file}: the line {said.unit_line!r} says {said.unit}, but unit is given as {unit!r}.")
-    time = next((table[:, i] for i, (name, _) in enumerate(order) if name == "time"), None)
-    if time is None and dt is None and said.step is None:
-        raise UnstatedError(f"{file} has no time column; state the step: dt=0.01 (--dt 0.01s).")
-    components = []
-    for i, (name, sign) in enumerate(order):
-        if name == "time":
-            continue
-        one = Component(_scaled(table[:, i], size * sign), np.nan, name.lower() if name in ("X", "Y") else name)
-        if said.order is None:
-            one.vertical = name == "z"
-        else:
-            one = oriented(one)
-        if sign < 0.0:
-            one.processing.insert(0, "sign turned, as the line that names the columns says (-)")
-        components.append(one)
-    return components, time, label
-
-
-def _order(said: Stated, columns: int, grows: bool, file: str) -> tuple[tuple[str, float], ...] | None:
-    """Labels of the columns as a line names them; a line that does not fit the numbers is refused."""
-    order = said.order
-    if order is None:
-        return None
-    timed = any(name == "time" for name, _ in order)
-    if len(order) == columns and timed == (grows or timed):
-        return order
-    if len(order) == columns - 1 and not timed and grows:
-        return (("time", 1.0), *order)
-    if len(order) == 2 and not timed:  # two words of a title, not columns
-        return None
-    raise InputError(
-        f"{file}: the line {said.order_line!r} names {len(order)} columns ({', '.join(name for name, _ in order)}), the "
-        f"rows hold {columns} numbers; write the columns under a header such as time_s,ax_g."
-    )
+            where = f"the line {said.unit_line!r}" if name.unit is None and said.unit_line else "the header"
+            raise InputError(f"{file}: {where} says {stated}, but unit is given as {unit!r}; leave the unit out.")
+        units.append(shown)
+        one = Component(_scaled(table[:, i], size * name.sign), np.nan, label.lower() if ranks else label)
+        if name.sign < 0.0:
+            one.processing.append("sign turned, as the line that names the columns says (-)")
+        components.append(oriented(one))
+    if timed is None:
+        return components, None, ", ".join(dict.fromkeys(units))
+    scale = time_unit(names[timed].unit or "s")
+    assert scale is not None
+    return components, _scaled(table[:, timed], scale), ", ".join(dict.fromkeys(units))
 
 
 def _scaled(values: np.ndarray, size: float) -> np.ndarray:

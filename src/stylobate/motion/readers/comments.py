@@ -1,4 +1,4 @@
-"""What titles and comment lines above columns of numbers say: order and sense of the components, unit, counts, step."""
+"""What the lines above columns of numbers say of the record: unit, counts, step; and which line names the columns."""
 
 from __future__ import annotations
 
@@ -8,17 +8,10 @@ from dataclasses import dataclass
 
 from ...errors import InputError
 from ..specs import acceleration_unit
+from .headers import MARKS, Header, is_filler
 from .numbers import NUMBER, number_in
-from .record import direction
+from .vocabulary import folded, unit_kind
 
-_TIME = {"TIME", "T", "SEC", "SECONDS"}
-_DIRECTIONS = {
-    "U", "UP", "UD", "U-D", "Z", "V", "VERT", "VERTICAL", "DOWN", "DN", "UPDOWN", "UP-DOWN",
-    "N", "NS", "N-S", "NORTH", "S", "SN", "S-N", "SOUTH",
-    "E", "EW", "E-W", "EAST", "W", "WE", "W-E", "WEST",
-    "H1", "H2", "X", "Y", "L", "LONG", "TRAN", "TRANS",
-}  # fmt: skip
-_CODE = re.compile(r"[BHEC][NLG][NEZ12]")
 _SPELLING = r"[a-z]+/s(?:ec)?(?:\^?2|\*\*2|/s(?:ec)?|²)|gals?|milli-g|mg|g/10|g"
 _UNIT = re.compile(rf"(?:\bin|\bunits?(?:\s+of)?\s*[:=]?)\s+(?P<word>{_SPELLING})(?![\w/^])", re.IGNORECASE)
 _BRACKETED = re.compile(rf"[(\[]\s*(?P<word>{_SPELLING})\s*[)\]]", re.IGNORECASE)
@@ -41,7 +34,20 @@ _LENGTH = re.compile(
 _EXTREMES = re.compile(
     rf"\bamplitudemax\.?\s*(?P<label>[a-z]+)\s*[:=]\s*(?P<high>{NUMBER})\s*~\s*(?P<low>{NUMBER})", re.IGNORECASE
 )
-_ONE = re.compile(r"^\W*(?:component|channel|stream|direction|orientation)\s*[:=]\s*(?P<label>\S.*)$", re.IGNORECASE)
+_PEAK = re.compile(
+    rf"\b(?:pga|(?:peak|max)\w*\.?(?:\s+(?:ground\s+)?acc\w*\.?)?)\s*(?:\([^)]*\))?\s*[:=]\s*{NUMBER}(?:\s*{_SPELLING})?"
+    rf"(?:\s*,?\s*(?:at|@)\s*{NUMBER}\s*s(?:ec)?\b)?",
+    re.IGNORECASE,
+)
+_KEYED = re.compile(r"(?P<key>[^\W\d][\w .()/-]*?)\s*[:=]\s*(?P<value>.*)")
+_FORMAT = re.compile(r"\W*\d*\s*[feg]\d+(?:\.\d+)?\W*", re.IGNORECASE)
+#: What the words before a colon tell of a record as a whole, so that its value names no column.
+_FACTS = re.compile(
+    r"(?:processing\d*|name|title|file(?:name)?|event\w*|earthquake\w*|station\w*|site\w*|network\w*|location|place|"
+    r"region|country|instrument\w*|recorder\w*|sensor\w*|serial\w*|source|reference|author|licen[cs]e|terms|stage|filter\w*|"
+    r"start(?:time)?|origintime|date|magnitude\w*|m[wsl]|depth\w*|latitude|longitude|elevation|epicent\w*|distance\w*|"
+    r"software|version|project|id|dts|azimuth[xyz]deg|sha256)"
+)
 
 
 @dataclass(frozen=True)
@@ -50,12 +56,10 @@ class Stated:
 
     Parameters
     ----------
-    order : tuple of (str, float)
-        Label (``time``, ``U``, ``N``) and sign of each column.
-    order_line, unit_line : str
-        The lines they were read from, for messages.
     unit : str
         Of acceleration.
+    unit_line : str
+        The line it was read from, for messages.
     count : int
     step : float
         [s]
@@ -65,8 +69,6 @@ class Stated:
         Largest and smallest value as printed, by label.
     """
 
-    order: tuple[tuple[str, float], ...] | None = None
-    order_line: str = ""
     unit: str | None = None
     unit_line: str = ""
     count: int | None = None
@@ -83,10 +85,6 @@ def stated(titles: Sequence[str], file: str) -> Stated:
     InputError
         Two lines contradict one another, or a line names a unit of acceleration that is not known.
     """
-    orders = {order: line for line in titles if (order := _order(line)) is not None}
-    if len(orders) > 1:
-        shown = " and ".join(repr(line) for line in orders.values())
-        raise InputError(f"{file}: {shown} name different columns; keep the one that is right.")
     unit, unit_line = _unit(titles, file)
     counts = [int(found["count"]) for line in titles if (found := _COUNT_STEP.search(line) or _COUNT.search(line))]
     steps = [number_in(found["step"]) for line in titles if (found := _COUNT_STEP.search(line) or _STEP.search(line))]
@@ -96,10 +94,7 @@ def stated(titles: Sequence[str], file: str) -> Stated:
     extremes = {
         found["label"].upper(): (found["high"], found["low"]) for line in titles if (found := _EXTREMES.search(line))
     }
-    order = next(iter(orders), None)
     return Stated(
-        order,
-        orders[order] if order is not None else "",
         unit,
         unit_line,
         counts[0] if len(set(counts)) == 1 else None,
@@ -109,31 +104,45 @@ def stated(titles: Sequence[str], file: str) -> Stated:
     )
 
 
-def _order(line: str) -> tuple[tuple[str, float], ...] | None:
-    """Labels and signs of the columns, if the line is a list of directions."""
-    text = line.strip().lstrip("#%!;*/'\" ")
-    if (one := _ONE.match(text)) and re.fullmatch(r"\S+", label := one["label"].strip()):
-        azimuth, vertical, _ = direction(label)
-        known = vertical or (azimuth is not None and not (label.isdigit() and "chan" in text[:8].lower()))
-        return ((label, 1.0),) if known else None
-    text = text.rpartition(":")[2] if ":" in text else text
-    signs_kept = re.sub(r"\(\s*([+-])\s*\)", r"\1", text)
-    bare = re.sub(r"[(\[][^)\]]*[)\]]", " ", signs_kept)
-    words = [word for word in re.split(r"[;,|\t ]+", bare) if word]
-    found = []
-    for word in words:
-        sign = -1.0 if word.endswith("-") else 1.0
-        name = word.rstrip("+-").upper().strip(".")
-        if name in _TIME:
-            found.append(("time", 1.0))
-        elif name in _DIRECTIONS or _CODE.fullmatch(name):
-            found.append((name, sign))
-        else:
-            return None
-    labels = [name for name, _ in found]
-    if len(set(labels)) != len(labels) or len(labels) < 2:
-        return None
-    return tuple(found)
+def header_of(titles: Sequence[str]) -> tuple[Header | None, list[str] | None]:
+    """The line that names the columns, and the units of the line below it.
+
+    Whatever stands last above the numbers is that line, unless it states a fact of the whole record; above such facts it is
+    a line most of whose words are names of columns.
+    """
+    units, last = None, True
+    for line in reversed(titles):
+        header = Header(line)
+        if not re.search(r"\w", line):
+            continue
+        if is_fact(line):
+            last = False
+        elif units is None and header.units is not None and len(header.units) > 1:
+            units = header.units
+        elif last or header.seems_to_name:
+            return header, units
+    return (Header(" ".join(units)), None) if units else (None, None)
+
+
+def is_fact(line: str) -> bool:
+    """Whether a line tells something of the whole record, and nothing of which column is which."""
+    text = line.strip().lstrip(MARKS).strip()
+    keyed = _KEYED.fullmatch(text)
+    key = re.sub(r"\([^)]*\)|[^a-z0-9]", "", folded(keyed["key"])) if keyed else ""
+    if keyed and _FACTS.fullmatch(key):
+        value = Header(keyed["value"])
+        return len(value.words) < 2 or value.unknown is not None or not value.seems_to_name
+    if keyed and key in ("data", "format", "dataformat") and _FORMAT.fullmatch(keyed["value"]):
+        return True
+    rest = text
+    for pattern in (_COUNT_STEP, _COUNT, _STEP, _RATE, _LENGTH, _EXTREMES, _PEAK):
+        rest = pattern.sub(" ", rest)
+    if (unit := _UNIT_KEY.match(line)) is not None:
+        rest = unit["value"]
+    elif rest == text and not re.fullmatch(r"\s*(?:in|units? of|values? in|data in)\s+\S+", text, re.IGNORECASE):
+        return False
+    words = [word for word in re.split(r"[\s,;()\[\].]+", rest) if re.search(r"\w", word)]
+    return all(unit_kind(word) in ("time", "acceleration") or is_filler(word) or word.lower() == "hz" for word in words)
 
 
 def _unit(titles: Sequence[str], file: str) -> tuple[str | None, str]:

@@ -37,6 +37,8 @@ class Component:
         What the reader did to the values.
     file : str
         Name of the file it was read from.
+    proven : bool
+        Step and samples are those that this package wrote, as their digest proves: the step may be any.
     """
 
     values: np.ndarray
@@ -48,3 +50,4 @@ class Component:
     metadata: dict = field(default_factory=dict)
     processing: list[str] = field(default_factory=list)
     file: str = ""
+    proven: bool = False

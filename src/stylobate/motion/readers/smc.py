@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import re
+import warnings
 
 import numpy as np
 
-from ...errors import InputError
-from .checks import check_peak, check_peak_time, check_step
+from ...errors import InputError, OutOfRangeWarning
+from .checks import CUT, LONGEST_STEP, check_peak, check_peak_time, check_step
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
 
 TEXT_LINES, INTEGER_LINES, REAL_LINES = 11, 6, 10
+#: A step of film this many times the steps of its neighbours, so many on either side, may be a lost line.
+GAP, NEIGHBOURS = 2.8, 3
 _FIRST = re.compile(r"^\s*(?P<volume>\d)\s+(?P<what>.*\S)\s*$")
 #: The integer that the format uses for "unknown".
 _UNKNOWN = -32768
@@ -41,6 +44,12 @@ def read(source: Source) -> tuple[list[Component], dict]:
     reals = read_numbers(lines[at : at + REAL_LINES], at, file, "header reals", count=50, width=15)
     comments = int(integers[15]) if 0 <= integers[15] <= 1000 else 0
     start = at + REAL_LINES + comments
+    for number, line in enumerate(lines[at + REAL_LINES : start], at + REAL_LINES + 1):
+        if not line.lstrip().startswith("|"):
+            raise InputError(
+                f"{file}, line {number}: expected one of the {comments} comment lines that the header promises, each of "
+                f"which begins with '|', found {line.strip()[:40]!r}; {CUT}."
+            )
     stated = check_count(float(integers[16]), file, TEXT_LINES + 3, "values")
     numbers, left_out = _values(lines, start, stated, file)
     if corrected:
@@ -59,6 +68,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
             raise InputError(
                 f"{file}, below line {start + 1}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it."
             )
+        _check_gaps(time, file, start)
         component = Component(values * 0.01, np.nan, time=time)
     _check_peaks(component, reals, file, at + 6)
     if left_out:
@@ -101,6 +111,27 @@ def _values(lines: list[str], start: int, stated: int, file: str) -> tuple[np.nd
         )
     beyond = read_numbers(lines[start + rows :], start + rows, file, "accelerations", width=10)
     return numbers, len(beyond)
+
+
+def _check_gaps(time: np.ndarray, file: str, start: int) -> None:
+    """No samples are missing: a line that is lost leaves a gap, though a stray last line makes up the count."""
+    steps = np.diff(time)
+    at = int(steps.argmax())
+
+    def where(at: int) -> str:
+        return f"{file}, line {start + (at + 1) // 4 + 1}: the time goes from {time[at]:g} s to {time[at + 1]:g} s"
+
+    if steps[at] > LONGEST_STEP:
+        raise InputError(f"{where(at)}, a gap beyond the {LONGEST_STEP:g} s that records have between samples; {CUT}.")
+    largest = np.lib.stride_tricks.sliding_window_view(np.pad(steps, NEIGHBOURS, mode="edge"), NEIGHBOURS).max(axis=1)
+    around = np.maximum(largest[: len(steps)], largest[NEIGHBOURS + 1 :])  # of those before, and of those behind
+    bad = np.flatnonzero(steps > GAP * around)
+    if bad.size:
+        warnings.warn(
+            f"{where(int(bad[0]))}, {GAP:g} times the steps before and behind it and more; check that no line is missing.",
+            OutOfRangeWarning,
+            stacklevel=5,
+        )
 
 
 def _label(from_vertical: int, azimuth: int, station: str) -> str:

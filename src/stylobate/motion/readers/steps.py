@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
-from ...errors import InputError, check_range
+from ...errors import InputError
 from ..motion import MAX_SAMPLES
+from .checks import check_sampling
 from .component import Component
 
 #: Departure from equal steps that is rounding of the printed times, as a share of the step.
@@ -85,7 +86,7 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
         ) / peak
 
     if dt is not None:
-        step = check_range("dt", dt, 1e-6, 1e3, unit="s")
+        step = check_sampling(dt, "dt (--dt)")
         new, departure = at(step)
     else:
         step = decimal_of(time, median)
@@ -121,6 +122,7 @@ def same_step(components: list[Component], name: str, dt: float | None, processi
         wanted = dt
         for one in irregular:
             assert one.time is not None
+            check_sampling(float(np.median(np.diff(one.time))), f"the median step of the times of {name}")
             step, one.values, note = resampled(one.time, one.values, wanted, name)
             one.dt = wanted = step
             one.processing.append(note)
@@ -128,10 +130,12 @@ def same_step(components: list[Component], name: str, dt: float | None, processi
     if any(math.isnan(step) for step in steps):
         if dt is None:
             raise InputError(f"{name} has no time column and states no step; state it: dt=0.01 (--dt 0.01s).")
-        return check_range("dt", dt, 1e-6, 1e3, unit="s")
+        return check_sampling(dt, f"the step of {name}, dt (--dt),")
     if max(steps) - min(steps) > 1e-6 * max(steps):
         shown = ", ".join(f"{step:g} s" for step in steps)
         raise InputError(f"components of {name} have different steps ({shown}); resample them to one step before use.")
     if dt is not None and not irregular and abs(dt - steps[0]) > 1e-3 * steps[0]:
         raise InputError(f"{name} states a step of {steps[0]:g} s, but dt is given as {dt:g} s; leave dt out.")
-    return check_range(f"step of {name}", steps[0], 1e-6, 1e3, unit="s", remedy="state the right one with dt (--dt)")
+    if irregular or all(one.proven for one in components):
+        return steps[0]
+    return check_sampling(steps[0], f"the step of {name}")

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 
 from ...errors import InputError
 from .comments import Stated
+from .headers import Header
 from .numbers import PIECE, count_numbers, read_numbers
 
 COLUMNS = "columns of numbers"
@@ -17,16 +20,27 @@ def number_rows(lines: list[str], start: int) -> tuple[list[str], int]:
     sample = rows[0]
     if ";" in sample or "," in sample:
         text = "\n".join(rows)
+        # Commas within numbers that blanks or semicolons separate are decimal ones.
+        apart = ";" in sample or (re.search(r"\S\s+\S", sample) is not None and re.search(r",\s|\s,", sample) is None)
+        decimal = "." not in sample and apart
         if ";" in sample:
-            decimal_comma = "," in sample and "." not in sample
-            text = text.replace(";", " ").replace(",", "." if decimal_comma else ",")
-        else:
-            text = text.replace(",", " ")
+            text = text.replace(";", " ")
+        text = text.replace(",", "." if decimal else "," if ";" in sample else " ")
         rows = text.split("\n")
     return rows, start
 
 
-def read_series(rows: list[str], first: int, file: str, said: Stated) -> np.ndarray | None:
+def check_commas(lines: list[str], file: str, first: int) -> None:
+    """Nameless lines such as ``0,15`` are refused: one number with a decimal comma, or two numbers."""
+    rows = [row.strip() for row in lines if row.strip()]
+    if all(re.fullmatch(r"[+-]?\d*,\d+", row) for row in rows):
+        raise InputError(
+            f"{file}, line {first + 1}: {rows[0]!r} may be one number with a decimal comma or two numbers; write decimal "
+            "points, or name the columns as in time_s,ax_g."
+        )
+
+
+def read_series(rows: list[str], first: int, file: str, said: Stated, header: Header | None) -> np.ndarray | None:
     """One series written several numbers to a line, as a column; known by the stated count or by a shorter last row."""
     texts = [row for row in rows if row.strip() and not row.lstrip().startswith(("#", "%"))]
     if len(texts) < 2:
@@ -35,7 +49,7 @@ def read_series(rows: list[str], first: int, file: str, said: Stated) -> np.ndar
     total = width * (len(texts) - 1) + last
     if width < 2 or (said.count != total and (width < 5 or last >= width)):
         return None
-    if said.order is not None and len(said.order) == width:
+    if header is not None and (header.readings(width) or header.readings(width - 1)):
         return None
     values = read_numbers(texts, first, file, COLUMNS, count=total, width=None)
     heads = values[::width]

@@ -9,9 +9,11 @@ from ...errors import InputError
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
-from .volume1 import channel_end, pairs, unit
+from .volume1 import END, channel_end, pairs, unit
 
 TEXT_LINES = 13
+#: Of a number among the samples [characters].
+WIDTH = 7
 _CODES = {400: "Vert", 500: "Up", 600: "Down", 700: "Long", 800: "Tran"}
 
 
@@ -60,8 +62,8 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
     reals = read_numbers(lines[reals_at : reals_at + 7], reals_at, file, "header reals", count=50, width=10)
     count = check_count(float(integers[27]), file, first + 2)
     data = reals_at + 7
-    end = channel_end(lines, data, file)
-    component = pairs(lines, data, end, count, file, width=7, total=float(reals[2]))
+    end = channel_end(lines, data, file, whole=2 * count * WIDTH)
+    component = pairs(lines, data, end, count, file, width=WIDTH, total=float(reals[2]))
     fraction = float(reals[4])
     if fraction > 0.0:
         size, label = fraction * g, "g/10" if abs(fraction - 0.1) < 1e-9 else f"{fraction:g} g"
@@ -71,4 +73,5 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
     component.metadata["unit"] = label
     code = int(integers[26])
     component.label = _CODES.get(code, f"{code} deg" if 0 <= code <= 360 else f"code {code}")
-    return oriented(component), f"{int(integers[8])}", end + 1
+    marked = end < len(lines) and END.match(lines[end]) is not None
+    return oriented(component), f"{int(integers[8])}", end + marked

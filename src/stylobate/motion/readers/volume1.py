@@ -96,8 +96,16 @@ def check_stated_peak(component: Component, text: Sequence[str], file: str, firs
                 check_peak_time(component.values, component.dt, found["time"], file, number)
 
 
-def channel_end(lines: list[str], first: int, file: str) -> int:
-    """Index of the line that ends the samples which begin at ``first``."""
+def channel_end(lines: list[str], first: int, file: str, *, whole: int | None = None) -> int:
+    """Index of the line that ends the samples which begin at ``first``.
+
+    Parameters
+    ----------
+    whole : int, optional
+        Width of all numbers that the header announces [characters]: where they are all there, to the last digit, the samples
+        are whole without a mark behind them.
+    """
     end = next((i for i in range(first, len(lines)) if re.search(r"[a-df-zA-DF-Z&*/]", lines[i])), len(lines))
-    check_ended(end < len(lines) and END.match(lines[end]) is not None, file, end + 1, "/&")
+    held = sum(len(line.rstrip()) for line in lines[first:end])
+    check_ended((end < len(lines) and END.match(lines[end]) is not None) or held == whole, file, end + 1, "/&")
     return end
