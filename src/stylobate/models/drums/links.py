@@ -71,7 +71,7 @@ def pack_links(column: Column, joint: np.ndarray, line: np.ndarray, ends: np.nda
         "mpx": joint[:, 0],
         "mpy": joint[:, 1],
         "mwhen": np.full(count, -1),
-        "mhold": np.array([_hold(column, one) for one in links]),
+        "mhold": np.array([hold_of(column, one) for one in links]),
     }
     own |= {f"m{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
     return PackedLinks(shared, own)
@@ -165,7 +165,7 @@ def space_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | No
     return pack_links(column, joint, line, ends)
 
 
-def _hold(column: Column, link: LinkProperties) -> float:
+def hold_of(column: Column, link: LinkProperties) -> float:
     """Largest moment that a link can set against overturning about a joint that it crosses [N m].
 
     One across a joint in tension at its distance from the farthest edge; one in shear over the lift at which it is in its

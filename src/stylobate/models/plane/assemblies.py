@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
@@ -11,17 +12,18 @@ import numpy as np
 
 from ...column.assembly import Assembly
 from ...errors import InputError, OutOfRangeWarning
+from ...kernels.plane.records import BETA
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, recorded_blocks
 from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
-from ..drums.links import link_histories, link_measures
+from ..drums.links import link_histories, with_links
 from ..shared import ledger
 from ..shared.ground import ground_histories
-from ..shared.stable_step import chosen_step
-from .engine import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine, stable_step
-from .links import acting
+from ..shared.stable_step import chosen_step, highest_frequency, stable_step
+from .links import acting_between, link_measures, stiffness_between
+from .loose import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
 
 
 @dataclass(frozen=True)
@@ -75,8 +77,8 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     restitution = numbers.restitution
     if restitution is None:
         restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
-    engine = Engine(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
-    step = chosen_step(stable_step(engine), numbers.step_factor, numbers.time_step, repr(assembly.name))
+    engine = Loose(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
+    step = chosen_step(stable_step_of(engine), numbers.step_factor, numbers.time_step, repr(assembly.name))
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
     step = min(step, motion.duration / CHUNK)
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
@@ -114,10 +116,10 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
         failed=engine.failed or bool(ledger.out_of_balance(imbalance)),
         energy_imbalance=imbalance,
         time_step=engine.dt,
-        steps=int(engine.now["step"][0]),
+        steps=engine.steps,
         model=numbers.name,
         touched=touched,
-        links=link_measures(acting(assembly), engine.links, 0, engine.dt),
+        links=link_measures(acting_between(assembly), engine.records.link, 0, engine.dt),
         held=link_histories(states),
         provenance={
             "restitution": restitution,
@@ -128,12 +130,12 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     return Response.of(recorded)
 
 
-def follow(engine: Engine, options: RunOptions) -> tuple[list[dict[str, Any]], bool]:
+def follow(engine: Loose, options: RunOptions) -> tuple[list[dict[str, Any]], bool]:
     """Go on to the end of the motion and its tail, or until rest; the states on the way, and whether all lies still."""
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     states, still = [engine.state()], False
     while not engine.failed:
-        left = engine.chunks - int(engine.now["step"][0]) // CHUNK
+        left = engine.chunks - engine.steps // CHUNK
         still = engine.at_rest()
         if left <= 0:
             engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
@@ -164,3 +166,46 @@ def measures_of_assemblies(
         finally:
             for one in under_way:
                 one.cancel()
+
+
+def stable_step_of(loose: Loose) -> float:
+    """Largest stable step of the joints as they are closed at the start, and of every block's longest face as a bed [s]."""
+    records = loose.records
+    body: Any = {name: records.body[name][:, 0] for name in ("x", "z", "im", "ii")}
+    joint: Any = {name: records.joint[name][:, 0] for name in ("lc", "ls", "ht", "wl", "wr", "bl", "br", "kn", "ks")}
+    xis, shares = records.lane["xi"][0, :, 0], records.lane["sh"][0, :, 0]
+    n = len(records.body)
+    stiffness = np.zeros((3 * n, 3 * n))
+    for k, (lower, upper) in enumerate(records.topology.joints):
+        e = {name: values[k] for name, values in joint.items()}
+        u, v = (np.array([body["x"][i], body["z"][i]]) for i in (upper, lower))
+        t = np.array([e["lc"], e["ls"]])
+        normal = np.array([-t[1], t[0]])
+        foot = v + e["ht"] * normal
+        above = float((u - foot) @ t)
+        lo, hi = max(-e["wl"], above - e["bl"]), min(e["wr"], above + e["br"])
+        for xi, share in zip(xis, shares, strict=True):
+            point = foot + (0.5 * (lo + hi) + 0.5 * xi * (hi - lo)) * t
+            for along, stiff in ((normal, e["kn"]), (t, e["ks"])):
+                row = np.zeros(3 * n)
+                for number, place, sign in ((upper, u, 1.0), (lower, v, -1.0)):
+                    arm = point - place
+                    row[3 * number : 3 * number + 3] = sign * np.array([*along, arm[0] * along[1] - arm[1] * along[0]])
+                stiffness += stiff * (hi - lo) * share * np.outer(row, row)
+    omega = highest_frequency(stiffness, np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel())
+    for i, block in enumerate(loose.assembly.bodies):
+        if not block.fixed:
+            # between two others on its longest face
+            side = np.roll(block.corners, -1, axis=0) - block.corners
+            k = (
+                float(loose.law[:, :, 0].max())
+                * float(loose.shape["depth"][i])
+                * float(np.hypot(side[:, 0], side[:, 1]).max())
+            )
+            omega = max(
+                omega,
+                0.4 * math.sqrt(4.0 * k * (body["im"][i] + body["ii"][i] * float(loose.shape["r"][i]) ** 2 / 3.0)),
+            )
+    inverse = np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel()
+    beta = float(records.lane["damp"][0, BETA, 0])
+    return stable_step(*with_links(stiffness_between(loose.assembly, inverse), omega, beta))

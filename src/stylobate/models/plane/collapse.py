@@ -12,6 +12,7 @@ import numpy as np
 from ...column import Column
 from ...column.as_blocks import of_column
 from ...column.found_geometry import drum_outline
+from ...constants import DEGREE
 from ...kernels.run_codes import CHUNK, ENDED, RUNNING
 from ...motion import Motion
 from ...outcome import Outcome, classify
@@ -19,15 +20,13 @@ from ...response import Collapse, Histories, Measures, Response
 from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
-from ..assembly.engine import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine
 from ..base import Case, RunOptions
-from ..drums.block import DrumBlock
 from ..drums.histories import histories, ledger_imbalance
-from ..drums.standing import stands_for_good
 from ..shared import ledger
-
-#: The lanes go on for as long as nothing can come loose: the longest of these times [s].
-AHEAD = (0.08, 0.04, 0.02, 0.01)
+from .blocks import topology_of
+from .columns import ColumnLanes
+from .loose import CORNER, ENDLESS, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
+from .packing import OF_BODY, Topology
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,7 +37,7 @@ class FollowedColumn:
     ----------
     name : str
         Of the model, for the response.
-    block : DrumBlock
+    block : ColumnLanes
         Lanes for the column, that go on after a collapse.
     contacts : Contacts
     bed : array, shape (n, 2)
@@ -50,7 +49,7 @@ class FollowedColumn:
     """
 
     name: str
-    block: DrumBlock
+    block: ColumnLanes
     contacts: Contacts
     bed: np.ndarray
     step: float
@@ -108,43 +107,53 @@ class _ColumnRun:
         if self.restitution is None:
             self.restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
         self.block = block = numbers.block
-        self.damped = block.joint["dn"].shape[1] > 1
         block.load(0, Case(column, motion))
         duration = motion.duration + options.tail
-        self.engine = engine = Engine(of_column(column, steps), numbers.contacts, motion, duration, self.restitution)
-        joint, drum = engine.joint, block.drum
-        # the numbers of the lanes to the last bit, not those of the drawing
-        joint["ht"], joint["hb"] = drum["ht"][:-1, 0], drum["hb"][1:, 0]
-        joint["bl"], joint["br"] = drum["bl"][1:, 0], drum["br"][1:, 0]
-        joint["lc"], joint["ls"], joint["uc"], joint["us"] = drum["fc"][:-1, 0], drum["fs"][:-1, 0], 1.0, 0.0
-        joint["wl"][1:] = joint["wr"][1:] = drum["t"][1:-1, 0]
+        assembly = of_column(column, steps)
+        topology = replace(topology_of(assembly, column.n), links=Topology.of_column(column).links)
+        self.engine = engine = Loose(assembly, numbers.contacts, motion, duration, self.restitution, topology)
+        joint, lanes = engine.records.joint, block.records
         if steps:
-            drum["t"][0, 0] = joint["wl"][0]
-        engine.now["xi"], engine.now["sh"] = block.lane["xi"][0, :, 0], block.lane["sh"][0, :, 0]
-        engine.now["g"], engine.now["gx"] = block.lane["g"][0, 0], block.lane["gx"][0, 0]
-        engine.now["bc"], engine.now["bs"] = block.feed["bc"][0, 0], block.feed["bs"][0, 0]
+            lanes.joint["wl"][0, 0] = lanes.joint["wr"][0, 0] = joint["wl"][0, 0]
+        corner = engine.search[CORNER]
         for i in range(column.n):
-            first, count = engine.body["first"][i + 1], engine.body["count"][i + 1]
-            engine.corner[first : first + count] = drum_outline(column, i)
+            first, count = engine.shape["first"][i + 1], engine.shape["count"][i + 1]
+            corner[first : first + count] = drum_outline(column, i)
         engine.law[:, 1 : column.n + 1, :2] = numbers.bed
-        engine.stack = (block.drum, block.joint, block.lane, block.feed, block.watch)
-        engine.start(numbers.step)
-        self.loose, self.safe = False, 0
+        engine.start(numbers.step, column.as_found.base_tilt * DEGREE)
+        self.loose, self.ahead = False, 0
         self.take_over()
         self.start = block.start[0].copy()
         self.resting = False
 
     def take_over(self) -> None:
-        """State of the lanes into the engine."""
-        engine, drum, n = self.engine, self.block.drum, self.column.n + 1
-        for name in ("x", "z", "th", "c", "s", "vx", "vz", "w", "m", "i", "im", "ii"):
-            engine.body[name][:n] = drum[name][:, 0]
-        for name in ("kn", "ks", "co", "mu", "fs", "fn", *(("dn", "ds") if self.damped else ())):
-            engine.joint[name][:] = self.block.joint[name][:-1, ..., 0]
-        for name in ("work", "shear", "visc"):
-            engine.now[name] = self.block.lane[name][0, 0]
-        engine.now["step"] = self.block.feed["step"][0, 0]
-        engine.renew_pairs()
+        """State of the lanes into the engine: the numbers of the lanes to the last bit, not those of the drawing."""
+        there, here, n = self.block.records, self.engine.records, self.column.n
+        for name in OF_BODY:
+            here.body[name][: n + 1, 0] = there.body[name][:, 0]
+        for name in there.joint.dtype.names or ():
+            if name not in ("dn", "ds") or there.joint[name].shape[1] == here.joint[name].shape[1]:
+                here.joint[name][..., 0] = there.joint[name][..., 0]
+        for name in ("work", "shear", "visc", "g", "gx", "xi", "sh"):
+            here.lane[name][..., 0] = there.lane[name][..., 0]
+        tied = ((here.link, there.link),) if len(there.link) else ()
+        for one, other in ((here.feed, there.feed), (here.watch, there.watch), *tied):
+            for name in one.dtype.names or ():
+                one[name][..., 0] = other[name][..., 0]
+        here.bond[...] = there.bond
+        here.feed["end"] = ENDLESS
+        self.engine.renew_pairs()
+
+    def give_back(self) -> None:
+        """State of the engine into the lanes, where it is looked at."""
+        there, here, n = self.block.records, self.engine.records, self.column.n
+        for name in OF_BODY:
+            there.body[name][:, 0] = here.body[name][: n + 1, 0]
+        tied = ((here.link, there.link),) if len(there.link) else ()
+        for one, other in ((here.watch, there.watch), *tied):
+            for name in one.dtype.names or ():
+                other[name][..., 0] = one[name][..., 0]
+        there.feed["step"][0, 0] = here.feed["step"][0, 0]
 
     def advance(self, chunks: int) -> None:
         """Advance by some chunks of steps, in pieces short enough that nothing comes loose unseen."""
@@ -153,20 +162,21 @@ class _ColumnRun:
                 # with the verdict given, joints between fallen drums need not ring for ever either
                 self.engine.now["dull"] = self.engine.now["eta"] if self.collapsed else 0.0
                 self.engine.advance(chunks)
+                self.give_back()
                 return
             if self.block.is_over(0):  # the lanes end with the motion; what goes on after it is the engine's
+                self.watch_on()
                 self.take_over()
                 self.loose = True
-                self.watch_on()
                 continue
-            if self.safe <= 0:
+            if self.ahead <= 0:
                 self.look_ahead()
                 continue
-            piece = min(chunks, self.safe)
+            piece = min(chunks, self.ahead)
             before = int(self.block.feed["step"][0, 0])
             self.block.advance(piece)
             chunks -= (int(self.block.feed["step"][0, 0]) - before) // self.block.chunk
-            self.safe -= piece
+            self.ahead -= piece
 
     def watch_on(self) -> None:
         """Look for collapses after the motion too; nothing of it is left to set against them."""
@@ -179,17 +189,13 @@ class _ColumnRun:
     def look_ahead(self) -> None:
         """How many chunks the lanes can go on alone; none: the engine takes over."""
         self.take_over()
-        length = self.block.chunk * self.engine.dt
-        time = next((time for time in AHEAD if not self.engine.may_come_loose(time)), 0.0)
-        self.safe = max(1, int(time / length)) if time > 0.0 else 0
-        if time == 0.0:
-            self.engine.renew_pairs()
-            self.loose = True
+        self.ahead = self.engine.chunks_ahead()
+        self.loose = self.ahead == 0
 
     def chunks_left(self) -> int:
         """Chunks until the end of the motion and its tail."""
-        step = self.engine.now["step"][0] if self.loose else self.block.feed["step"][0, 0]
-        return self.engine.chunks - int(step) // CHUNK
+        step = self.engine.steps if self.loose else int(self.block.feed["step"][0, 0])
+        return self.engine.chunks - step // CHUNK
 
     @property
     def collapsed(self) -> bool:
@@ -210,11 +216,7 @@ class _ColumnRun:
         """Everything that a history keeps of the present state."""
         if not self.loose:
             return self.block.snapshot(0)
-        engine, drum = self.engine, self.block.drum
-        for name in ("x", "z", "th", "c", "s"):
-            drum[name][:, 0] = engine.body[name][: self.column.n + 1]
-        self.block.feed["step"][0, 0] = engine.now["step"][0]
-        return self.block.snapshot(0) | {"time": engine.time, "energy": engine.energies()}
+        return self.block.snapshot(0) | {"time": self.engine.time, "energy": self.engine.energies()}
 
     def response(self, states: list[dict[str, Any]], residual: float) -> Response:
         """The run as a response; what is special to it stands in its provenance."""
@@ -259,7 +261,7 @@ class _ColumnRun:
 
     def measures(self, last: dict[str, Any], found: Histories) -> Measures:
         """Measures of the run; peaks end with a collapse, as in the lanes."""
-        watch, engine, column, drum = self.block.watch[0], self.engine, self.column, self.block.drum
+        watch, engine, column = self.block.watch[0], self.engine, self.column
         change = last["energy"] - self.start
         imbalance = ledger_imbalance(change, float(watch["wmax"][0]), self.block.begun(0, change), column)
         failed = engine.failed or bool(ledger.out_of_balance(imbalance))
@@ -267,12 +269,10 @@ class _ColumnRun:
         outcome = classify(
             self.collapsed, failed, float(watch["open"][0] / widths.min()), float((np.abs(slip) / widths).max())
         )
-        mechanical = float(change[1] + change[2] + change[3] + self.block.rest[0])
         when = int(watch["when"][0])
         return Measures(
             outcome=outcome,
-            decided=self.collapsed
-            or (not failed and stands_for_good(column, drum, 0, slip, mechanical, self.block.toes(column))),
+            decided=self.collapsed or (not failed and self.block.stays(0, slip, change)),
             collapse_time=float(when * engine.dt) if when >= 0 else math.nan,
             peak_top_displacement=self.block.peak(0, "top"),
             residual_top_displacement=float(found.top_displacement[-1]),
@@ -281,7 +281,8 @@ class _ColumnRun:
             residual_joint_slip=float(np.abs(slip).max()),
             energy_imbalance=imbalance,
             time_step=engine.dt,
-            steps=int((engine.now["step"] if self.loose else self.block.feed["step"][0])[0]),
+            steps=int(self.block.feed["step"][0, 0]),
             reason=self.block.reason(0, outcome, imbalance),
             collapse=self.collapse(found) if outcome is Outcome.COLLAPSED else None,
+            links=self.block.links_done(0),
         )

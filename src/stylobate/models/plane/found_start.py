@@ -32,11 +32,11 @@ def found_start(
     drum : dict of str to array
         Fields of the drums of the kernel that differ from those of a column as built, the base first, shapes (n + 1,).
     shear : array
-        Shear force of every contact point [N], shape (n + 1, points); the last row is that of the air on top.
+        Shear force of every contact point [N], shape (n, points).
     """
     as_built = geometry(column)
     at, turned = as_built, np.zeros(column.n)
-    gaps, shear = np.zeros((column.n, 2)), np.zeros((column.n + 1, len(xi)))
+    gaps, shear = np.zeros((column.n, 2)), np.zeros((column.n, len(xi)))
     for _ in range(ROUNDS):
         for j in range(column.n):
             load = joint_load(column, at, j)

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import InputError
+from ...kernels.shared.records import LANE
 from ..start import Start
+from .block import Records
 
 
 def check_takes_pose(start: Any, column: Any) -> None:
@@ -23,7 +25,7 @@ def check_takes_pose(start: Any, column: Any) -> None:
 
 
 def placed(
-    start: Start, drum: np.ndarray, lane: int, gravity: float
+    start: Start, records: Records, lane: int, gravity: float
 ) -> tuple[dict[str, np.ndarray], tuple[float, float]]:
     """Fields of the drums of a column that stands tilted and turns as one rigid body, and the force that it rests on.
 
@@ -34,17 +36,18 @@ def placed(
     ----------
     start : Start
         In the plane of x and z.
-    drum : array
-        Records of the column upright and at rest.
+    records : Records
+        In which the column is, upright and at rest.
     lane : int
     gravity : float
         [m/s²]
     """
     side = leans_right(start)
     angle, rate = (-start.tilt if side else start.tilt), -start.angular_velocity[1]
-    x, z, m, i = (drum[name][1:, lane] for name in ("x", "z", "m", "i"))
-    edge = drum["br"][1, lane] if side else -drum["bl"][1, lane]
-    across, along = x - x[0] - edge, z - z[0] + drum["hb"][1, lane]  # the base's joint as yet open
+    body, base = records.body, records.joint[0]
+    x, z, m, i = (body[name][1:, lane] for name in ("x", "z", "m", "i"))
+    edge = base["br"][lane] if side else -base["bl"][lane]
+    across, along = x - x[0] - edge, z - z[0] + base["hb"][lane]  # the base's joint as yet open
     c, s = math.cos(angle), math.sin(angle)
     across, along = c * across - s * along, s * across + c * along
     # the column as one body that turns about its edge
@@ -54,7 +57,7 @@ def placed(
     even = np.ones(len(m))
     values = {
         "x": (0.0, x[0] + edge + across),
-        "z": (drum["z"][0, lane], along),
+        "z": (body["z"][0, lane], along),
         "th": (0.0, angle * even),
         "c": (1.0, c * even),
         "s": (0.0, s * even),
@@ -71,16 +74,17 @@ def leans_right(start: Start) -> bool:
     return math.cos(start.azimuth) > 0.0
 
 
-def sink(block: Any, lane: int, force: float) -> None:
-    """Lower the whole column in a lane of a block until the base carries a force [N]."""
-    joint, state = block.joint.copy(), block.lane.copy()
-    state["dt"][0, lane] = 0.0
-    z = block.drum["z"][1:, lane].copy()
+def sink(records: Records, lane: int, force: float) -> None:
+    """Lower the whole column in a lane until the base carries a force [N]."""
+    state = records.now()
+    state[LANE]["dt"][0, lane] = 0.0
+    height = records.body["z"]
+    z = height[1:, lane].copy()
 
     def carried(depth: float) -> float:
-        block.drum["z"][1:, lane] = z - depth
-        block.kernel.forces(block.drum, joint, state)
-        return block.lift(joint, lane)
+        height[1:, lane] = z - depth
+        records.law.gather(state)
+        return float(records.load["fz"][0, lane])
 
     low, high = 0.0, 1e-12
     while carried(high) < force:
