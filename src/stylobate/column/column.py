@@ -317,6 +317,14 @@ class Column(Stack):
         return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
 
     @cached_property
+    def _hash(self) -> int:
+        return hash(tuple(getattr(self, field.name) for field in dataclasses.fields(self)))
+
+    def __hash__(self) -> int:
+        """As of its values; many runs ask for the numbers of one column again and again."""
+        return self._hash
+
+    @cached_property
     def digest(self) -> str:
         """SHA-256 of :meth:`to_dict`."""
         return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()

@@ -87,7 +87,9 @@ class Records:
     def now(self) -> tuple[Any, ...]:
         """A state of copies of all records that a look at the forces changes."""
         changed = ("joint", "link", "lane")  # forces of bodies and loads of contacts are computed anew in every step
-        return tuple(one.copy() if name in changed else one for name, one in zip(STATE, self.state, strict=True))
+        return tuple(
+            _copy(one) if name in changed else one for name, one in zip(STATE, self.state, strict=True)
+        )
 
     def energies(self, lane: int, dt: float, ground: tuple[float, float]) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
@@ -118,6 +120,11 @@ class Records:
     def edges(self, lane: int) -> np.ndarray:
         """How far the ends of every joint's upper face are from the centroid's foot on it, at most [m], shape (joints,)."""
         return np.maximum(self.joint["bl"][:, lane], self.joint["br"][:, lane])
+
+
+def _copy(records: np.ndarray) -> np.ndarray:
+    """A copy as one piece of memory; numpy copies records field by field."""
+    return records.view(np.uint8).copy().view(records.dtype) if len(records) else records
 
 
 def _rows(records: np.ndarray, lanes: int) -> np.ndarray:

@@ -1,16 +1,38 @@
-"""Does a column that stands now stand for good? What the energy that is left in it could still do."""
+"""Does a column that stands now stand for good? Its numbers for the law, and the verdict."""
 
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
 from ...column import Column
-from ...column.found_geometry import geometry, gravity_vector
 from ...constants import DEGREE
-from ..drums.barriers import flat_barrier
+from ..shared.toes import centroids_above
 from .block import Records
+
+
+@lru_cache(maxsize=4096)
+def _numbers(column: Column) -> tuple[np.ndarray, np.ndarray]:
+    """Numbers of the drums for the law, put down flat as found, but for their toes; their offsets as found [m]."""
+    from ...kernels.plane.standing import STAND_TYPE, put_down
+
+    found = [column.as_found.of(i + 1) for i in range(column.n)]
+    bottom = np.array([0.5 * drum.bottom_width for drum in column.drums])
+    stand: Any = np.zeros(column.n, STAND_TYPE)
+    stand["m"], stand["h"], stand["rough"] = column.masses, column.heights, column.friction
+    stand["hc"] = [drum.centroid_height for drum in column.drums]
+    stand["tilt"] = [one.tilt * DEGREE for one in found]
+    stand["left"] = bottom - [one.chip_left for one in found]
+    stand["right"] = bottom - [one.chip_right for one in found]
+    stand["under"] = [math.inf, *(0.5 * drum.top_width for drum in column.drums[:-1])]
+    stand["weight"], stand["moment"] = column.joint_weights, column.joint_weights * 0.5 * column.joint_widths
+    stand["over"] = centroids_above(column)
+    offsets = np.array([one.offset for one in found])
+    put_down(stand, offsets)
+    return stand, offsets
 
 
 def stands_for_good(
@@ -40,32 +62,21 @@ def stands_for_good(
     [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
     the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that.
     """
-    if not _centroids_inside(column, records, lane):
-        return False
-    offsets = np.array([column.as_found.of(i + 1).offset for i in range(column.n)]) + slip
-    flat = geometry(column, offsets)
-    # what sliding down a slope has set free is not there any more to fall back on
-    lower = float(column.masses @ ((flat.centroid - geometry(column).centroid) @ gravity_vector(column)))
-    return energy + max(lower, 0.0) < flat_barrier(column, flat, toes)
+    from ...kernels.plane.standing import stands
+
+    numbers, offsets = _numbers(column)
+    stand = numbers.copy()
+    stand["toe"] = toes
+    slope = column.as_found.base_tilt * DEGREE
+    return bool(stands(stand, offsets + slip, column.gravity, slope, energy, records.body, records.joint, lane))
 
 
-def _centroids_inside(column: Column, records: Records, lane: int) -> bool:
-    """Whether the centroid of every part stands within its contact, seen along gravity."""
-    x, z, c, s = (records.body[name][:, lane] for name in ("x", "z", "c", "s"))
-    names = ("ht", "wl", "wr", "lc", "ls", "hb", "bl", "br")
-    ht, wl, wr, lc, ls, hb, bl, br = (records.joint[name][:, lane] for name in names)
-    slope = math.tan(column.as_found.base_tilt * DEGREE)
-    plumb = x - z * slope  # places seen along gravity
-    for j in range(column.n):
-        mass = column.masses[j:]
-        centroid = float(mass @ plumb[j + 1 :] / mass.sum())
-        cf, sf = c[j] * lc[j] - s[j] * ls[j], s[j] * lc[j] + c[j] * ls[j]
-        dx, dz = x[j + 1] - x[j], z[j + 1] - z[j]
-        cosine, sine = c[j + 1] * cf + s[j + 1] * sf, s[j + 1] * cf - c[j + 1] * sf
-        foot = cf * dx + sf * dz + sine * hb[j]
-        low = max(foot - bl[j] * cosine, -wl[j])
-        high = min(foot + br[j] * cosine, wr[j])
-        left, right = ((x[j] + cf * end - sf * ht[j]) - (z[j] + sf * end + cf * ht[j]) * slope for end in (low, high))
-        if not left < centroid < right:
-            return False
-    return True
+def flat_barrier(column: Column, slip: np.ndarray, toes: np.ndarray) -> float:
+    """Lowest barrier of a column that is put down flat with these slips along its joints [m], shape (n,); in [J]."""
+    from ...kernels.plane.standing import lowest_barrier, put_down
+
+    numbers, offsets = _numbers(column)
+    stand = numbers.copy()
+    stand["toe"] = toes
+    put_down(stand, offsets + slip)
+    return float(lowest_barrier(stand, column.gravity, column.as_found.base_tilt * DEGREE))
