@@ -11,7 +11,7 @@ import pytest
 import stylobate as st
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.assembly_files import assembly_from_dict
-from stylobate.column.block_links import block_link
+from stylobate.column.links import block_link
 from stylobate.simulate import simulate_assembly
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)

@@ -214,11 +214,11 @@ def _assembly(assembly: Assembly) -> list[Item]:
 
 def _links_between_blocks(assembly: Assembly) -> Rows:
     body = []
-    for link, placed in zip(assembly.links, assembly.link_properties, strict=True):
+    for link, placed in zip(assembly.links, assembly.placed_links, strict=True):
         given = link.to_dict()
         numbers = [f"{key.replace('_', ' ')} {n.plain(given[key])}" for key in given if key not in _TOLD]
         ends = [placed.low, placed.high] if placed.two_ended else [placed.low]
         at = " to ".join(f"{one[0]:g} / {one[2]:g}" for one in ends)
-        body.append([placed.name, " – ".join(link.between), at, ", ".join(numbers) or n.NONE])
+        body.append([placed.name, " – ".join(link.between or ()), at, ", ".join(numbers) or n.NONE])
     caption = "Links between the blocks; lengths in m, forces in N, stiffness in N/m. “governs” names formulas."
     return Rows(["link", "between", "at x / z [m]", "properties"], body, caption, numbers=True)

@@ -7,14 +7,14 @@ from typing import Any
 import numpy as np
 
 from ...column.assembly import Assembly
-from ...column.placed_links import PlacedLink
+from ...column.links.placed import PlacedLink
 from ..drums.links import LinkStiffness, law_fields, slip_at
 from ..shared.stable_step import highest_frequency
 
 
 def acting(assembly: Assembly) -> tuple[PlacedLink, ...]:
     """Links that do anything besides lowering friction."""
-    return tuple(one for one in assembly.link_properties if one.acts) if assembly.links else ()
+    return tuple(one for one in assembly.placed_links if one.acts)
 
 
 def link_records(assembly: Assembly, kernel: Any) -> Any:
@@ -33,7 +33,7 @@ def link_records(assembly: Assembly, kernel: Any) -> Any:
     field: dict[str, Any] = {name: records[name].reshape(len(links), -1)[:, 0] for name in records.dtype.names}
     for name, values in law_fields(links).items():
         field[name][:] = values
-    clamps = np.array([link.kind == "clamp" for link in links])
+    clamps = np.array([link.lies == "side" for link in links])
     field["mboth"][:] = clamps & (field["mka"] > 0.0)
     field["mpre"][:] = [link.pretension for link in links]
     field["mtc"][:], field["mts"][:] = np.array([link.along for link in links]).T
@@ -41,11 +41,8 @@ def link_records(assembly: Assembly, kernel: Any) -> Any:
     field["mcra"][:] = [link.axial_failure == "crushing" for link in links]
     field["mbra"][:] = [link.axial_failure == "brittle" for link in links]
     for m, link in enumerate(links):
-        middle = (link.place[0], link.low[1], link.place[1])
-        low, high = (link.low, link.high) if link.straight else (middle, middle)
-        for end, body, place in (("a", link.lower, low), ("b", link.upper, high)):
-            x, z = assembly.bodies[body].origin
-            for axis, value in zip("xyz", (place[0] - x, place[1], place[2] - z), strict=True):
+        for end, arm in zip("ab", link.arms, strict=True):
+            for axis, value in zip("xyz", arm, strict=True):
                 field[f"m{end}{axis}"][m] = value
     return records
 
@@ -66,21 +63,20 @@ def link_stiffness(assembly: Assembly, inverse: np.ndarray) -> LinkStiffness:
     for link in links:
         if link.straight:
             way = np.array([link.high[0] - link.low[0], link.high[2] - link.low[2]]) / link.length
-            springs += link.axial_stiffness * _square(assembly, link, way, count)
+            springs += link.axial_stiffness * _square(link, way, count)
             continue
         t = np.array(link.along)
-        square = _square(assembly, link, t, count)
+        square = _square(link, t, count)
         springs += link.shear_stiffness * square
         dashpots += link.damping * square
-        springs += link.axial_stiffness * _square(assembly, link, np.array([-t[1], t[0]]), count)
+        springs += link.axial_stiffness * _square(link, np.array([-t[1], t[0]]), count)
     return LinkStiffness(highest_frequency(springs, inverse), highest_frequency(dashpots, inverse) ** 2)
 
 
-def _square(assembly: Assembly, link: PlacedLink, way: np.ndarray, count: int) -> np.ndarray:
+def _square(link: PlacedLink, way: np.ndarray, count: int) -> np.ndarray:
     """What a unit of stiffness along a direction adds to the stiffness of the bodies."""
     row = np.zeros(count)
-    ends = ((link.low[0], link.low[2]), (link.high[0], link.high[2])) if link.straight else (link.place, link.place)
-    for body, end, sign in ((link.upper, ends[1], 1.0), (link.lower, ends[0], -1.0)):
-        arm = np.array(end) - assembly.bodies[body].origin
-        row[3 * body : 3 * body + 3] = sign * np.array([*way, arm[0] * way[1] - arm[1] * way[0]])
+    low, high = link.arms
+    for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):
+        row[3 * body : 3 * body + 3] = sign * np.array([*way, arm[0] * way[1] - arm[2] * way[0]])
     return np.outer(row, row)

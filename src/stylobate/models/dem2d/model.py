@@ -12,7 +12,6 @@ import numpy as np
 
 from ...column import Column
 from ...column.assembly import Assembly
-from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Measures, Response
@@ -214,7 +213,7 @@ def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
         "over": np.zeros(n + 1),
     }
     drums = drum_fields(column, column.joint_weights / (kn * area))
-    if column.as_found or is_pretensioned(column):
+    if column.as_found or column.pretensioned:
         found, joint_fields["fs"] = found_start(column, kn * area / width, xi, share)
         drums |= found
     lanes = lane_fields(column, model.stiffness_damping, model.mass_damping) | {"xi": xi, "sh": share}
