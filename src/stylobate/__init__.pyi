@@ -32,6 +32,7 @@ from .column.links import Bar as Bar
 from .column.links import Core as Core
 from .column.links import Dowel as Dowel
 from .column.links import Layer as Layer
+from .column.links import Pad as Pad
 from .column.links import Tie as Tie
 from .column.scatter import Scatter as Scatter
 from .column.specimen import Specimen as Specimen

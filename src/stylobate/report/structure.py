@@ -92,7 +92,7 @@ def _drums(column: Column, round_: bool) -> Rows:
     header += ["cohesion [Pa]"] if cohesive else []
     body = []
     for i in reversed(range(min(column.n, MOST))):
-        drum, joint = column.drums[i], column.joints[i]
+        drum, joint = column.drums[i], column.joint_laws[i]
         depth = f"{drum.depth:.3f}" + ("" if drum.top_depth is None else f" – {drum.upper_depth:.3f}")
         row = [str(i + 1), f"{drum.height:.3f}", f"{drum.bottom_width:.3f}", f"{drum.top_width:.3f}"]
         row += [] if round_ else [depth]

@@ -13,16 +13,17 @@ from .core import Core
 from .dowel import Dowel
 from .layer import Layer
 from .link import Link, Numbers, told
+from .pad import Pad
 from .tie import Tie
 
 #: Kinds of links by their name in files.
-KINDS: dict[str, type[Link]] = {one.kind: one for one in (Dowel, Bar, Tie, Core, Layer, Clamp)}
+KINDS: dict[str, type[Link]] = {one.kind: one for one in (Dowel, Bar, Tie, Core, Layer, Pad, Clamp)}
 
 #: Those of them that a column may have.
 COLUMN_KINDS = {name: one for name, one in KINDS.items() if one.lies != "side"}
 
 __all__ = [
-    "COLUMN_KINDS", "KINDS", "Bar", "Clamp", "Core", "Dowel", "Layer", "Link", "Numbers", "Tie", "block_link",
+    "COLUMN_KINDS", "KINDS", "Bar", "Clamp", "Core", "Dowel", "Layer", "Link", "Numbers", "Pad", "Tie", "block_link",
     "link_from_dict", "told",
 ]  # fmt: skip
 
@@ -62,7 +63,7 @@ def block_link(
     Parameters
     ----------
     kind : str
-        ``clamp``, ``dowel``, ``bar``, ``layer``, ``tie`` or ``core``.
+        ``clamp``, ``dowel``, ``bar``, ``layer``, ``pad``, ``tie`` or ``core``.
     between : (str, str)
         Names of the bodies; ``ground`` is the ground.
     at, to : sequence of float, optional
