@@ -122,7 +122,7 @@ def test_a_column_in_an_assembly_takes_its_links_along(tmp_path) -> None:
     )
     (tmp_path / "alone.toml").write_text('[[column]]\nfile = "column.toml"\nat = [1.0]\n')
     column, assembly = st.read_column(tmp_path / "column.toml"), st.read_assembly(tmp_path / "alone.toml")
-    assert [one.called for one in assembly.links][-1] == "column 1, core from the base to drum 3"
+    assert assembly.placed_links[-1].name == "column 1, core from the base to drum 3"
     step = 0.5 * st.DistinctElement2D().step_for(column)
     model = st.DistinctElement2D(time_step=step)
     motion = st.harmonic(frequency=2.0, amplitude=4.0, duration=0.25)

@@ -84,9 +84,9 @@ def links_of_column(
         ends = _ends(column, one) if one.straight else (_in_joint(column, at, one),)
         moved = ((x + place[0], y, z + place[1]) for x, y, z in ends)
         where = dict(zip(("at", "to"), moved, strict=False))
-        held: dict[str, Any] = {field.name: getattr(one, field.name) for field in dataclasses.fields(Numbers)}
         # what stone a pin leaves was looked at in the column
-        numbers = Numbers(**held | {"diameter": 0.0})
+        held: dict[str, Any] = {field.name: getattr(one, field.name) for field in dataclasses.fields(Numbers)}
+        numbers = Numbers(**{**held, "diameter": 0.0})
         found.append(type(link)(between=between, name=prefix + one.name, numbers=numbers, **where))
     return found
 
