@@ -23,9 +23,7 @@ from .point_joint import face
 STAND_TYPE = np.dtype(
     [
         (name, np.float64)
-        for name in (
-            "m hc h tilt left right under rough weight moment over toe lean cx cz ox oz low high".split()
-        )
+        for name in ("m hc h tilt left right under rough weight moment over toe lean cx cz ox oz low high".split())
     ]
 )
 

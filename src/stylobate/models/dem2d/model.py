@@ -11,7 +11,6 @@ import numpy as np
 
 from ...column import Column
 from ...column.assembly import Assembly
-from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import LANES
@@ -203,7 +202,7 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
     width, area = column.joint_widths, column.joint_areas
     xi, share = contact_points(column.section, model.points)
     drums, shear = drum_fields(column, column.joint_weights / (kn * area)), np.zeros((column.n, model.points))
-    if column.as_found or is_pretensioned(column):
+    if column.as_found or column.pretensioned:
         found, shear = found_start(column, kn * area / width, xi, share)
         drums |= found
     if model.start == "settle":

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.link_loads import is_pretensioned
 from ...errors import InputError
 from .links import acting
 
@@ -25,7 +24,7 @@ def pressed_joints(block: Any, lane: int, column: Column) -> float:
     lane : int
     column : Column
     """
-    if not is_pretensioned(column):
+    if not column.pretensioned:
         return 0.0
     try:
         bare = without_tension(column)
@@ -47,7 +46,8 @@ def held_at_start(column: Column) -> float:
 
 def without_tension(column: Column) -> Column:
     """The column with those of its links alone that hold nothing at the start."""
-    return column.replace(links=tuple(one for one in column.links if not getattr(one, "pretension", 0.0)))
+    pairs = zip(column.links, column.placed_links, strict=True)
+    return column.replace(links=tuple(link for link, one in pairs if not one.pretension))
 
 
 def set_free(column: Column, tensions: np.ndarray, pressed: float) -> float:

@@ -87,9 +87,7 @@ class Records:
     def now(self) -> tuple[Any, ...]:
         """A state of copies of all records that a look at the forces changes."""
         changed = ("joint", "link", "lane")  # forces of bodies and loads of contacts are computed anew in every step
-        return tuple(
-            _copy(one) if name in changed else one for name, one in zip(STATE, self.state, strict=True)
-        )
+        return tuple(_copy(one) if name in changed else one for name, one in zip(STATE, self.state, strict=True))
 
     def energies(self, lane: int, dt: float, ground: tuple[float, float]) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""

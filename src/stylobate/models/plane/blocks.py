@@ -94,8 +94,7 @@ def bed_laws(assembly: Assembly) -> np.ndarray:
         if one in names and other in names:
             i, h = sorted((names[one], names[other]))
             laws[i, h] = numbers(law)
-    for one in assembly.links:
-        if one.friction_coefficient is not None:
-            i, h = sorted(names[name] for name in one.between)
-            laws[i, h, 2] = one.friction_coefficient
+    for one in assembly.placed_links:
+        i, h = sorted((one.lower, one.upper))
+        laws[i, h] = numbers(assembly.law_between(bodies[i], bodies[h]))
     return laws

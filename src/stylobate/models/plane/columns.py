@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.link_loads import is_pretensioned
 from ...constants import DEGREE
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, RUNNING
@@ -152,7 +151,7 @@ class ColumnLanes:
         Their elastic energy is larger by more than this, because what stands on them has sunk. Where only the pretension
         holds the column up there is no weight alone, and all that the joints hold counts.
         """
-        if not is_pretensioned(column):
+        if not column.pretensioned:
             return 0.0
         held = held_at_start(column)
         try:

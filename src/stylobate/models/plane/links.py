@@ -11,9 +11,7 @@ import numpy as np
 from ...column import Column
 from ...column.assembly import Assembly
 from ...column.found_geometry import geometry
-from ...column.link_laws import LinkProperties
-from ...column.link_loads import own_places
-from ...column.placed_links import PlacedLink
+from ...column.links.placed import PlacedLink
 from ...kernels.shared.link_records import BOND_TYPE, NUMBERS, OWN, SHARED, link_types
 from ...response import LinkMeasures
 from ..drums.links import LinkStiffness, acting, hold_of, law_fields, slip_at
@@ -49,7 +47,7 @@ def links_at_rest(column: Column, drums: Mapping[str, np.ndarray]) -> np.ndarray
         k["tc"], k["ts"], k["on"], k["when"], k["ft"] = drums["fc"][low], drums["fs"][low], 1.0, -1, link.pretension
         k["whole"] = hold_of(column, link)
         if link.straight:
-            for end, body, place in zip("ab", (low, up), own_places(column, link), strict=True):
+            for end, body, place in zip("ab", (low, up), link.arms, strict=True):
                 # places are given along the upper face
                 cf, sf = drums["fc"][body], drums["fs"][body]
                 k[end + "x"], k[end + "z"] = cf * place[0] - sf * place[2], sf * place[0] + cf * place[2]
@@ -81,7 +79,7 @@ def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
     return np.stack((shear, *(records[name][:, lane] for name in ("ft", "slip", "long"))))
 
 
-def link_measures(links: Sequence[LinkProperties], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
+def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
     """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
     found = []
     for m, link in enumerate(links):
@@ -98,7 +96,7 @@ def link_measures(links: Sequence[LinkProperties], records: Any, lane: int, step
 
 def acting_between(assembly: Assembly) -> tuple[PlacedLink, ...]:
     """Links of an assembly that do anything besides lowering friction."""
-    return tuple(one for one in assembly.link_properties if one.acts) if assembly.links else ()
+    return tuple(one for one in assembly.placed_links if one.acts)
 
 
 def links_between(assembly: Assembly) -> tuple[np.ndarray, np.ndarray]:
@@ -109,7 +107,7 @@ def links_between(assembly: Assembly) -> tuple[np.ndarray, np.ndarray]:
         return bond, records
     laws = {name[1:]: values for name, values in law_fields(links).items()}
     axial = laws["ka"]
-    clamps = np.array([link.kind == "clamp" for link in links])
+    clamps = np.array([link.lies == "side" for link in links])
     laws |= {
         "both": clamps & (axial > 0.0),
         "ya": slip_at(laws["fa"], axial),
@@ -125,11 +123,8 @@ def links_between(assembly: Assembly) -> tuple[np.ndarray, np.ndarray]:
     records["ft"][:, 0] = [link.pretension for link in links]
     records["tc"][:, 0], records["ts"][:, 0] = np.array([link.along for link in links]).T
     for m, link in enumerate(links):
-        middle = (link.place[0], link.low[1], link.place[1])
-        low, high = (link.low, link.high) if link.straight else (middle, middle)
-        for end, body, place in (("a", link.lower, low), ("b", link.upper, high)):
-            x, z = assembly.bodies[body].origin
-            for axis, value in zip("xyz", (place[0] - x, place[1], place[2] - z), strict=True):
+        for end, arm in zip("ab", link.arms, strict=True):
+            for axis, value in zip("xyz", arm, strict=True):
                 records[end + axis][m, 0] = value
     return bond, records
 
@@ -150,21 +145,20 @@ def stiffness_between(assembly: Assembly, inverse: np.ndarray) -> LinkStiffness:
     for link in links:
         if link.straight:
             way = np.array([link.high[0] - link.low[0], link.high[2] - link.low[2]]) / link.length
-            springs += link.axial_stiffness * _square(assembly, link, way, count)
+            springs += link.axial_stiffness * _square(link, way, count)
             continue
         t = np.array(link.along)
-        square = _square(assembly, link, t, count)
+        square = _square(link, t, count)
         springs += link.shear_stiffness * square
         dashpots += link.damping * square
-        springs += link.axial_stiffness * _square(assembly, link, np.array([-t[1], t[0]]), count)
+        springs += link.axial_stiffness * _square(link, np.array([-t[1], t[0]]), count)
     return LinkStiffness(highest_frequency(springs, inverse), highest_frequency(dashpots, inverse) ** 2)
 
 
-def _square(assembly: Assembly, link: PlacedLink, way: np.ndarray, count: int) -> np.ndarray:
+def _square(link: PlacedLink, way: np.ndarray, count: int) -> np.ndarray:
     """What a unit of stiffness along a direction adds to the stiffness of the bodies."""
     row = np.zeros(count)
-    ends = ((link.low[0], link.low[2]), (link.high[0], link.high[2])) if link.straight else (link.place, link.place)
-    for body, end, sign in ((link.upper, ends[1], 1.0), (link.lower, ends[0], -1.0)):
-        arm = np.array(end) - assembly.bodies[body].origin
-        row[3 * body : 3 * body + 3] = sign * np.array([*way, arm[0] * way[1] - arm[1] * way[0]])
+    low, high = link.arms
+    for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):
+        row[3 * body : 3 * body + 3] = sign * np.array([*way, arm[0] * way[1] - arm[2] * way[0]])
     return np.outer(row, row)

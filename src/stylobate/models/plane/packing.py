@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import gravity_vector
 from ..drums.joints import contact_points
-from ..drums.links import kind_of
+from ..drums.links import acting, kind_of
 
 #: Half width of the base, wide enough to be a half-plane [m].
 BASE_HALF_WIDTH = 1.0e4
@@ -44,10 +45,9 @@ class Topology:
     which: tuple[Any, ...] = ()
 
     @classmethod
+    @lru_cache(maxsize=4096)
     def of_column(cls, column: Column) -> Topology:
         """Each drum on the one below, the base first."""
-        from ..drums.links import acting
-
         links = tuple((one.lower, one.upper) for one in acting(column))
         joints = tuple((i, i + 1) for i in range(column.n))
         return cls(column.n + 1, joints, links, stack=column.n, which=kind_of(column))

@@ -9,7 +9,6 @@ from typing import ClassVar
 import numpy as np
 
 from ...column import Column
-from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
 from ...kernels.run_codes import LANES
 from ...motion import Motion
@@ -100,8 +99,8 @@ class RigidBlock(SteppedDrums):
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse an unstable step, joints that crush under the weight, and pretension; say what a plane model leaves out."""
         super().check(column, motion)
-        if is_pretensioned(column):
-            pull = max(getattr(link, "pretension", 0.0) for link in column.links)
+        if column.pretensioned:
+            pull = max(link.pretension for link in column.placed_links)
             raise InputError(
                 f"rigid-block begins with joints that the weight alone presses, and a link of {column.name!r} has a "
                 f"pretension of {pull:g} N; use dem2d or dem3d, or leave the pretension out."
@@ -177,8 +176,8 @@ def _toes(column: Column, strength: float | None) -> np.ndarray:
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """k_n A [N/m], k_n J [N m] and k_s A [N/m] of each joint (Baraldi et al., Eq. 8), each of shape (n,)."""
-    kn = np.array([joint.normal_stiffness for joint in column.joints])
-    ks = np.array([joint.shear_stiffness for joint in column.joints])
+    kn = np.array([joint.normal_stiffness for joint in column.joint_laws])
+    ks = np.array([joint.shear_stiffness for joint in column.joint_laws])
     return kn * column.joint_areas, kn * column.joint_second_moments, ks * column.joint_areas
 
 
