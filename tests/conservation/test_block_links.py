@@ -11,7 +11,7 @@ import pytest
 import stylobate as st
 from stylobate.column.assembly import Assembly, Block
 from stylobate.column.assembly_files import assembly_from_dict
-from stylobate.column.block_links import block_link
+from stylobate.column.links import block_link
 from stylobate.simulate import simulate_assembly
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)
@@ -122,7 +122,7 @@ def test_a_column_in_an_assembly_takes_its_links_along(tmp_path) -> None:
     )
     (tmp_path / "alone.toml").write_text('[[column]]\nfile = "column.toml"\nat = [1.0]\n')
     column, assembly = st.read_column(tmp_path / "column.toml"), st.read_assembly(tmp_path / "alone.toml")
-    assert [one.called for one in assembly.links][-1] == "column 1, core from the base to drum 3"
+    assert assembly.placed_links[-1].name == "column 1, core from the base to drum 3"
     step = 0.5 * st.DistinctElement2D().step_for(column)
     model = st.DistinctElement2D(time_step=step)
     motion = st.harmonic(frequency=2.0, amplitude=4.0, duration=0.25)

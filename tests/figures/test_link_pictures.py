@@ -7,7 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.column.assembly import Assembly, Block
-from stylobate.column.block_links import block_link
+from stylobate.column.links import block_link
 from stylobate.plots.animation import draw_frame
 from stylobate.plots.filmstrip import draw_filmstrip
 from stylobate.plots.link_marks import link_marks

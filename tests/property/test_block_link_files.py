@@ -40,7 +40,7 @@ def written(tmp_path, *tables: str):
 def test_links_are_read_with_their_places(tmp_path) -> None:
     made = 'kind = "clamp"\nbetween = ["a", "b"]\nat = [0.85, 0.48]\nto = [1.15, 0.48]\nsection = [0.03, 0.012]\n'
     made += 'embedment = 0.06\nmaterial = "iron in lead"'
-    found = st.read_assembly(written(tmp_path, CLAMP, DOWEL, TIE, made)).link_properties
+    found = st.read_assembly(written(tmp_path, CLAMP, DOWEL, TIE, made)).placed_links
     assert [one.name for one in found] == [
         "clamp between a and b, 1", "dowel between a and top", "tie between ground and top", "clamp between a and b, 2",
     ]  # fmt: skip

@@ -16,11 +16,9 @@ import numpy as np
 
 from ..column import Column
 from ..column.found_in_space import SpaceGeometry, base_axes, overlap_edges, space_geometry, space_load, upward
-from ..column.link_laws import LinkProperties, properties
-from ..column.link_loads import own_places
 from ..constants import DEGREE
 from ..errors import InputError, StylobateError
-from ..models.rigid_block.stack_links import LINE, SHEAR, actions, is_strength
+from ..models.rigid_block.stack_links import LINE, SHEAR, Hold, holds
 from .least_forces import Borne, needed_forces
 from .limit import LinkForce, link_forces
 
@@ -136,23 +134,18 @@ class SpaceProgramme:
         return load.place
 
     def _links(self) -> list[_Holder]:
-        found = []
-        for link in properties(self.column):
-            if link.name and actions(link):
-                found += [self._holder(link, action) for action in actions(link) if is_strength(link, action)]
-        return found
+        return [self._holder(one) for one in holds(self.column.placed_links) if one.strength]
 
-    def _holder(self, link: LinkProperties, action: str) -> _Holder:
-        at, low, high = self.at, *own_places(self.column, link)
+    def _holder(self, one: Hold) -> _Holder:
+        link, at, (low, high) = one.link, self.at, one.link.arms
         upper = at.centroid[link.upper - 1] + at.axes[link.upper - 1] @ high
-        if action == LINE:
+        if one.action == LINE:
             lower = low if link.lower == 0 else at.centroid[link.lower - 1] + at.axes[link.lower - 1] @ low
             axes = ((lower - upper) / np.linalg.norm(lower - upper))[:, None]
-            return _Holder(link.name, action, link.upper, link.lower, upper, lower, axes, link.axial_capacity)
+            return _Holder(one.name, one.action, link.upper, link.lower, upper, lower, axes, one.capacity)
         frame = at.frame[link.joint - 1]
-        axes = frame[:, :2] if action == SHEAR else -frame[:, 2:]
-        capacity = link.shear_capacity if action == SHEAR else link.axial_capacity
-        return _Holder(link.name, action, link.upper, link.lower, upper, upper, axes, capacity)
+        axes = frame[:, :2] if one.action == SHEAR else -frame[:, 2:]
+        return _Holder(one.name, one.action, link.upper, link.lower, upper, upper, axes, one.capacity)
 
     def _cohesion(self) -> list[_Holder]:
         found = []

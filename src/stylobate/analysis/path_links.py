@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..models.rigid_block.block_stack import BlockStack
-from ..models.rigid_block.stack_links import SHEAR, StackLink, link_strain, link_strains
+from ..models.rigid_block.stack_links import SHEAR, Hold, link_strain, link_strains
 
 #: A link that has come to this share of its capacity goes on yielding, as far as the tangent is concerned.
 GOES_ON = 1.0 - 1e-9
@@ -53,7 +53,7 @@ class PathLinks:
         _, slope, _ = link_strains(self.links, self.stack.centroid, self.stack.angle)
         return slope @ position.ravel(), slope, np.zeros(len(self.links))
 
-    def _law(self, k: int, one: StackLink, strain: float, opening: float) -> tuple[float, float, float]:
+    def _law(self, k: int, one: Hold, strain: float, opening: float) -> tuple[float, float, float]:
         """Force [N], its derivative [N/m], and the slip or elongation that stays [m]."""
         stays = float(self.plastic[k])
         if self.lost[k] or opening > one.lift:
@@ -66,7 +66,7 @@ class PathLinks:
                 stays += float(np.sign(force)) * max(abs(force) - one.capacity, 0.0) / one.stiffness
                 return float(np.sign(force)) * min(abs(force), one.capacity), 0.0, stays
             return float(force), one.stiffness if act else 0.0, stays
-        force = one.pretension + one.stiffness * (strain - stays)
+        force = one.link.pretension + one.stiffness * (strain - stays)
         if force >= one.capacity * GOES_ON:
             return min(force, one.capacity), 0.0, stays + max(force - one.capacity, 0.0) / one.stiffness
         return max(force, 0.0), one.stiffness if force > 0.0 else 0.0, stays
@@ -78,14 +78,14 @@ class PathLinks:
         for one, force in zip(self.links, forces, strict=True):
             if force == 0.0:
                 continue
-            own = [3 * block + a for block in (one.lower, one.upper) if block >= 0 for a in range(3)]
+            own = [3 * block + a for block in one.blocks if block >= 0 for a in range(3)]
             for i in own:
                 tried.flat[i] = position.flat[i] + step
                 ahead = link_strain(one, centroid, angle, tried)[2:]
                 tried.flat[i] = position.flat[i] - step
                 behind = link_strain(one, centroid, angle, tried)[2:]
                 tried.flat[i] = position.flat[i]
-                for block, after, before in zip((one.lower, one.upper), ahead, behind, strict=True):
+                for block, after, before in zip(one.blocks, ahead, behind, strict=True):
                     if block >= 0:
                         out[3 * block : 3 * block + 3, i] += force * (after - before) / (2.0 * step)
         return out

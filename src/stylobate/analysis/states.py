@@ -111,14 +111,12 @@ class StateComparison:
         """One row per link that acts: state, link, runs, in how many it broke, largest force over capacity."""
         import pandas
 
-        from ..column.link_laws import properties
-
         rows: list[dict[str, Any]] = []
         for label, column in zip(self.labels, self.columns, strict=True):
             mine: Any = self.table[self.table["state"] == label]
             if "link_broken_s" not in mine:
                 continue
-            names = [one.name for one in properties(column) if one.acts]
+            names = [one.name for one in column.placed_links if one.acts]
             told = [(b, u) for b, u in zip(mine["link_broken_s"], mine["link_utilisation"]) if isinstance(b, list)]
             for k, name in enumerate(names):
                 broke = [b[k] for b, _ in told if b[k] is not None]

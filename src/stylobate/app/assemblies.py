@@ -9,7 +9,7 @@ from typing import Any
 
 from ..column.assembly import Assembly
 from ..column.assembly_files import read_assembly
-from ..column.placed_links import strokes_between
+from ..column.links.placed import strokes
 from ..column.presets import PRESETS
 from ..column.toml import parse_toml
 from ..errors import InputError
@@ -77,7 +77,8 @@ def describe(text: str) -> dict[str, Any]:
         },
         "links": {
             "xz": [
-                [low.round(4).tolist(), high.round(4).tolist()] for _, (_, low), (_, high) in strokes_between(assembly)
+                [low[[0, 2]].round(4).tolist(), high[[0, 2]].round(4).tolist()]
+                for _, (*_, low), (*_, high) in strokes(assembly.placed_links)
             ]
         },
         "outlines": {"xz": [one.corners.round(4).tolist() for one in assembly.blocks]},

@@ -12,7 +12,7 @@ import numpy as np
 from ..column import Column
 from ..column.files import tables_of
 from ..column.found_in_space import base_axes, space_geometry
-from ..column.link_loads import strokes
+from ..column.links.placed import strokes
 from ..column.presets import PRESETS, preset
 from ..column.tables import made_of
 from ..constants import g
@@ -115,16 +115,16 @@ def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
         def plane(body: int, place: np.ndarray) -> list[float]:
             return _turned(place[None, [0, 2]], at[body])[0].round(4).tolist()
 
-        return {"xz": [[plane(*one.lower), plane(*one.upper)] for one in strokes(column)]}
+        return {"xz": [[plane(*one.lower[:2]), plane(*one.upper[:2])] for one in strokes(column.placed_links)]}
     space, upright = space_geometry(column), base_axes(column)
 
     def seen(body: int, place: np.ndarray, axis: int) -> list[float]:
         point = space.centroid[body - 1] + space.axes[body - 1] @ place if body else place
         return (upright @ point)[[axis, 2]].round(4).tolist()
 
-    lines = strokes(column)
+    lines = strokes(column.placed_links)
     return {
-        name: [[seen(*one.lower, axis), seen(*one.upper, axis)] for one in lines]
+        name: [[seen(*one.lower[:2], axis), seen(*one.upper[:2], axis)] for one in lines]
         for name, axis in (("xz", 0), ("yz", 1))
     }
 

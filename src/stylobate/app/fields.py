@@ -6,6 +6,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from ..column.links import KINDS
+
 #: Fields of a drum and of a drum as found; each has a row of its own on the page.
 DRUM = ("height", "bottom_width", "top_width", "density", "depth", "top_depth")
 FOUND = (
@@ -28,7 +30,7 @@ _NUMBERED = {
 
 #: The field of a link that a sentence is about.
 _LINK = re.compile(
-    r"\b(\w+) of a (?:dowel|bar|tie|core|layer)\b|'(\w+)' in \[\[link\]\]|has no (\w+);|has neither (\w+)|(kind) of a link"
+    rf"\b(\w+) of a (?:{'|'.join(KINDS)})\b|'(\w+)' in \[\[link\]\]|has no (\w+);|has neither (\w+)|(kind) of a link"
     r"|there is no (joint)|: a \w+ (at) \[|: (joint)s is"
 )
 

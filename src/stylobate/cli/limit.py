@@ -88,7 +88,7 @@ def limit(
         sentence += f", pushed towards {weak.azimuth:g} degrees"
         facts["weakest direction"] = f"{weak.azimuth:g} degrees from x towards y: joint {weak.joint} {weak.mode}"
         most = int(all_round.multipliers.argmax())
-        if not plane and stone.section == "circular" and any(any(one.at) for one in stone.links):
+        if not plane and stone.section == "circular" and any(any(one.low[:2]) for one in stone.placed_links):
             facts["mind"] = (
                 "a link beside the axis asks round joints for torsion, of which one on its edge bears little: such a column "
                 "fell at up to a fifth less"

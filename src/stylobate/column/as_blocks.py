@@ -4,18 +4,18 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 
 from ..errors import check_range
-from .assembly import FAR_AWAY, Assembly, Block
-from .block_links import BlockLink
+from .assembly import Assembly
+from .block import FAR_AWAY, Block
 from .column import Column
 from .found_geometry import Geometry, drum_outline, geometry
-from .link_laws import LinkProperties, properties
-from .link_loads import own_places
-from .links import Layer
+from .links.link import Link, Numbers
+from .links.placed import PlacedLink
 
 
 def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Assembly:
@@ -63,30 +63,38 @@ def _box(name: str, width: float, low: float, high: float) -> Block:
     return Block(((-b, low), (b, low), (b, high), (-b, high)), 0.0, name, fixed=True)
 
 
-def links_of_column(column: Column) -> tuple[BlockLink, ...]:
-    """Links of a column between its drums (``drum 1`` …) and the ``ground``; in axes as of :func:`of_column`."""
+def links_of_column(
+    column: Column, place: tuple[float, float], names: Mapping[str, str], prefix: str = ""
+) -> list[Link]:
+    """Links of a column that stands at a place of an assembly [m].
+
+    Parameters
+    ----------
+    column : Column
+    place : (float, float)
+        Of the middle of its base, x and z [m].
+    names : mapping of str to str
+        What ``ground`` and ``drum 1`` … are called there.
+    prefix : str
+        Of the names of the links.
+    """
     at, found = geometry(column), []
-    for link, one in zip(column.links, properties(column), strict=True):
-        numbers = {
-            field.name: getattr(one, field.name)
-            for field in dataclasses.fields(LinkProperties)
-            if field.name not in ("lower", "upper", "joint", "low", "high")
-        }
-        between = _name(one.lower), _name(one.upper)
-        ends = _ends(column, one) if one.straight else (_in_joint(column, at, one), None)
-        friction = link.friction_coefficient if isinstance(link, Layer) else None
-        found.append(BlockLink(**numbers, between=between, at=ends[0], to=ends[1], friction_coefficient=friction))
-    return tuple(found)
+    for link, one in zip(column.links, column.placed_links, strict=True):
+        between: Any = tuple(names[f"drum {body}" if body else "ground"] for body in (one.lower, one.upper))
+        ends = _ends(column, one) if one.straight else (_in_joint(column, at, one),)
+        moved = ((x + place[0], y, z + place[1]) for x, y, z in ends)
+        where = dict(zip(("at", "to"), moved, strict=False))
+        # what stone a pin leaves was looked at in the column
+        held: dict[str, Any] = {field.name: getattr(one, field.name) for field in dataclasses.fields(Numbers)}
+        numbers = Numbers(**{**held, "diameter": 0.0})
+        found.append(type(link)(between=between, name=prefix + one.name, numbers=numbers, **where))
+    return found
 
 
-def _name(body: int) -> str:
-    return f"drum {body}" if body else "ground"
-
-
-def _ends(column: Column, link: LinkProperties) -> tuple[tuple[float, ...], tuple[float, ...]]:
+def _ends(column: Column, link: PlacedLink) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
     """Ends of a tie or core of a column as it stands [m]."""
     at, ends = geometry(column), []
-    for body, place in zip((link.lower, link.upper), own_places(column, link), strict=True):
+    for body, place in zip((link.lower, link.upper), link.arms, strict=True):
         x, z = place[0], place[2]
         if body:
             angle = float(at.lean[body - 1] + at.tilt[body - 1])
@@ -96,7 +104,7 @@ def _ends(column: Column, link: LinkProperties) -> tuple[tuple[float, ...], tupl
     return ends[0], ends[1]
 
 
-def _in_joint(column: Column, at: Geometry, link: LinkProperties) -> tuple[float, ...]:
+def _in_joint(column: Column, at: Geometry, link: PlacedLink) -> tuple[float, float, float]:
     """Place of a dowel, bar or layer on the lower face of its upper drum, as it stands [m]."""
     i = link.upper - 1
     axis, lean = float(at.lean[i] + at.tilt[i]), float(at.lean[i])

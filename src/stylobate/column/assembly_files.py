@@ -13,11 +13,11 @@ from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning
 from ..reading import shown
 from .assembly import Assembly, Block
-from .block_links import BlockLink, block_link
 from .column import Column
 from .files import joint_from_dict, load_column
 from .joint import Joint
-from .link_tables import LinkNumbers
+from .links import link_from_dict
+from .links.tables import BlockLinkTable, links_between
 from .materials import Material, material
 from .plausible import COLUMN, DENSITY, first, joint_doubts, sinking_doubt
 from .presets import PRESETS
@@ -47,17 +47,6 @@ class BetweenTable(Table):
     friction_angle: float | None = None
     friction_coefficient: float | None = None
     cohesion: float | None = None
-
-
-class BlockLinkTable(LinkNumbers):
-    """``[[link]]``: what links two bodies by name; ``at`` and ``to`` are its ends, x and z, or x, y and z [m]."""
-
-    kind: str
-    between: list[str]
-    name: str = ""
-    at: list[float] | None = None
-    to: list[float] | None = None
-    section: list[float] | None = None
 
 
 class AssemblyTable(Table):
@@ -124,7 +113,7 @@ def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:
         blocks.append(Block(**(dict(fields) | special)))
     overrides = tuple((one, other, joint_from_dict(law)) for one, other, law in data["overrides"])
     special = {"blocks": tuple(blocks), "joint": joint_from_dict(data["joint"]), "overrides": overrides}
-    special["links"] = tuple(BlockLink.from_dict(fields) for fields in data.get("links", ()))
+    special["links"] = tuple(link_from_dict(fields) for fields in data.get("links", ()))
     return Assembly(**(dict(data) | special))
 
 
@@ -168,19 +157,12 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
         joint = laid[0].law
     else:
         joint = _law(table.joint, stone, "[joint]")
-    links += [_link(one, number) for number, one in enumerate(table.link or [], 1)]
+    links += links_between(table.link or [])
     for doubt in _doubts(blocks[len(standing) :], joint, [law for _, _, law in overrides], table.gravity):
         warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
     return Assembly(
         tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
     )
-
-
-def _link(table: BlockLinkTable, number: int) -> BlockLink:
-    try:
-        return block_link(**table.model_dump(exclude_none=True))
-    except InputError as error:
-        raise InputError(f"[[link]] number {number}: {error}") from None
 
 
 def _law(table: Table | None, stone: Material | None, where: str) -> Joint:

@@ -21,9 +21,10 @@ from .drum import Drum
 from .found_geometry import check_as_found, uplift_accelerations
 from .found_in_space import smallest_uplift
 from .joint import Joint, without_unsaid
-from .link_checks import check_links
-from .link_loads import is_pretensioned, pulls_in_plane
-from .links import Link
+from .links.in_column import place_in_column
+from .links.link import Link
+from .links.loads import pulls_in_plane
+from .links.placed import PlacedLink
 from .materials import material
 from .plausible import shape_doubts
 from .stack import Stack
@@ -101,9 +102,8 @@ class Column(Stack):
         if self.material is not None:
             object.__setattr__(self, "material", material(self.material).name)
         self._check_rings()
-        if self.links:
-            check_links(self)
-        if self.as_found or is_pretensioned(self):
+        self.placed_links  # noqa: B018  refuses links that cannot be
+        if self.as_found or self.pretensioned:
             check_as_found(self)
 
     def _check_rings(self) -> None:
@@ -126,6 +126,30 @@ class Column(Stack):
                     f"the rings of joint {j + 1} of {self.name!r} do not meet: ring_width = {joint.ring_width:g} m, and one "
                     f"face is that much wider than the other; make the ring wider."
                 )
+
+    @cached_property
+    def placed_links(self) -> tuple[PlacedLink, ...]:
+        """All links in numbers, at their places in the column as built, in their order."""
+        return place_in_column(self, self.links, self.name) if self.links else ()
+
+    @property
+    def pretensioned(self) -> bool:
+        """Whether some link pulls before anything moves."""
+        return any(link.pretension > 0.0 for link in self.placed_links)
+
+    @cached_property
+    def joint_laws(self) -> tuple[Joint, ...]:
+        """Law of each joint with the layer or pad that lies in it."""
+        laws = list(self.joints)
+        for link in self.placed_links:
+            if link.joint:
+                laws[link.joint - 1] = link.law(laws[link.joint - 1])
+        return tuple(laws)
+
+    @cached_property
+    def friction(self) -> np.ndarray:
+        """tan φ of each joint, that of a layer where there is one [-], shape (n,)."""
+        return np.array([law.tan_phi for law in self.joint_laws])
 
     @property
     def on_rings(self) -> bool:
@@ -298,8 +322,8 @@ class Column(Stack):
         a (z_C − z_i) > g d_i / 2. As found, and pulled by pretensioned links, the smaller one of both directions; out of the
         plane, the smallest of all.
         """
-        if self.as_found or is_pretensioned(self):
-            if not (self.as_found.in_plane and pulls_in_plane(self)):
+        if self.as_found or self.pretensioned:
+            if not (self.as_found.in_plane and pulls_in_plane(self.placed_links)):
                 return smallest_uplift(self)
             return np.abs(uplift_accelerations(self)).min(axis=1)
         out = np.empty(self.n)
@@ -324,6 +348,14 @@ class Column(Stack):
         plain |= {"drums": list(plain["drums"]), "joints": list(plain["joints"])}
         plain |= {"as_found": self.as_found.to_dict()} if self.as_found else {}
         return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
+
+    @cached_property
+    def _hash(self) -> int:
+        return hash(tuple(getattr(self, field.name) for field in dataclasses.fields(self)))
+
+    def __hash__(self) -> int:
+        """As of its values; many runs ask for the numbers of one column again and again."""
+        return self._hash
 
     @cached_property
     def digest(self) -> str:

@@ -14,7 +14,7 @@ from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
 from .joint import Joint
-from .link_kinds import link_from_dict
+from .links import link_from_dict
 from .presets import PRESETS, preset
 
 

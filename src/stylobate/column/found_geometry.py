@@ -10,7 +10,7 @@ import numpy as np
 from ..constants import DEGREE
 from ..errors import InputError
 from .found_in_space import inside_overlap, space_geometry, space_load
-from .link_loads import is_pretensioned, pull_on_part
+from .links.loads import pull_on_part
 
 if TYPE_CHECKING:
     from .column import Column
@@ -95,7 +95,7 @@ def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
     arm = mass @ at.centroid[joint:] / mass.sum() - at.origin[joint]
     along = np.array([math.cos(at.lean[joint]), math.sin(at.lean[joint])])
     normal = np.array([-along[1], along[0]])
-    if is_pretensioned(column):
+    if column.pretensioned:
         return _pulled_load(column, at, joint, weight, along)
     pressing = -float(weight @ normal)
     if pressing <= 0.0:
@@ -109,7 +109,7 @@ def _pulled_load(column: Column, at: Geometry, joint: int, weight: np.ndarray, a
     c, s, none, one = np.cos(angle), np.sin(angle), np.zeros(column.n), np.ones(column.n)
     axes = np.stack((c, none, -s, none, one, none, s, none, c), axis=1).reshape(-1, 3, 3)
     centroids = np.stack((at.centroid[:, 0], none, at.centroid[:, 1]), axis=1)
-    force, moment = pull_on_part(column, centroids, axes, joint)
+    force, moment = pull_on_part(column.placed_links, centroids, axes, joint)
     mass, origin = column.masses[joint:], at.origin[joint]
     arm = mass @ at.centroid[joint:] / mass.sum() - origin
     total = weight + force[[0, 2]]
@@ -135,7 +135,7 @@ def uplift_accelerations(column: Column) -> np.ndarray:
     joint is pressed, and press it more.
     """
     at, weight, slope = geometry(column), gravity_vector(column), column.as_found.base_tilt * DEGREE
-    pulled = is_pretensioned(column)
+    pulled = column.pretensioned
     out = np.empty((column.n, 2))
     for j in range(column.n):
         mass = column.masses[j:]
@@ -201,7 +201,7 @@ def _check_in_space(column: Column) -> None:
 
 def _check_joint(column: Column, j: int, normal: float, shear: float, beyond: float) -> None:
     """Refuse a joint that slides under its load [N], or that its load passes beyond its contact [m]."""
-    name, law = repr(column.name), column.joints[j]
+    name, law = repr(column.name), column.joint_laws[j]
     friction = column.friction[j] * normal + law.cohesion * column.joint_areas[j]
     if normal <= 0.0 or shear > friction:
         raise InputError(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from ..constants import DEGREE
-from .link_loads import is_pretensioned, pull_on_part
+from .links.loads import pull_on_part
 
 if TYPE_CHECKING:
     from .column import Column
@@ -138,8 +138,8 @@ def space_load(column: Column, at: SpaceGeometry, joint: int, acceleration: np.n
     towards = column.gravity * upward(column) if acceleration is None else acceleration
     force = -float(mass.sum()) * (at.frame[joint].T @ towards)
     arm = at.frame[joint].T @ (mass @ at.centroid[joint:] / mass.sum() - at.origin[joint])
-    if is_pretensioned(column):
-        pull, moment = pull_on_part(column, at.centroid, at.axes, joint)
+    if column.pretensioned:
+        pull, moment = pull_on_part(column.placed_links, at.centroid, at.axes, joint)
         moment = at.frame[joint].T @ (moment - np.cross(at.origin[joint], pull)) + np.cross(arm, force)
         force = force + at.frame[joint].T @ pull
         if force[2] < 0.0:

@@ -16,7 +16,7 @@ from .column import Column
 from .drum import Drum
 from .found_geometry import geometry, joint_load
 from .found_in_space import Edges, overlap_edges, space_geometry, space_load
-from .links import Dowel, Layer, Link, Tie
+from .links import Link, Tie
 
 #: Lengths [m], angles [degrees] and shares of a direction below this are rounding.
 NOTHING = 1e-9
@@ -152,12 +152,17 @@ def _turned(link: Link, turned: np.ndarray, plane: float) -> Link:
         c, s = _exact(own / DEGREE - plane)
         return float(c * point[0] - s * point[1]), float(s * point[0] + c * point[1])
 
+    at = _in_plan(link.at)
     if isinstance(link, Tie):
         upper = len(turned) if link.to_drum is None else link.to_drum
-        ends = {"at": place(link.at, link.from_drum), "to": place(link.at if link.to is None else link.to, upper)}
-        return dataclasses.replace(link, **ends)
-    assert isinstance(link, (Dowel, Layer))
-    return dataclasses.replace(link, at=place(link.at, link.joint))
+        to = at if link.to is None else _in_plan(link.to)
+        return dataclasses.replace(link, at=place(at, link.from_drum), to=place(to, upper))
+    return dataclasses.replace(link, at=place(at, getattr(link, "joint", None) or 0))
+
+
+def _in_plan(place: tuple[float, ...] | None) -> tuple[float, float]:
+    """A place in plan; the middle where none is given [m]."""
+    return (place[0], place[1]) if place else (0.0, 0.0)
 
 
 def section(edges: Edges, place: np.ndarray, way: np.ndarray) -> tuple[float, float]:
@@ -217,7 +222,8 @@ def _chipped(ones: list[FoundDrum], kept: tuple[FoundDrum, ...]) -> str:
 
 def _beside(links: tuple[Link, ...]) -> str:
     """The links that are beside the plane."""
-    far = [max(abs(link.at[1]), abs((getattr(link, "to", None) or link.at)[1])) for link in links]
+    ends = [(link.at, getattr(link, "to", None) or link.at) for link in links]
+    far = [max(abs(_in_plan(end)[1]) for end in pair) for pair in ends]
     beside = [one for one in far if one > NOTHING]
     if not beside:
         return ""

@@ -9,7 +9,6 @@ import numpy as np
 
 from .drum import Drum, section_area, section_second_moment
 from .joint import Joint
-from .links import Layer, Link
 
 
 class Stack:
@@ -17,7 +16,6 @@ class Stack:
 
     drums: tuple[Drum, ...]
     joints: tuple[Joint, ...]
-    links: tuple[Link, ...]
     gravity: float
 
     @property
@@ -64,15 +62,6 @@ class Stack:
         return np.array(widths)
 
     @cached_property
-    def friction(self) -> np.ndarray:
-        """tan φ of each joint, that of a layer where there is one [-], shape (n,)."""
-        values = np.array([joint.tan_phi for joint in self.joints])
-        for link in self.links:
-            if isinstance(link, Layer) and link.friction_coefficient is not None:
-                values[link.joint - 1] = link.friction_coefficient
-        return values
-
-    @cached_property
     def joint_areas(self) -> np.ndarray:
         """Contact area A_i of each joint [m²], shape (n,)."""
         whole = [section_area(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
@@ -96,6 +85,13 @@ class Stack:
             return 0.0, 0.0
         below = self.drums[joint - 1].top_width if joint else 0.0
         return max(self.drums[joint].bottom_width - 2.0 * ring, 0.0), max(below - 2.0 * ring, 0.0)
+
+    def joint_edge(self, joint: int) -> float:
+        """Length of the edge of a joint's contact area, of a ring both [m]."""
+        width, sunken = float(self.joint_widths[joint]), max(self.sunken_widths(joint))
+        if self.section == "circular":
+            return math.pi * (width + sunken)
+        return 2.0 * (width + self._joint_depth(joint))
 
     def _joint_depth(self, i: int) -> float:
         return min(self.drums[i].depth, self.drums[i - 1].upper_depth) if i else self.drums[0].depth

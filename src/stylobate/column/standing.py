@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 from ..errors import InputError, check_range, suggest
 from .as_blocks import links_of_column, of_column
-from .assembly import TOUCHING, Block
-from .block_links import BlockLink
+from .block import TOUCHING, Block
 from .drum import LENGTHS
 from .files import load_column
 from .joint import Joint
+from .links.link import Link
 from .tables import JointTable
 from .toml import Table
 
@@ -60,7 +60,7 @@ class Standing(NamedTuple):
 
 def stand(
     tables: Sequence[ColumnsTable], folder: Path, gravity: float, ground: float | bool
-) -> tuple[list[Block], list[Standing], list[BlockLink]]:
+) -> tuple[list[Block], list[Standing], list[Link]]:
     """Blocks of columns that stand on the ground, where their tops are, and their links.
 
     Parameters
@@ -80,7 +80,7 @@ def stand(
     """
     blocks: list[Block] = []
     found: list[Standing] = []
-    links: list[BlockLink] = []
+    links: list[Link] = []
     if tables and isinstance(ground, bool):
         raise InputError("columns stand on the ground, and ground is false; give its level in m.")
     for table in tables:
@@ -100,7 +100,7 @@ def stand(
             drums = [_moved(one, f"{name}, {one.name}", x, float(ground)) for one in stones]
             blocks += drums
             called = {"ground": "ground"} | {one.name: f"{name}, {one.name}" for one in stones}
-            links += [one.moved(x, float(ground), called, f"{name}, {one.called}") for one in links_of_column(column)]
+            links += links_of_column(column, (x, float(ground)), called, f"{name}, ")
             top = sorted(drums[-1].vertices, key=lambda corner: corner[1])[-2:]
             if abs(top[0][1] - top[1][1]) > TOUCHING * column.height:
                 level = float("nan")  # it leans: nothing lies on it

@@ -12,7 +12,7 @@ from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
 from .joint import Joint
-from .link_tables import LinkTable, links_of
+from .links.tables import LinkTable, links_of
 from .materials import Material, material
 from .plausible import unit_doubts
 from .toml import Table, checked, parse_toml

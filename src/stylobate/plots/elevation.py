@@ -14,9 +14,7 @@ from ..column import Column
 from ..column.as_found import SIDES, FoundDrum
 from ..column.assembly import FAR_AWAY, Assembly
 from ..column.found_in_space import base_axes, space_geometry
-from ..column.link_laws import line_ends
-from ..column.links import Bar, Dowel, Layer, Tie
-from ..column.placed_links import strokes_between
+from ..column.links.placed import strokes
 from ..constants import DEGREE
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
@@ -198,17 +196,16 @@ def _links(axes: Axes, sheet: _Sheet, column: Column) -> None:
     def draw(x: list[float], z: list[float], marker: str = "", style: Any = "-") -> None:
         axes.plot(x, z, color=BLUE, linewidth=1.8, linestyle=style, marker=marker, markersize=4, zorder=6)
 
-    for link in column.links:
-        if isinstance(link, Layer):
-            level, half = float(column.joint_heights[link.joint - 1]), 0.5 * float(column.joint_widths[link.joint - 1])
-            draw([-half, half], [level, level], style=(0, (3, 1.5)))
-        elif isinstance(link, Dowel):
-            level = float(column.joint_heights[link.joint - 1])
-            reach = link.embedment or 12.0 * sheet.metres
-            draw([link.at[0], link.at[0]], [level - reach, level + reach], "_" if isinstance(link, Bar) else "")
-        elif isinstance(link, Tie):
-            (x, _, z), (to, _, top) = line_ends(link, column)
+    for link in column.placed_links:
+        (x, _, z), (to, _, top) = link.low, link.high
+        if link.mark == "sheet":
+            half = 0.5 * float(column.joint_widths[link.joint - 1])
+            draw([-half, half], [z, z], style=(0, (3, 1.5)))
+        elif link.mark == "line":
             draw([x, to], [z, top], "s")
+        else:
+            reach = link.lift if math.isfinite(link.lift) else 12.0 * sheet.metres
+            draw([x, x], [z - reach, z + reach], "_" if link.mark == "anchor" else "")
 
 
 def _width(axes: Axes, sheet: _Sheet, width: float, ends: np.ndarray, away: float, section: str) -> None:
@@ -283,9 +280,9 @@ def _assembly(structure: Assembly, title: str | None, ax: Axes | None) -> Figure
         words = {"fontsize": 6.5 if many else WORDS, "ha": "center", "va": "center", "rotation": 90 if turned else 0}
         middle = _middle(shape)
         axes.text(float(middle[0]), float(middle[1]), name, **words)
-    for _, (_, start), (_, end) in strokes_between(structure):
-        axes.plot([start[0], end[0]], [start[1], end[1]], color=BLUE, linewidth=1.2, zorder=5)
-    for link in [one for one in structure.link_properties if one.kind == "layer"]:
+    for _, (*_, start), (*_, end) in strokes(structure.placed_links):
+        axes.plot([start[0], end[0]], [start[2], end[2]], color=BLUE, linewidth=1.2, zorder=5)
+    for link in [one for one in structure.placed_links if one.mark == "sheet"]:
         ends = np.array(link.place)[:, None] + 12.0 * sheet.metres * np.outer(link.along, (-1.0, 1.0))
         axes.plot(*ends, color=BLUE, linewidth=2.4, zorder=5)
     for along, start, end in ((0, low, high), (1, low, high)):

@@ -10,8 +10,7 @@ from matplotlib.axes import Axes
 
 from ..column import Column
 from ..column.assembly import Assembly
-from ..column.link_loads import strokes
-from ..column.placed_links import strokes_between
+from ..column.links.placed import Stroke, strokes
 from ..response.poses import exaggerated, rotation_matrices
 from .scene import Scene
 from .style import BLUE, RED
@@ -31,23 +30,19 @@ class Mark(NamedTuple):
 def marks_of(scene: Scene) -> list[Mark]:
     """Marks of every link but layers."""
     structure = scene.response.structure
-    broken = {one.name: one.broken_at for one in scene.response.measures.links if one.broken}
-    if isinstance(structure, Assembly):
-
-        def on_block(body: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
-            x, z = structure.bodies[body].origin
-            return body, np.array([place[0] - x, 0.0, place[1] - z])
-
-        found = [(one, on_block(*lower), on_block(*upper)) for one, lower, upper in strokes_between(structure)]
-    elif isinstance(structure, Column):
-
-        def on_drum(body: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
-            return (None, scene.base @ place) if body == 0 else (body - 1, place)
-
-        found = [(one, on_drum(*lower), on_drum(*upper)) for one, lower, upper in strokes(structure)]
-    else:
+    if not isinstance(structure, Column | Assembly):
         return []
-    return [Mark(lower, upper, broken.get(link.name, math.inf)) for link, lower, upper in found]
+    broken = {one.name: one.broken_at for one in scene.response.measures.links if one.broken}
+
+    def body(number: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
+        if isinstance(structure, Assembly):
+            return number, place
+        return (number - 1, place) if number else (None, scene.base @ place)
+
+    def mark(one: Stroke) -> Mark:
+        return Mark(body(*one.lower[:2]), body(*one.upper[:2]), broken.get(one.link.name, math.inf))
+
+    return [mark(one) for one in strokes(structure.placed_links)]
 
 
 def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.ndarray, bool]]:

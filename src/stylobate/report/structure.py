@@ -92,7 +92,7 @@ def _drums(column: Column, round_: bool) -> Rows:
     header += ["cohesion [Pa]"] if cohesive else []
     body = []
     for i in reversed(range(min(column.n, MOST))):
-        drum, joint = column.drums[i], column.joints[i]
+        drum, joint = column.drums[i], column.joint_laws[i]
         depth = f"{drum.depth:.3f}" + ("" if drum.top_depth is None else f" – {drum.upper_depth:.3f}")
         row = [str(i + 1), f"{drum.height:.3f}", f"{drum.bottom_width:.3f}", f"{drum.top_width:.3f}"]
         row += [] if round_ else [depth]
@@ -214,11 +214,11 @@ def _assembly(assembly: Assembly) -> list[Item]:
 
 def _links_between_blocks(assembly: Assembly) -> Rows:
     body = []
-    for link, placed in zip(assembly.links, assembly.link_properties, strict=True):
+    for link, placed in zip(assembly.links, assembly.placed_links, strict=True):
         given = link.to_dict()
         numbers = [f"{key.replace('_', ' ')} {n.plain(given[key])}" for key in given if key not in _TOLD]
         ends = [placed.low, placed.high] if placed.two_ended else [placed.low]
         at = " to ".join(f"{one[0]:g} / {one[2]:g}" for one in ends)
-        body.append([placed.name, " – ".join(link.between), at, ", ".join(numbers) or n.NONE])
+        body.append([placed.name, " – ".join(link.between or ()), at, ", ".join(numbers) or n.NONE])
     caption = "Links between the blocks; lengths in m, forces in N, stiffness in N/m. “governs” names formulas."
     return Rows(["link", "between", "at x / z [m]", "properties"], body, caption, numbers=True)

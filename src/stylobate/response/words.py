@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..column import Column
-from ..column.link_loads import is_pretensioned
 from ..outcome import Outcome
 from .links import sentence_of as sentence_of_links
 
@@ -33,7 +32,7 @@ def sentence_of(response: Recorded) -> str:
     if m.reason:
         words.append(f"Reason: {m.reason}.")
     if not m.decided and m.outcome is not Outcome.FAILED:
-        pulled = isinstance(response.structure, Column) and is_pretensioned(response.structure)
+        pulled = isinstance(response.structure, Column) and response.structure.pretensioned
         words.append(UNDECIDED_PULLED if pulled else UNDECIDED)
     return " ".join(words)
 

@@ -206,20 +206,23 @@ function equal(table) {
 const WORDS = { joint: "Joint, or all", from_drum: "From drum", to_drum: "To drum", at: "At x, y [m]", to: "To x, y [m]", diameter: "Diameter [m]", embedment: "Embedment [m]", material: "Material", friction_coefficient: "Friction [tan φ]",
   clearance: "Slack [m]", hole: "Hole ⌀ [m]", shear_stiffness: "Shear stiffness [N/m]", shear_capacity: "Shear capacity [N]", ultimate_slip: "Lost at slip [m]", failure: "Fails",
   axial_stiffness: "Axial stiffness [N/m]", axial_capacity: "Axial capacity [N]", ultimate_elongation: "Lost at elongation [m]", pretension: "Pretension [N]",
-  from_height: "From height [m]", to_height: "To height [m]", damping: "Dashpot [N s/m]" };
+  from_height: "From height [m]", to_height: "To height [m]", damping: "Dashpot [N s/m]",
+  thickness: "Thickness [m]", normal_stiffness: "Stiffness [N/m³]", "pad.shear_stiffness": "Shear stiffness [N/m³]", friction_angle: "Friction angle [°]", shape_factor: "Shape factor [–]" };
 const LINKS = {
   dowel: ["joint", "at", "diameter", "embedment", "material"], bar: ["joint", "at", "diameter", "embedment", "material"],
   tie: ["from_drum", "to_drum", "at", "to", "diameter", "material"], core: ["from_drum", "to_drum", "diameter", "material"], layer: ["joint", "friction_coefficient"],
+  pad: ["joint", "thickness", "material"],
 };
 // What follows from material and size unless it is given.
 const SHEAR = ["clearance", "hole", "shear_stiffness", "shear_capacity", "ultimate_slip", "failure"], AXIAL = ["axial_stiffness", "axial_capacity", "ultimate_elongation", "pretension"];
-const MORE = { dowel: SHEAR, bar: [...SHEAR, ...AXIAL], tie: ["from_height", "to_height", ...AXIAL], core: ["at", "from_height", "to_height", ...AXIAL], layer: ["shear_stiffness", "shear_capacity", "damping", "ultimate_slip"] };
+const MORE = { dowel: SHEAR, bar: [...SHEAR, ...AXIAL], tie: ["from_height", "to_height", ...AXIAL], core: ["at", "from_height", "to_height", ...AXIAL], layer: ["shear_stiffness", "shear_capacity", "damping", "ultimate_slip"],
+  pad: ["normal_stiffness", "shear_stiffness", "friction_coefficient", "friction_angle", "shape_factor"] };
 const TEXTS = ["material", "failure"];
 function fresh(kind) {
   const { drum } = state.column, n = drum.length, aside = tidy(0.5 * Math.max(...drum.map(one => Math.max(one.bottom_width, one.top_width))) + 0.05);
   const whole = { joint: Math.min(2, n), from_drum: 1, to_drum: n, diameter: 0.03, embedment: 0.15, material: "titanium", friction_coefficient: 0.6 };
   const shown = Object.fromEntries(LINKS[kind].filter(key => key in whole).map(key => [key, whole[key]]));
-  return { kind, ...shown, ...(kind === "tie" ? { at: [aside, 0], to: [aside, 0] } : {}) };
+  return { kind, ...shown, ...(kind === "tie" ? { at: [aside, 0], to: [aside, 0] } : {}), ...(kind === "pad" ? { thickness: 0.005, material: "lead" } : {}) };
 }
 const pair = text => text.trim() === "" ? undefined : text.split(",").map(value);
 
@@ -233,7 +236,7 @@ function links(table) {
   };
   const all = list => { const rest = structuredClone(state.column); if (list.length) rest.link = list; else delete rest.link; replace(rest); };
   const held = (one, key) => key === "joint" ? one.joint ?? one.joints : one[key];
-  const box = (one, k, key) => field(WORDS[key], el("input", {
+  const box = (one, k, key) => field(WORDS[`${one.kind}.${key}`] || WORDS[key], el("input", {
     value: Array.isArray(held(one, key)) ? held(one, key).join(", ") : held(one, key) ?? "", "data-field": `link.${k + 1}.${key}`,
     placeholder: MORE[one.kind].includes(key) ? key === "at" ? "0, 0" : "by formula" : "",
     oninput: event => set(k, key, key === "at" || key === "to" ? pair(event.target.value) : TEXTS.includes(key) ? event.target.value.trim() || undefined : value(event.target.value)),

@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from ..jit import kernel
-from .interface_law import ELASTIC, OPEN, ROCKING, SLIDING, compression, compression_with_strength, shear
+from ..plane.interface_law import ELASTIC, OPEN, ROCKING, SLIDING, compression, compression_with_strength, shear
 
 GEOMETRY = (
     "above_x above_z below_x below_z angle upper_left upper_right lower_left lower_right kn km ks friction cohesion "

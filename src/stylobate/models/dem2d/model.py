@@ -2,35 +2,48 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
 from ...column import Column
 from ...column.assembly import Assembly
-from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
+from ...kernels.plane.records import LOCAL
+from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...response import Measures, Response
-from ..assembly.engine import Contacts
-from ..assembly.run import measures_of_assemblies
 from ..base import Case, RunOptions
-from ..drums.block import DrumBlock
 from ..drums.joints import contact_points, joint_stiffnesses
-from ..drums.links import kind_of, link_stiffness, plane_links, with_links
-from ..drums.packing import PackedColumn, drum_fields, lane_fields
+from ..drums.links import link_stiffness, with_links
 from ..drums.stepped import SteppedDrums
+from ..plane.assemblies import measures_of_assemblies
+from ..plane.block import Law
+from ..plane.columns import ColumnLanes
+from ..plane.found_start import found_start
+from ..plane.laws import point_law
+from ..plane.links import bonds, links_at_rest
+from ..plane.loose import Contacts
+from ..plane.packing import (
+    Packed,
+    Topology,
+    body_fields,
+    damping,
+    drum_fields,
+    face_fields,
+    lane_fields,
+    one_lane,
+    top_face,
+)  # fmt: skip
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
-from .found_start import found_start
 
 if TYPE_CHECKING:
-    from .collapse import FollowedColumn
+    from ..plane.collapse import FollowedColumn
 
 MAX_POINTS = 32
 
@@ -116,32 +129,21 @@ class DistinctElement2D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kind(self, column: Column) -> tuple:
-        """Number of drums, and the links if there are some."""
-        return (column.n, *kind_of(column))
+    def kind(self, column: Column) -> Topology:
+        """Which contacts there are: columns alike in that share blocks of lanes."""
+        return Topology.of_column(column)
 
-    def kernel(self, links: int = 0) -> Any:
-        """Module of kernels, for so many links."""
-        return importlib.import_module(f"...kernels.dem2d.{'linked' if links else 'step'}", __package__)
+    def law(self, linked: bool) -> Law:
+        """The law of the joints, for columns with links or without."""
+        return point_law(self.points, self.damped, LANES, linked)
 
-    def record_types(self) -> tuple:
-        """Record types of the kernel's arrays."""
-        return self.kernel().block_types(self.points, self.damped)
+    def block_for(self, kind: Topology, options: RunOptions) -> ColumnLanes:
+        """A block of lanes for columns of a kind."""
+        return ColumnLanes(self.law(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
 
-    def make_block(self, drums: int, options: RunOptions, links: int = 0, which: tuple = ()) -> DrumBlock:
-        """A block of lanes for columns of so many drums, and of so many links which these are."""
-        kernel, types = self.kernel(links), self.record_types()
-        return DrumBlock(kernel, types, self.pack, drums, options, self.cost(drums), links)
-
-    def pack(self, column: Column) -> PackedColumn:
-        """A column as the kernel wants it, settled if asked for."""
-        packed = _pack(column, self)
-        if self.start == "static":
-            return packed
-        drum, joint, lane = packed.fields
-        state = _settled(column, self)
-        drum = drum | state["drum"]
-        return replace(packed, fields=(drum, joint | state["joint"], lane), links=plane_links(column, drum))
+    def pack(self, column: Column) -> Packed:
+        """A column as the engine wants it, settled if asked for."""
+        return _pack(column, self)
 
     def stable_step(self, column: Column) -> float:
         """Largest stable time step of the closed column [s]."""
@@ -150,8 +152,7 @@ class DistinctElement2D(SteppedDrums):
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories; what comes loose is followed to the ground if asked for."""
         if options.until_end or options.until_rest:
-            column.must_be_without_links("a run that is followed to the ground")
-            from .collapse import follow
+            from ..plane.collapse import follow
 
             return follow(column, motion, self.followed(column, options), options)
         return super().run(column, motion, options)
@@ -163,9 +164,9 @@ class DistinctElement2D(SteppedDrums):
 
     def followed(self, column: Column, options: RunOptions) -> FollowedColumn:
         """What a column that is followed to the ground is computed with."""
-        from .collapse import FollowedColumn
+        from ..plane.collapse import FollowedColumn
 
-        block = self.make_block(column.n, replace(options, until_end=True))
+        block = self.block_for(self.kind(column), replace(options, until_end=True))
         # the bed is as soft as the joints: their springs have the stone in series
         bed = np.transpose(joint_stiffnesses(column, self.block_modulus))
         return FollowedColumn(self.name, block, self.contacts, bed, self.step_for(column), self.restitution)
@@ -184,7 +185,7 @@ class DistinctElement2D(SteppedDrums):
         InputError
             The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
         """
-        from ..assembly.run import AssemblyNumbers, run_assembly
+        from ..plane.assemblies import AssemblyNumbers, run_assembly
 
         if self.block_modulus is not None:
             raise InputError(
@@ -196,30 +197,35 @@ class DistinctElement2D(SteppedDrums):
 
 
 @lru_cache(maxsize=4096)
-def _pack(column: Column, model: DistinctElement2D) -> PackedColumn:
-    n = column.n
+def _pack(column: Column, model: DistinctElement2D) -> Packed:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     width, area = column.joint_widths, column.joint_areas
     xi, share = contact_points(column.section, model.points)
-
-    def with_free_top(values: np.ndarray) -> np.ndarray:  # a joint without force above the top drum
-        return np.concatenate((values, [0.0]))
-
-    joint_fields = {
-        "kn": with_free_top(kn * area / width),
-        "ks": with_free_top(ks * area / width),
-        "co": with_free_top(np.array([joint.cohesion for joint in column.joints]) * area / width),
-        "mu": with_free_top(column.friction),
-        "fs": np.zeros((n + 1, model.points)),
-        "over": np.zeros(n + 1),
-    }
-    drums = drum_fields(column, column.joint_weights / (kn * area))
-    if column.as_found or is_pretensioned(column):
-        found, joint_fields["fs"] = found_start(column, kn * area / width, xi, share)
+    drums, shear = drum_fields(column, column.joint_weights / (kn * area)), np.zeros((column.n, model.points))
+    if column.as_found or column.pretensioned:
+        found, shear = found_start(column, kn * area / width, xi, share)
         drums |= found
-    lanes = lane_fields(column, model.stiffness_damping, model.mass_damping) | {"xi": xi, "sh": share}
+    if model.start == "settle":
+        state, shear = _settled(column, model)
+        drums |= state
+    joint = face_fields(drums) | {
+        "kn": kn * area / width,
+        "ks": ks * area / width,
+        "co": np.array([joint.cohesion for joint in column.joints]) * area / width,
+        "mu": column.friction,
+        "fs": shear,
+    }
+    lane = lane_fields(column) | {"xi": xi, "sh": share}
+    lane["damp"] = damping(model.damped, model.stiffness_damping, model.mass_damping)
+    types = point_law(model.points, model.damped, 1, bool(column.links)).types
+    records = {
+        "body": one_lane(types["body"], column.n + 1, body_fields(drums)),
+        "joint": one_lane(types["joint"], column.n, joint),
+        "lane": one_lane(types["lane"], 1, lane),
+        "link": links_at_rest(column, drums),
+    }
     toes = point_toes(column, kn, float(share[-1]))
-    return PackedColumn((drums, joint_fields, lanes), model.step_for(column), toes, plane_links(column, drums))
+    return Packed(records, bonds(column), model.step_for(column), toes, top_face(drums))
 
 
 #: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.
@@ -227,21 +233,20 @@ SETTLED, SETTLE_CHUNKS = 1e-7, 20_000
 
 
 @lru_cache(maxsize=256)
-def _settled(column: Column, model: DistinctElement2D) -> dict[str, dict[str, np.ndarray]]:
-    """Fields of the drums and of the joints after settling under gravity with local damping."""
+def _settled(column: Column, model: DistinctElement2D) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Numbers of the drums and shear forces of the joints after settling under gravity with local damping."""
     damped = replace(model, start="static", mass_damping=max(model.mass_damping, 1e-300))
     block = damped.block_for(damped.kind(column), RunOptions())
     block.load(0, Case(column, Motion(1e3, np.zeros(2))))
-    block.lane["local"][0, 0] = LOCAL_DAMPING
+    records = block.records
+    records.lane["damp"][0, LOCAL, 0] = LOCAL_DAMPING
     if not settled(block.advance, lambda: block.residual_acceleration(0), SETTLED, SETTLE_CHUNKS):
         raise InputError(
             f"column {column.name!r} does not come to rest under its weight: {block.residual_acceleration(0):.2g} m/s² "
             f"remain, allowed is {SETTLED:g}; check that every drum is supported under its centroid."
         )
-    return {
-        "drum": {name: block.drum[name][:, 0].copy() for name in ("x", "z", "th", "c", "s")},
-        "joint": {"fs": block.joint["fs"][..., 0].copy()},
-    }
+    places = {name: records.body[name][:, 0].copy() for name in ("x", "z", "th", "c", "s")}
+    return places, records.joint["fs"][..., 0].copy()
 
 
 @lru_cache(maxsize=4096)

@@ -22,11 +22,10 @@ from ..drums.block import CALLS_PER_RUN, DrumBlock
 from ..drums.histories import ledger_imbalance
 from ..drums.links import put_links, with_link_histories
 from ..drums.packing import whole_steps
-from ..drums.pose import sink
 from ..shared import ledger
 from ..shared.ground import ground_histories, value_at
 from ..start import check_in_plane
-from .pose import placed
+from .pose import placed, sink
 from .touching import slips_where_closest
 from .verdict import stands_for_good
 

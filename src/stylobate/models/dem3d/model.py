@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 
 from ...column import Column
 from ...column.found_in_space import shares_left
-from ...column.link_loads import is_pretensioned
 from ...column.specimen import Specimen
 from ...errors import InputError, check_range
 from ...kernels.dem3d.records import CHIPS, RINGS
@@ -18,7 +17,7 @@ from ...motion import Motion
 from ...response import Histories, Response
 from ..base import Model, RunOptions
 from ..drums.joints import joint_stiffnesses
-from ..drums.links import kind_of, link_stiffness, space_links, with_links
+from ..drums.links import kind_of, link_stiffness, space_links, with_beds_alone, with_links
 from ..drums.packing import PackedColumn
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
@@ -144,7 +143,7 @@ class DistinctElement3D(SteppedDrums):
         """Stiffness damping β for a column [s]: as given, or as its restitution asks for."""
         if self.restitution is None:
             return self.stiffness_damping
-        return damping_for(column.replace(links=()), replace(self, restitution=None), self.restitution)
+        return damping_for(with_beds_alone(column), replace(self, restitution=None), self.restitution)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories; says what damping a restitution has led to."""
@@ -263,7 +262,7 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
     drums, joints = drum_fields(column, closure), joint_fields(column, kn, ks)
     options = model.pivot_friction, model.planar, model.rolling_resistance
     lane = lane_fields(column, model.damping(column), model.mass_damping, *options)
-    if column.as_found or is_pretensioned(column):
+    if column.as_found or column.pretensioned:
         section = model.kind(column)[1]
         kernel, types = model.kernel(section), model.record_types(section)
         found, friction = found_start(column, kernel, types, (drums, joints, lane), closure)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
@@ -106,3 +107,23 @@ def _rolling_force(
     given = np.cross(arm, mass * (gravity * up - centripetal)) - np.cross(omega, inertia @ omega)
     turning = np.linalg.solve(matrix, given)
     return mass * (gravity * up - np.cross(turning, arm) - centripetal)
+
+
+def sink(block: Any, lane: int, force: float) -> None:
+    """Lower the whole column in a lane of a block until the base carries a force [N]."""
+    joint, state = block.joint.copy(), block.lane.copy()
+    state["dt"][0, lane] = 0.0
+    z = block.drum["z"][1:, lane].copy()
+
+    def carried(depth: float) -> float:
+        block.drum["z"][1:, lane] = z - depth
+        block.kernel.forces(block.drum, joint, state)
+        return block.lift(joint, lane)
+
+    low, high = 0.0, 1e-12
+    while carried(high) < force:
+        high *= 2.0
+    while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if carried(middle) < force else (low, middle)
+    carried(high)

@@ -28,7 +28,7 @@ def one_body(column: Column) -> Column:
     ends = first.depth, None if column.section == "circular" else last.upper_depth
     drum = Drum(column.height, first.bottom_width, last.top_width, first.density, column.section, *ends)
     drum = dataclasses.replace(drum, density=first.density * column.mass / drum.mass)
-    return Column.of_drums([drum], column.joints[0], name=f"{column.name} as one body", gravity=column.gravity)
+    return Column.of_drums([drum], column.joint_laws[0], name=f"{column.name} as one body", gravity=column.gravity)
 
 
 @lru_cache(maxsize=256)

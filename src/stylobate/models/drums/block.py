@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
-from ...constants import DEGREE
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
-from ...outcome import Outcome, classify
-from ...response import Collapse, LinkMeasures, Measures
-from ...response.collapse import in_plane, what_is_lost
+from ...outcome import Outcome
+from ...response import LinkMeasures
+from ...response.collapse import what_is_lost
 from ..base import Case, RunOptions
+from ..plane.pose import check_takes_pose
 from ..shared import ledger, quiet
-from ..shared.ground import along_base
 from ..shared.lanes import aligned_zeros, longest_piece
-from ..start import check_in_plane
-from .histories import ledger_imbalance
-from .links import acting, link_measures, link_snapshot, put_links
-from .packing import PackedColumn, whole_steps
-from .pose import check_takes_pose, leans_right, placed, sink
+from .barriers import lowest_barrier
+from .links import acting, link_measures, link_snapshot
+from .packing import PackedColumn
 from .pretension import held_at_start, pressed_joints, set_free
-from .standing import lowest_barrier, stands_for_good
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
@@ -83,46 +78,6 @@ class DrumBlock:
         self.chunks_per_call = 1
         self.piece = longest_piece(cost, self.chunk)
 
-    def load(self, lane: int, case: Case) -> None:
-        """Start a case in a lane."""
-        self.cases[lane] = case
-        column, motion = case
-        packed = self.pack(column)
-        for array, fields in zip((self.drum, self.joint, self.lane), packed.fields, strict=True):
-            for name, values in fields.items():
-                array[name][..., lane] = values
-        self.joint["dn"][..., lane] = self.joint["ds"][..., lane] = 0.0
-        dt, chunks = whole_steps(motion, self.options.tail, packed.step)
-        steps = chunks * self.chunk
-        self.lane["dt"][0, lane] = dt
-        if packed.links is not None:
-            put_links(self.lane, packed.links, lane, dt)
-        x, z = motion.samples, motion.z_samples
-        feed, watch = self.feed[0], self.watch[0]
-        feed["x"][lane] = x.ctypes.data
-        feed["z"][lane] = 0 if z is None else z.ctypes.data
-        feed["last"][lane] = len(x) - 1
-        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
-        feed["ratio"][lane] = dt / motion.dt
-        feed["factor"][lane] = motion.factor
-        slope = column.as_found.base_tilt * DEGREE
-        feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
-        for name in watch.dtype.names:
-            watch[name][lane] = 0
-        watch["status"][lane] = RUNNING
-        watch["follow"][lane] = self.options.until_end
-        watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
-        peak_z = 0.0 if z is None else _peak(z) * abs(motion.factor)
-        watch["amax"][lane] = motion.pga * math.cos(slope) + peak_z * abs(math.sin(slope))
-        watch["vmax"][lane] = motion.pga * abs(math.sin(slope)) + peak_z * math.cos(slope)
-        self.slip[lane, : column.n] = self.joint_state(lane)[1]
-        self.stood[lane] = self.drum["x"][1:, lane], self.drum["z"][1:, lane]
-        watch["stood"][lane] = self.top(lane)
-        self.dt[lane] = dt
-        self.steps[lane] = steps
-        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
-        self.begin(lane)
-
     def begin(self, lane: int) -> None:
         """Take the start's pose, if there is one; velocities half a step before the start, and the energy there.
 
@@ -147,39 +102,6 @@ class DrumBlock:
     def check_start(self, column: Any) -> None:
         """Refuse a start that is not one for this column."""
         check_takes_pose(self.options.start, column)
-
-    def take_pose(self, lane: int, column: Any, start: Any) -> None:
-        """Tilt a column that stands in a lane."""
-        check_in_plane(start, "a model in the plane")
-        fields, (push, lift) = placed(start, self.drum, lane, column.gravity)
-        for name, values in fields.items():
-            self.drum[name][:, lane] = values
-        self.joint["fs"][0, :, lane] = 0.0
-        self.joint["fs"][0, -1 if leans_right(start) else 0, lane] = push
-        sink(self, lane, lift)
-
-    def lift(self, joint: np.ndarray, lane: int) -> float:
-        """What the base carries [N]."""
-        return float(joint["fz"][0, lane])
-
-    def half_a_step_back(self, lane: int) -> None:
-        """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
-        half, drum = 0.5 * self.dt[lane], self.drum
-        ground = self.ground_acceleration(lane, self.time(lane))
-        turn: float | np.ndarray = 0.0
-        if self.options.start is not None:
-            joint, state = self.joint.copy(), self.lane.copy()
-            state["dt"][0, lane] = 0.0
-            self.kernel.forces(self.drum, joint, state)
-            net = {name: joint[name][:, lane] for name in ("fx", "fz", "mu_", "ml")}
-            ground = (
-                ground[0] - (net["fx"][:-1] - net["fx"][1:]) * drum["im"][1:, lane],
-                ground[1] + state["g"][0, lane] - (net["fz"][:-1] - net["fz"][1:]) * drum["im"][1:, lane],
-            )
-            turn = (net["mu_"][:-1] - net["ml"][1:]) * drum["ii"][1:, lane]
-        drum["vx"][1:, lane] += half * ground[0]
-        drum["vz"][1:, lane] += half * ground[1]
-        drum["w"][1:, lane] -= half * turn
 
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
@@ -224,34 +146,12 @@ class DrumBlock:
         change = self.energies(lane) - self.start[lane]
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
-            free = set_free(case.column, self.lane, lane, float(self.pressed[lane]))
+            free = set_free(case.column, self.lane["mft"][1:, lane], float(self.pressed[lane]))
         return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(case.column)
 
     def time(self, lane: int) -> float:
         """Time of the lane's present state [s]."""
         return float(self.feed["step"][0, lane]) * self.dt[lane]
-
-    def ground_acceleration(self, lane: int, time: float) -> np.ndarray:
-        """Acceleration of the base along and normal to it at a time [m/s²], shape (2,)."""
-        case = self.cases[lane]
-        assert case is not None
-        slope = case.column.as_found.base_tilt * DEGREE
-        return np.array(along_base(case.motion, time, math.cos(slope), math.sin(slope)))
-
-    def put_ground(self, ground: np.ndarray, lane: int, acceleration: np.ndarray) -> None:
-        """Write the base's acceleration as the kernel wants it."""
-        ground["ax"][0, lane], ground["az"][0, lane] = acceleration
-
-    def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
-        """Opening of every joint, and where the drum above it is along it [m], each of shape (n,)."""
-        opening, slip = np.empty(len(self.drum) - 1), np.empty(len(self.drum) - 1)
-        self.kernel.joint_state(self.drum, lane, opening, slip)
-        return opening, slip
-
-    def top(self, lane: int) -> float:
-        """Place of the middle of the topmost face along the base [m]."""
-        d = self.drum[-1]
-        return float(d["x"][lane] - (d["s"][lane] * d["fc"][lane] + d["c"][lane] * d["fs"][lane]) * d["ht"][lane])
 
     def energies(self, lane: int) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
@@ -267,34 +167,6 @@ class DrumBlock:
         out = np.empty(6)
         self.kernel.ledger(drum, joint, state, ground, 0, self.dt[lane], lane, out)
         return out
-
-    def residual_acceleration(self, lane: int) -> float:
-        """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
-        joint, state = self.joint.copy(), self.lane.copy()
-        self.kernel.forces(self.drum, joint, state)
-        d = {name: self.drum[name][1:, lane] for name in ("im", "ii", "bl", "br")}
-        net = {name: joint[name][:, lane] for name in ("fx", "fz", "mu_", "ml")}
-        ax = (net["fx"][:-1] - net["fx"][1:]) * d["im"] - state["gx"][0, lane]
-        az = (net["fz"][:-1] - net["fz"][1:]) * d["im"] - state["g"][0, lane]
-        turn = (net["mu_"][:-1] - net["ml"][1:]) * d["ii"] * np.maximum(d["bl"], d["br"])
-        return float(np.abs(np.concatenate((ax, az, turn))).max())
-
-    def snapshot(self, lane: int) -> dict[str, Any]:
-        """Everything that a history keeps of the present state."""
-        drum = self.drum
-        opening, slip = self.joint_state(lane)
-        bottom = drum[1]
-        return {
-            "time": self.time(lane),
-            "x": drum["x"][1:, lane] - self.stood[lane, 0],
-            "z": drum["z"][1:, lane] - self.stood[lane, 1],
-            "rotation": drum["th"][1:, lane].copy(),
-            "opening": opening,
-            "slip": slip - self.slip[lane],
-            "base": bottom["x"][lane] + bottom["s"][lane] * bottom["hb"][lane],
-            "top": self.top(lane) - self.watch["stood"][0, lane],
-            "energy": self.energies(lane),
-        } | self.links_now(lane)
 
     def links_now(self, lane: int) -> dict[str, Any]:
         """What a snapshot keeps of the links, where there are some."""
@@ -328,50 +200,6 @@ class DrumBlock:
         watch = self.watch[0]
         return float(watch["k" + name if watch["when"][lane] >= 0 else name][lane])
 
-    def collect(self, lane: int) -> Measures:
-        """Measures of a lane whose run is over."""
-        case = self.cases[lane]
-        assert case is not None
-        watch = self.watch[0]
-        status = watch["status"][lane]
-        now = self.energies(lane)
-        change = now - self.start[lane]
-        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), case.column)
-        slip = self.joint_state(lane)[1] - self.slip[lane, : case.column.n]
-        collapsed = status == COLLAPSED
-        failed = status == FAILED or bool(ledger.out_of_balance(imbalance))
-        widths = case.column.joint_widths
-        outcome = classify(
-            collapsed, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
-        )
-        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
-        return Measures(
-            outcome=outcome,
-            decided=outcome is Outcome.COLLAPSED
-            or (not failed and stands_for_good(case.column, self.drum, lane, slip, mechanical, self.toes(case.column))),
-            collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
-            peak_top_displacement=self.peak(lane, "top"),
-            residual_top_displacement=self.top(lane) - float(watch["stood"][lane]),
-            peak_rotation=self.peak(lane, "turn"),
-            peak_joint_opening=self.peak(lane, "open"),
-            residual_joint_slip=float(np.abs(slip).max()),
-            energy_imbalance=imbalance,
-            time_step=float(self.dt[lane]),
-            steps=int(self.feed["step"][0, lane] - self.spans.left_out[lane]),
-            reason=self.reason(lane, outcome, imbalance),
-            collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
-            stepped=self.spans.stepped(lane, int(self.feed["step"][0, lane]), float(self.dt[lane])),
-            links=self.links_done(lane),
-        )
-
-    def collapse(self, lane: int) -> Collapse:
-        """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""
-        watch = self.watch[0]
-        parted = bool(watch["parted"][lane])
-        joint = 1 + int(watch["which" if parted else "about"][lane])
-        time = float(watch["when"][lane] * self.dt[lane])
-        return in_plane(time, joint, float(watch["side"][lane]), slid_off=parted)
-
     def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
         """Why a run failed, or what happened in a collapse; empty for a column that stands."""
         watch = self.watch[0]
@@ -382,11 +210,3 @@ class DrumBlock:
         if outcome is not Outcome.COLLAPSED:
             return ""
         return f"{what_is_lost(self.collapse(lane), len(self.drum) - 1)}, {self.direction(lane)}"
-
-    def direction(self, lane: int) -> str:
-        """Where a collapse goes, in words."""
-        return f"to the {self.collapse(lane).side}"
-
-
-def _peak(values: np.ndarray) -> float:
-    return float(np.abs(values).max())

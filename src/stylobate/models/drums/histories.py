@@ -12,8 +12,8 @@ from ...motion import Motion
 from ...response import Histories
 from ..shared import ledger
 from ..shared.ground import ground_histories
+from .barriers import lowest_barrier
 from .links import with_link_histories
-from .standing import lowest_barrier
 
 
 def ledger_imbalance(change: np.ndarray, work: float, start: float, column: Column) -> float:

@@ -15,8 +15,8 @@ def joint_stiffnesses(column: Column, block_modulus: float | None) -> tuple[np.n
     1/k_n′ = 1/k_n + h/2E of the drum above + h/2E of the drum below (the base is rigid); k_s keeps its ratio to k_n.
     Eq. (D2).
     """
-    kn = np.array([joint.normal_stiffness for joint in column.joints])
-    ks = np.array([joint.shear_stiffness for joint in column.joints])
+    kn = np.array([joint.normal_stiffness for joint in column.joint_laws])
+    ks = np.array([joint.shear_stiffness for joint in column.joint_laws])
     if block_modulus is None:
         return kn, ks
     half = 0.5 * column.heights / block_modulus

@@ -12,8 +12,7 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import geometry
 from ...column.found_in_space import space_geometry
-from ...column.link_laws import LinkProperties, properties
-from ...column.link_loads import own_places
+from ...column.links.placed import PlacedLink
 from ...kernels.drums.link_records import OWN
 from ...response import Histories, LinkHistories, LinkMeasures
 from ..shared.stable_step import highest_frequency
@@ -26,9 +25,9 @@ class PackedLinks(NamedTuple):
     own: dict[str, np.ndarray]
 
 
-def acting(column: Column) -> tuple[LinkProperties, ...]:
+def acting(column: Column) -> tuple[PlacedLink, ...]:
     """Links that do anything besides lowering friction."""
-    return tuple(one for one in properties(column) if one.acts) if column.links else ()
+    return tuple(one for one in column.placed_links if one.acts)
 
 
 def kind_of(column: Column) -> tuple[Any, ...]:
@@ -71,13 +70,13 @@ def pack_links(column: Column, joint: np.ndarray, line: np.ndarray, ends: np.nda
         "mpx": joint[:, 0],
         "mpy": joint[:, 1],
         "mwhen": np.full(count, -1),
-        "mhold": np.array([_hold(column, one) for one in links]),
+        "mhold": np.array([hold_of(column, one) for one in links]),
     }
     own |= {f"m{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
     return PackedLinks(shared, own)
 
 
-def law_fields(links: Sequence[LinkProperties]) -> dict[str, np.ndarray]:
+def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
     """Whom each link holds and by which numbers, as the fields of its record, each of shape (m,)."""
 
     def of(name: str) -> np.ndarray:
@@ -131,7 +130,7 @@ def plane_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | No
     for m, link in enumerate(links):
         low, up = link.lower, link.upper
         if link.straight:
-            ends[:, m] = own_places(column, link)
+            ends[:, m] = link.arms
             line[m] = math.dist(placed(low, ends[0, m]), placed(up, ends[1, m]))
             continue
         ends[1, m, 0] = along = link.high[0] - foot[up - 1]
@@ -156,7 +155,7 @@ def space_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | No
     for m, link in enumerate(links):
         low, up = link.lower, link.upper
         if link.straight:
-            ends[:, m] = own_places(column, link)
+            ends[:, m] = link.arms
             one, other = (centroids[body] + axes[body] @ end for body, end in ((low, ends[0, m]), (up, ends[1, m])))
             line[m] = math.dist(one, other)
             continue
@@ -165,7 +164,7 @@ def space_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | No
     return pack_links(column, joint, line, ends)
 
 
-def _hold(column: Column, link: LinkProperties) -> float:
+def hold_of(column: Column, link: PlacedLink) -> float:
     """Largest moment that a link can set against overturning about a joint that it crosses [N m].
 
     One across a joint in tension at its distance from the farthest edge; one in shear over the lift at which it is in its
@@ -185,6 +184,12 @@ def _hold(column: Column, link: LinkProperties) -> float:
     if link.shear_stiffness:
         shear = min(link.shear_capacity, link.shear_stiffness * 2.0 * widest) * min(link.lift, widest)
     return shear + (link.axial_capacity * lever if link.axial_stiffness else 0.0)
+
+
+def with_beds_alone(column: Column) -> Column:
+    """The column with those of its links alone that make its joints softer."""
+    pairs = zip(column.links, column.placed_links, strict=True)
+    return column.replace(links=tuple(link for link, one in pairs if one.bed_stiffness < math.inf))
 
 
 class LinkStiffness(NamedTuple):
@@ -217,12 +222,12 @@ def link_stiffness(column: Column) -> LinkStiffness:
     return LinkStiffness(highest_frequency(springs, inverse), highest_frequency(dashpots, inverse) ** 2)
 
 
-def _square(column: Column, link: LinkProperties, way: np.ndarray) -> np.ndarray:
+def _square(column: Column, link: PlacedLink, way: np.ndarray) -> np.ndarray:
     """What a unit of stiffness along a direction adds to the stiffness of the drums."""
     row = np.zeros(6 * column.n)
-    for body, end, sign in ((link.upper, link.high, 1.0), (link.lower, link.low, -1.0)):
+    low, high = link.arms
+    for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):
         if body:
-            arm = np.array(end) - (0.0, 0.0, float(column.centroid_heights[body - 1]))
             row[6 * body - 6 : 6 * body] = sign * np.concatenate((way, np.cross(arm, way)))
     return np.outer(row, row)
 
@@ -250,7 +255,7 @@ def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
     return np.stack((shear, *(records[name][:, lane] for name in ("mft", "mslip", "mlong"))))
 
 
-def link_measures(links: Sequence[LinkProperties], one: np.ndarray, lane: int, step: float) -> tuple[LinkMeasures, ...]:
+def link_measures(links: Sequence[PlacedLink], one: np.ndarray, lane: int, step: float) -> tuple[LinkMeasures, ...]:
     """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
     found = []
     for m, link in enumerate(links):

@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.link_loads import is_pretensioned
 from ...errors import InputError
 from .links import acting
 
@@ -25,7 +24,7 @@ def pressed_joints(block: Any, lane: int, column: Column) -> float:
     lane : int
     column : Column
     """
-    if not is_pretensioned(column):
+    if not column.pretensioned:
         return 0.0
     try:
         bare = without_tension(column)
@@ -47,11 +46,12 @@ def held_at_start(column: Column) -> float:
 
 def without_tension(column: Column) -> Column:
     """The column with those of its links alone that hold nothing at the start."""
-    return column.replace(links=tuple(one for one in column.links if not getattr(one, "pretension", 0.0)))
+    pairs = zip(column.links, column.placed_links, strict=True)
+    return column.replace(links=tuple(link for link, one in pairs if not one.pretension))
 
 
-def set_free(column: Column, records: np.ndarray, lane: int, pressed: float) -> float:
-    """Energy of pretension that a lane's links, and the joints that they press, have given away since the start [J].
+def set_free(column: Column, tensions: np.ndarray, pressed: float) -> float:
+    """Energy of pretension that links under these tensions [N], shape (m,), and the joints that they press, have given away since the start [J].
 
     What the joints had, ``pressed`` [J], falls with the square of the tension; they are taken to have lost as much of it as
     the link that has lost most.
@@ -59,7 +59,7 @@ def set_free(column: Column, records: np.ndarray, lane: int, pressed: float) -> 
     free = least = 0.0
     for m, one in enumerate(acting(column)):
         if one.pretension:
-            left = min(float(records["mft"][1 + m, lane]) / one.pretension, 1.0) ** 2
+            left = min(float(tensions[m]) / one.pretension, 1.0) ** 2
             free += 0.5 * one.pretension**2 / one.axial_stiffness * (1.0 - left)
             least = max(least, 1.0 - left)
     return free + least * max(pressed, 0.0)

@@ -14,7 +14,7 @@ from ...column.found_geometry import drum_outline, geometry
 from ...constants import DEGREE
 from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_range
-from .stack_links import StackLink, stack_links
+from .stack_links import Hold, stack_links
 
 #: Reach of the base to either side of its joint [m]: a plane without end.
 BASE_REACH = 1.0e6
@@ -54,8 +54,8 @@ class BlockStack:
         one array (k, 2) for each block, because chips have corners too.
     slope : float
         Of the base as found, counter-clockwise positive [rad]; all other angles and places are along and normal to it.
-    links : tuple of StackLink
-        What strengthens it.
+    links : tuple of Hold
+        What its links do.
     """
 
     mass: np.ndarray
@@ -77,7 +77,7 @@ class BlockStack:
     gravity: float
     outlines: np.ndarray | Sequence[np.ndarray]
     slope: float = 0.0
-    links: tuple[StackLink, ...] = ()
+    links: tuple[Hold, ...] = ()
 
     @property
     def n(self) -> int:
@@ -124,7 +124,7 @@ class BlockStack:
             gravity=column.gravity,
             outlines=outlines,
             links=stack_links(column),
-            **_stiffness(column.joints, column.joint_areas, column.joint_second_moments, column.friction),
+            **_stiffness(column.joint_laws, column.joint_areas, column.joint_second_moments, column.friction),
         )
 
     @classmethod
@@ -169,13 +169,13 @@ class BlockStack:
             outlines=tuple(outlines),
             slope=column.as_found.base_tilt * DEGREE,
             links=stack_links(column),
-            **_stiffness(column.joints, area, second, column.friction),
+            **_stiffness(column.joint_laws, area, second, column.friction),
         )
 
     def with_capacities(self, capacity: np.ndarray) -> BlockStack:
         """The same stack whose links have other capacities [N], shape (links,)."""
         links = zip(self.links, capacity.tolist(), strict=True)
-        return replace(self, links=tuple(replace(one, capacity=most) for one, most in links))
+        return replace(self, links=tuple(one.with_capacity(most) for one, most in links))
 
     def mirrored(self) -> BlockStack:
         """The same stack with left and right changed."""

@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
-import importlib
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from ...column import Column
-from ...column.link_loads import is_pretensioned
 from ...errors import InputError, check_range
+from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ..base import RunOptions
-from ..drums.block import DrumBlock
-from ..drums.links import kind_of, link_stiffness, plane_links, with_links
-from ..drums.packing import PackedColumn, drum_fields, lane_fields
+from ..drums.links import link_stiffness, with_links
 from ..drums.stepped import SteppedDrums
+from ..plane.block import Law
+from ..plane.columns import ColumnLanes
+from ..plane.laws import interface_law
+from ..plane.links import bonds, links_at_rest
+from ..plane.packing import (
+    Packed,
+    Topology,
+    body_fields,
+    damping,
+    drum_fields,
+    face_fields,
+    lane_fields,
+    one_lane,
+    top_face,
+)  # fmt: skip
 from ..shared import stable_step as shared
 from ..shared.toes import centroids_above, point_toes
 from .block_stack import BlockStack
@@ -88,8 +99,8 @@ class RigidBlock(SteppedDrums):
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse an unstable step, joints that crush under the weight, and pretension; say what a plane model leaves out."""
         super().check(column, motion)
-        if is_pretensioned(column):
-            pull = max(getattr(link, "pretension", 0.0) for link in column.links)
+        if column.pretensioned:
+            pull = max(link.pretension for link in column.placed_links)
             raise InputError(
                 f"rigid-block begins with joints that the weight alone presses, and a link of {column.name!r} has a "
                 f"pretension of {pull:g} N; use dem2d or dem3d, or leave the pretension out."
@@ -105,25 +116,20 @@ class RigidBlock(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kind(self, column: Column) -> tuple:
-        """Number of drums, and the links if there are some."""
-        return (column.n, *kind_of(column))
+    def kind(self, column: Column) -> Topology:
+        """Which contacts there are: columns alike in that share blocks of lanes."""
+        return Topology.of_column(column)
 
-    def kernel(self, links: int = 0) -> Any:
-        """Module of kernels, for so many links."""
-        return importlib.import_module(f"...kernels.rigid_block.{'linked' if links else 'step'}", __package__)
+    def law(self, linked: bool) -> Law:
+        """The law of the joints, for columns with links or without."""
+        return interface_law(self.compressive_strength is not None, self.damped, LANES, linked)
 
-    def make_block(self, drums: int, options: RunOptions, links: int = 0, which: tuple = ()) -> DrumBlock:
-        """A block of lanes for columns of so many drums, and of so many links which these are."""
-        kernel, types = self.kernel(links), self.record_types()
-        return DrumBlock(kernel, types, self.pack, drums, options, self.cost(drums), links)
+    def block_for(self, kind: Topology, options: RunOptions) -> ColumnLanes:
+        """A block of lanes for columns of a kind."""
+        return ColumnLanes(self.law(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
 
-    def record_types(self) -> tuple:
-        """Record types of the kernel's arrays."""
-        return self.kernel().block_types(self.compressive_strength is not None, self.damped)
-
-    def pack(self, column: Column) -> PackedColumn:
-        """A column as the kernel wants it."""
+    def pack(self, column: Column) -> Packed:
+        """A column as the engine wants it."""
         return _pack(column, self)
 
     def stable_step(self, column: Column) -> float:
@@ -132,34 +138,29 @@ class RigidBlock(SteppedDrums):
 
 
 @lru_cache(maxsize=4096)
-def _pack(column: Column, model: RigidBlock) -> PackedColumn:
+def _pack(column: Column, model: RigidBlock) -> Packed:
     n, area = column.n, column.joint_areas
     kn, km, ks = joint_stiffness(column)
-
-    def with_free_top(values: Sequence[float] | np.ndarray) -> np.ndarray:
-        return np.concatenate((values, [0.0]))
-
     strength = model.compressive_strength
-    crush = (
-        np.zeros((n + 1, 1)) if strength is None else np.repeat(with_free_top(1.0 / (strength * area))[:, None], 2, 1)
-    )
-    joint_fields = {
-        "kn": with_free_top(kn),
-        "km": with_free_top(km),
-        "ks": with_free_top(ks),
-        "co": with_free_top([joint.cohesion for joint in column.joints] * area),
-        "mu": with_free_top(column.friction),
-        "crush": crush,
-        "tau": np.zeros(n + 1),
-        "chi": np.ones(n + 1),
-        "sp": np.zeros(n + 1),
-        "gap": np.zeros(n + 1),
-        "fs": np.zeros(n + 1),
-    }
     drums = drum_fields(column, column.joint_weights / kn)
-    lane = lane_fields(column, model.stiffness_damping, model.mass_damping)
-    links = plane_links(column, drums)
-    return PackedColumn((drums, joint_fields, lane), model.step_for(column), _toes(column, strength), links)
+    joint = face_fields(drums) | {
+        "kn": kn,
+        "km": km,
+        "ks": ks,
+        "co": np.array([joint.cohesion for joint in column.joints]) * area,
+        "mu": column.friction,
+        "crush": np.zeros((n, 1)) if strength is None else np.repeat((1.0 / (strength * area))[:, None], 2, 1),
+        "chi": np.ones(n),
+    }
+    lane = lane_fields(column) | {"damp": damping(model.damped, model.stiffness_damping, model.mass_damping)}
+    types = interface_law(strength is not None, model.damped, 1, bool(column.links)).types
+    records = {
+        "body": one_lane(types["body"], n + 1, body_fields(drums)),
+        "joint": one_lane(types["joint"], n, joint),
+        "lane": one_lane(types["lane"], 1, lane),
+        "link": links_at_rest(column, drums),
+    }
+    return Packed(records, bonds(column), model.step_for(column), _toes(column, strength), top_face(drums))
 
 
 def _toes(column: Column, strength: float | None) -> np.ndarray:
@@ -175,8 +176,8 @@ def _toes(column: Column, strength: float | None) -> np.ndarray:
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """k_n A [N/m], k_n J [N m] and k_s A [N/m] of each joint (Baraldi et al., Eq. 8), each of shape (n,)."""
-    kn = np.array([joint.normal_stiffness for joint in column.joints])
-    ks = np.array([joint.shear_stiffness for joint in column.joints])
+    kn = np.array([joint.normal_stiffness for joint in column.joint_laws])
+    ks = np.array([joint.shear_stiffness for joint in column.joint_laws])
     return kn * column.joint_areas, kn * column.joint_second_moments, ks * column.joint_areas
 
 

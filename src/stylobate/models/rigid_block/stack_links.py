@@ -3,128 +3,132 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from ...column import Column
 from ...column.found_geometry import geometry
-from ...column.link_laws import LinkProperties, properties
+from ...column.links.placed import PlacedLink, Point
 
 #: What a link does: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
 SHEAR, CLOSING, LINE = "shear", "closing", "line"
 
 
-@dataclass(frozen=True)
-class StackLink:
-    """One thing that a link does; a bar across a joint is two of them.
+class Hold(NamedTuple):
+    """One thing that a link does at rest; a bar across a joint does two. Dashpots do nothing.
 
     Parameters
     ----------
-    name : str
-        Of the link.
+    link : PlacedLink
+        In the plane its ends are where the stack has them, x and z [m].
     action : {"shear", "closing", "line"}
-    lower, upper : int
-        Blocks that it links, from 0 at the bottom; −1 is the base.
-    low, high : (float, float)
-        Its ends, x and z as those of the stack [m].
-    aside : float
-        How far a line goes out of the plane [m].
-    stiffness, capacity : float
-        [N/m], [N]; the capacity infinite without limit.
-    slack : float
-        Slip to either side before it acts [m].
-    ultimate : float
-        Slip or elongation beyond which it is lost [m].
-    lift : float
-        Opening of its joint beyond which it holds nothing [m].
-    pretension : float
-        [N]
-    brittle : bool
-        Whether it is lost at its capacity.
-    strength : bool
-        Whether its capacity is a strength, as limit analysis knows it; that of a spring of a layer without capacity is not.
     """
 
-    name: str
+    link: PlacedLink
     action: str
-    lower: int
-    upper: int
-    low: tuple[float, float]
-    high: tuple[float, float]
-    stiffness: float
-    capacity: float = math.inf
-    slack: float = 0.0
-    ultimate: float = math.inf
-    lift: float = math.inf
-    pretension: float = 0.0
-    brittle: bool = False
-    strength: bool = True
-    aside: float = 0.0
 
-    def mirrored(self) -> StackLink:
+    @property
+    def name(self) -> str:
+        """Of the link."""
+        return self.link.name
+
+    @property
+    def blocks(self) -> tuple[int, int]:
+        """The lower and the upper block that it holds, from 0 at the bottom; −1 is the base."""
+        return self.link.lower - 1, self.link.upper - 1
+
+    @property
+    def stiffness(self) -> float:
+        """[N/m]"""
+        return self.link.shear_stiffness if self.action == SHEAR else self.link.axial_stiffness
+
+    @property
+    def capacity(self) -> float:
+        """[N], infinite without limit."""
+        return self.link.shear_capacity if self.action == SHEAR else self.link.axial_capacity
+
+    @property
+    def slack(self) -> float:
+        """Slip to either side before it acts [m]."""
+        return self.link.clearance if self.action == SHEAR else 0.0
+
+    @property
+    def ultimate(self) -> float:
+        """Slip or elongation beyond which it is lost [m]."""
+        return self.link.ultimate_slip if self.action == SHEAR else self.link.ultimate_elongation
+
+    @property
+    def lift(self) -> float:
+        """Opening of its joint beyond which it holds nothing [m]."""
+        return self.link.lift if self.action == SHEAR else math.inf
+
+    @property
+    def brittle(self) -> bool:
+        """Whether it is lost at its capacity."""
+        return self.action == SHEAR and self.link.failure == "brittle"
+
+    @property
+    def strength(self) -> bool:
+        """Whether its capacity is a strength, as limit analysis knows it; that of a sheet's spring without one is not."""
+        return self.action != SHEAR or self.link.mark != "sheet" or self.capacity < math.inf
+
+    def with_capacity(self, capacity: float) -> Hold:
+        """The same with another capacity [N]."""
+        name = "shear_capacity" if self.action == SHEAR else "axial_capacity"
+        return self._replace(link=replace(self.link, **{name: capacity}))
+
+    def mirrored(self) -> Hold:
         """As seen in a mirror."""
-        (x, z), (u, w) = self.low, self.high
-        return replace(self, low=(-x, z), high=(-u, w))
+        (x, y, z), (u, v, w) = self.link.low, self.link.high
+        return self._replace(link=replace(self.link, low=(-x, y, z), high=(-u, v, w)))
 
 
-def actions(link: LinkProperties) -> tuple[str, ...]:
-    """What a link does at rest; dashpots nothing."""
-    if link.straight:
-        return (LINE,) if link.axial_stiffness > 0.0 else ()
-    across = (SHEAR,) if link.shear_stiffness > 0.0 else ()
-    return (*across, CLOSING) if link.axial_stiffness > 0.0 else across
+def holds(links: Sequence[PlacedLink]) -> list[Hold]:
+    """All that links do at rest."""
+    found = []
+    for link in links:
+        if link.straight:
+            actions = (LINE,) if link.axial_stiffness > 0.0 else ()
+        else:
+            actions = (SHEAR,) if link.shear_stiffness > 0.0 else ()
+            actions += (CLOSING,) if link.axial_stiffness > 0.0 else ()
+        found += [Hold(link, action) for action in actions]
+    return found
 
 
-def is_strength(link: LinkProperties, action: str) -> bool:
-    """Whether the capacity of what a link does is a strength; that of a layer's spring without capacity is not."""
-    return action != SHEAR or link.kind != "layer" or link.shear_capacity < math.inf
-
-
-def stack_links(column: Column) -> tuple[StackLink, ...]:
-    """The links of a column in the plane of x and z, where its drums are found; dashpots do nothing at rest."""
+def stack_links(column: Column) -> tuple[Hold, ...]:
+    """What the links of a column do in the plane of x and z, where its drums are found."""
     if not column.links:
         return ()
     at = geometry(column)
 
-    def place(body: int, point: tuple[float, float, float]) -> tuple[float, float]:
+    def place(body: int, point: Point) -> Point:
         """A point of a body in the column as built, as the column is found; body 0 is the base."""
         if body == 0:
-            return point[0], point[2]
+            return point
         i = body - 1
         angle = at.lean[i] + at.tilt[i]
         x, z = point[0], point[2] - column.centroid_heights[i]
         c, s = math.cos(angle), math.sin(angle)
-        return float(at.centroid[i, 0] + c * x - s * z), float(at.centroid[i, 1] + s * x + c * z)
+        return float(at.centroid[i, 0] + c * x - s * z), point[1], float(at.centroid[i, 1] + s * x + c * z)
 
-    found: list[StackLink] = []
-    for one in properties(column):
-        low, high = place(one.lower, one.low), place(one.upper, one.high)
-        bodies = one.lower - 1, one.upper - 1
-        for action in actions(one):
-            if action == SHEAR:
-                own = StackLink(
-                    one.name, SHEAR, *bodies, low, high, one.shear_stiffness, one.shear_capacity, one.clearance,
-                    one.ultimate_slip, one.lift, brittle=one.failure == "brittle", strength=is_strength(one, action),
-                )  # fmt: skip
-            else:
-                own = StackLink(
-                    one.name, action, *bodies, low, high, one.axial_stiffness, one.axial_capacity,
-                    ultimate=one.ultimate_elongation, pretension=one.pretension,
-                    aside=one.high[1] - one.low[1] if action == LINE else 0.0,
-                )  # fmt: skip
-            found.append(own)
-    return tuple(found)
+    def found(link: PlacedLink) -> PlacedLink:
+        return replace(link, low=place(link.lower, link.low), high=place(link.upper, link.high))
+
+    return tuple(holds([found(link) for link in column.placed_links]))
 
 
 def link_strains(
-    links: tuple[StackLink, ...], centroid: np.ndarray, joint_angle: np.ndarray, position: np.ndarray | None = None
+    links: tuple[Hold, ...], centroid: np.ndarray, joint_angle: np.ndarray, position: np.ndarray | None = None
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Strain of every link, its derivative, and the opening of the joint at it.
 
     Parameters
     ----------
-    links : tuple of StackLink
+    links : tuple of Hold
     centroid : array
         Of the blocks [m], shape (n, 2).
     joint_angle : array
@@ -146,32 +150,34 @@ def link_strains(
     strain, opening, slope = np.zeros(len(links)), np.zeros(len(links)), np.zeros((len(links), 3 * n))
     for k, one in enumerate(links):
         strain[k], opening[k], by_low, by_high = link_strain(one, centroid, joint_angle, moved)
-        for block, by in ((one.lower, by_low), (one.upper, by_high)):
+        for block, by in zip(one.blocks, (by_low, by_high), strict=True):
             if block >= 0:
                 slope[k, 3 * block : 3 * block + 3] += by
     return strain, slope, opening
 
 
 def link_strain(
-    one: StackLink, centroid: np.ndarray, joint_angle: np.ndarray, moved: np.ndarray
+    one: Hold, centroid: np.ndarray, joint_angle: np.ndarray, moved: np.ndarray
 ) -> tuple[float, float, np.ndarray, np.ndarray]:
     """Strain of one link and the opening of its joint [m], and derivatives of the strain by its two blocks' coordinates."""
-    low, by_low = _point(one.lower, one.low, centroid, moved)
-    high, by_high = _point(one.upper, one.high, centroid, moved)
-    apart, built = high - low, np.subtract(one.high, one.low)
+    below, above = one.blocks
+    (x, y, z), (u, v, w) = one.link.low, one.link.high
+    low, by_low = _point(below, (x, z), centroid, moved)
+    high, by_high = _point(above, (u, w), centroid, moved)
+    apart, built, aside = high - low, np.array([u - x, w - z]), v - y
     if one.action == LINE:
-        length = math.hypot(apart[0], apart[1], one.aside)
+        length = math.hypot(apart[0], apart[1], aside)
         along = apart / length
-        return length - math.hypot(built[0], built[1], one.aside), 0.0, -(along @ by_low), along @ by_high
-    angle = float(joint_angle[one.upper])
-    tangent, normal = _axes(angle + (moved[one.lower, 2] if one.lower >= 0 else 0.0))
+        return length - math.hypot(built[0], built[1], aside), 0.0, -(along @ by_low), along @ by_high
+    angle = float(joint_angle[above])
+    tangent, normal = _axes(angle + (moved[below, 2] if below >= 0 else 0.0))
     first, second = _axes(angle)
     opening = float(apart @ normal - built @ second)
     shear = one.action == SHEAR
     along, across = (tangent, normal) if shear else (normal, -tangent)
-    below = -(along @ by_low)
-    below[2] += apart @ across
-    return (float(apart @ tangent - built @ first) if shear else opening), opening, below, along @ by_high
+    by_lower = -(along @ by_low)
+    by_lower[2] += apart @ across
+    return (float(apart @ tangent - built @ first) if shear else opening), opening, by_lower, along @ by_high
 
 
 def _axes(angle: float) -> tuple[np.ndarray, np.ndarray]:

@@ -28,10 +28,11 @@ def check_sinking(column: Column) -> None:
     InputError
         It sinks by more than a hundredth of its height, or a drum by half of its own.
     """
-    closure = column.joint_closures
+    stiffness = np.array([joint.normal_stiffness for joint in column.joint_laws]) * column.joint_areas
+    closure = column.joint_weights / stiffness
     share = float(closure.sum()) / column.height
     if share > LARGEST_SINKING:
-        softest = min(joint.normal_stiffness for joint in column.joints)
+        softest = min(joint.normal_stiffness for joint in column.joint_laws)
         raise InputError(
             f"column {column.name!r} sinks by {share:.3g} of its height under its own weight; allowed is up to "
             f"{LARGEST_SINKING:g}: its normal_stiffness ({softest:g} N/m³ where it is least) should be "
@@ -42,7 +43,7 @@ def check_sinking(column: Column) -> None:
         raise InputError(
             f"drum {thin + 1} of {column.name!r} is {column.heights[thin]:.3g} m high and sinks by {closure[thin]:.3g} m "
             f"under the weight on its lower joint; allowed is up to half of its height: make that joint's normal_stiffness "
-            f"({column.joints[thin].normal_stiffness:g} N/m³) larger, or the drum higher."
+            f"({column.joint_laws[thin].normal_stiffness:g} N/m³) larger, or the drum higher."
         )
 
 

@@ -1,0 +1,290 @@
+"""What every link is: its data, checked where made, where it may be, and what it holds in numbers."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal, NamedTuple, Self
+
+from ...errors import InputError, check_range, suggest
+from ..joint import Joint
+from .materials import MATERIALS
+
+#: Largest length [m], stiffness [N/m], force [N] and dashpot [N s/m] of a link.
+LONGEST, STIFFEST, STRONGEST, THICKEST = 100.0, 1e13, 1e10, 1e10
+
+#: Where a link may lie: in a joint, straight between two points, or in two blocks side by side, which no column has.
+Lies = Literal["joint", "line", "side"]
+
+#: How it is drawn: a short stroke through its joint, one that is anchored at its ends, a line, or a sheet along its joint.
+Mark = Literal["stroke", "anchor", "line", "sheet"]
+
+#: What says where a link is, rather than what it is; the first five in a column alone.
+PLACES = ("joint", "from_drum", "to_drum", "from_height", "to_height", "at", "to", "name", "between", "numbers")
+
+
+class Site(NamedTuple):
+    """What a link finds where it lies: the length between its ends [m], or area [m²] and edge [m] of its joint's faces."""
+
+    length: float = math.nan
+    area: float = math.nan
+    edge: float = math.nan
+
+
+@dataclass(frozen=True, kw_only=True)
+class Numbers:
+    """What a link holds, for every kernel and every analysis alike.
+
+    Parameters
+    ----------
+    diameter : float
+        [m]; 0 if not known.
+    shear_stiffness, shear_capacity : float
+        [N/m], [N] (infinite without limit)
+    clearance : float
+        Slack all round [m].
+    ultimate_slip : float
+        [m], infinite if it is never lost.
+    failure : str
+        ``ductile``, ``brittle`` or ``crushing``.
+    lift : float
+        Lift of the joint at its place up to which it holds in shear [m]; of a clamp the length of its legs.
+    reach : float
+        How far beside its slack it finds its hole again [m].
+    damping : float
+        [N s/m]
+    axial_stiffness, axial_capacity, ultimate_elongation, pretension : float
+        [N/m], [N], [m], [N]; in tension only, but for clamps.
+    axial_failure : str
+        Of a clamp along itself.
+    friction_coefficient : float, optional
+        Of its joint, in place of the stone's [-].
+    bed_stiffness, bed_shear_stiffness : float
+        Normal and shear stiffness per area of what covers its joint, in series with the joint's [N/m³]; infinite if
+        nothing does.
+    governs : str
+        What limits shear and tension, and by which formula.
+    """
+
+    diameter: float = 0.0
+    shear_stiffness: float = 0.0
+    shear_capacity: float = math.inf
+    clearance: float = 0.0
+    ultimate_slip: float = math.inf
+    failure: str = "ductile"
+    lift: float = math.inf
+    reach: float = 0.0
+    damping: float = 0.0
+    axial_stiffness: float = 0.0
+    axial_capacity: float = math.inf
+    ultimate_elongation: float = math.inf
+    pretension: float = 0.0
+    axial_failure: str = "ductile"
+    friction_coefficient: float | None = None
+    bed_stiffness: float = math.inf
+    bed_shear_stiffness: float = math.inf
+    governs: str = ""
+
+    def law(self, joint: Joint) -> Joint:
+        """Law of its joint with what lies in it: with its friction, and its bed in series with the stone's stiffness."""
+        if self.friction_coefficient is not None:
+            joint = dataclasses.replace(joint, friction_angle=None, friction_coefficient=self.friction_coefficient)
+        if self.bed_stiffness < math.inf or self.bed_shear_stiffness < math.inf:
+            normal = 1.0 / (1.0 / joint.normal_stiffness + 1.0 / self.bed_stiffness)
+            shear = 1.0 / (1.0 / joint.shear_stiffness + 1.0 / self.bed_shear_stiffness)
+            friction = {"friction_angle": None, "friction_coefficient": joint.friction_coefficient}
+            joint = dataclasses.replace(joint, normal_stiffness=normal, shear_stiffness=shear, **friction)
+        return joint
+
+
+@dataclass(frozen=True, kw_only=True)
+class Link:
+    """Base of the links, of columns and of assemblies alike. A value left out follows from material and size.
+
+    Parameters
+    ----------
+    at : tuple of float, optional
+        In a column its place in the section, along x and y from the axis [m]; on the axis if left out. Between two bodies
+        its place as drawn, x and z or x, y and z [m]; the middle of their joint if left out.
+    name : str
+        What results call it; its kind and place if left out.
+    between : (str, str), optional
+        Names of the two bodies of an assembly that it links; ``ground`` is the ground.
+    numbers : Numbers, optional
+        What it holds, where that is known: of a link of an assembly that is made, :meth:`in_numbers`.
+    """
+
+    kind: ClassVar[str] = ""
+    lies: ClassVar[Lies] = "joint"
+    mark: ClassVar[Mark] = "stroke"
+
+    at: tuple[float, ...] | None = None
+    name: str = ""
+    between: tuple[str, str] | None = None
+    numbers: Numbers | None = None
+
+    def __post_init__(self) -> None:
+        if self.between is None:
+            if self.at is None:
+                object.__setattr__(self, "at", (0.0, 0.0))
+            self._pair("at")
+        else:
+            self._between()
+        if self.numbers is None:
+            self._check()
+
+    def _check(self) -> None:
+        """Refuse data that cannot be; a kind adds its own."""
+
+    def held(self, site: Site) -> Numbers:
+        """What it holds at a site; each kind by its own formulas."""
+        raise NotImplementedError
+
+    def check_joint(self, joint: Joint) -> None:
+        """Refuse a joint in which it cannot lie."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Its kind and all that differs from what is left out, as plain values; :func:`~.links.link_from_dict` reads it."""
+        if self.numbers is None:
+            return {"kind": self.kind} | _said(self)
+        at, to = self.ends
+        place = {"between": self.between, "at": at, "to": to, "name": self.name or None}
+        given = {name: list(value) if isinstance(value, tuple) else value for name, value in place.items() if value}
+        return {"kind": self.kind} | given | _said(self.numbers)
+
+    @classmethod
+    def known(cls) -> set[str]:
+        """What may be said of a link of this kind, besides where it is."""
+        return {one.name for one in dataclasses.fields(cls)} - {*PLACES}
+
+    @property
+    def ends(self) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
+        """Places that are given of its first and of its second end [m]."""
+        return self.at, getattr(self, "to", None)
+
+    def in_numbers(self) -> Self:
+        """The same link between its bodies, with what it holds in place of material and size.
+
+        Raises
+        ------
+        InputError
+            It is not between two bodies, or has no length.
+        """
+        if self.numbers is not None:
+            return self
+        if self.between is None:
+            raise InputError(f"a {self.kind} is between no bodies; give between = ['a', 'b'], two names.")
+        at, to = self.ends
+        site = Site() if self.lies == "joint" else Site(length_of(self.kind, at, to))
+        return self.restated(self.held(site), at=at, to=to, name=self.name, between=self.between)
+
+    def restated(self, numbers: Numbers, **place: Any) -> Self:
+        """A link of this kind between two bodies that holds so much; ``to`` is kept where the kind has two ends."""
+        if self.lies == "joint":
+            place.pop("to", None)
+        return type(self)(numbers=numbers, **place)
+
+    def _between(self) -> None:
+        between: Any = self.between
+        if isinstance(between, str) or len(between) != 2:
+            count = 1 if isinstance(between, str) else len(between)
+            raise InputError(f"a {self.kind} is between {count} bodies; name two, e.g. ['a', 'b'].")
+        object.__setattr__(self, "between", tuple(between))
+        for one in dataclasses.fields(self):
+            if one.name in PLACES[:5] and getattr(self, one.name) != one.default:
+                raise InputError(f"a {self.kind} between two bodies has no {one.name}; give its place, at.")
+        for name in ("at", "to"):
+            place = getattr(self, name, None)
+            if place is not None:
+                object.__setattr__(self, name, _place(self.kind, name, place))
+
+    def _pair(self, name: str) -> None:
+        value = getattr(self, name)
+        if not isinstance(value, (tuple, list)) or len(value) != 2:
+            raise InputError(f"{name} of a {self.kind} is {value!r}; it must be a place in plan, [x, y] in m.")
+        place = tuple(check_range(f"{name} of a {self.kind}", one, -LONGEST, LONGEST, unit="m") for one in value)
+        object.__setattr__(self, name, place)
+
+    def _number(self, name: str, least: int = 1) -> None:
+        value = getattr(self, name)
+        if isinstance(value, bool) or not isinstance(value, int) or value < least:
+            said = repr(value) if not isinstance(value, float) or math.isfinite(value) else str(value)
+            raise InputError(f"{name} of a {self.kind} is {said}; allowed is a whole number from {least}.")
+
+    def _joint(self, joint: int | None) -> None:
+        if self.between is not None:
+            return
+        if joint is None:
+            raise InputError(f"a {self.kind} has no joint; give its number, 1 at the base.")
+        self._number("joint")
+
+    def _range(self, name: str, low: float, high: float, unit: str, **more: Any) -> None:
+        value = getattr(self, name)
+        if value is not None:
+            number = check_range(f"{name} of a {self.kind}", value, low, high, unit=unit, **more)
+            object.__setattr__(self, name, number)
+
+    def _capacity(self, name: str) -> None:
+        value = getattr(self, name)
+        if value is not None and value == 0.0:
+            raise InputError(
+                f"{name} of a {self.kind} is 0 N, which holds nothing; give what it holds, or leave it out."
+            )
+        self._range(name, 0.0, STRONGEST, "N", open_low=True)
+
+    def _material(self, material: str | None, diameter: float | None) -> None:
+        if material is None:
+            return
+        if material not in MATERIALS:
+            raise InputError(
+                f"material of a {self.kind} is {material!r}; {suggest(material, MATERIALS)}known are "
+                f"{', '.join(MATERIALS)}, or give stiffness and capacity instead."
+            )
+        if diameter is None:
+            raise InputError(f"a {self.kind} of {material} has no diameter; give it one [m].")
+
+
+def _said(one: Link | Numbers) -> dict[str, Any]:
+    """Fields that differ from what is left out, as plain values."""
+    default = {field.name: field.default for field in dataclasses.fields(one)}
+    if isinstance(one, Link) and one.between is None:
+        default["at"] = (0.0, 0.0)
+    values = {name: getattr(one, name) for name in default}
+    return {
+        name: list(value) if isinstance(value, tuple) else value
+        for name, value in values.items()
+        if value != default[name]
+    }
+
+
+def length_of(kind: str, at: tuple[float, ...] | None, to: tuple[float, ...] | None) -> float:
+    """Length of a link between two places as drawn [m]."""
+    if at is None or to is None:
+        raise InputError(
+            f"a {kind} has two ends; give at = [x, z] in the first body and to = [x, z] in the second [m]."
+        )
+    low, high = in_space(at), in_space(to)
+    length = math.dist(low, high)
+    if length < 1e-3 or (kind == "clamp" and math.hypot(high[0] - low[0], high[2] - low[2]) < 1e-3):
+        raise InputError(f"a {kind} has no length: both its ends are at {told(low)}; move one of them.")
+    return length
+
+
+def in_space(place: tuple[float, ...] | None) -> tuple[float, float, float]:
+    """A place x, z or x, y, z as x, y, z [m]."""
+    assert place is not None
+    return (place[0], 0.0 if len(place) == 2 else place[1], place[-1])
+
+
+def told(place: tuple[float, ...]) -> str:
+    """A place in space as messages tell it."""
+    return f"[{place[0]:g}, {place[2]:g}] m"
+
+
+def _place(kind: str, name: str, place: Any) -> tuple[float, ...]:
+    if len(place) not in (2, 3) or not all(math.isfinite(one) and abs(one) <= 10.0 * LONGEST for one in place):
+        raise InputError(
+            f"{name} of a {kind} is {list(place)}; it must be a place, [x, z] or [x, y, z] within {10 * LONGEST:g} m."
+        )
+    return tuple(float(one) for one in place)

@@ -1,0 +1,186 @@
+"""A link where it is, in numbers: the one value that kernels, statics, pictures, loads and responses read."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+
+from ...errors import InputError
+from .link import Lies, Link, Mark, Numbers
+
+Point = tuple[float, float, float]
+Result = TypeVar("Result")
+
+#: Most links of a column or an assembly.
+MAX_LINKS = 1000
+
+#: Stone that must be left between a dowel and the rim of a face, and how deep a groove a tie may lie in [m].
+RIM, GROOVE = 0.02, 0.02
+
+#: Half of the stroke of a dowel whose embedment is not known, over the height of what it stands in [-].
+STROKE = 0.15
+
+
+@dataclass(frozen=True, kw_only=True)
+class PlacedLink(Numbers):
+    """A link in numbers between two bodies of a column or of an assembly, in space and as drawn.
+
+    Parameters
+    ----------
+    name, kind : str
+    lies, mark : str
+        Where it lies and how it is drawn, as its kind does.
+    lower, upper : int
+        Bodies that it links; of a column 0 is the base and i drum i from the bottom, of an assembly their numbers.
+    low, high : (float, float, float)
+        Its ends as drawn, of a column as built: x and y from the axis, z above the base [m]. The same point for what lies in
+        a joint.
+    origins : pair of (float, float, float)
+        The points of the two bodies that their poses refer to, in the same axes [m].
+    joint : int
+        Of a column that it crosses, from 1; 0 for a straight line, and in an assembly.
+    along : (float, float)
+        Direction in the plane in which it slips; its axis is to the left of that, from the lower body to the upper one.
+    stroke : float
+        Half the length of its mark across a joint [m].
+
+    Others as for :class:`Numbers`; of a clamp ``lift`` is infinite, because it does not leave its groove by opening.
+    """
+
+    name: str
+    kind: str
+    lies: Lies
+    mark: Mark
+    lower: int
+    upper: int
+    low: Point
+    high: Point
+    origins: tuple[Point, Point]
+    joint: int = 0
+    along: tuple[float, float] = (1.0, 0.0)
+    stroke: float = 0.0
+
+    @property
+    def acts(self) -> bool:
+        """Whether it does anything by itself: one without stiffness and dashpot only changes the law of its joint."""
+        return self.shear_stiffness > 0.0 or self.axial_stiffness > 0.0 or self.damping > 0.0
+
+    @property
+    def straight(self) -> bool:
+        """Whether it is a line between two points, rather than what crosses a joint."""
+        return self.lies == "line"
+
+    @property
+    def two_ended(self) -> bool:
+        """Whether it has an end in either body, as ties, cores and clamps have."""
+        return self.lies != "joint"
+
+    @property
+    def length(self) -> float:
+        """Of a straight line [m]; 0 for what crosses a joint."""
+        return math.dist(self.low, self.high)
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where what crosses a joint acts, as drawn: halfway between its ends [m]."""
+        return 0.5 * (self.low[0] + self.high[0]), 0.5 * (self.low[2] + self.high[2])
+
+    @property
+    def arms(self) -> tuple[np.ndarray, np.ndarray]:
+        """Where it acts on its two bodies: from their origins, in their own axes [m], each of shape (3,)."""
+        middle = self.place[0], self.low[1], self.place[1]
+        ends = (self.low, self.high) if self.straight else (middle, middle)
+        return np.subtract(ends[0], self.origins[0]), np.subtract(ends[1], self.origins[1])
+
+    def crosses(self, joint: int) -> bool:
+        """Whether it crosses joint 0 … n−1 of a column."""
+        return self.lower <= joint < self.upper
+
+
+class Stroke(NamedTuple):
+    """A line that stands for a link: of either end the body, its place in that body's axes, and the place as drawn [m]."""
+
+    link: PlacedLink
+    lower: tuple[int, np.ndarray, np.ndarray]
+    upper: tuple[int, np.ndarray, np.ndarray]
+
+
+def strokes(links: Sequence[PlacedLink]) -> list[Stroke]:
+    """Every link as it is drawn: short through its joint, or from end to end; sheets in joints have no stroke."""
+    found = []
+    for link in links:
+        if link.mark == "sheet":
+            continue
+        low, high = np.array(link.low), np.array(link.high)
+        if link.two_ended:
+            lower, upper = link.lower, link.upper
+            own = low - link.origins[0], high - link.origins[1]
+        else:
+            lower = upper = link.lower
+            up = link.stroke * np.array([-link.along[1], 0.0, link.along[0]])
+            own = low - link.origins[0] - up, low - link.origins[0] + up
+            low, high = low - up, low + up
+        found.append(Stroke(link, (lower, own[0], low), (upper, own[1], high)))
+    return found
+
+
+def for_each(links: Sequence[Any], owner: str, do: Callable[[Link], Result]) -> list[Result]:
+    """What is made of each link of a column or an assembly of this name.
+
+    Raises
+    ------
+    InputError
+        Too many, none, or a link that cannot be: one sentence that names it, the value and what is allowed.
+    """
+    if len(links) > MAX_LINKS:
+        raise InputError(f"{owner!r} has {len(links)} links; allowed are up to {MAX_LINKS}.")
+    found = []
+    for number, link in enumerate(links, 1):
+        if not isinstance(link, Link):
+            raise InputError(f"link {number} of {owner!r} is {link!r}; give a Dowel, Bar, Tie, Core or Layer.")
+        try:
+            found.append(do(link))
+        except InputError as error:
+            raise InputError(f"link {number} of {owner!r}: {error}") from None
+    return found
+
+
+def place_all(links: Sequence[Link], owner: str, place: Callable[[Link], PlacedLink]) -> tuple[PlacedLink, ...]:
+    """All links where they are, in their order, each under a name of its own; errors as of :func:`for_each`."""
+    found: list[PlacedLink] = []
+
+    def checked(link: Link) -> None:
+        one = place(link)
+        _check(one, found)
+        found.append(one)
+
+    for_each(links, owner, checked)
+    names = [one.name for one in found]
+    return tuple(
+        one
+        if names.count(one.name) == 1
+        else dataclasses.replace(one, name=f"{one.name}, {names[: i + 1].count(one.name)}")
+        for i, one in enumerate(found)
+    )
+
+
+def _check(one: PlacedLink, others: Sequence[PlacedLink]) -> None:
+    """Refuse what no place can mend: pretension that it cannot hold, two laws for one joint."""
+    if one.pretension > one.axial_capacity:
+        raise InputError(
+            f"pretension of a {one.kind} is {one.pretension:g} N, more than its axial capacity of "
+            f"{one.axial_capacity:.4g} N; make it smaller."
+        )
+    if one.pretension and not one.axial_stiffness:
+        raise InputError(f"a {one.kind} without axial_stiffness cannot be pretensioned; give one.")
+    beside = [other for other in others if (other.lower, other.upper) == (one.lower, one.upper)]
+    where = f"joint {one.joint}" if one.joint else "its joint"
+    if one.friction_coefficient is not None and any(other.friction_coefficient is not None for other in beside):
+        raise InputError(f"{where} has two layers with a friction_coefficient; keep one.")
+    if one.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
+        raise InputError(f"{where} has two {one.kind}s; keep one.")

@@ -1,0 +1,103 @@
+"""Ties and straps outside the stone: what they are, and their formulas."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...errors import InputError
+from .dowel import given
+from .link import LONGEST, STIFFEST, STRONGEST, Lies, Link, Mark, Numbers, Site
+from .materials import MATERIALS
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tie(Link):
+    """A tie or strap: straight between a point of one drum (or the base) and one of a drum above it, outside the stone.
+
+    Parameters
+    ----------
+    at : tuple of float
+        Place of both ends in plan, from the column's axis [m]; between two bodies its end in the first.
+    to : tuple of float, optional
+        Place of the upper end, where it differs; between two bodies its end in the second.
+    from_drum, to_drum : int
+        Drums that it ties; 0 is the base, the upper one is the topmost if left out.
+    from_height, to_height : float, optional
+        Height of its ends above the base [m], of the column as built; half of the drum's height if left out, and 0 at the
+        base.
+    diameter, material : optional
+        Give what is left out below; diameter in m.
+    axial_stiffness, axial_capacity : float, optional
+        [N/m], [N]; elastic-plastic, in tension only.
+    ultimate_elongation : float, optional
+        Elongation at which it is lost for good [m].
+    pretension : float
+        Force at the start [N].
+    """
+
+    kind: ClassVar[str] = "tie"
+    lies: ClassVar[Lies] = "line"
+    mark: ClassVar[Mark] = "line"
+    #: Where its ends are on a drum of which no height is given, as a share of the height: at the far end of all, and here.
+    holds_at: ClassVar[tuple[float, float]] = (0.5, 0.5)
+    #: Whether it runs in a hole through the stone, rather than beside it.
+    through_stone: ClassVar[bool] = False
+
+    to: tuple[float, ...] | None = None
+    from_drum: int = 0
+    to_drum: int | None = None
+    from_height: float | None = None
+    to_height: float | None = None
+    diameter: float | None = None
+    material: str | None = None
+    axial_stiffness: float | None = None
+    axial_capacity: float | None = None
+    ultimate_elongation: float | None = None
+    pretension: float = 0.0
+
+    def _check(self) -> None:
+        super()._check()
+        if self.to is not None and self.between is None:
+            self._pair("to")
+        self._number("from_drum", 0)
+        if self.to_drum is not None:
+            self._number("to_drum")
+            if self.to_drum <= self.from_drum:
+                raise InputError(
+                    f"a {self.kind} goes from drum {self.from_drum} to drum {self.to_drum}; the second must be the higher "
+                    "one."
+                )
+        for name in ("from_height", "to_height"):
+            self._range(name, -LONGEST, 1e3, "m")
+        self._material(self.material, self.diameter)
+        self._range("diameter", 1e-4, 1.0, "m")
+        self._range("axial_stiffness", 0.0, STIFFEST, "N/m")
+        self._capacity("axial_capacity")
+        self._range("ultimate_elongation", 0.0, LONGEST, "m", open_low=True)
+        self._range("pretension", 0.0, STRONGEST, "N")
+        if self.material is None and self.axial_stiffness is None:
+            raise InputError(f"a {self.kind} has neither material nor axial_stiffness; give one of the two.")
+
+    def held(self, site: Site) -> Numbers:
+        """A straight bar of its length: E A/ℓ and f_y A."""
+        governs = "as given"
+        stiffness, capacity, ultimate = self.axial_stiffness, self.axial_capacity, self.ultimate_elongation
+        if self.material is not None:
+            made, d = MATERIALS[self.material], self.diameter
+            assert d is not None
+            area = math.pi * d * d / 4.0
+            stiffness = given(stiffness, made.modulus * area / site.length)
+            if capacity is None:
+                capacity, governs = made.tensile_strength * area, "yield of the bar"
+            ultimate = given(ultimate, made.ultimate_strain * site.length)
+        assert stiffness is not None
+        return Numbers(
+            diameter=self.diameter or 0.0,
+            axial_stiffness=stiffness,
+            axial_capacity=given(capacity, math.inf),
+            ultimate_elongation=given(ultimate, math.inf),
+            pretension=self.pretension,
+            governs=governs,
+        )

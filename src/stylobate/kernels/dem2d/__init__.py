@@ -1,1 +1,0 @@
-"""Plane distinct elements: the step of joints with contact points."""

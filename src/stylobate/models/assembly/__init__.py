@@ -1,1 +1,0 @@
-"""Assemblies of blocks in the plane, followed step by step."""

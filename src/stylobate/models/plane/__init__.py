@@ -1,0 +1,1 @@
+"""Bodies in the plane in numbers: packed for the engine, advanced in blocks of lanes, followed to the ground."""

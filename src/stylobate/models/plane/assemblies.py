@@ -1,0 +1,211 @@
+"""One run of an assembly: closed under its weight, shaken, and followed to the end of the motion or until rest."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...column.assembly import Assembly
+from ...errors import InputError, OutOfRangeWarning
+from ...kernels.plane.records import BETA
+from ...kernels.run_codes import CHUNK
+from ...motion import Motion
+from ...response import Measures, Response
+from ...response.assembly_measures import first_touch, recorded_blocks
+from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
+from ..drums.links import link_histories, with_links
+from ..shared import ledger
+from ..shared.ground import ground_histories
+from ..shared.stable_step import chosen_step, highest_frequency, stable_step
+from .links import acting_between, link_measures, stiffness_between
+from .loose import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
+
+
+@dataclass(frozen=True)
+class AssemblyNumbers:
+    """What a run of an assembly is computed with.
+
+    Parameters
+    ----------
+    name : str
+        Of the model, for the response.
+    contacts : Contacts
+    step_factor, time_step : float, float or None
+        Share of the largest stable step, or the step itself [s].
+    restitution : float or None
+        Of the bed; by default 1, and 0.3 in a run until rest.
+    must_settle : bool
+        Refuse an assembly that is not in equilibrium as drawn.
+    """
+
+    name: str
+    contacts: Contacts
+    step_factor: float
+    time_step: float | None
+    restitution: float | None
+    must_settle: bool
+
+
+def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, options: RunOptions) -> Response:
+    """One run of an assembly to the end of the motion and its tail, or until rest.
+
+    The contacts are closed by the weight they carry. An assembly that is not in equilibrium begins as drawn, with a
+    warning, or is refused.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    motion : Motion
+    numbers : AssemblyNumbers
+    options : RunOptions
+
+    Raises
+    ------
+    InputError
+        The step asked for is unstable, or the assembly cannot settle.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        The assembly is not in equilibrium as drawn.
+    """
+    restitution = numbers.restitution
+    if restitution is None:
+        restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
+    engine = Loose(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
+    step = chosen_step(stable_step_of(engine), numbers.step_factor, numbers.time_step, repr(assembly.name))
+    length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
+    step = min(step, motion.duration / CHUNK)
+    refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
+    refuse_long_histories(length / options.output_interval, len(assembly.blocks))
+    engine.start(step)
+    balanced = engine.settle()
+    if not balanced and numbers.must_settle:
+        raise InputError(
+            f"{assembly.name!r} is not in equilibrium as drawn; support its blocks, or leave start=settle out to let "
+            "it move."
+        )
+    if not balanced:
+        said = f"{assembly.name!r} is not in equilibrium as drawn; it moves from the start."
+        warnings.warn(said, OutOfRangeWarning, stacklevel=3)
+    start = engine.energies()
+    states, still = follow(engine, options)
+    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
+    change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
+    imbalance = ledger.imbalance(
+        ledger.unaccounted(change[-1]), work=float(np.abs(change[:, 0]).max()), start=float(start[3]), barrier=0.0,
+        released=ledger.released(change[-1]),
+    )  # fmt: skip
+    acceleration, displacement = ground_histories(motion, stack["time"])
+    step, poses = int(engine.now["touched"][0]), (stack["x"], stack["z"], stack["rotation"])
+    touched = first_touch(assembly, stack["time"], *poses, step * engine.dt) if step >= 0 else None
+    recorded = recorded_blocks(
+        assembly,
+        stack["time"],
+        *poses,
+        {name: change[:, k] for k, name in enumerate(ledger.TERMS)},
+        acceleration,
+        displacement,
+        at_rest=still,
+        in_equilibrium=balanced,
+        failed=engine.failed or bool(ledger.out_of_balance(imbalance)),
+        energy_imbalance=imbalance,
+        time_step=engine.dt,
+        steps=engine.steps,
+        model=numbers.name,
+        touched=touched,
+        links=link_measures(acting_between(assembly), engine.records.link, 0, engine.dt),
+        held=link_histories(states),
+        provenance={
+            "restitution": restitution,
+            "joints": len(assembly.joints),
+            "deepest_penetration_m": engine.deepest(),
+        },
+    )
+    return Response.of(recorded)
+
+
+def follow(engine: Loose, options: RunOptions) -> tuple[list[dict[str, Any]], bool]:
+    """Go on to the end of the motion and its tail, or until rest; the states on the way, and whether all lies still."""
+    every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
+    states, still = [engine.state()], False
+    while not engine.failed:
+        left = engine.chunks - engine.steps // CHUNK
+        still = engine.at_rest()
+        if left <= 0:
+            engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
+        if left <= 0 and (not options.until_rest or still or engine.time > engine.duration + LONGEST_WAIT):
+            break
+        engine.advance(min(every, left) if left > 0 else every)
+        states.append(engine.state())
+    return states, still
+
+
+def measures_of_assemblies(
+    run: Callable[[Assembly, Motion, RunOptions], Response], cases: Sequence[Case], options: RunOptions, threads: int
+) -> Iterator[tuple[int, Measures]]:
+    """(index of the case, measures) of runs of assemblies as they finish; their histories are not kept."""
+    from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
+
+    under_way: dict[Future[Response], int] = {}
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            for index, (assembly, motion) in enumerate(cases):
+                if len(under_way) >= 2 * threads:
+                    for one in wait(under_way, return_when=FIRST_COMPLETED).done:
+                        yield under_way.pop(one), one.result().measures
+                under_way[pool.submit(run, assembly, motion, options)] = index
+            while under_way:
+                for one in wait(under_way, return_when=FIRST_COMPLETED).done:
+                    yield under_way.pop(one), one.result().measures
+        finally:
+            for one in under_way:
+                one.cancel()
+
+
+def stable_step_of(loose: Loose) -> float:
+    """Largest stable step of the joints as they are closed at the start, and of every block's longest face as a bed [s]."""
+    records = loose.records
+    body: Any = {name: records.body[name][:, 0] for name in ("x", "z", "im", "ii")}
+    joint: Any = {name: records.joint[name][:, 0] for name in ("lc", "ls", "ht", "wl", "wr", "bl", "br", "kn", "ks")}
+    xis, shares = records.lane["xi"][0, :, 0], records.lane["sh"][0, :, 0]
+    n = len(records.body)
+    stiffness = np.zeros((3 * n, 3 * n))
+    for k, (lower, upper) in enumerate(records.topology.joints):
+        e = {name: values[k] for name, values in joint.items()}
+        u, v = (np.array([body["x"][i], body["z"][i]]) for i in (upper, lower))
+        t = np.array([e["lc"], e["ls"]])
+        normal = np.array([-t[1], t[0]])
+        foot = v + e["ht"] * normal
+        above = float((u - foot) @ t)
+        lo, hi = max(-e["wl"], above - e["bl"]), min(e["wr"], above + e["br"])
+        for xi, share in zip(xis, shares, strict=True):
+            point = foot + (0.5 * (lo + hi) + 0.5 * xi * (hi - lo)) * t
+            for along, stiff in ((normal, e["kn"]), (t, e["ks"])):
+                row = np.zeros(3 * n)
+                for number, place, sign in ((upper, u, 1.0), (lower, v, -1.0)):
+                    arm = point - place
+                    row[3 * number : 3 * number + 3] = sign * np.array([*along, arm[0] * along[1] - arm[1] * along[0]])
+                stiffness += stiff * (hi - lo) * share * np.outer(row, row)
+    omega = highest_frequency(stiffness, np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel())
+    for i, block in enumerate(loose.assembly.bodies):
+        if not block.fixed:
+            # between two others on its longest face
+            side = np.roll(block.corners, -1, axis=0) - block.corners
+            k = (
+                float(loose.law[:, :, 0].max())
+                * float(loose.shape["depth"][i])
+                * float(np.hypot(side[:, 0], side[:, 1]).max())
+            )
+            omega = max(
+                omega,
+                0.4 * math.sqrt(4.0 * k * (body["im"][i] + body["ii"][i] * float(loose.shape["r"][i]) ** 2 / 3.0)),
+            )
+    inverse = np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel()
+    beta = float(records.lane["damp"][0, BETA, 0])
+    return stable_step(*with_links(stiffness_between(loose.assembly, inverse), omega, beta))

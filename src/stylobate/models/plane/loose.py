@@ -1,0 +1,338 @@
+"""What may come loose, in one lane: bodies of an assembly, or of a column that is followed to the ground, until all lies still."""
+
+from __future__ import annotations
+
+import warnings
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...column.assembly import Assembly
+from ...errors import OutOfRangeWarning
+from ...kernels.plane.records import LOCAL
+from ...kernels.run_codes import CHUNK, FAILED
+from ...kernels.shared.records import STATE
+from ...motion import Motion
+from ..drums.packing import whole_steps
+from ..shared.lanes import longest_piece
+from ..shared.settling import LOCAL_DAMPING, settled
+from .block import Records, base_acceleration, clear_watch, feed_motion
+from .blocks import bed_laws, fill_bodies, fill_joints, fill_shapes, topology_of
+from .laws import point_law
+from .links import link_snapshot, links_between
+from .packing import Topology, lane_of
+
+#: Below this speed the restitution of a contact acts like a dashpot [m/s].
+CALM = 0.02
+
+#: At rest: no corner has moved by this share of the smallest block, for so long [s]. (Not a speed: an undamped joint goes
+#: on ringing, by far less than that.)
+REST_WAY, REST_TIME = 2.0e-4, 0.5
+
+#: Restitution of a run that waits for rest, where the model gives none; elastic contacts never come to rest.
+RESTITUTION_TO_REST = 0.3
+
+#: Time after the motion at which a run that waits for rest is given up [s].
+LONGEST_WAIT = 60.0
+
+#: Bodies that enter each other by more than this share of the thinnest block are too soft.
+DEEPEST = 0.2
+
+#: Parts of a step while bodies may strike each other: impacts are harder than what joints do.
+FINER = 8
+
+#: Nothing comes loose unseen: the longest of these times for which it is certain that all holds [s].
+AHEAD = (0.08, 0.04, 0.02, 0.01)
+
+#: An assembly is in equilibrium as drawn if its accelerations fall below this [m/s²] within so many steps of local
+#: damping, while no corner goes farther than this share of the smallest block.
+SETTLED, SETTLE_STEPS, AS_DRAWN = 1e-4, 40_000, 0.01
+
+#: About what a step costs on one core for each body and contact point [s].
+COST = 2e-7
+
+#: A step that is never reached: who follows a run says when it ends.
+ENDLESS = 2**62
+
+#: Where the corners are in a search.
+CORNER = 3
+
+#: Skin of the boxes of the contact search, as a share of the smallest block.
+SKIN = 0.1
+
+
+class Contacts(NamedTuple):
+    """Numbers of the contacts of an assembly.
+
+    Parameters
+    ----------
+    points : int
+        Contact points of a joint.
+    stiffness_damping, mass_damping : float
+        [s], [1/s]
+    """
+
+    points: int
+    stiffness_damping: float
+    mass_damping: float
+
+
+class Loose:
+    """One lane of bodies any two of which may touch, and the search for what does.
+
+    Parameters
+    ----------
+    assembly : Assembly
+    contacts : Contacts
+    motion : Motion
+    duration : float
+        For which the ground moves, and after [s]; the step divides it.
+    restitution : float
+        Share of the closing speed that contacts of the bed give back: 1 is elastic. Joints have none while the ground
+        moves, and in a column that may still stand: what they lose, they lose by sliding.
+    topology : Topology, optional
+        Of the assembly, if it is a column that is looked at; its links are then taken over with it.
+    """
+
+    def __init__(
+        self, assembly: Assembly, contacts: Contacts, motion: Motion, duration: float, restitution: float = 1.0,
+        topology: Topology | None = None,
+    ) -> None:  # fmt: skip
+        from ...kernels.plane import links as ties
+        from ...kernels.plane import loose as kernel
+
+        self.kernel, self.ties, self.assembly, self.motion = kernel, ties, assembly, motion
+        bodies, points = assembly.bodies, contacts.points
+        n = len(bodies)
+        topology = topology or topology_of(assembly)
+        spare = n * (n - 1) // 2
+        self.records = Records(point_law(points, True, 1, bool(topology.links)), topology, spare)
+        records = self.records
+        now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
+        fill_bodies(records.body, assembly)
+        corner = fill_shapes(shape, assembly)
+        fill_joints(records.joint, hand, assembly, shape["depth"])
+        joined = np.full((n, n), -1, dtype=np.int64)
+        for j, (lower, upper) in enumerate(topology.joints):
+            joined[lower, upper] = j
+        if assembly.links:
+            records.bond[...], records.link[...] = links_between(assembly)
+        self.pretension, self.clearance = records.link["ft"].copy(), records.link["gap"].copy()
+        for name, value in lane_of(assembly.gravity, contacts).items():
+            records.lane[name][0, ..., 0] = value
+        e = restitution
+        now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
+        now["touched"], now["finer"] = -1, FINER
+        now["skin"] = SKIN * min(block.size for block in bodies if not block.fixed)
+        self.now, self.hand, self.shape = now, hand, shape
+        self.law, self.memory = bed_laws(assembly), np.zeros((n, n, 3))
+        real = tuple(np.zeros(kernel.MOST) for _ in range(8))
+        whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
+        self.search = (
+            now, hand, shape, corner, np.zeros((n, 4)), np.arange(n), joined, self.law, self.memory, real, whole
+        )  # fmt: skip
+        self.begin_links()
+        self.dt, self.duration, self.safe = 0.0, duration, 0
+        self.stood_at, self.stood_since = np.full((3, n), np.inf), 0.0
+        # a body below this level has left the model: it falls without end and does not count as moving
+        corners = np.concatenate([block.corners for block in bodies])
+        self.lowest_level = float(corners[:, 1].min()) - 2.0 * float(np.ptp(corners, axis=0).max())
+
+    def start(self, step: float, slope: float = 0.0) -> None:
+        """Set the step and the velocities half a step before the start, of bodies that do not move yet."""
+        self.dt, self.chunks = whole_steps(self.motion, self.duration - self.motion.duration, step)
+        self.now["dt"] = self.now["last"] = self.records.lane["dt"][0] = self.dt
+        self.look = max(1, int(AHEAD[0] / (CHUNK * self.dt)))
+        clear_watch(self.records, 0, True)
+        feed_motion(self.records, 0, self.motion, self.dt, slope)
+        self.records.feed["end"] = ENDLESS
+        self.renew_pairs()
+        self._push()
+
+    def begin_links(self) -> None:
+        """Let the links be free of force where the bodies are now, but for their pretension."""
+        records = self.records
+        if self.assembly.links:
+            records.link["ft"], records.link["gap"] = self.pretension, self.clearance
+            records.link["back"] = self.clearance
+            self.ties.begin(records.body, records.joint, records.link, records.bond, records.pair)
+
+    def renew_pairs(self) -> None:
+        """Search anew for pairs that may touch."""
+        self.kernel.renew_pairs(self.records.state, self.search)
+
+    def may_come_loose(self, time: float) -> bool:
+        """Whether bodies that are not joined may touch, or a joint may hand over, within a time [s]."""
+        return bool(self.kernel.may_come_loose(self.records.state, self.search, time))
+
+    def chunks_ahead(self) -> int:
+        """Chunks of steps for which it is certain that joints and links alone hold everything; 0 if something is loose."""
+        time = next((time for time in AHEAD if not self.may_come_loose(time)), 0.0)
+        return max(1, int(time / (CHUNK * self.dt))) if time > 0.0 else 0
+
+    def ground_acceleration(self, time: float) -> tuple[float, float]:
+        """Acceleration of the base along and normal to it at a time [m/s²]."""
+        return base_acceleration(self.records, 0, self.motion, time)
+
+    def _push(self) -> None:
+        """Velocities half a step before the start, of bodies that do not move yet, whatever accelerates them."""
+        records = self.records
+        for name in ("vx", "vz", "w"):
+            records.body[name] = 0.0
+        body, free = self._forces()[0][0], records.span["fixed"] == 0
+        ax, az = self.ground_acceleration(0.0) if self.records.feed["x"][0, 0] else (0.0, 0.0)
+        ax, az = ax + records.lane["gx"][0, 0], az + records.lane["g"][0, 0]
+        here = records.body
+        here["vx"][free, 0] = -0.5 * self.dt * (body["fx"] * body["im"] - ax)[free, 0]
+        here["vz"][free, 0] = -0.5 * self.dt * (body["fz"] * body["im"] - az)[free, 0]
+        here["w"][free, 0] = -0.5 * self.dt * (body["mo"] * body["ii"])[free, 0]
+
+    def advance(self, chunks: int) -> None:
+        """Advance by some chunks of steps: as lanes do while joints and links hold everything, with the search otherwise."""
+        while chunks > 0 and not self.failed:
+            even = float(self.now["last"][0]) == self.dt and float(self.now["dull"][0]) == 0.0
+            if self.safe <= 0 and even:
+                self.safe = self.chunks_ahead()
+            piece = min(chunks, longest_piece(self.cost, CHUNK), self.safe if self.safe > 0 else self.look)
+            if self.safe > 0:
+                self.records.law.advance(self.records.state, piece)
+                self.safe -= piece
+            else:
+                self.records.bond["near"] = 1
+                self.renew_pairs()
+                self.kernel.advance_loose(self.records.state, self.search, piece)
+            chunks -= piece
+
+    @property
+    def cost(self) -> float:
+        """About what a step costs on one core [s]."""
+        return COST * len(self.records.body) * len(self.records.lane["xi"][0])
+
+    @property
+    def steps(self) -> int:
+        """Steps done."""
+        return int(self.records.feed["step"][0, 0])
+
+    @property
+    def time(self) -> float:
+        """Time of the present state [s]."""
+        return float(self.steps) * self.dt
+
+    @property
+    def failed(self) -> bool:
+        """Whether the state is no longer finite."""
+        return bool(self.records.watch["status"][0, 0] == FAILED)
+
+    def at_rest(self) -> bool:
+        """Whether nothing has moved for ``REST_TIME``, but what falls for ever; to be asked again and again."""
+        b = {name: self.records.body[name][:, 0] for name in ("x", "z", "th")}
+        here = np.stack((b["x"], b["z"], self.shape["r"] * b["th"]))
+        way = np.abs(here - self.stood_at).sum(axis=0)
+        if way[~(b["z"] < self.lowest_level)].max(initial=0.0) > REST_WAY * float(self.now["skin"][0]) / SKIN:
+            self.stood_at, self.stood_since = here, self.time
+        return self.time - self.stood_since > REST_TIME
+
+    def _forces(self) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+        """State and search, copies of what that changes, with the forces at the present positions."""
+        state = self.records.now()
+        now, hand, *fixed = self.search
+        fixed[6] = fixed[6].copy()  # the memory of the bed
+        search = (now.copy(), hand.copy(), *fixed)
+        self.kernel.loose_forces(state, search)
+        return state, search
+
+    def energies(self) -> np.ndarray:
+        """Ledger now: input, kinetic, gravitational, elastic, friction, viscous; the middle three absolute [J]."""
+        state, search = self._forces()
+        gx, gz = self.ground_acceleration(self.time)
+        out = np.empty(6)
+        self.kernel.ledger_loose(state, search, gx, gz, float(self.now["last"][0]), out)
+        return out
+
+    def residual_acceleration(self) -> float:
+        """Largest acceleration of a body without input; of its farthest corner, where it turns [m/s²]."""
+        body, lane = (self._forces()[0][STATE.index(name)] for name in ("body", "lane"))
+        free = self.records.span["fixed"] == 0
+        b = {name: body[name][free, 0] for name in ("fx", "fz", "mo", "im", "ii")}
+        turn = b["mo"] * b["ii"] * self.shape["r"][free]
+        g, gx = lane["g"][0, 0], lane["gx"][0, 0]
+        return float(np.abs(np.concatenate((b["fx"] * b["im"] - gx, b["fz"] * b["im"] - g, turn))).max())
+
+    def settle(self) -> bool:
+        """Close the contacts by the weight that they carry, with local damping.
+
+        Returns
+        -------
+        bool
+            Whether it rests, about where it was drawn; if not, everything is as it was.
+        """
+        records = self.records
+        arrays: tuple[Any, ...] = (
+            records.body,
+            records.joint,
+            records.lane,
+            records.feed,
+            self.hand,
+            self.now,
+            self.memory,
+        )
+        drawn = [array.copy() for array in arrays]
+        records.lane["damp"][0, LOCAL] = LOCAL_DAMPING
+        records.feed["x"], records.feed["z"] = 0, 0
+        rests = settled(
+            self._relax, self.residual_acceleration, SETTLED, SETTLE_STEPS // CHUNK,
+            lost=lambda: self._farthest_from(drawn[0]) > AS_DRAWN or self.failed,
+        )  # fmt: skip
+        records.lane["damp"][0, LOCAL] = 0.0
+        for name in ("work", "shear", "visc"):
+            records.lane[name] = drawn[2][name]
+        records.feed[...] = drawn[3]
+        if not rests:
+            for array, before in zip(arrays, drawn, strict=True):
+                array[...] = before
+            self.renew_pairs()
+            self.begin_links()
+        self._push()
+        return rests
+
+    def _relax(self, chunks: int) -> None:
+        self.advance(chunks)
+        self.begin_links()
+
+    def _farthest_from(self, before: np.ndarray) -> float:
+        """Way of the farthest corner from other poses, as a share of the smallest block [-]."""
+        b = self.records.body
+        way = np.hypot(b["x"] - before["x"], b["z"] - before["z"])[:, 0]
+        way = way + self.shape["r"] * np.abs(b["th"] - before["th"])[:, 0]
+        return float(way.max()) * SKIN / float(self.now["skin"][0])
+
+    def deepest(self) -> float:
+        """Depth to which bodies have entered each other, joints aside [m].
+
+        Warns
+        -----
+        OutOfRangeWarning
+            It is no longer small beside the thinnest block.
+        """
+        depth = float(self.now["deepest"][0])
+        thin = min((block.thickness, block.name) for block in self.assembly.bodies if not block.fixed)
+        if depth > DEEPEST * thin[0]:
+            warnings.warn(
+                f"blocks of {self.assembly.name!r} entered each other by {1000.0 * depth:.3g} mm, and {thin[1]!r} is "
+                f"{1000.0 * thin[0]:.3g} mm thick; its impacts mean little: raise normal_stiffness.",
+                OutOfRangeWarning,
+                stacklevel=4,
+            )
+        return depth
+
+    def state(self) -> dict[str, Any]:
+        """What a history keeps of the present state."""
+        b = self.records.body
+        held = {"links": link_snapshot(self.records.link, 0)} if len(self.records.link) else {}
+        return held | {
+            "time": self.time,
+            "x": b["x"][:, 0].copy(),
+            "z": b["z"][:, 0].copy(),
+            "rotation": b["th"][:, 0].copy(),
+            "energy": self.energies(),
+        }

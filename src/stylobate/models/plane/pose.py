@@ -1,0 +1,95 @@
+"""A column in the plane that starts tilted about its edge: where its drums are, how they move, and what holds it there."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ...errors import InputError
+from ...kernels.shared.records import LANE
+from ..start import Start
+from .block import Records
+
+
+def check_takes_pose(start: Any, column: Any) -> None:
+    """Refuse a start that is not one for this column."""
+    if not isinstance(start, Start):
+        raise InputError(f"a toss is for a specimen, and {column.name!r} is a column; give a Start.")
+    if column.as_found:
+        raise InputError(
+            f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
+        )
+    column.must_be_without_links("a start from a pose")
+
+
+def placed(
+    start: Start, records: Records, lane: int, gravity: float
+) -> tuple[dict[str, np.ndarray], tuple[float, float]]:
+    """Fields of the drums of a column that stands tilted and turns as one rigid body, and the force that it rests on.
+
+    The force along x and z [N] is the one that carries the rigid body turning about its edge from there: nothing rings at
+    the start.
+
+    Parameters
+    ----------
+    start : Start
+        In the plane of x and z.
+    records : Records
+        In which the column is, upright and at rest.
+    lane : int
+    gravity : float
+        [m/s²]
+    """
+    side = leans_right(start)
+    angle, rate = (-start.tilt if side else start.tilt), -start.angular_velocity[1]
+    body, base = records.body, records.joint[0]
+    x, z, m, i = (body[name][1:, lane] for name in ("x", "z", "m", "i"))
+    edge = base["br"][lane] if side else -base["bl"][lane]
+    across, along = x - x[0] - edge, z - z[0] + base["hb"][lane]  # the base's joint as yet open
+    c, s = math.cos(angle), math.sin(angle)
+    across, along = c * across - s * along, s * across + c * along
+    # the column as one body that turns about its edge
+    turning = -gravity * float(m @ across) / float(i.sum() + m @ (across**2 + along**2))
+    push = -float(m @ (turning * along + rate**2 * across))
+    lift = float(m @ (turning * across - rate**2 * along)) + float(m.sum()) * gravity
+    even = np.ones(len(m))
+    values = {
+        "x": (0.0, x[0] + edge + across),
+        "z": (body["z"][0, lane], along),
+        "th": (0.0, angle * even),
+        "c": (1.0, c * even),
+        "s": (0.0, s * even),
+        "vx": (0.0, -rate * along),
+        "vz": (0.0, rate * across),
+        "w": (0.0, rate * even),
+    }
+    fields = {name: np.concatenate(([base], rest)) for name, (base, rest) in values.items()}
+    return fields, (push, max(lift, 0.0))
+
+
+def leans_right(start: Start) -> bool:
+    """Whether a column that starts in the plane leans towards x."""
+    return math.cos(start.azimuth) > 0.0
+
+
+def sink(records: Records, lane: int, force: float) -> None:
+    """Lower the whole column in a lane until the base carries a force [N]."""
+    state = records.now()
+    state[LANE]["dt"][0, lane] = 0.0
+    height = records.body["z"]
+    z = height[1:, lane].copy()
+
+    def carried(depth: float) -> float:
+        height[1:, lane] = z - depth
+        records.law.gather(state)
+        return float(records.load["fz"][0, lane])
+
+    low, high = 0.0, 1e-12
+    while carried(high) < force:
+        high *= 2.0
+    while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if carried(middle) < force else (low, middle)
+    carried(high)
