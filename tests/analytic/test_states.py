@@ -73,7 +73,7 @@ def test_the_command(tmp_path, capsys):
     assert said["differences"][0]["pairs"] == 2
     names = {one.name for one in (tmp_path / "out").iterdir()}
     assert {"states.csv", "links.csv", "states.png", "states.json", "asked-compare.json"} <= names
-    assert call(base[:5] + ["--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
+    assert call([*base[:5], "--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
     said = capsys.readouterr().out
     assert "no ground to adopt it for safety (1 record; 10 at least would tell of others)" in said
     assert [line.split()[-2:] for line in said.splitlines() if line.strip().startswith("0.9")][-1] == ["%", "-"]

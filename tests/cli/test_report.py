@@ -95,7 +95,16 @@ def place(tmp_path_factory):
         ("statics", "pushover", stone),
         ("statics", "limit", stone),
         ("compare", "compare", place / "block.toml", "--models", "housner,dem2d", *SINE),
-        ("states", "compare", "--as-built", place / "column.toml", "--with", place / "<i>ties.toml", "--motion", records),
+        (
+            "states",
+            "compare",
+            "--as-built",
+            place / "column.toml",
+            "--with",
+            place / "<i>ties.toml",
+            "--motion",
+            records,
+        ),
         ("suite", "suite", *block, records),
         ("ida", "ida", *block, records, "--runs", "6"),
         ("fragility", "fragility", place / "runs.csv", "--im", "pgv"),
@@ -215,7 +224,9 @@ def test_states_of_a_version_that_counted_otherwise_are_refused(place, tmp_path,
     content.pop("records")
     (folder / "states.json").write_text(json.dumps(content))
     assert call(["report", str(folder), "--out", str(tmp_path / "r.html")]) == 2
-    assert "not what 'stylobate compare' of this version writes: it has no 'records'; run again" in capsys.readouterr().err
+    assert (
+        "not what 'stylobate compare' of this version writes: it has no 'records'; run again" in capsys.readouterr().err
+    )
 
 
 def test_a_state_of_other_stones_is_listed_in_full():
@@ -240,7 +251,12 @@ def test_a_study_sets_columns_side_by_side_over_the_same_cases():
 
     from stylobate.report.others import _shares_of_study
 
-    axes = {"models": [{"model": "m"}], "columns": [{"column": "a"}, {"column": "b"}], "levels": [1.0], "measure": "pga"}
+    axes = {
+        "models": [{"model": "m"}],
+        "columns": [{"column": "a"}, {"column": "b"}],
+        "levels": [1.0],
+        "measure": "pga",
+    }
     verdicts = np.array(["collapsed"] * 7 + ["undecided"] * 2 + ["failed"] + ["collapsed"] * 7 + ["stands"] * 3)
     plan = SimpleNamespace(axes=axes, shape=(1, 2, 10, 1, 1))
     rows = _shares_of_study(SimpleNamespace(plan=plan, verdicts=verdicts))

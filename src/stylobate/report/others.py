@@ -106,10 +106,11 @@ def _scope(kind: Kind) -> str:
 def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     first, above = s.get("first_collapse_g", s.get("critical_g")), s.get("all_collapse_above_g")
+    kind = "assembly" if result.structures and not isinstance(result.structures[0], Column) else "column"
     if first is None:
-        sentence = "No amplitude that was tried collapses the column; larger ones were not tried."
+        sentence = f"No amplitude that was tried collapses the {kind}; larger ones were not tried."
     else:
-        sentence = f"The smallest amplitude tried that collapses the column is {first:.4g} g"
+        sentence = f"The smallest amplitude tried that collapses the {kind} is {first:.4g} g"
         sentence += (
             f"; from {above:.4g} g on every amplitude tried does."
             if above is not None
