@@ -23,10 +23,10 @@ _MARKERS = ("", "o", "s", "^")
 def draw_states(found: StateComparison, title: str = "", *, figure: Figure | SubFigure | None = None) -> Figure:
     """Fragility curves beside the differences in the share of runs that exceed the limit state.
 
-    The band is that of the first state; those of the others stand in the table. A state with undecided runs has two thin
-    curves: if all of them exceeded the limit state, and if none did. Right: thick from the best to the worst that the
-    undecided can come to, a circle where all is decided; the interval over records holds both ends. Grey: nothing is
-    concluded.
+    The band is that of the first state with a curve; those of the others stand in the table. A state with undecided runs
+    has two thin curves: if all of them exceeded the limit state, and if none did. Right: thick from the best to the worst
+    that the undecided can come to, a circle where all is decided; the interval over records holds both ends. Grey: nothing
+    is concluded.
 
     Parameters
     ----------
@@ -40,6 +40,10 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     known = [one for one in found.curves if one is not None]
     if known:
         _draw_curves(curves, known, found.state)
+        for label, one in zip(found.labels, found.curves, strict=True):
+            if one is None:
+                curves.plot([], [], color="none", label=f"{label}: no curve")
+        curves.legend(loc="upper left", fontsize=7.5, handlelength=2.6)
     else:
         curves.text(0.5, 0.5, "no curve: all runs say the same,\nor too few records", ha="center", va="center")
         curves.set(xticks=[], yticks=[])
@@ -111,4 +115,3 @@ def _draw_curves(axes: Axes, known: list[Fragility], state: str) -> None:
     measure = known[0].evidence.measure
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
     axes.grid(True)
-    axes.legend(loc="upper left", fontsize=7.5, handlelength=2.6)

@@ -42,10 +42,12 @@ def states_items(result: Numbers) -> list[Item]:
     )
     items.append(Rows(header, body, caption, numbers=True))
     items += _by_level(result)
+    banded = next((one["label"] for one in s["states"] if one["fragility"]), None)
+    band = "" if banded is None else f", the band that of “{banded}”"
     items += kept(
         result.pictures,
         "states",
-        f"Left: fragility curves, the band that of “{s['states'][0]['label']}”; two thin ones where runs are undecided: if "
+        f"Left: fragility curves{band}; two thin ones where runs are undecided: if "
         "all of them exceeded, and if none did. Right: difference of the share, pair by pair; left of zero is better. "
         "Thick: undecided runs counted both ways; thin: 95 % interval over records.",
     )
