@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import platform
@@ -11,8 +12,11 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from .errors import InputError
+from .errors import InputError, StylobateError
 from .own_files import guard_of, own_files
+
+#: What a system says where a disk, or what somebody may use of it, is full.
+_NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 #: Temporary files of this process, which an end without clean-up removes.
 PARTIAL: set[Path] = set()
@@ -34,6 +38,8 @@ def replacing(path: str | Path) -> Iterator[Path]:
     ------
     InputError
         The folder of ``path`` is missing or cannot be written to, or ``path`` is somebody else's.
+    StylobateError
+        The disk is full.
     """
     target = Path(path)
     if not target.parent.is_dir():
@@ -51,10 +57,17 @@ def replacing(path: str | Path) -> Iterator[Path]:
             os.close(os.open(partial, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666))
         except OSError as error:
             raise InputError(f"{target} cannot be written: {error.strerror}; choose another folder.") from None
-        yield partial
-        if guard is not None:
-            guard.add(target, partial)
-        os.replace(partial, target)
+        try:
+            yield partial
+            if guard is not None:
+                guard.add(target, partial)
+            os.replace(partial, target)
+        except OSError as error:
+            if error.errno not in _NO_ROOM:
+                raise
+            raise StylobateError(
+                f"{target} cannot be written: {error.strerror}; nothing is left of it: make room, or choose another folder."
+            ) from None
     finally:
         partial.unlink(missing_ok=True)
         PARTIAL.discard(partial)

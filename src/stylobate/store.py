@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from .atomic import replacing
-from .errors import InputError, StylobateError
+from .errors import InputError
 from .reading import read_bytes, shown
 
 if TYPE_CHECKING:
@@ -98,16 +98,11 @@ def write(data: xarray.Dataset, kind: str, path: str | Path) -> Path:
         # The library writes to memory: one that cannot finish a file on a full disk crashes when the process ends.
         image = _image(data, {"format": f"{_NAME} {FORMAT}", "kind": kind})
         line = f"\n{_NAME} {FORMAT:04d} sha256 {hashlib.sha256(image).hexdigest()}\n"
-        try:
-            with partial.open("wb") as file:
-                file.write(image)
-                file.write(line.encode())
-                file.flush()
-                os.fsync(file.fileno())
-        except OSError as error:
-            raise StylobateError(
-                f"{target} cannot be written: {error.strerror}; nothing is left of it: make room, or choose another folder."
-            ) from None
+        with partial.open("wb") as file:
+            file.write(image)
+            file.write(line.encode())
+            file.flush()
+            os.fsync(file.fileno())
     return target
 
 
@@ -227,7 +222,12 @@ def _open(content: bytes, name: str) -> xarray.Dataset:
             )
         if written != FORMAT:
             raise _unknown(name, str(written))
+    import h5py
+
     try:
+        # What h5netcdf does first is tried without it: where that fails, its half-made file prints a traceback at its end.
+        with h5py.File(io.BytesIO(content), "r") as bare:
+            bare.attrs.get("_nc3_strict")
         with xarray.open_dataset(io.BytesIO(content), engine="h5netcdf", decode_times=False) as data:
             data.load()
     except Exception as error:  # libraries raise many kinds of errors for damaged files

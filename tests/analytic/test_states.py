@@ -49,13 +49,17 @@ def test_differences_are_those_of_the_pairs(found):
     assert wider.share_low <= wider.share <= wider.share_high < 0.0
     assert wider.ratio_low < wider.ratio
     assert wider.ratio > 1.0
-    assert "fewer of the runs than as built" in wider.sentence
+    assert wider.sentence.startswith("“wider”: stronger than “as built” against collapse, under these motions.")
+    assert [(one.label, one.runs) for one in found.shares] == [(label, 30) for label in found.labels]
 
 
 def test_the_picture_shows_curves_and_differences(found):
     figure = plots.draw_states(found)
     curves, bars = figure.axes
     assert len(curves.get_lines()) >= 3
+    low, high = bars.get_xlim()
+    assert low < 0.0 < high  # both sides of zero are there, and named
+    assert [one.get_text().strip() for one in bars.texts] == ["← stronger", "weaker →"]
     assert [one.get_text() for one in bars.get_yticklabels()] == ["the same", "wider"]
 
 
@@ -67,7 +71,12 @@ def test_the_command(tmp_path, capsys):
     assert [one["label"] for one in said["states"]] == ["as built", "0.9"]
     assert said["states"][0]["fragility"] is None  # one record makes no curve
     assert said["differences"][0]["pairs"] == 2
-    assert {"states.csv", "states.png", "states.json"} <= {one.name for one in (tmp_path / "out").iterdir()}
+    names = {one.name for one in (tmp_path / "out").iterdir()}
+    assert {"states.csv", "links.csv", "states.png", "states.json", "asked-compare.json"} <= names
+    assert call([*base[:5], "--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
+    said = capsys.readouterr().out
+    assert "no ground to adopt it for safety (1 record; 10 at least would tell of others)" in said
+    assert [line.split()[-2:] for line in said.splitlines() if line.strip().startswith("0.9")][-1] == ["%", "-"]
 
 
 @pytest.mark.parametrize(

@@ -57,6 +57,8 @@ def place(tmp_path_factory):
     )
     write_column(column, place / "column.toml")
     write_column(column.replace(drums=column.drums[:1], joints=column.joints[:1]), place / "block.toml")
+    tie = st.Tie(at=(0.3, 0.0), diameter=0.02, material="titanium")
+    write_column(column.replace(links=[tie]), place / "<i>ties.toml")
     records = place / "records"
     records.mkdir()
     time = np.arange(40) * 0.02
@@ -93,6 +95,16 @@ def place(tmp_path_factory):
         ("statics", "pushover", stone),
         ("statics", "limit", stone),
         ("compare", "compare", place / "block.toml", "--models", "housner,dem2d", *SINE),
+        (
+            "states",
+            "compare",
+            "--as-built",
+            place / "column.toml",
+            "--with",
+            place / "<i>ties.toml",
+            "--motion",
+            records,
+        ),
         ("suite", "suite", *block, records),
         ("ida", "ida", *block, records, "--runs", "6"),
         ("fragility", "fragility", place / "runs.csv", "--im", "pgv"),
@@ -185,6 +197,82 @@ def test_what_was_changed_is_said(place, tmp_path):
     text = Page(file.read_text()).text
     assert "Changed by somebody since stylobate wrote it: replicates.csv" in text
     assert "mine" in text
+
+
+def test_states_have_a_page_of_their_own(place, tmp_path):
+    (found,) = read_results([place / "out states <i>"])  # not as a study, whose plan lies there as well
+    assert found.kind is Kind.STATES
+    assert [one.digest for one in found.structures] == [found.asked.structures[k]["digest"] for k in range(2)]
+    (file,) = write_report([found], tmp_path / "r.html")
+    page = Page(file.read_text(encoding="utf-8"))
+    text = " ".join(page.text.split())
+    advice = "“<i>ties”: not shown to be stronger than “as built” against collapse"
+    assert text.index(advice) < text.index("What was found") < text.index("The state “as built”")
+    assert "these runs are no ground to adopt it for safety (2 records; 10 at least would tell of others)" in text
+    assert "Drums and joints are those of “as built”. What differs: 1 link, there no links." in text
+    assert "states compared" in text
+    assert "did not keep it" not in text
+    assert "study" not in text.lower().split("sources to cite")[0]
+    pictures = [value for name, value in page.attributes if name == "alt"]
+    assert sum(one.startswith("Elevation of") for one in pictures) == 2
+    assert sum("difference of the share, pair by pair" in one for one in pictures) == 1
+
+
+def test_states_of_a_version_that_counted_otherwise_are_refused(place, tmp_path, capsys):
+    folder = shutil.copytree(place / "out states <i>", tmp_path / "copy")
+    content = json.loads((folder / "states.json").read_text())
+    content.pop("records")
+    (folder / "states.json").write_text(json.dumps(content))
+    assert call(["report", str(folder), "--out", str(tmp_path / "r.html")]) == 2
+    assert (
+        "not what 'stylobate compare' of this version writes: it has no 'records'; run again" in capsys.readouterr().err
+    )
+
+
+def test_a_state_of_other_stones_is_listed_in_full():
+    from stylobate.report.page import Rows
+    from stylobate.report.structure import state_section
+
+    joint = st.Joint(5e10, 2.5e10)
+    first = st.Column.of_drums([st.Drum(2.0, 1.0, 1.0, 2500.0)] * 2, joint, name="one")
+    lean = first.replace(name="two", as_found=st.AsFound([st.FoundDrum(2, offset=0.05)]))
+    text, _, table = state_section(lean, "as found", first, "as built").items
+    assert text == "Drums and joints are those of “as built”. What differs: as found, there as built."
+    assert isinstance(table, Rows)
+    wide = st.Column.of_drums([st.Drum(2.0, 1.2, 1.2, 2500.0)] * 2, joint, name="three")
+    text, *rest = state_section(wide, "wide", first, "as built").items
+    assert text == "Its drums or joints are not those of “as built”: all of it is listed."
+    assert any(isinstance(one, Rows) and one.header[0] == "drum" for one in rest)
+
+
+def test_a_study_sets_columns_side_by_side_over_the_same_cases():
+    """What is undecided or failed for one column is not dropped from its share alone."""
+    from types import SimpleNamespace
+
+    from stylobate.report.others import _shares_of_study
+
+    axes = {
+        "models": [{"model": "m"}],
+        "columns": [{"column": "a"}, {"column": "b"}],
+        "levels": [1.0],
+        "measure": "pga",
+    }
+    verdicts = np.array(["collapsed"] * 7 + ["undecided"] * 2 + ["failed"] + ["collapsed"] * 7 + ["stands"] * 3)
+    plan = SimpleNamespace(axes=axes, shape=(1, 2, 10, 1, 1))
+    rows = _shares_of_study(SimpleNamespace(plan=plan, verdicts=verdicts))
+    assert rows.body == [
+        ["a", "m", "1", "9", "7", "0", "2", "78 to 100 %", "1"],
+        ["b", "m", "1", "9", "7", "2", "0", "78 %", "0"],
+    ]
+
+
+def test_an_undecided_run_of_a_model_is_told_beside_others(place):
+    from stylobate.report.others import sections_of
+
+    (found,) = read_results([place / "out compare <i>"])
+    found.table["decided"] = [True, False]
+    text = sections_of(found, set())[0].items[0].texts[0]
+    assert text.count(", undecided") == 1
 
 
 @pytest.mark.parametrize(

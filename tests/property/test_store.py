@@ -1,5 +1,7 @@
 """Files of results: the former format is read, damaged files are refused in a sentence, a full disk leaves nothing."""
 
+import errno
+import hashlib
 import io
 import json
 import subprocess
@@ -13,7 +15,9 @@ import stylobate as st
 from stylobate import store
 from stylobate.analysis.domain import Domain
 from stylobate.analysis.probability import CollapseProbability
+from stylobate.atomic import replacing
 from stylobate.column.presets import preset
+from stylobate.errors import InputError, StylobateError
 from stylobate.response import Response, load_response
 
 FORMER = Path(__file__).parent / "format_1"
@@ -160,3 +164,41 @@ def test_a_full_disk_leaves_nothing_and_says_so(tmp_path):
     assert "cannot be written" in said[0]
     assert "Traceback" not in done.stderr
     assert not list((tmp_path / "out").glob("*.nc")) if (tmp_path / "out").exists() else True
+
+
+def test_what_the_library_cannot_open_is_one_sentence_and_no_traceback(tmp_path, monkeypatch):
+    """A file that is damaged under a digest that is right: attributes of its root that h5netcdf asks for first."""
+    import gc
+
+    import xarray
+
+    data = xarray.Dataset({"a": ("x", np.arange(4.0))}, {"x": np.arange(4.0)})
+    image = store.write(data, "response", tmp_path / "r.nc").read_bytes()[: -store.LINE]
+    printed = []
+    monkeypatch.setattr(sys, "unraisablehook", printed.append)
+    refused = []
+    for place in range(8, min(len(image), 2400), 56):
+        content = image[:place] + bytes(56) + image[place + 56 :]
+        line = f"\nstylobate result 0002 sha256 {hashlib.sha256(content).hexdigest()}\n"
+        (tmp_path / "r.nc").write_bytes(content + line.encode())
+        try:
+            store.read(tmp_path / "r.nc")
+        except InputError as error:
+            refused.append(str(error))
+    gc.collect()
+    assert len(refused) > 5
+    assert not [one for one in refused if "\n" in one]
+    assert not printed
+
+
+def test_a_disk_that_fills_up_is_told_with_the_file(tmp_path):
+    def fill():
+        with replacing(tmp_path / "report.html") as partial:
+            partial.write_text("half")
+            raise OSError(errno.ENOSPC, "No space left on device")
+
+    with pytest.raises(
+        StylobateError, match=r"report\.html cannot be written: No space left on device; nothing is left"
+    ):
+        fill()
+    assert not list(tmp_path.iterdir())

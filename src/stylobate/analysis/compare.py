@@ -61,9 +61,15 @@ class DomainComparison:
         certain = (v.STANDS, v.COLLAPSED)
         return np.isin(self.domains[first].verdicts, certain) & np.isin(self.domains[second].verdicts, certain)
 
+    def undecided(self, first: int, second: int) -> np.ndarray:
+        """Cells that both models could compute, at least one of them without a verdict, shape (F, A)."""
+        computed = (v.STANDS, v.COLLAPSED, v.UNDECIDED)
+        both = np.isin(self.domains[first].verdicts, computed) & np.isin(self.domains[second].verdicts, computed)
+        return both & ~self.comparable(first, second)
+
     @property
     def table(self) -> pandas.DataFrame:
-        """One row per pair of models: cells that are comparable, cells that differ, and which of the two collapses."""
+        """One row per pair of models: cells that are comparable, differ, how, and are undecided."""
         import pandas
 
         rows = []
@@ -77,6 +83,7 @@ class DomainComparison:
                     "differing": int(differs.sum()),
                     "only_first_collapses": int((differs & (self.domains[i].verdicts == v.COLLAPSED)).sum()),
                     "only_second_collapses": int((differs & (self.domains[j].verdicts == v.COLLAPSED)).sum()),
+                    "undecided": int(self.undecided(i, j).sum()),
                 }
             )
         return pandas.DataFrame(rows)

@@ -5,12 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..motion import Motion
 from . import verdicts as v
+
+if TYPE_CHECKING:
+    import pandas
 
 
 def direction_of(motion: Motion) -> dict[str, Any]:
@@ -49,6 +52,19 @@ def worst(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any] | None:
     """The row whose motion does most harm; None where all failed."""
     found = max(rows, key=harm, default=None)
     return None if found is None or v.verdict(found) == v.FAILED else found
+
+
+#: Columns of the table of several runs.
+SHOWN = ("motion", "outcome", "undecided", "collapse_time_s", "collapse_probability", "peak_top_displacement_m",
+         "peak_displacement_m", "peak_rotation_rad")  # fmt: skip
+
+
+def table_of_runs(rows: Sequence[Mapping[str, Any]]) -> pandas.DataFrame:
+    """A row per run, of what a person compares; columns that are empty are left out."""
+    import pandas
+
+    table = pandas.DataFrame([{**one, "undecided": "undecided" * (v.verdict(one) == v.UNDECIDED)} for one in rows])
+    return table.filter(list(SHOWN)).replace("", None).dropna(axis="columns", how="all")
 
 
 @dataclass(frozen=True, eq=False)

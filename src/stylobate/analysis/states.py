@@ -19,10 +19,12 @@ from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
+from .difference import Difference
 from .evidence import Evidence, evidence
 from .fragility import SAMPLES, Fragility, bootstrap, fragility, intervals
-from .limit_states import EXCEEDED, OPEN
+from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from .lognormal import fit
+from .side_by_side import Share, shares
 from .studies import StudyResult, run_study
 
 if TYPE_CHECKING:
@@ -30,51 +32,6 @@ if TYPE_CHECKING:
 
 #: Smallest number of states that can be compared.
 FEWEST_STATES = 2
-
-
-@dataclass(frozen=True)
-class Difference:
-    """What a state differs by from the first one, the same records, levels and twins against one another.
-
-    Parameters
-    ----------
-    state, against : str
-        Labels.
-    pairs : int
-        Pairs of runs that both have a verdict.
-    saved, harmed : int
-        Pairs in which only the other state exceeds the limit state, and only this one.
-    share, share_low, share_high : float
-        Share of the pairs that exceed it, less that of the other state, and its interval over records [-].
-    ratio, ratio_low, ratio_high : float
-        Median capacity over that of the other state, from the runs that both know, and its interval over records [-]; NaN
-        where a curve is missing.
-    """
-
-    state: str
-    against: str
-    pairs: int
-    saved: int
-    harmed: int
-    share: float
-    share_low: float
-    share_high: float
-    ratio: float
-    ratio_low: float
-    ratio_high: float
-
-    @property
-    def sentence(self) -> str:
-        """What it comes to, in a sentence."""
-        sure = "" if self.share_low > 0.0 or self.share_high < 0.0 else ", which may be chance"
-        word = "more" if self.share > 0.0 else "fewer"
-        interval = f"{100.0 * self.share_low:+.0f} to {100.0 * self.share_high:+.0f} %"
-        said = (
-            f"{self.state}: {100.0 * abs(self.share):.0f} % {word} of the runs than {self.against} ({interval}){sure}"
-        )
-        if self.share == 0.0:
-            said = f"{self.state}: as many of the runs as {self.against} ({interval})"
-        return f"{said}; it saves {self.saved} of {self.pairs} and harms {self.harmed}."
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,6 +51,8 @@ class StateComparison:
         None where every run exceeds the limit state, or none does.
     differences : tuple of Difference
         Of every state after the first.
+    shares : tuple of Share
+        Of every state, of the runs that could be computed for all of them.
     state : str
         The limit state.
     """
@@ -104,6 +63,7 @@ class StateComparison:
     table: pandas.DataFrame
     curves: tuple[Fragility | None, ...]
     differences: tuple[Difference, ...]
+    shares: tuple[Share, ...]
     state: str
 
     @property
@@ -139,18 +99,30 @@ class StateComparison:
         table: Any = self.table
         return {
             "state": self.state,
+            "records": int(table["record"].nunique()),
             "states": [
                 {
                     "label": label,
                     "column": column.name,
                     "runs": int((table["state"] == label).sum()),
                     "collapsed": int(table.loc[table["state"] == label, "collapsed"].fillna(0).sum()),
+                    "same_runs": share.runs,
+                    "exceeded": share.exceeded,
+                    "not_exceeded": share.not_exceeded,
+                    "undecided": share.undecided,
+                    "failed": share.failed,
+                    "share_low": share.low,
+                    "share_high": share.high,
                     "fragility": None if curve is None else curve.summary(),
                     "links_broken": int(links.loc[links["state"] == label, "broken"].sum()) if len(links) else 0,
                 }
-                for label, column, curve in zip(self.labels, self.columns, self.curves, strict=True)
+                for label, column, curve, share in zip(self.labels, self.columns, self.curves, self.shares, strict=True)
             ],
-            "differences": [dataclasses.asdict(one) | {"sentence": one.sentence} for one in self.differences],
+            "differences": [
+                dataclasses.asdict(one)
+                | {key: getattr(one, key) for key in ("conclusion", "advice", "basis", "sentence")}
+                for one in self.differences
+            ],
             "links": links.astype(object).where(links.notna(), None).to_dict("records"),
         }
 
@@ -216,10 +188,11 @@ def compare_states(
     told = [evidence(one, im, state, label) for one, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     differences = tuple(
-        _difference(told[0], one, curves[0], curve, samples, seed, confidence)
+        _with_undecided(told[0], one, curves[0], curve, samples, seed, confidence)
         for one, curve in zip(told[1:], curves[1:], strict=True)
     )
-    return StateComparison(labels, named, result, table, curves, differences, state)
+    side_by_side = tuple(shares({one.name: one.codes for one in told}))
+    return StateComparison(labels, named, result, table, curves, differences, side_by_side, state)
 
 
 def _curve(one: Evidence, samples: int, seed: int, confidence: float) -> Fragility | None:
@@ -227,6 +200,56 @@ def _curve(one: Evidence, samples: int, seed: int, confidence: float) -> Fragili
         return fragility(one, samples=samples, seed=seed, confidence=confidence)
     except InputError:  # too few records, or all runs say the same: shares are told without a curve
         return None
+
+
+def _with_undecided(
+    first: Evidence,
+    other: Evidence,
+    first_curve: Fragility | None,
+    other_curve: Fragility | None,
+    samples: int,
+    seed: int,
+    confidence: float,
+) -> Difference:
+    """The difference; its intervals hold what the undecided could make of it, for the other state and against it."""
+    rest = first_curve, other_curve, samples, seed, confidence
+    known = _difference(first, other, *rest)
+    computed = (first.codes != FAILED) & (other.codes != FAILED)
+    open_ = computed & ((first.codes == OPEN) | (other.codes == OPEN))
+    best = worst = known
+    if open_.any():
+        best, worst = (
+            _difference(_ended(first, against), _ended(other, for_it), *rest)
+            for against, for_it in ((EXCEEDED, NOT_EXCEEDED), (NOT_EXCEEDED, EXCEEDED))
+        )
+    no_ratio = math.isnan(known.ratio)
+    return dataclasses.replace(
+        known,
+        share_low=best.share_low,
+        share_high=worst.share_high,
+        ratio_low=math.nan if no_ratio else _known(worst.ratio_low, 0.0),
+        ratio_high=math.nan if no_ratio else _known(best.ratio_high, math.inf),
+        undecided=int(open_.sum()),
+        failed=int((~computed).sum()),
+        records=len(np.unique(first.records[computed])),
+        share_best=best.share,
+        share_worst=worst.share,
+        ratio_best=math.nan if no_ratio else _known(best.ratio, math.inf),
+        ratio_worst=math.nan if no_ratio else _known(worst.ratio, 0.0),
+        limit_state=first.state,
+        im="" if first.measure in ("im", "factor") else first.measure,
+        confidence=confidence,
+    )
+
+
+def _ended(one: Evidence, code: int) -> Evidence:
+    """The same runs, as if every undecided one had come to an end."""
+    return dataclasses.replace(one, codes=np.where(one.codes == OPEN, code, one.codes))
+
+
+def _known(value: float, otherwise: float) -> float:
+    """A limit, or the end of all that can be where there is none."""
+    return otherwise if math.isnan(value) else value
 
 
 def _difference(

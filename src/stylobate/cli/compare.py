@@ -100,7 +100,7 @@ def compare(
         twins = o.the_population(replicates, scatter, seed)
         how = o.the_model(model, settings)
         workers = o.the_threads(threads)
-        request = o.the_request(context, separate=True)
+        request = o.the_request(context, separate=bool(motion))
         after = o.the_tail(tail)
         columns = {label: o.the_column(text, project) for label, text in states.items()}
         compare_states.run(columns, request, how, im, levels, state, twins, after, workers, out, as_json)

@@ -46,6 +46,7 @@ def run(
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
     from ..campaign.study_files import levels_of
+    from ..column.scatter import Scatter
     from . import console
 
     if (im is None) != (levels is None):
@@ -54,12 +55,11 @@ def run(
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
     motions = request.expand()
-    how = (
-        {}
-        if twins is None
-        else {"realisations": twins["replicates"], "scatter": twins["scatter"], "seed": twins["seed"]}
-    )
-    with console.folder(out, "states.csv", "links.csv", "states.json", "states") as folder:
+    how, population = {}, {}
+    if twins is not None:
+        how = {"realisations": twins["replicates"], "scatter": twins["scatter"], "seed": twins["seed"]}
+        population = twins | {"scatter": (twins["scatter"] or Scatter()).describe()}
+    with console.folder(out, "states.csv", "links.csv", "states.json", "asked-compare.json", "states") as folder:
         if folder is not None:
             console.ledger(folder)
         with console.progress("runs") as progress:
@@ -71,10 +71,14 @@ def run(
         if folder is not None:
             from .. import plots
 
+            what = {"structures": list(columns.values()), "models": [model]}
+            what |= {"motions": [model.taken(one) for one in motions.motions], "states": list(columns)}
+            what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": tail}
             files = [
                 console.write_table(found.table, folder / "states.csv"),
                 console.write_table(found.links, folder / "links.csv"),
                 *plots.save(plots.draw_states(found), folder / "states"),
+                console.asked(folder, "compare", **what, **population),
                 folder / "states.json",
             ]
             summary["files"] = [str(one) for one in files]
@@ -90,15 +94,21 @@ def run(
 
 def describe(found: StateComparison) -> None:
     """Print the answer for people."""
+    import pandas
+
+    from ..analysis.side_by_side import median_words
     from . import console
 
-    facts = {}
-    for one in found.summary()["states"]:
-        curve = one["fragility"]
-        median = "" if curve is None else f", median {curve['median']:.3g} {curve['unit']}, β {curve['beta']:.2f}"
-        broken = f", {one['links_broken']} links broken in all" if one["links_broken"] else ""
-        facts[one["label"]] = f"{one['collapsed']} of {one['runs']} runs collapse{median}{broken}"
-    console.say(" ".join(one.sentence for one in found.differences), facts)
+    for one in found.differences:
+        print(one.sentence)
+    how = "collapse" if found.state == "collapse" else "exceed"
+    rows = []
+    for one, curve in zip(found.shares, found.curves, strict=True):
+        row = {"state": one.label, "same runs": one.runs, how: one.exceeded, "do not": one.not_exceeded}
+        row |= {"undecided": one.undecided, "failed": one.failed, f"share that {how}s": one.words or console.MISSING}
+        row["median"] = console.MISSING if curve is None else median_words(curve.summary())
+        rows.append(row)
+    console.print_table(pandas.DataFrame(rows), digits=3)
     links = found.links
     if len(links):
         worst = links.sort_values(["broken", "largest_over_capacity"], ascending=False).groupby("state", sort=False)

@@ -6,7 +6,7 @@ import json
 import math
 import shutil
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
 from pathlib import Path
@@ -119,6 +119,19 @@ def _as_text(value: Any) -> str:
     if value is None or value == "" or (isinstance(value, float) and math.isnan(value)):
         return MISSING
     return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+#: Motions of which is told what is left out.
+MOST_LEFT_OUT = 12
+
+
+def print_left_out(inputs: Sequence[Mapping[str, Any]]) -> None:
+    """Say what of the motions the model does not take."""
+    left_out = [one for one in inputs if one["left_out"]]
+    for one in left_out[:MOST_LEFT_OUT]:
+        print(f"left out of {one['motion']}: {'; '.join(one['left_out'])}")
+    if len(left_out) > MOST_LEFT_OUT:
+        print(f"and of {len(left_out) - MOST_LEFT_OUT} more motions; --json names all of them")
 
 
 def print_refused(refused: Mapping[str, str]) -> None:

@@ -109,7 +109,7 @@ def critical(
     if as_json:
         console.emit(summary)
     else:
-        describe(result, how.taken(shaking), files)
+        describe(result, how.taken(shaking), files, after)
 
 
 def over_suite(
@@ -190,28 +190,31 @@ def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
     return files
 
 
-def describe(result: CriticalAmplitude, taken: Motion, files: list[Path]) -> None:
+def describe(result: CriticalAmplitude, taken: Motion, files: list[Path], tail: float) -> None:
     """Print the answer for people."""
+    from ..column import Column
     from ..constants import g
+    from ..response.words import longer_tail
     from . import console
 
     counts = result.counts
     low, high = result.amplitudes[0] / g, result.amplitudes[-1] / g
+    kind = "column" if isinstance(result.column, Column) else "assembly"
     if result.critical is None:
-        sentence = f"No amplitude from {low:g} to {high:g} g collapses the column."
+        sentence = f"No amplitude from {low:g} to {high:g} g collapses the {kind}."
     else:
         first, all_above = result.critical / g, result.all_collapse_above
         if all_above is None:
             sentence = (
-                f"The column first collapses at {first:.4g} g; from there to {high:g} g some amplitudes collapse it."
+                f"The {kind} first collapses at {first:.4g} g; from there to {high:g} g some amplitudes collapse it."
             )
         elif all_above > result.critical:
             sentence = (
-                f"The column first collapses at {first:.4g} g; from there some amplitudes collapse it, and from "
+                f"The {kind} first collapses at {first:.4g} g; from there some amplitudes collapse it, and from "
                 f"{all_above / g:.4g} g to {high:g} g all do."
             )
         else:
-            sentence = f"The column collapses from {first:.4g} g on."
+            sentence = f"The {kind} collapses from {first:.4g} g on."
     if result.critical_factor is not None:
         sentence += f" That is {result.critical_factor:.3g} times the record."
     if result.population is not None:
@@ -221,11 +224,12 @@ def describe(result: CriticalAmplitude, taken: Motion, files: list[Path]) -> Non
         )
         sentence += f" Of {len(result.population.verdicts)} columns like this {shares or 'few collapse on this grid'}"
         sentence += " on." if shares else "."
-    for one, meaning in (("undecided", "ended far from rest (try --tail 5s)"), ("failed", "could not be computed")):
+    far = f"ended far from rest (try {longer_tail(tail)})"
+    for one, meaning in (("undecided", far), ("failed", "could not be computed")):
         if counts[one]:
             sentence += f" {counts[one]} of {len(result.rows)} runs {meaning} and are not counted as collapse."
     facts = {
-        "column": result.column.name,
+        kind: result.column.name,
         "motion": result.motion.name if result.motion.factor != 1.0 else f"{result.motion.name.split(',')[0]}, ? g",
         **{name: text for name, text in o.input_lines(taken).items() if name != "motion"},
         "model": result.model,

@@ -188,6 +188,7 @@ def run_probability(study: Study, population: dict, threads: int, out: Path | No
 
 def describe_probability(result: CollapseProbability, files: list[Path]) -> None:
     """Print the probabilities for people."""
+    from ..response.words import longer_tail
     from . import console
 
     s = result.summary()
@@ -199,7 +200,7 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
     if s["undecided"] or s["failed"]:
         sentence += f" {s['undecided']} runs are undecided and {s['failed']} failed; they are not counted as collapse."
     if s["undecided"]:
-        sentence += " Go on with --tail 5s."
+        sentence += f" Go on with {longer_tail(float(result.provenance['tail']))}."
     facts = {
         "column": result.column.name,
         "model": result.model,
@@ -244,11 +245,13 @@ def the_imperfection(text: str) -> Imperfection:
 def describe(result: Domain, files: list[Path]) -> None:
     """Print the domain for people."""
     from ..constants import g
+    from ..response.words import longer_tail
     from . import console
 
     counts, cells = result.counts, len(result.rows)
     sentence = f"{counts['collapsed']} of {cells} cells collapse, {counts['stands']} stand."
-    for one, meaning in (("undecided", "ended far from rest (try --tail 5s)"), ("failed", "could not be computed")):
+    far = f"ended far from rest (try {longer_tail(float(result.provenance['tail']))})"
+    for one, meaning in (("undecided", far), ("failed", "could not be computed")):
         if counts[one]:
             sentence += f" {counts[one]} {meaning} and are not counted as collapse."
     f, a = result.frequencies, result.amplitudes / g

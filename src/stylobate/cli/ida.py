@@ -65,6 +65,7 @@ def ida(
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response
     from ..motion.intensity_specs import parse_levels, parse_measure
+    from ..response.words import longer_tail
     from . import console
 
     workers, after = o.the_threads(threads), o.the_tail(tail)
@@ -134,7 +135,7 @@ def ida(
         f"{_count(result['curves_with_resurrections'], 'curve')}",
     }
     if result["undecided"] or result["failed"]:
-        facts["open"] = f"{result['undecided']} undecided, {result['failed']} failed; go on with --tail 5s"
+        facts["open"] = f"{result['undecided']} undecided, {result['failed']} failed; go on with {longer_tail(after)}"
     console.say(f"{stone.name}, {how.name}: {_count(len(curves), 'curve')} over {measure.words}.", facts, files)
     if len(best):
         console.print_table(best.drop(columns=["beta_low", "beta_high"]), digits=3)

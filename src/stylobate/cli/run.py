@@ -80,7 +80,7 @@ def run(
     next to no cost; --replicates 0 leaves them out. With --out, writes histories and figures. A folder of records, or
     several directions, is one run after the other.
     """
-    from ..analysis.directions import worst
+    from ..analysis.directions import table_of_runs, worst
     from ..motion.specs import parse_time
     from . import console
 
@@ -95,7 +95,12 @@ def run(
     drawn = Drawn(pictures, pictures and twins is not None and replicates is not None)
     follow = partial(run_one, stone, model=how, twins=twins, threads=count, **following)
     if asked.several:
-        summaries = each_record(stone, found.motions, how, follow, out, following | {"twins": twins}, as_json, drawn)
+        summaries = each_record(stone, found.motions, how, follow, out, following | {"twins": twins}, drawn)
+        if not as_json:
+            console.print_table(table_of_runs(summaries), digits=3)
+            console.print_left_out(summaries)
+            if out is not None:
+                print(f"{len(summaries)} folders with a run each in {out}")
     else:
         summaries = [conclude(follow, stone, found.motions[0], how, out, as_json, drawn)]
     if len(asked.azimuths) > 1 or asked.signs == "both":
@@ -178,13 +183,11 @@ def each_record(
     follow: Callable[..., tuple[Response, Population | None]],
     out: Path | None,
     asked: dict[str, Any],
-    quiet: bool,
     drawn: Drawn = FIGURES,
 ) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     from ..campaign.ledger import Ledger
     from ..campaign.runner import Stopped, full_key
-    from ..response import load_response
     from . import console
 
     key = {"structure": stone.digest, "motions": [one.digest for one in motions], **asked}
@@ -199,15 +202,9 @@ def each_record(
             for number, (one, place) in enumerate(zip(motions, places)):
                 summary = known.get(number)
                 if summary is None or not all(Path(file).is_file() for file in summary["files"]):
-                    summary = conclude(follow, stone, one, model, place, quiet, drawn)
+                    summary = conclude(follow, stone, one, model, place, True, drawn)
                     if book:
                         book.record(number, json.loads(console.as_json(summary)))
-                elif not quiet and place is not None:
-                    describe(
-                        load_response(place / "response.nc"),
-                        model.taken(one),
-                        [Path(file) for file in summary["files"]],
-                    )
                 summaries.append(summary)
         except KeyboardInterrupt:
             if book:
@@ -338,9 +335,10 @@ def column_facts(response: Response) -> tuple[str, dict[str, str], dict[str, str
 
     m, column = response.measures, response.column
     drums = f"{column.n} {'drum' if column.n == 1 else 'drums'}"
-    facts = {"collapse": f"certain at {m.collapse_time:.2f} s"} if m.collapsed else {}
-    peak, until = m.peak_top_displacement, ", until then" if m.collapsed else ""
-    whose = ", of the debris" if m.collapsed else ""
+    shown = f"histories and films show the fall, to {response.time[-1]:.2f} s"
+    facts = {"collapse": f"certain at {m.collapse_time:.2f} s; {shown}"} if m.collapsed else {}
+    peak, until = m.peak_top_displacement, ", before the fall" if m.collapsed else ""
+    whose = ", at the end" if m.collapsed else ""
     facts |= {
         "peak top displacement" + until: f"{console.length(peak)} ({peak / column.base_width:.2f} base widths)",
         "residual top displacement" + whose: console.length(m.residual_top_displacement),
@@ -368,7 +366,7 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
         sentence += f" Not everything lies still{change}; {remedy}."
     fixed = sum(block.fixed for block in assembly.blocks)
     supports = f", {fixed} of them fixed" if fixed else ""
-    until, whose = (", until the collapse", ", of the debris") if response.collapsed else ("", "")
+    until, whose = (", until the first block fell", ", at the end") if response.collapsed else ("", "")
     facts = {
         "peak displacement" + until: console.length(blocks.peak_displacement),
         "residual displacement" + whose: console.length(blocks.residual_displacement),

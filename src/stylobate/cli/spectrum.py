@@ -136,14 +136,15 @@ def rocking(
 ) -> tuple[dict[str, Any], dict[str, str], list[Path]]:
     """Rocking spectrum along x, with the vertical component where it is on."""
     from ..analysis.rocking_spectrum import rocking_spectrum
+    from ..response.words import longer_tail
     from . import console
 
     found = rocking_spectrum(motion, **blocks)
     summary, files = found.summary(), []
     said = {
         "blocks": f"{summary['cells']}: {summary['closed_cells']} stay closed, "
-        f"{summary['collapsed_cells']} overturn, {summary['undecided_cells']} end far from rest (try --tail 5s), "
-        f"{summary['failed_cells']} could not be computed",
+        f"{summary['collapsed_cells']} overturn, {summary['undecided_cells']} end far from rest "
+        f"(try {longer_tail(blocks['tail'])}), {summary['failed_cells']} could not be computed",
         "strongest pulse": f"{found.pulse_period:.3g} s",
     }
     if folder is not None:

@@ -28,9 +28,6 @@ SHOWN = (
     "links_broken",
 )
 
-#: Motions of which is told what is left out.
-MOST_LEFT_OUT = 12
-
 
 def suite(
     context: typer.Context,
@@ -137,11 +134,7 @@ def suite(
         console.print_table(rows.filter(list(SHOWN)), digits=3)
     if swept and result["worst"] is not None:
         print(f"Most harm: {result['worst']['record']}.")
-    left_out = [one for one in result["inputs"] if one["left_out"]]
-    for one in left_out[:MOST_LEFT_OUT]:
-        print(f"left out of {one['motion']}: {'; '.join(one['left_out'])}")
-    if len(left_out) > MOST_LEFT_OUT:
-        print(f"and of {len(left_out) - MOST_LEFT_OUT} more motions; --json names all of them")
+    console.print_left_out(result["inputs"])
     if "stepped_s" in table:
         share = table["stepped_s"].sum() / table["duration_s"].sum()
         print(f"stepped: {100 * share:.0f} % of the records, without what is quiet (--whole steps all)")

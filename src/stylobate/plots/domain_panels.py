@@ -13,6 +13,7 @@ from matplotlib.lines import Line2D
 from ..analysis import verdicts as v
 from ..analysis.domain import Domain
 from ..analysis.doubt import Doubt
+from ..analysis.side_by_side import share_words
 from ..constants import g
 from .domain import draw_boundary, draw_cells, draw_static_line
 from .maps_side_by_side import draw_panels, frame
@@ -40,8 +41,8 @@ def draw_domain_panels(
     return figure
 
 
-def _domain(axes: Axes, domain: Domain) -> tuple[dict[str, Artist], float]:
-    """One domain of several: its handles by label, and the share that collapses."""
+def _domain(axes: Axes, domain: Domain) -> tuple[dict[str, Artist], str]:
+    """One domain of several: its handles by label, and the share that collapses, cells without a verdict both ways."""
     handles = _verdicts(axes, domain, domain.verdicts)
     edge = draw_boundary(axes, domain, {"color": BLACK, "linestyle": "-"}, "first collapse")
     if edge is not None:
@@ -49,7 +50,8 @@ def _domain(axes: Axes, domain: Domain) -> tuple[dict[str, Artist], float]:
     uplift = draw_static_line(axes, domain)
     handles["static uplift"] = Line2D([], [], color=uplift.get_color(), linestyle=uplift.get_linestyle(),
                                       linewidth=uplift.get_linewidth(), label="static uplift")  # fmt: skip
-    return handles, domain.counts[v.COLLAPSED] / len(domain.rows)
+    counts, cells = domain.counts, len(domain.rows)
+    return handles, share_words(counts[v.COLLAPSED], cells - counts[v.COLLAPSED] - counts[v.STANDS], cells)
 
 
 def _verdicts(axes: Axes, domain: Domain, verdicts: np.ndarray) -> dict[str, Artist]:

@@ -21,7 +21,7 @@ Map = TypeVar("Map", Domain, CollapseProbability)
 def draw_panels(
     rows: Sequence[tuple[str, Sequence[tuple[str, Map]]]],
     size: tuple[float, float],
-    draw: Callable[[Axes, Map], tuple[dict[str, Artist], float]],
+    draw: Callable[[Axes, Map], tuple[dict[str, Artist], str]],
     title: str,
     figure: Figure | SubFigure | None,
 ) -> tuple[Figure, dict[str, Artist]]:
@@ -33,7 +33,7 @@ def draw_panels(
     size : tuple of float
         Of a new figure [in].
     draw : callable
-        Draws one map; gives its handles by label, and the share that collapses.
+        Draws one map; gives its handles by label, and the share that collapses in words.
     title : str
     figure : Figure or SubFigure or None
         To draw in; a new one for None.
@@ -46,7 +46,7 @@ def draw_panels(
             found, share = draw(axes, one)
             handles = found | handles
             frame(axes, one.frequencies, one.amplitudes)
-            axes.set_title(f"{name}\n{100.0 * share:.0f} % collapse", fontsize=8.5)
+            axes.set_title(f"{name}\n{share} collapse", fontsize=8.5)
         line[0].set_ylabel(f"{label}\namplitude [g]")
     for axes in grid[-1]:
         axes.set_xlabel("frequency [Hz]")

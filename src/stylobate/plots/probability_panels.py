@@ -41,8 +41,8 @@ def draw_probability_panels(
     return figure
 
 
-def _shares(axes: Axes, one: CollapseProbability) -> tuple[dict[str, Artist], float]:
+def _shares(axes: Axes, one: CollapseProbability) -> tuple[dict[str, Artist], str]:
     """One map of several: its handles by label, and the mean share that collapses."""
     handles: dict[str, Artist] = {str(patch.get_label()): patch for patch in draw_shares(axes, one)}
     draw_band(axes, one)
-    return handles, one.mean
+    return handles, f"{100.0 * one.mean:.0f} %"

@@ -6,11 +6,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
-from ..analysis.fragility import Fragility
+from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference
+from ..analysis.fragility import FEWEST, Fragility, curve
+from ..analysis.limit_states import FAILED, OPEN
+from ..analysis.side_by_side import median_words
 from ..analysis.states import StateComparison
 from ..motion.intensity_specs import parse_measure
 from .fragility import logarithmic
-from .style import BLACK, CYCLE, GREY, RED, WIDTH, page, styled
+from .style import BLACK, CYCLE, GREY, RED, WIDTH, page, plain, styled
 
 #: Markers, after as many colours as the style has.
 _MARKERS = ("", "o", "s", "^")
@@ -20,7 +23,10 @@ _MARKERS = ("", "o", "s", "^")
 def draw_states(found: StateComparison, title: str = "", *, figure: Figure | SubFigure | None = None) -> Figure:
     """Fragility curves beside the differences in the share of runs that exceed the limit state.
 
-    The band is that of the first state; those of the others stand in the table. Open circles: the interval holds zero.
+    The band is that of the first state with a curve; those of the others stand in the table. A state with undecided runs
+    has two thin curves: if all of them exceeded the limit state, and if none did. Right: thick from the best to the worst
+    that the undecided can come to, a circle where all is decided; the interval over records holds both ends. Grey: nothing
+    is concluded.
 
     Parameters
     ----------
@@ -34,27 +40,58 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     known = [one for one in found.curves if one is not None]
     if known:
         _draw_curves(curves, known, found.state)
+        for label, one in zip(found.labels, found.curves, strict=True):
+            if one is None:
+                curves.plot([], [], color="none", label=f"{label}: no curve")
+        curves.legend(loc="upper left", fontsize=7.5, handlelength=2.6)
     else:
         curves.text(0.5, 0.5, "no curve: all runs say the same,\nor too few records", ha="center", va="center")
         curves.set(xticks=[], yticks=[])
     if title:
         curves.set_title(title)
     places = np.arange(len(found.differences))[::-1]
-    values = 100.0 * np.array([(one.share, one.share_low, one.share_high) for one in found.differences]).reshape(-1, 3)
     bars.axvline(0.0, color=GREY, linewidth=0.8)
-    spread = np.clip(np.stack((values[:, 0] - values[:, 1], values[:, 2] - values[:, 0])), 0.0, None)
-    for k, place in enumerate(places):
-        worse, sure = values[k, 0] > 0.0, values[k, 1] > 0.0 or values[k, 2] < 0.0
-        bars.errorbar(
-            values[k, 0], place, xerr=spread[:, k : k + 1], color=RED if worse else BLACK, marker="o", markersize=4.5,
-            linestyle="none", capsize=2.5, markerfacecolor=None if sure else "white",
-        )  # fmt: skip
-    bars.set_yticks(places, [one.state for one in found.differences])
+    for one, place in zip(found.differences, places):
+        _draw_difference(bars, one, float(place))
+    bars.set_yticks(places, [plain(one.state) for one in found.differences])
     bars.set_ylim(-0.6, len(places) - 0.4)
-    bars.set_xlabel(f"runs with {found.state},\nless those {found.labels[0]} [% of the runs]")
-    bars.set_title("paired, 95 % over records", fontsize=9)
+    against = plain(found.labels[0])
+    bars.set_xlabel(f"share of runs with {found.state}, less that of\n“{against}” [percentage points], paired")
+    _say_which_side(bars, found)
+    if any(one.undecided for one in found.differences):
+        bars.plot([], [], color=BLACK, linewidth=4.0, alpha=0.5, label="undecided, both ways")
+        bars.legend(loc="lower left", fontsize=7.5)
     bars.grid(True, axis="x")
     return figure
+
+
+def _say_which_side(axes: Axes, found: StateComparison) -> None:
+    """Room on both sides of zero, and what they mean."""
+    ends = [
+        end for one in found.differences for end in (one.share_best, one.share_worst, one.share_low, one.share_high)
+    ]
+    known = 100.0 * np.array([end for end in ends if np.isfinite(end)] or [0.0])
+    left, right = max(-known.min(), 0.0), max(known.max(), 0.0)
+    least = 0.5 * max(left, right, 5.0)
+    axes.set_xlim(-1.1 * max(left, least), 1.1 * max(right, least))
+    for text, side in (("← stronger  ", "right"), ("  weaker →", "left")):
+        axes.annotate(text, (0.0, 1.02), xycoords=("data", "axes fraction"), ha=side, fontsize=9)
+
+
+def _draw_difference(axes: Axes, one: Difference, place: float) -> None:
+    """The interval over records, and in it what the runs themselves leave open."""
+    color = {WEAKER: RED, STRONGER: BLACK}.get(one.conclusion, GREY)
+    ends = 100.0 * np.array([one.share_best, one.share_worst])
+    low, high = 100.0 * one.share_low, 100.0 * one.share_high
+    if one.records >= FEWEST:
+        axes.errorbar(
+            [0.5 * (low + high)], [place], xerr=[[0.5 * (high - low)]] * 2, color=color, linestyle="none", capsize=2.5
+        )
+    if one.undecided:
+        axes.plot(ends, [place, place], color=color, linewidth=4.0, alpha=0.5, solid_capstyle="butt")
+    else:
+        hollow = "white" if one.conclusion == NOT_TOLD else None
+        axes.plot(ends[:1], [place], color=color, marker="o", markersize=4.5, linestyle="none", markerfacecolor=hollow)
 
 
 def _draw_curves(axes: Axes, known: list[Fragility], state: str) -> None:
@@ -64,13 +101,17 @@ def _draw_curves(axes: Axes, known: list[Fragility], state: str) -> None:
     axes.fill_between(x, low, high, color=GREY, alpha=0.18, linewidth=0.0)
     for k, one in enumerate(known):
         marker, look = _MARKERS[k // len(CYCLE) % len(_MARKERS)], CYCLE[k % len(CYCLE)]
-        label = f"{one.evidence.name}: {one.median:.2f} {one.evidence.unit}".removesuffix(" -")
-        axes.plot(
-            x, one.probability(x), **look, linewidth=1.5, marker=marker, markevery=40, markersize=3.5, label=label
-        )
+        label = f"{one.evidence.name}: {median_words(one.summary())}"
+        common = {**look, "marker": marker, "markevery": 40, "markersize": 3.5}
+        if one.evidence.count(OPEN) + one.evidence.count(FAILED) == 0:
+            axes.plot(x, one.probability(x), **common, linewidth=1.5, label=label)
+            continue
+        ends = [curve(x, *extreme) for extreme in one.extremes]
+        axes.fill_between(x, ends[0], ends[1], color=look["color"], alpha=0.1, linewidth=0.0)
+        for end, name in zip(ends, (label, None)):
+            axes.plot(x, end, **common, linewidth=0.9, label=name)
     axes.set(ylim=(-0.03, 1.03), xlim=(x[0], x[-1]), ylabel=f"probability of {state}")
     logarithmic(axes)
     measure = known[0].evidence.measure
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
     axes.grid(True)
-    axes.legend(loc="upper left", fontsize=7.5, handlelength=2.6)

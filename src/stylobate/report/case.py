@@ -26,6 +26,7 @@ TITLES = {
     "pushover": "pushover",
     "limit": "limit analysis",
     "compare": "models compared",
+    "states": "states compared",
     "suite": "suite of records",
     "ida": "incremental dynamic analysis",
     "fragility": "fragility",
@@ -90,9 +91,10 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) 
 
 
 def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, Any]:
-    """A case as the template takes it; its verdict is the first text that stands out."""
+    """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
     sections = _told(result, told, all_)
-    verdict = next((one.texts[0] for part in sections for one in part.items if isinstance(one, page.Note)), "")
+    notes = [one for one in sections[0].items if isinstance(one, page.Note) and "verdict" in one.look]
+    verdict = " ".join(one.texts[0] for one in notes)
     return {"title": _title(result), "verdict": verdict, "parts": [page.part(one) for one in sections]}
 
 

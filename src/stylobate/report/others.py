@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
-from ..analysis import verdicts as v
 from ..analysis.risk import years
+from ..analysis.side_by_side import codes_of, median_words, shares
+from ..analysis.studies import StudyResult
 from ..bibliography import cite, cite_run
 from ..column import Column
 from ..constants import g
@@ -19,8 +19,9 @@ from .page import Facts, Item, Note, Rows, Section
 from .pictures import kept
 from .record import asked_section, known_model, model_section, record_section, sources_section, versions_of, warnings_of
 from .runs import once
-from .statics import code_check, limit_result, pushover_result, static_model, statics_section
-from .structure import structure_section
+from .states import advice_notes, states_items
+from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
+from .structure import state_section, structure_section
 
 #: Most rows of a table of a result; the CSV file in the folder holds them all.
 MOST = 40
@@ -37,18 +38,19 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     run : RunResult, optional
         Of the same column in the same report: its motion is the demand in the capacity spectrum check of a pushover.
     """
-    verdict, body = _TELL[result.kind](result)
     asked = result.asked
-    note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
-    parts = [Section("Result", [note, *warnings_of(result)])]
-    parts.append(asked_section(result))
-    for one in result.structures[:5]:
-        parts.append(once(structure_section(one), one.digest, told))
-    parts.append(Section("What was found", body))
     columns = [one for one in result.structures if isinstance(one, Column)]
+    if result.kind is Kind.STATES:
+        parts = _states(result, columns, told)
+    else:
+        verdict, body = _TELL[result.kind](result)
+        note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
+        parts = [Section("Result", [note, *warnings_of(result)]), asked_section(result)]
+        parts += [once(structure_section(one), one.digest, told) for one in result.structures[:5]]
+        parts.append(Section("What was found", body))
     if result.kind is Kind.PUSHOVER and columns:
         parts.append(code_check(columns[0], result, run))
-    if columns and result.kind not in (Kind.LIMIT, Kind.PUSHOVER):
+    if columns and result.kind not in (Kind.LIMIT, Kind.PUSHOVER, Kind.STATES):
         parts.append(once(statics_section(columns[0], None), f"statics {columns[0].digest}", told))
     models = [str(one["name"]) for one in asked.models] if asked is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
@@ -66,6 +68,23 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         keys += ["baraldi"] if result.kind in (Kind.PUSHOVER, Kind.LIMIT) else []
         parts.append(sources_section(cite(keys)))
     return parts
+
+
+def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[Section]:
+    """Advice and what it rests on; the first state in full, of the others what they differ by."""
+    assert isinstance(result, Numbers)
+    labels = [str(one["label"]) for one in result.summary["states"]]
+    lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result)]
+    names = [str(one["name"]) for one in (result.asked.motions if result.asked is not None else ())]
+    motions = [("motions", f"{len(names)}: {', '.join(names)}")] if names else []
+    parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result, motions)]
+    for label, column in zip(labels, columns):
+        if column is columns[0]:
+            first = structure_section(column)
+            parts.append(once(replace(first, title=f"The state “{label}”"), column.digest, told))
+        else:
+            parts.append(state_section(column, label, columns[0], labels[0]))
+    return [*parts, *([statics_of_states(dict(zip(labels, columns)))] if columns else [])]
 
 
 def _scope(kind: Kind) -> str:
@@ -87,10 +106,11 @@ def _scope(kind: Kind) -> str:
 def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     first, above = s.get("first_collapse_g", s.get("critical_g")), s.get("all_collapse_above_g")
+    kind = "assembly" if result.structures and not isinstance(result.structures[0], Column) else "column"
     if first is None:
-        sentence = "No amplitude that was tried collapses the column; larger ones were not tried."
+        sentence = f"No amplitude that was tried collapses the {kind}; larger ones were not tried."
     else:
-        sentence = f"The smallest amplitude tried that collapses the column is {first:.4g} g"
+        sentence = f"The smallest amplitude tried that collapses the {kind} is {first:.4g} g"
         sentence += (
             f"; from {above:.4g} g on every amplitude tried does."
             if above is not None
@@ -204,7 +224,11 @@ def _fragility(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval "
         f"{n.plain(one.get('median_low'))} to {n.plain(one.get('median_high'))}{unit})."
     )
-    keys = ["name", "im", "median", "median_low", "median_high", "beta", "records", "runs", "undecided", "p_value"]
+    for each in curves:
+        if each.get("undecided") or each.get("failed"):
+            each["median_undecided_both_ways"] = median_words(each)
+    keys = ["name", "im", "median", "median_low", "median_high", "median_undecided_both_ways", "beta", "records"]
+    keys += ["runs", "undecided", "p_value"]
     items: list[Item] = [
         _table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")
     ]
@@ -254,7 +278,10 @@ def _survival(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
 def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
     rows = result.table.astype(object).where(result.table.notna(), None).to_dict("records")
     if result.responses:
-        said = ", ".join(f"{one['model']} {str(one.get('outcome', '')).replace('_', ' ')}" for one in rows)
+        for one in rows:
+            open_ = "" if one["decided"] or one["outcome"] == "failed" else ", undecided"
+            one["outcome"] = str(one["outcome"]).replace("_", " ") + open_
+        said = "; ".join(f"{one['model']} {one['outcome']}" for one in rows)
         sentence, caption = f"Models under one motion: {said}.", "Top displacement of each model under the same motion."
         keys = [
             "model",
@@ -267,10 +294,11 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
     else:
         said = ", ".join(
             f"{one.get('first')} and {one.get('second')} differ in {one.get('differing')} of {one.get('comparable')} cells"
+            + (f" and are undecided in {one['undecided']} more" if one.get("undecided") else "")
             for one in rows
         )
         sentence, caption = f"Models over one domain: {said}.", "Boundaries of the domains."
-        keys = list(rows[0])[:6] if rows else []
+        keys = list(rows[0])[:7] if rows else []
     text = "Where models differ, the difference says how far a verdict hangs on the model; none of them is nature."
     return (sentence, ""), [
         _table(rows, keys, "Measures side by side."),
@@ -290,27 +318,31 @@ def _study(result: StudyFolder) -> tuple[tuple[str, str], list[Item]]:
     pairs = [(name, str(len(axes[name]))) for name in ("columns", "motions", "levels", "models")]
     pairs.append(("realisations of each column", str(axes["realisations"] or "none: each column as given")))
     items: list[Item] = [Facts(pairs)]
-    table = result.study.table
-    if len(table):
-        groups = table.groupby([one for one in ("column", "model", "im") if one in table], sort=True)
-        rows = []
-        for key, found in groups:
-            counts = v.count(np.asarray(found["verdict"], dtype=object))
-            fell, stood = counts[v.COLLAPSED], counts[v.STANDS]
-            shown = f"{fell / (fell + stood):.3f}" if fell + stood else n.NONE
-            rows.append([*map(n.plain, key if isinstance(key, tuple) else (key,)), str(len(found)), shown])
-        unit = axes.get("measure")
-        items.append(
-            Rows(
-                ["column", "model", f"level ({unit})", "cases", "share that collapses"],
-                rows[:MOST],
-                "Share of collapses among the cases with a verdict.",
-                numbers=True,
-            )
-        )
+    items.append(_shares_of_study(result.study))
     for name, response in result.histories.items():
         items.append(picture(plots.draw_filmstrip(response), f"Film strip of the {name} case: {response.sentence}"))
     return (sentence + _open(s), ""), items
+
+
+def _shares_of_study(study: StudyResult) -> Rows:
+    """Shares by column, model and level: at each level of the cases that are finished for every column and model."""
+    axes, codes = study.plan.axes, codes_of(study.verdicts).reshape(study.plan.shape)
+    names = [(one["column"], model["model"]) for model in axes["models"] for one in axes["columns"]]
+    rows = []
+    for place, level in enumerate(axes["levels"]):
+        each = codes[:, :, :, place].reshape(len(names), -1)
+        for (column, model), one in zip(names, shares(dict(enumerate(each)))):
+            counts = [one.runs, one.exceeded, one.not_exceeded, one.undecided]
+            rows.append([column, model, n.plain(level), *map(str, counts), one.words or n.NONE, str(one.failed)])
+    header = ["column", "model", f"level ({axes.get('measure')})", "same cases", "collapse", "stand", "undecided"]
+    caption = (
+        "Of the cases that are finished and could be computed for every column and model: the share that collapses, with "
+        "none and with all of the undecided counted in."
+    )
+    left_out = f" The first {MOST} of {len(rows)} rows." if len(rows) > MOST else ""
+    rows.sort(key=lambda row: row[:2])
+    shown = [*header, "share that collapses", "failed or missing"]
+    return Rows(shown, rows[:MOST], caption + left_out, numbers=True)
 
 
 def _open(s: dict[str, Any]) -> str:

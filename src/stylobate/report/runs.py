@@ -13,6 +13,7 @@ from ..column import Column
 from ..constants import g
 from ..outcome import Outcome
 from ..response import Response
+from ..response.words import longer_tail
 from ..results import RunResult, SeveralRuns
 from . import numbers as n
 from .certainty import beside_them, certainty_section, certainty_sentence
@@ -121,7 +122,8 @@ def _scope(run: RunResult) -> str:
 def _doubts(run: RunResult) -> list[str]:
     r, found = run.response, []
     if not r.decided and r.outcome is not Outcome.FAILED:
-        found.append("the run ended before the verdict was certain; go on with --tail 5s before relying on it.")
+        longer = longer_tail(float(r.provenance.get("tail_s", 0.0)))
+        found.append(f"the run ended before the verdict was certain; go on with {longer} before relying on it.")
     if abs(r.energy_imbalance) > IMBALANCE:
         found.append(
             f"the energy balance misses {n.percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
@@ -147,7 +149,9 @@ def _asked(r: Response) -> list[tuple[str, str]]:
 def _less_the_fall(r: Response) -> str:
     if not r.collapsed:
         return ""
-    return ". Peaks leave out the fall itself, which the pictures below show until the collapse was certain."
+    return (
+        f". Peaks are those before the fall; the pictures below go on to {r.time[-1]:.2f} s and show the fall itself."
+    )
 
 
 def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]:
@@ -189,7 +193,7 @@ def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]
 
 def _measures(r: Response) -> list[tuple[str, str]]:
     m = r.measures
-    until = " until the collapse" if m.collapsed else ""
+    until = "" if not m.collapsed else " before the fall" if m.blocks is None else " until the first block fell"
     pairs = [("outcome", r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided"))]
     if m.collapsed:
         pairs.append(("collapse certain at", f"{m.collapse_time:.2f} s"))

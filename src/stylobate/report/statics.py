@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from ..analysis.capacity_spectrum import CapacityCheck, capacity_spectrum_check
@@ -41,6 +43,23 @@ def statics_section(column: Column, run: RunResult | None) -> Section:
         )
     )
     return Section("Statics", [text, Facts(pairs)])
+
+
+def statics_of_states(columns: Mapping[str, Column]) -> Section:
+    """The same of several states of a column, a row each."""
+    body = []
+    for label, column in columns.items():
+        try:
+            multiplier = (_around(column) if column.as_found else _in_plane(column))[0][1]
+        except StylobateError as error:
+            multiplier = f"does not apply: {error}"
+        body.append([label, what_opens(column)[1], multiplier])
+    text = (
+        "Steady horizontal forces, proportional to the masses, as accelerations. What bears more of them at rest need not "
+        "bear more earthquakes: the runs tell that."
+    )
+    header = ["state", "opens the first joint", "limit analysis: becomes a mechanism at"]
+    return Section("Statics", [text, Rows(header, body, "", numbers=True)])
 
 
 def _in_plane(column: Column) -> list[tuple[str, str]]:

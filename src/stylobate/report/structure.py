@@ -11,7 +11,7 @@ from ..column.specimen import Specimen
 from ..constants import g
 from ..plots import draw_elevation
 from . import numbers as n
-from .page import Facts, Item, Rows, Section
+from .page import Facts, Item, Picture, Rows, Section
 from .pictures import picture
 
 #: Most rows of a table of drums or blocks in a report; the column file holds them all.
@@ -27,23 +27,46 @@ def structure_section(structure: Column | Assembly | Specimen) -> Section:
     return Section("The body", [Facts([("name", structure.name), ("mass", f"{structure.mass:.4g} kg")])])
 
 
+def state_section(column: Column, label: str, first: Column, against: str) -> Section:
+    """The section on a state of a column: what it differs by from the first one, and all of it where its stones differ."""
+    same = column.replace(name="", links=first.links, as_found=first.as_found) == first.replace(name="")
+    if not same:
+        text = f"Its drums or joints are not those of “{against}”: all of it is listed."
+        return Section(f"The state “{label}”", [text, *_column(column)])
+    changed = [
+        (column.links != first.links, _number(len(column.links), "link"), _number(len(first.links), "link")),
+        (column.as_found != first.as_found, *("as found" if one.as_found else "as built" for one in (column, first))),
+    ]
+    differs = "; ".join(f"{mine}, there {there}" for changes, mine, there in changed if changes)
+    text = f"Drums and joints are those of “{against}”. What differs: {differs or 'nothing'}."
+    return Section(f"The state “{label}”", [text, _elevation(column), *_found_and_links(column)])
+
+
+def _number(count: int, what: str) -> str:
+    return f"{count or 'no'} {what}{'' if count == 1 else 's'}"
+
+
 def _column(column: Column) -> list[Item]:
     round_ = column.section == "circular"
+    found: list[Item] = [Facts(_properties(column), "Properties"), _elevation(column), _drums(column, round_)]
+    found += _found_and_links(column)
+    return [*found, *(f"Beyond what columns of stone are known to be: {doubt}" for doubt in unit_doubts(column))]
+
+
+def _elevation(column: Column) -> Picture:
     state = "as found" if column.as_found else "as built"
-    words = "diameters (⌀)" if round_ else "widths in the plane of motion"
-    caption = f"Elevation of {column.name}, {state}, seen along y with x to the right: heights and {words} in m."
+    words = "diameters (⌀)" if column.section == "circular" else "widths in the plane of motion"
+    links = " with links" if column.links else ""
+    caption = f"Elevation of {column.name}, {state}{links}, seen along y with x to the right: heights and {words} in m."
     if column.links:
         caption += " Blue: links."
     if column.as_found:
         caption += " Red: drums that are not where they were built, over the column as built (dashed)."
-    found: list[Item] = [Facts(_properties(column), "Properties"), picture(draw_elevation(column), caption)]
-    found.append(_drums(column, round_))
-    if column.as_found:
-        found.append(_as_found(column))
-    if column.links:
-        found.append(_links(column))
-    found += [f"Beyond what columns of stone are known to be: {doubt}" for doubt in unit_doubts(column)]
-    return found
+    return picture(draw_elevation(column), caption)
+
+
+def _found_and_links(column: Column) -> list[Item]:
+    return [*([_as_found(column)] if column.as_found else []), *([_links(column)] if column.links else [])]
 
 
 def what_opens(column: Column, in_space: bool = False) -> tuple[float, str]:

@@ -32,19 +32,37 @@ def sentence_of(response: Recorded) -> str:
     if m.reason:
         words.append(f"Reason: {m.reason}.")
     if not m.decided and m.outcome is not Outcome.FAILED:
-        pulled = isinstance(response.structure, Column) and response.structure.pretensioned
-        words.append(UNDECIDED_PULLED if pulled else UNDECIDED)
+        words.append(_undecided(response))
     return " ".join(words)
 
 
-#: Sentence for a run that ended before its verdict was certain.
-UNDECIDED = "The verdict may still change: at the end it is far from rest; go on with --tail 5s."
+def longer_tail(given: float) -> str:
+    """The option that follows a run which ended before its verdict was certain longer than it was.
 
-#: The same of a column whose links pulled from the start: what they and the joints that they press hold counts against it.
-UNDECIDED_PULLED = (
-    "The verdict may still change: at the end it is not at rest (go on with --tail 5s), or it is, and what its pretension "
-    "holds could overturn it if it came free, which no tail decides."
-)
+    Parameters
+    ----------
+    given : float
+        How long it went on after the motion [s].
+    """
+    return f"--tail {max(SHORTEST_TAIL, 2.0 * given):g}s"
+
+
+#: The least time after a motion in which a run may become certain [s].
+SHORTEST_TAIL = 5.0
+
+
+def _undecided(response: Recorded) -> str:
+    """That a run ended before its verdict was certain, and what to do.
+
+    Of a column whose links pulled from the start, what they and the joints that they press hold counts against it.
+    """
+    longer = longer_tail(float(response.provenance.get("tail_s", 0.0)))
+    if isinstance(response.structure, Column) and is_pretensioned(response.structure):
+        return (
+            f"The verdict may still change: at the end it is not at rest (go on with {longer}), or it is, and what its "
+            "pretension holds could overturn it if it came free, which no tail decides."
+        )
+    return f"The verdict may still change: at the end it is far from rest; go on with {longer}."
 
 
 def describe(response: Recorded) -> str:
@@ -54,7 +72,7 @@ def describe(response: Recorded) -> str:
     size = f"{n} {'drum' if n == 1 else 'drums'}" if isinstance(structure, Column) else f"{n} bodies"
     motion = response.provenance.get("motion", "a motion")
     end = float(response.time[-1]) if len(response.time) else 0.0
-    until = " until then" if m.collapsed else ""
+    until = " before the fall" if m.collapsed else ""
     top = "" if m.blocks else f"peak top displacement{until} {length(m.peak_top_displacement)}, "
     words = [
         f"<Response of {structure.name} ({size}) under {motion}, {response.model}, {end:.4g} s.",

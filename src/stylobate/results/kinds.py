@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 
 class Kind(Enum):
-    """The kinds, by the command that makes them."""
+    """The kinds, by the command that makes them; ``states`` are those that ``compare`` sets side by side."""
 
     RUN = "run"
     RUNS = "runs"
@@ -32,6 +32,7 @@ class Kind(Enum):
     PUSHOVER = "pushover"
     LIMIT = "limit"
     COMPARE = "compare"
+    STATES = "states"
     SUITE = "suite"
     IDA = "ida"
     FRAGILITY = "fragility"

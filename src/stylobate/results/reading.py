@@ -35,6 +35,7 @@ KEYS = {
     Kind.PROBABILITY: ("cells", "replicates"),
     Kind.PUSHOVER: ("collapse_multiplier_g", "peaked", "curve"),
     Kind.LIMIT: ("collapse_multiplier_g", "active_joints"),
+    Kind.STATES: ("state", "states", "differences", "links", "records"),
     Kind.SUITE: ("runs", "verdicts"),
     Kind.IDA: ("runs", "records", "capacities"),
     Kind.FRAGILITY: ("median", "beta", "im", "state"),
@@ -42,21 +43,26 @@ KEYS = {
     Kind.SURVIVAL: ("hazards",),
 }
 
+#: Commands of kinds that are not called after them.
+COMMANDS = {Kind.STATES: "compare"}
+
 #: Tables beside an object.
 TABLES = {
     Kind.CRITICAL: ("critical",),
+    Kind.STATES: ("states",),
     Kind.SUITE: ("suite",),
     Kind.IDA: ("capacities", "fractiles", "measures"),
     Kind.RISK: ("risk",),
 }
 
-#: Pictures by kind, besides the one that has its name.
-PICTURES = {
+#: Further files by kind, a picture by its name without an ending, besides the one that is called after the kind.
+FURTHER = {
     Kind.CRITICAL: ("probability", "directions"),
     Kind.SUITE: ("directions",),
     Kind.LIMIT: ("directions",),
     Kind.IDA: ("measures",),
     Kind.RUNS: ("directions",),
+    Kind.STATES: ("links.csv",),
 }
 
 
@@ -87,7 +93,10 @@ def read_folder(folder: str | Path) -> list[Result]:
         raise InputError(f"there is no folder {shown(place)}; give one that a command wrote with --out.")
     if not place.is_dir():
         raise InputError(f"{shown(place)} is a file; give the folder of a result, as a command wrote it with --out.")
-    found: list[Result] = [read(place) for marker, read in _READERS.items() if (place / marker).is_file()]
+    markers = [one for one in _READERS if (place / one).is_file()]
+    if "states.json" in markers and PLAN_FILE in markers:
+        markers.remove(PLAN_FILE)  # the runs of the states, which are compared
+    found: list[Result] = [_READERS[one](place) for one in markers]
     if not found and (runs := _runs_in(place)):
         found = [_several(place, runs)]
     if not found:
@@ -140,7 +149,7 @@ def _several(place: Path, runs: Sequence[Path]) -> SeveralRuns:
         raise InputError(
             f"the runs in {shown(place)} are not all of one column; name their folders one by one to report them together."
         )
-    facts: dict[str, Any] = _common(place, Kind.RUNS, "run", PICTURES[Kind.RUNS], {}) | {"asked": read[0].asked}
+    facts: dict[str, Any] = _common(place, Kind.RUNS, "run", FURTHER[Kind.RUNS], {}) | {"asked": read[0].asked}
     return SeveralRuns(**facts, runs=read)
 
 
@@ -159,8 +168,8 @@ def _read_numbers(kind: Kind) -> Callable[[Path], Numbers]:
         stem = kind.value
         summary = _object(place, f"{stem}.json", kind)
         tables = {one: _table(place / f"{one}.csv") for one in TABLES.get(kind, ()) if (place / f"{one}.csv").is_file()}
-        names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{one}.csv" for one in tables), *PICTURES.get(kind, ())]
-        return Numbers(**_common(place, kind, stem, names, summary), tables=tables)
+        names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{one}.csv" for one in tables), *FURTHER.get(kind, ())]
+        return Numbers(**_common(place, kind, COMMANDS.get(kind, stem), names, summary), tables=tables)
 
     return read
 
@@ -196,6 +205,7 @@ _READERS: dict[str, Callable[[Path], Result]] = {
     "limit.json": _read_numbers(Kind.LIMIT),
     "pushover.json": _read_numbers(Kind.PUSHOVER),
     "comparison.csv": _read_comparison,
+    "states.json": _read_numbers(Kind.STATES),
     "suite.json": _read_numbers(Kind.SUITE),
     "ida.json": _read_numbers(Kind.IDA),
     PLAN_FILE: _read_study,
@@ -238,8 +248,8 @@ def _object(place: Path, name: str, kind: Kind) -> dict[str, Any]:
     missing = [key for key in KEYS[kind] if key not in found]
     if missing:
         raise InputError(
-            f"{shown(place / name)} is not what 'stylobate {kind.value}' of this version writes: it has no {missing[0]!r}; "
-            "run again."
+            f"{shown(place / name)} is not what 'stylobate {COMMANDS.get(kind, kind.value)}' of this version writes: it has "
+            f"no {missing[0]!r}; run again."
         )
     return found
 

@@ -1,0 +1,171 @@
+"""What a state of a column differs by from another under the same motions, and the advice that follows, in words."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from .fragility import FEWEST
+
+#: What a difference comes to.
+STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"
+
+#: States that are no measure: nobody can adopt them.
+NO_MEASURE = ("as built", "as found")
+
+
+@dataclass(frozen=True)
+class Difference:
+    """What a state differs by from the first one, the same records, levels and twins against one another.
+
+    Intervals hold what is undecided: their one end is that of the case in which every undecided run ends in favour of this
+    state and against the other, their other end that of the opposite.
+
+    Parameters
+    ----------
+    state, against : str
+        Labels.
+    pairs : int
+        Pairs of runs that both have a verdict.
+    saved, harmed : int
+        Pairs in which only the other state exceeds the limit state, and only this one.
+    share, share_low, share_high : float
+        Share of the pairs that exceed it, less that of the other state, and its interval over records [-].
+    ratio, ratio_low, ratio_high : float
+        Median capacity over that of the other state, from the runs that both know, and its interval over records [-]; NaN
+        where a curve is missing, 0 and infinite where no limit is known.
+    undecided, failed : int
+        Pairs of which a run has no verdict, and of which a run could not be computed.
+    records : int
+        That the pairs are of.
+    share_best, share_worst, ratio_best, ratio_worst : float
+        Share and ratio of all pairs that could be computed, if every undecided run ends in favour of this state, and
+        against it [-]; share and ratio themselves where all is decided.
+    limit_state, im : str
+        As typed; the measure is empty where the levels are of none.
+    confidence : float
+        Of the intervals.
+    """
+
+    state: str
+    against: str
+    pairs: int
+    saved: int
+    harmed: int
+    share: float
+    share_low: float
+    share_high: float
+    ratio: float
+    ratio_low: float
+    ratio_high: float
+    undecided: int = 0
+    failed: int = 0
+    records: int = 0
+    share_best: float = math.nan
+    share_worst: float = math.nan
+    ratio_best: float = math.nan
+    ratio_worst: float = math.nan
+    limit_state: str = "collapse"
+    im: str = ""
+    confidence: float = 0.95
+
+    @property
+    def conclusion(self) -> str:
+        """Stronger or weaker than the other state beyond the chance of these records, or not told.
+
+        Of fewer records than a fragility takes nothing is concluded. Any sure sign of harm makes a state weaker; where share
+        and median contradict one another, nothing is told.
+        """
+        if self.records < FEWEST:
+            return NOT_TOLD
+        fewer, more = self.share_high < 0.0, self.share_low > 0.0
+        higher, lower = self.ratio_low > 1.0, self.ratio_high < 1.0
+        if more or lower:
+            return NOT_TOLD if fewer or higher else WEAKER
+        return STRONGER if fewer and not self.ratio < 1.0 else NOT_TOLD
+
+    @property
+    def sentence(self) -> str:
+        """The advice, and what it rests on."""
+        return f"{self.advice} {self.basis}"
+
+    @property
+    def basis(self) -> str:
+        """What the advice rests on: median, pairs and share, with their intervals."""
+        return " ".join(one for one in (self._median(), self._pairs(), self._share()) if one)
+
+    @property
+    def advice(self) -> str:
+        """What to do, in one sentence that can be read in one way only."""
+        against = f"than “{self.against}” against {self.limit_state}"
+        measure = self.state not in NO_MEASURE
+        if self.conclusion == STRONGER:
+            return f"“{self.state}”: stronger {against}, under these motions."
+        if self.conclusion == WEAKER:
+            return f"“{self.state}”: weaker {against}{': do not adopt it for safety' if measure else ''}."
+        number = f"{self.records} record{'' if self.records == 1 else 's'}"
+        few = f" ({number}; {FEWEST} at least would tell of others)" if self.records < FEWEST else ""
+        if measure:
+            ground = "these runs are no ground to adopt it for safety"
+            return f"“{self.state}”: not shown to be stronger {against}: {ground}{few}."
+        return f"“{self.state}”: not shown to be weaker or stronger {against}{few}."
+
+    def _median(self) -> str:
+        if math.isnan(self.ratio):
+            return ""
+        low, high = sorted((self.ratio_best - 1.0, self.ratio_worst - 1.0))
+        measure = f" ({self.im})" if self.im else ""
+        said = f"The median intensity of {self.limit_state}{measure} is {_span(low, high, _percent)}"
+        return said + self._interval(self.ratio_low - 1.0, self.ratio_high - 1.0, _percent) + "."
+
+    def _pairs(self) -> str:
+        number = self.pairs + self.undecided
+        if not number:
+            return "No pair of runs could be computed."
+        how = "collapse" if self.limit_state == "collapse" else f"exceed {self.limit_state}"
+        pairs = "1 pair" if number == 1 else f"{number} pairs"
+        said = f"Of {pairs} of runs, {self.saved} {how} with “{self.against}” only and {self.harmed} with "
+        said += f"“{self.state}” only"
+        said += f"; {self.undecided} {'is' if self.undecided == 1 else 'are'} undecided" if self.undecided else ""
+        return said + (f"; {self.failed} more could not be computed." if self.failed else ".")
+
+    def _share(self) -> str:
+        if not self.pairs + self.undecided:
+            return ""
+        how = "collapses" if self.limit_state == "collapse" else f"exceeds {self.limit_state}"
+        said = f"The share that {how} is {_span(self.share_best, self.share_worst, _points)}"
+        return said + self._interval(self.share_low, self.share_high, _points) + "."
+
+    def _interval(self, low: float, high: float, words: Callable[[float], str]) -> str:
+        open_ = ", whichever way the undecided end" if self.undecided else ""
+        if self.records < FEWEST or math.isnan(low) or math.isnan(high):
+            return open_
+        return f"{open_} ({100.0 * self.confidence:g} % interval over records: {_span(low, high, words)})"
+
+
+def _size(value: float, unit: str) -> str:
+    """A change by its size and direction."""
+    size = f"{100.0 * abs(value):.0f}"
+    return "the same" if size == "0" else f"{size} {unit} {'higher' if value > 0.0 else 'lower'}"
+
+
+_percent, _points = partial(_size, unit="%"), partial(_size, unit="percentage points")
+
+
+def _span(low: float, high: float, words: Callable[[float], str]) -> str:
+    """From which to which change; a lower end of −1 of a ratio and an infinite upper one are no limits."""
+    if math.isinf(high) and low <= -1.0:
+        return "not known"
+    if math.isinf(high):
+        return f"at least {words(low)}" if low > 0.0 else f"{words(low)} or any more"
+    below, above = words(low), words(high)
+    if below == above:
+        return below
+    number, _, direction = below.partition(" ")
+    if low > 0.0 and high > 0.0 and direction:
+        return f"{number} to {above}"
+    if low < 0.0 and high < 0.0 and above != "the same":
+        return f"{above.partition(' ')[0]} to {below}"
+    return f"{below} to {above}"

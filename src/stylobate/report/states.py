@@ -1,0 +1,96 @@
+"""States of a column side by side in a report: the advice first, what it rests on, and what the states differ by."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER
+from ..analysis.evidence import evidence
+from ..analysis.side_by_side import median_words, shares
+from ..results import Numbers
+from . import numbers as n
+from .page import Item, Note, Points, Rows
+from .pictures import kept
+
+#: How the notes on conclusions stand out.
+LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
+
+
+def advice_notes(result: Numbers) -> list[Item]:
+    """The advice on every state, which is read before anything else."""
+    found = [(one["advice"], LOOKS[one["conclusion"]]) for one in result.summary["differences"]]
+    return [Note([advice], f"verdict {look}".rstrip()) for advice, look in found]
+
+
+def states_items(result: Numbers) -> list[Item]:
+    """The paired results, the counts over the same runs, the picture, and what the links bore."""
+    s = result.summary
+    verb = "collapse" if s["state"] == "collapse" else f"exceed {s['state']}"
+    items: list[Item] = [Points([f"“{one['state']}”. {one['basis']}" for one in s["differences"]])]
+    shown = verb.replace("collapse", "collapses").replace("exceed ", "exceeds ")
+    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "failed", "median intensity"]
+    body = []
+    for one in s["states"]:
+        row = [one["label"], *(n.plain(one[key]) for key in ("same_runs", "exceeded", "not_exceeded", "undecided"))]
+        body.append(
+            [*row, _share(one), str(one["failed"]), median_words(one["fragility"]) if one["fragility"] else "no curve"]
+        )
+    caption = (
+        "The same motions, levels and twins for every state; runs that failed in one of them are left out of all. "
+        "Undecided: the run ended before its verdict was certain; share and median are with none and with all of them "
+        "counted in."
+    )
+    items.append(Rows(header, body, caption, numbers=True))
+    items += _by_level(result)
+    banded = next((one["label"] for one in s["states"] if one["fragility"]), None)
+    band = "" if banded is None else f", the band that of “{banded}”"
+    items += kept(
+        result.pictures,
+        "states",
+        f"Left: fragility curves{band}; two thin ones where runs are undecided: if "
+        "all of them exceeded, and if none did. Right: difference of the share, pair by pair; left of zero is better. "
+        "Thick: undecided runs counted both ways; thin: 95 % interval over records.",
+    )
+    if s["links"]:
+        items.append(_links(s["links"]))
+    return items
+
+
+def _share(one: dict[str, Any]) -> str:
+    low, high = one["share_low"], one["share_high"]
+    if low is None or high is None:
+        return n.NONE
+    return n.percent(low) if low == high else f"{100.0 * low:.0f} to {n.percent(high)}"
+
+
+def _by_level(result: Numbers) -> list[Item]:
+    table, s = result.tables.get("states"), result.summary
+    if table is None:
+        return []
+    labels = [one["label"] for one in s["states"]]
+    size = len(table) // len(labels)  # the runs of one state after those of the other
+    each = [table.iloc[k * size : (k + 1) * size] for k in range(len(labels))]
+    told = [evidence(one, None, s["state"], label) for one, label in zip(each, labels, strict=True)]
+    levels = sorted(set(told[0].im.tolist()))
+    if len(levels) < 2:
+        return []
+    body = []
+    for level in levels:
+        found = shares({one.name: one.codes[one.im == level] for one in told})
+        body.append([f"{level:.4g}", str(found[0].runs), *(one.words or n.NONE for one in found)])
+    measure, curve = str(table["measure"].iloc[0]), next((one for one in s["states"] if one["fragility"]), None)
+    unit = f" [{curve['fragility']['unit']}]" if curve is not None else ""
+    caption = "Share by level, of the same runs; from which to which where runs are undecided."
+    return [Rows([f"{measure}{unit}", "same runs", *labels], body, caption, numbers=True)]
+
+
+def _links(links: list[dict[str, Any]]) -> Rows:
+    header = ["state", "link", "runs", "broke in", "largest force over capacity", "median"]
+    keys = ("state", "link", "runs", "broken", "largest_over_capacity", "median_over_capacity")
+    body = [[n.plain(one[key]) for key in keys] for one in links[:MOST]]
+    left_out = f" The first {MOST} of {len(links)}; links.csv holds all." if len(links) > MOST else ""
+    return Rows(header, body, f"What the links bore; 1: at its capacity, it yields or breaks.{left_out}", numbers=True)
+
+
+#: Most rows of a table of links.
+MOST = 40

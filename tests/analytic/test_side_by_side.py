@@ -1,0 +1,124 @@
+"""States side by side: of the same runs, undecided ones as an interval, and advice that reads in one way only."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference
+from stylobate.analysis.evidence import Evidence
+from stylobate.analysis.fragility import FEWEST
+from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
+from stylobate.analysis.side_by_side import codes_of, median_words, shares
+from stylobate.analysis.states import _with_undecided
+from stylobate.analysis.verdicts import VERDICTS
+
+
+def runs(name, *codes):
+    """A run of each record."""
+    records = np.array([f"record {k}" for k in range(len(codes))], dtype=object)
+    return Evidence(records, np.ones(len(codes)), np.array(codes, dtype=np.int8), "im", "-", "collapse", name)
+
+
+def difference(first, other):
+    return _with_undecided(first, other, None, None, 200, 0, 0.95)
+
+
+def test_runs_that_one_state_leaves_open_do_not_turn_the_comparison_round():
+    """Seven of seven with a verdict against seven of nine, twice: what is undecided may stand in both."""
+    first = runs("as built", *[EXCEEDED] * 14, *[OPEN] * 4)
+    other = runs("dowels", *[EXCEEDED] * 14, *[NOT_EXCEEDED] * 4)
+    one, two = shares({each.name: each.codes for each in (first, other)})
+    assert (one.exceeded, one.not_exceeded, one.undecided) == (14, 0, 4)
+    assert (one.words, two.words) == ("78 to 100 %", "78 %")
+    assert (one.low, one.high) == (two.low, 1.0)
+    found = difference(first, other)
+    assert (found.pairs, found.undecided, found.saved, found.harmed) == (14, 4, 0, 0)
+    assert (found.share_best, found.share_worst) == (pytest.approx(-4 / 18), 0.0)
+    assert found.share_low <= found.share_best
+    assert found.conclusion == NOT_TOLD
+    assert "no ground to adopt it for safety" in found.advice
+    assert "4 are undecided" in found.basis
+    assert "18 pairs" in found.basis
+
+
+def test_an_interval_holds_whatever_the_undecided_come_to():
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        first, other = (runs(name, *rng.choice([1, 0, -1, -2], 24, p=[0.4, 0.3, 0.2, 0.1])) for name in "ab")
+        found = difference(first, other)
+        both = (first.codes != FAILED) & (other.codes != FAILED)
+        assert found.pairs + found.undecided + found.failed == 24
+        for _ in range(20):
+            ends = [np.where(one.codes == OPEN, rng.integers(0, 2, 24), one.codes)[both] for one in (first, other)]
+            change = float(ends[1].mean() - ends[0].mean())
+            assert found.share_best - 1e-9 <= change <= found.share_worst + 1e-9
+
+
+def test_what_failed_in_one_state_is_left_out_of_all():
+    codes = {"a": np.array([1, 1, 0, FAILED, 0]), "b": np.array([1, FAILED, OPEN, 1, 0])}
+    one, two = shares(codes)
+    assert (one.runs, one.exceeded, one.not_exceeded, one.undecided, one.failed) == (3, 1, 2, 0, 1)
+    assert (two.runs, two.exceeded, two.not_exceeded, two.undecided, two.failed) == (3, 1, 1, 1, 1)
+    assert [each.words for each in shares({"a": np.array([FAILED])})] == [""]
+    assert codes_of(np.array(VERDICTS)).tolist() == [NOT_EXCEEDED, EXCEEDED, OPEN, FAILED, FAILED]
+
+
+KNOWN = Difference("dowels", "as built", 40, 3, 9, 0.15, 0.05, 0.25, 0.9, 0.8, 0.97, records=20)
+
+
+@pytest.mark.parametrize(
+    ("change", "conclusion"),
+    [
+        ({}, WEAKER),
+        ({"share_low": -0.05}, WEAKER),  # the median alone is a sure sign of harm
+        ({"share_low": -0.05, "ratio_high": 1.1}, NOT_TOLD),
+        ({"share_low": -0.3, "share_high": -0.1}, NOT_TOLD),  # share and median contradict one another
+        ({"share_low": -0.3, "share_high": -0.1, "ratio": 1.2, "ratio_low": 1.1, "ratio_high": 1.3}, STRONGER),
+        ({"share_low": -0.3, "share_high": -0.1, **dict.fromkeys(("ratio", "ratio_low", "ratio_high"), math.nan)}, STRONGER),
+        ({"share_low": math.nan, "share_high": math.nan, "ratio_high": 1.1}, NOT_TOLD),
+        ({"records": FEWEST - 1}, NOT_TOLD),
+    ],
+)  # fmt: skip
+def test_advice_reads_in_one_way(change, conclusion):
+    found = dataclasses.replace(KNOWN, **change)
+    assert found.conclusion == conclusion
+    words = {
+        STRONGER: "stronger than “as built” against collapse, under",
+        WEAKER: "weaker than “as built” against collapse: do not adopt it for safety",
+        NOT_TOLD: "not shown to be stronger than “as built” against collapse: these runs are no ground to adopt it",
+    }
+    assert [each for each, said in words.items() if said in found.advice] == [conclusion]
+    assert found.sentence.startswith(found.advice)
+    as_found = dataclasses.replace(found, state="as found")
+    assert "adopt" not in as_found.sentence  # it is no measure
+    assert ("not shown to be weaker or stronger" in as_found.advice) == (conclusion == NOT_TOLD)
+
+
+def test_changes_are_told_by_size_and_direction():
+    known = {"share_best": -0.2, "share_worst": -0.1, "ratio_best": 1.5, "ratio_worst": 1.25, "undecided": 4}
+    known |= {"share_low": -0.3, "share_high": -0.04, "ratio": 1.3, "ratio_low": 1.1, "ratio_high": math.inf}
+    said = dataclasses.replace(KNOWN, **known, im="pgv").basis
+    assert "median intensity of collapse (pgv) is 25 to 50 % higher, whichever way the undecided end" in said
+    assert "interval over records: at least 10 % higher)" in said
+    assert "share that collapses is 10 to 20 percentage points lower, whichever" in said
+    assert "interval over records: 4 to 30 percentage points lower)" in said
+    assert "Of 44 pairs of runs, 3 collapse with “as built” only and 9 with “dowels” only; 4 are undecided." in said
+    across = dataclasses.replace(KNOWN, share_best=0.0, share_worst=0.0, share_low=-0.1, share_high=0.2).basis
+    assert (
+        "is the same (95 % interval over records: 10 percentage points lower to 20 percentage points higher)" in across
+    )
+    few = dataclasses.replace(KNOWN, records=3).basis
+    assert "interval over records" not in few
+    none = dataclasses.replace(KNOWN, pairs=0, ratio=math.nan).basis
+    assert none == "No pair of runs could be computed."
+
+
+def test_a_median_is_as_wide_as_what_is_undecided():
+    curve = {"median": 0.92, "unit": "g", "undecided": 0, "failed": 0}
+    assert median_words(curve) == "0.92 g"
+    ends = {"if_open_exceed": {"median": 0.8}, "if_open_do_not": {"median": 1.1}}
+    assert median_words(curve | {"undecided": 3} | ends) == "0.8 to 1.1 g"
+    ends["if_open_do_not"]["median"] = None
+    assert median_words(curve | {"undecided": 3} | ends) == "0.8 or more g"

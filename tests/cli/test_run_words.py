@@ -1,0 +1,65 @@
+"""What ``stylobate run`` says: one story of a fall, a remedy that was not tried, a table of several runs."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.cli.main import call
+from stylobate.motion import write_csv
+from stylobate.response.words import longer_tail, sentence_of
+
+BLOCK = ("run", "paper-monolithic", "--model", "housner")
+
+
+def said(capsys, *arguments):
+    assert call([*map(str, arguments)]) == 0
+    return capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("given", "longer"), [(0.0, "5s"), (2.0, "5s"), (5.0, "10s"), (10.0, "20s")])
+def test_an_undecided_run_is_to_go_on_for_longer_than_it_did(given, longer):
+    assert longer_tail(given) == f"--tail {longer}"
+    response = st.simulate(st.preset("paper-monolithic"), st.harmonic(1.0, 0.1, 0.1), st.HousnerBlock())
+    open_ = dataclasses.replace(
+        response,
+        measures=dataclasses.replace(response.measures, decided=False),
+        provenance={**response.provenance, "tail_s": given},
+    )
+    assert sentence_of(open_).endswith(f"go on with --tail {longer}.")
+
+
+def test_peaks_and_films_of_a_fall_tell_one_story(capsys):
+    text = said(capsys, *BLOCK, "--harmonic", "1Hz,0.9g,3s")
+    (collapse,) = [line for line in text.splitlines() if line.startswith("  collapse")]
+    assert "histories and films show the fall, to " in collapse
+    peaks = [line for line in text.splitlines() if line.startswith("  peak")]
+    assert len(peaks) == 3
+    assert all(", before the fall" in line for line in peaks)
+    assert "until" not in text
+
+
+def test_several_directions_are_a_table(capsys, tmp_path):
+    time = 0.02 * np.arange(50)
+    parts = 3.0 * np.sin(6.0 * time), 2.0 * np.sin(5.0 * time)
+    record = write_csv(st.Motion(0.02, *parts, metadata={"azimuths": {"x": 0.0, "y": 90.0}}), tmp_path / "r.csv")
+    text = said(capsys, *BLOCK, "--motion", record, "--azimuths", "0:90:2", "--out", tmp_path / "out")
+    header, *rows = text.splitlines()
+    assert header.split()[:2] == ["motion", "outcome"]
+    assert ["r.csv at 0°" in rows[0], "r.csv at 90°" in rows[1]] == [True, True]
+    assert text.count("left out of r.csv at") == 2
+    assert f"2 folders with a run each in {tmp_path / 'out'}" in text
+    assert "Most harm: r.csv at" in text
+    assert "step" not in text
+
+
+def test_an_assembly_is_no_column(capsys, tmp_path):
+    (tmp_path / "blocks.toml").write_text(
+        'name = "two"\ndensity = 2500.0\n[[block]]\nname = "a"\nvertices = [[0, 0], [1, 0], [1, 1], [0, 1]]\n'
+        "[joint]\nnormal_stiffness = 1e8\nshear_stiffness = 5e7\n"
+    )
+    grid = ("--from", "0.05g", "--to", "0.1g", "--step", "0.05g")
+    text = said(capsys, "critical", tmp_path / "blocks.toml", "--harmonic", "2Hz,?g,0.3s", *grid)
+    assert "No amplitude from 0.05 to 0.1 g collapses the assembly." in text
+    assert "column" not in text
