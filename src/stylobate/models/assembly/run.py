@@ -14,13 +14,13 @@ from ...errors import InputError, OutOfRangeWarning
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import Measures, Response
-from ...response.assembly_measures import first_touch, recorded_blocks
+from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
 from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
 from ..drums.links import link_histories, link_measures
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step
-from .engine import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine, stable_step
+from .engine import COST_STANDING, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Engine, stable_step
 from .links import acting
 
 
@@ -49,8 +49,36 @@ class AssemblyNumbers:
     must_settle: bool
 
 
-def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, options: RunOptions) -> Response:
+#: Time after the last block has fallen at which a run of a batch ends [s].
+AFTER_THE_FALL = 5.0
+
+
+def step_for(engine: Engine, numbers: AssemblyNumbers) -> float:
+    """Time step of a run [s]; whole chunks of steps fill the motion.
+
+    Raises
+    ------
+    InputError
+        The step asked for is unstable.
+    """
+    name = repr(engine.assembly.name)
+    return min(
+        chosen_step(stable_step(engine), numbers.step_factor, numbers.time_step, name), engine.motion.duration / CHUNK
+    )
+
+
+def expected_step(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers) -> tuple[float, float]:
+    """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
+    engine = Engine(assembly, numbers.contacts, motion, motion.duration)
+    return step_for(engine, numbers), COST_STANDING * len(engine.body) * numbers.contacts.points
+
+
+def run_assembly(
+    assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, options: RunOptions, *, recorded: bool = True
+) -> Response:
     """One run of an assembly to the end of the motion and its tail, or until rest.
+
+    With neither ``until_end`` nor ``until_rest`` it ends some seconds after the last block has fallen.
 
     The contacts are closed by the weight they carry. An assembly that is not in equilibrium begins as drawn, with a
     warning, or is refused.
@@ -61,6 +89,8 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     motion : Motion
     numbers : AssemblyNumbers
     options : RunOptions
+    recorded : bool
+        Whether histories are wanted; without them the ledger is drawn up at the end only, and forces of links are not kept.
 
     Raises
     ------
@@ -76,9 +106,8 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     if restitution is None:
         restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
     engine = Engine(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
-    step = chosen_step(stable_step(engine), numbers.step_factor, numbers.time_step, repr(assembly.name))
+    step = step_for(engine, numbers)
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
-    step = min(step, motion.duration / CHUNK)
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
     refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
@@ -92,7 +121,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
         said = f"{assembly.name!r} is not in equilibrium as drawn; it moves from the start."
         warnings.warn(said, OutOfRangeWarning, stacklevel=3)
     start = engine.energies()
-    states, still = follow(engine, options)
+    states, still = follow(engine, options, recorded)
     stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = ledger.imbalance(
@@ -102,7 +131,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     acceleration, displacement = ground_histories(motion, stack["time"])
     step, poses = int(engine.now["touched"][0]), (stack["x"], stack["z"], stack["rotation"])
     touched = first_touch(assembly, stack["time"], *poses, step * engine.dt) if step >= 0 else None
-    recorded = recorded_blocks(
+    made = recorded_blocks(
         assembly,
         stack["time"],
         *poses,
@@ -118,20 +147,26 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
         model=numbers.name,
         touched=touched,
         links=link_measures(acting(assembly), engine.links, 0, engine.dt),
-        held=link_histories(states),
+        held=link_histories(states) if recorded else None,
         provenance={
             "restitution": restitution,
             "joints": len(assembly.joints),
             "deepest_penetration_m": engine.deepest(),
         },
     )
-    return Response.of(recorded)
+    return Response.of(made)
 
 
-def follow(engine: Engine, options: RunOptions) -> tuple[list[dict[str, Any]], bool]:
-    """Go on to the end of the motion and its tail, or until rest; the states on the way, and whether all lies still."""
+def follow(engine: Engine, options: RunOptions, recorded: bool = True) -> tuple[list[dict[str, Any]], bool]:
+    """Go on to where the run ends; the states on the way, and whether all lies still.
+
+    It ends with the motion and its tail, when all lies still, or some time after the last block has fallen.
+    """
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
-    states, still = [engine.state()], False
+    keep = engine.state if recorded else engine.pose
+    states, still = [keep()], False
+    lowest, rotation = lowest_standing(engine.assembly, states[0]["z"]), states[0]["rotation"]
+    fallen, since = np.zeros(len(rotation), dtype=bool), 0.0
     while not engine.failed:
         left = engine.chunks - int(engine.now["step"][0]) // CHUNK
         still = engine.at_rest()
@@ -140,14 +175,25 @@ def follow(engine: Engine, options: RunOptions) -> tuple[list[dict[str, Any]], b
         if left <= 0 and (not options.until_rest or still or engine.time > engine.duration + LONGEST_WAIT):
             break
         engine.advance(min(every, left) if left > 0 else every)
-        states.append(engine.state())
+        states.append(keep())
+        if options.progress:
+            options.progress(min(engine.time, engine.duration), engine.duration)
+        if options.until_end or options.until_rest:
+            continue
+        now = have_fallen(lowest, states[-1]["z"], states[-1]["rotation"] - rotation)
+        if (now != fallen).any():
+            fallen, since = now, engine.time
+        if fallen.any() and engine.time - since > AFTER_THE_FALL:
+            break
+    if not recorded:
+        states[-1]["energy"] = engine.energies()
     return states, still
 
 
 def measures_of_assemblies(
-    run: Callable[[Assembly, Motion, RunOptions], Response], cases: Sequence[Case], options: RunOptions, threads: int
+    run: Callable[..., Response], cases: Sequence[Case], options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
-    """(index of the case, measures) of runs of assemblies as they finish; their histories are not kept."""
+    """(index of the case, measures) of runs of assemblies as they finish; their histories are not recorded."""
     from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
     under_way: dict[Future[Response], int] = {}
@@ -157,7 +203,7 @@ def measures_of_assemblies(
                 if len(under_way) >= 2 * threads:
                     for one in wait(under_way, return_when=FIRST_COMPLETED).done:
                         yield under_way.pop(one), one.result().measures
-                under_way[pool.submit(run, assembly, motion, options)] = index
+                under_way[pool.submit(run, assembly, motion, options, recorded=False)] = index
             while under_way:
                 for one in wait(under_way, return_when=FIRST_COMPLETED).done:
                     yield under_way.pop(one), one.result().measures

@@ -17,7 +17,7 @@ from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Measures, Response
 from ..assembly.engine import Contacts
-from ..assembly.run import measures_of_assemblies
+from ..assembly.run import AssemblyNumbers, expected_step, measures_of_assemblies, run_assembly
 from ..base import Case, RunOptions
 from ..drums.block import DrumBlock
 from ..drums.joints import contact_points, joint_stiffnesses
@@ -176,23 +176,32 @@ class DistinctElement2D(SteppedDrums):
             return measures_of_assemblies(self.run_assembly, cases, options, threads)
         return super().run_many(cases, options, threads)
 
-    def run_assembly(self, assembly: Assembly, motion: Motion, options: RunOptions) -> Response:
-        """One run of an assembly of blocks.
+    def run_assembly(
+        self, assembly: Assembly, motion: Motion, options: RunOptions, *, recorded: bool = True
+    ) -> Response:
+        """One run of an assembly of blocks, with histories where they are wanted.
 
         Raises
         ------
         InputError
             The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
         """
-        from ..assembly.run import AssemblyNumbers, run_assembly
+        return run_assembly(assembly, motion, self.assembly_numbers(), options, recorded=recorded)
 
+    def expected_step(self, column: Column | Assembly, motion: Motion) -> tuple[float, float]:
+        """Time step and its cost [s]; of an assembly as long as it stands."""
+        if not isinstance(column, Assembly):
+            return super().expected_step(column, motion)
+        return expected_step(column, motion, self.assembly_numbers())
+
+    def assembly_numbers(self) -> AssemblyNumbers:
+        """What assemblies are computed with."""
         if self.block_modulus is not None:
             raise InputError(
                 f"block_modulus is {self.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
             )
         settle = self.start == "settle"
-        numbers = AssemblyNumbers(self.name, self.contacts, self.step_factor, self.time_step, self.restitution, settle)
-        return run_assembly(assembly, motion, numbers, options)
+        return AssemblyNumbers(self.name, self.contacts, self.step_factor, self.time_step, self.restitution, settle)
 
 
 @lru_cache(maxsize=4096)
