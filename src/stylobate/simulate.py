@@ -36,6 +36,7 @@ def simulate(
     until_rest: bool = False,
     start: Start | Toss | None = None,
     twins: Sequence[Column] = (),
+    quiet: float = 0.0,
     progress: Callable[[float, float], None] | None = None,
 ) -> Response:
     """Shake one column once and record what happens.
@@ -60,6 +61,9 @@ def simulate(
     twins : sequence of Column
         Columns to be computed beside this one, as many as the model carries along; what they come down to is in
         ``Response.twins``. :func:`stylobate.certainty` draws them and says what they mean.
+    quiet : float
+        As in :func:`simulate_iter`, by models that step drums: the run has the bits of the batch, and its histories hold the
+        state in which the column lies at rest while the quiet is left out.
     progress : callable, optional
         Called with (time so far, time of the whole run) [s], by models that step drums.
 
@@ -73,7 +77,10 @@ def simulate(
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
     options = dataclasses.replace(
-        _options(tail, output_interval, until_end, until_rest), start=start, twins=tuple(twins), progress=progress
+        _options(tail, output_interval, until_end, until_rest, quiet),
+        start=start,
+        twins=tuple(twins),
+        progress=progress,
     )
     if len(options.twins) > model.carries:
         raise InputError(
@@ -107,6 +114,7 @@ def simulate_assembly(
     tail: float = 0.0,
     output_interval: float = 0.01,
     until_rest: bool = False,
+    progress: Callable[[float, float], None] | None = None,
 ) -> Response:
     """Shake any set of blocks once and record what happens.
 
@@ -116,7 +124,7 @@ def simulate_assembly(
     motion : Motion
     model : Model, optional
         ``DistinctElement2D``, the only one for assemblies.
-    tail, output_interval, until_rest
+    tail, output_interval, until_rest, progress
         As in :func:`simulate`.
 
     Raises
@@ -131,7 +139,7 @@ def simulate_assembly(
         raise InputError(
             f"model {model.name} is for columns; an assembly is computed by {DistinctElement2D.name}: ask for that."
         )
-    options = _options(tail, output_interval, True, until_rest)
+    options = dataclasses.replace(_options(tail, output_interval, True, until_rest), progress=progress)
     started = time.perf_counter()
     response = model.run_assembly(assembly, model.taken(motion), options)
     wall = time.perf_counter() - started
@@ -161,16 +169,15 @@ def simulate_iter(
     threads : int, optional
         All cores by default.
     """
-    options = check_cases(cases, model, tail=tail, until_end=until_end, quiet=quiet)
-    yield from model.run_many(cases, options, thread_count(threads))
+    options, count = check_cases(cases, model, tail=tail, until_end=until_end, quiet=quiet), thread_count(threads)
+    yield from model.run_many(cases, options, count)
 
 
 def check_cases(
     cases: Sequence[Case], model: Model, *, tail: float = 0.0, until_end: bool = False, quiet: float = 0.0
 ) -> RunOptions:
     """Refuse or warn of cases before any is computed; the options with which :func:`simulate_iter` runs them."""
-    share = check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion")
-    options = dataclasses.replace(_options(tail, 0.01, until_end), quiet=share)
+    options = _options(tail, 0.01, until_end, quiet=quiet)
     for column, motion in _to_check(cases):
         model.check(column, motion)
         model.check_length(column, motion, options)
@@ -261,15 +268,19 @@ def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) ->
         "tail_s": options.tail,
         "until_rest": options.until_rest,
         "output_interval_s": options.output_interval,
+        "quiet_share": options.quiet,
         "python": platform.python_version(),
         "machine": platform.machine(),
     }
 
 
-def _options(tail: float, output_interval: float, until_end: bool, until_rest: bool = False) -> RunOptions:
+def _options(
+    tail: float, output_interval: float, until_end: bool, until_rest: bool = False, quiet: float = 0.0
+) -> RunOptions:
     return RunOptions(
         check_range("tail", tail, 0.0, 1e4, unit="s"),
         check_range("output interval", output_interval, 0.0, 1e3, unit="s", open_low=True),
         until_end,
         until_rest,
+        quiet=check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion"),
     )
