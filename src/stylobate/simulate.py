@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 import os
 import platform
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from .column import Column
 from .column.specimen import Specimen
 from .errors import InputError, check_range
-from .models.base import Case, Cases, Model, RunOptions
+from .models.base import Case, Cases, Model, RunOptions, duration
+from .models.shared.quiet import expected_length
 from .motion import Motion
 from .response import Measures, Response
 from .response.rows import Rows
@@ -97,6 +101,7 @@ def simulate(
         )
     model.check(column, motion)
     model.check_length(column, motion, options)
+    _tell_wait([Case(column, motion)], model, options)
     started = time.perf_counter()
     response = model.run(column, model.taken(motion), options)
     wall = time.perf_counter() - started
@@ -140,6 +145,7 @@ def simulate_assembly(
             f"model {model.name} is for columns; an assembly is computed by {DistinctElement2D.name}: ask for that."
         )
     options = dataclasses.replace(_options(tail, output_interval, True, until_rest), progress=progress)
+    _tell_wait([Case(assembly, motion)], model, options)
     started = time.perf_counter()
     response = model.run_assembly(assembly, model.taken(motion), options)
     wall = time.perf_counter() - started
@@ -170,6 +176,7 @@ def simulate_iter(
         All cores by default.
     """
     options, count = check_cases(cases, model, tail=tail, until_end=until_end, quiet=quiet), thread_count(threads)
+    _tell_wait(cases, model, options, count)
     yield from model.run_many(cases, options, count)
 
 
@@ -250,6 +257,31 @@ def thread_count(threads: int | None) -> int:
     if threads is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return int(check_range("threads", threads, 1, 1024, remedy="leave it out to use all cores"))
+
+
+#: Shortest wait that is told before it begins [s], and most cases of a batch from which it is guessed.
+TOLD_WAIT, ASKED = 10.0, 20
+
+
+def _tell_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> None:
+    """Tell the log before a long computation about how long it will take, where that is known."""
+    if not len(cases) or (len(cases) > 1 and not model.carries):  # batches of the others are not stepped as single runs
+        return
+    each = []
+    for number in np.unique(np.linspace(0, len(cases) - 1, ASKED).astype(int)).tolist():
+        column, motion = case = cases[number]
+        step, cost = model.expected_step(column, motion)
+        length = expected_length(case, options) if model.carries else motion.duration + options.tail
+        each.append(cost * length / step)
+    in_lanes = isinstance(cases[0].column, (Column, Specimen))
+    together = 1 + model.carries if in_lanes else 1
+    wait = max(max(each), float(np.mean(each)) * len(cases) / (together * threads))
+    if wait > TOLD_WAIT:
+        runs = "this run takes" if len(cases) == 1 else f"{len(cases)} runs take"
+        falls = "" if in_lanes or not options.until_end else ", and longer once something falls"
+        logging.getLogger("stylobate").info(
+            "%s about %s where nothing else runs on this machine%s.", runs, duration(wait), falls
+        )
 
 
 def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) -> dict[str, Any]:
