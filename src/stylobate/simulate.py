@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import dataclasses
+import logging
 import os
 import platform
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from .column import Column
 from .column.specimen import Specimen
 from .errors import InputError, check_range
-from .models.base import Case, Cases, Model, RunOptions
+from .models.base import Case, Cases, Model, RunOptions, duration
+from .models.shared.quiet import expected_length
 from .motion import Motion
 from .response import Measures, Response
 from .response.rows import Rows
@@ -36,6 +40,7 @@ def simulate(
     until_rest: bool = False,
     start: Start | Toss | None = None,
     twins: Sequence[Column] = (),
+    quiet: float = 0.0,
     progress: Callable[[float, float], None] | None = None,
 ) -> Response:
     """Shake one column once and record what happens.
@@ -60,6 +65,9 @@ def simulate(
     twins : sequence of Column
         Columns to be computed beside this one, as many as the model carries along; what they come down to is in
         ``Response.twins``. :func:`stylobate.certainty` draws them and says what they mean.
+    quiet : float
+        As in :func:`simulate_iter`, by models that step drums: the run has the bits of the batch, and its histories hold the
+        state in which the column lies at rest while the quiet is left out.
     progress : callable, optional
         Called with (time so far, time of the whole run) [s], by models that step drums.
 
@@ -73,7 +81,10 @@ def simulate(
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
     options = dataclasses.replace(
-        _options(tail, output_interval, until_end, until_rest), start=start, twins=tuple(twins), progress=progress
+        _options(tail, output_interval, until_end, until_rest, quiet),
+        start=start,
+        twins=tuple(twins),
+        progress=progress,
     )
     if len(options.twins) > model.carries:
         raise InputError(
@@ -90,6 +101,7 @@ def simulate(
         )
     model.check(column, motion)
     model.check_length(column, motion, options)
+    _tell_wait([Case(column, motion)], model, options)
     started = time.perf_counter()
     response = model.run(column, model.taken(motion), options)
     wall = time.perf_counter() - started
@@ -107,6 +119,7 @@ def simulate_assembly(
     tail: float = 0.0,
     output_interval: float = 0.01,
     until_rest: bool = False,
+    progress: Callable[[float, float], None] | None = None,
 ) -> Response:
     """Shake any set of blocks once and record what happens.
 
@@ -116,7 +129,7 @@ def simulate_assembly(
     motion : Motion
     model : Model, optional
         ``DistinctElement2D``, the only one for assemblies.
-    tail, output_interval, until_rest
+    tail, output_interval, until_rest, progress
         As in :func:`simulate`.
 
     Raises
@@ -131,7 +144,8 @@ def simulate_assembly(
         raise InputError(
             f"model {model.name} is for columns; an assembly is computed by {DistinctElement2D.name}: ask for that."
         )
-    options = _options(tail, output_interval, True, until_rest)
+    options = dataclasses.replace(_options(tail, output_interval, True, until_rest), progress=progress)
+    _tell_wait([Case(assembly, motion)], model, options)
     started = time.perf_counter()
     response = model.run_assembly(assembly, model.taken(motion), options)
     wall = time.perf_counter() - started
@@ -161,16 +175,16 @@ def simulate_iter(
     threads : int, optional
         All cores by default.
     """
-    options = check_cases(cases, model, tail=tail, until_end=until_end, quiet=quiet)
-    yield from model.run_many(cases, options, thread_count(threads))
+    options, count = check_cases(cases, model, tail=tail, until_end=until_end, quiet=quiet), thread_count(threads)
+    _tell_wait(cases, model, options, count)
+    yield from model.run_many(cases, options, count)
 
 
 def check_cases(
     cases: Sequence[Case], model: Model, *, tail: float = 0.0, until_end: bool = False, quiet: float = 0.0
 ) -> RunOptions:
     """Refuse or warn of cases before any is computed; the options with which :func:`simulate_iter` runs them."""
-    share = check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion")
-    options = dataclasses.replace(_options(tail, 0.01, until_end), quiet=share)
+    options = _options(tail, 0.01, until_end, quiet=quiet)
     for column, motion in _to_check(cases):
         model.check(column, motion)
         model.check_length(column, motion, options)
@@ -245,6 +259,31 @@ def thread_count(threads: int | None) -> int:
     return int(check_range("threads", threads, 1, 1024, remedy="leave it out to use all cores"))
 
 
+#: Shortest wait that is told before it begins [s], and most cases of a batch from which it is guessed.
+TOLD_WAIT, ASKED = 10.0, 20
+
+
+def _tell_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads: int = 1) -> None:
+    """Tell the log before a long computation about how long it will take, where that is known."""
+    if not len(cases) or (len(cases) > 1 and not model.carries):  # batches of the others are not stepped as single runs
+        return
+    each = []
+    for number in np.unique(np.linspace(0, len(cases) - 1, ASKED).astype(int)).tolist():
+        column, motion = case = cases[number]
+        step, cost = model.expected_step(column, motion)
+        length = expected_length(case, options) if model.carries else motion.duration + options.tail
+        each.append(cost * length / step)
+    in_lanes = isinstance(cases[0].column, (Column, Specimen))
+    together = 1 + model.carries if in_lanes else 1
+    wait = max(max(each), float(np.mean(each)) * len(cases) / (together * threads))
+    if wait > TOLD_WAIT:
+        runs = "this run takes" if len(cases) == 1 else f"{len(cases)} runs take"
+        falls = "" if in_lanes or not options.until_end else ", and longer once something falls"
+        logging.getLogger("stylobate").info(
+            "%s about %s where nothing else runs on this machine%s.", runs, duration(wait), falls
+        )
+
+
 def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) -> dict[str, Any]:
     # Keys of the bibliography: the model's, those of a computed motion, and that of the contact bed of followed collapses.
     references = [*model.references, *motion.metadata.get("references", ()), *(["feng2004"] if bed else [])]
@@ -261,15 +300,19 @@ def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) ->
         "tail_s": options.tail,
         "until_rest": options.until_rest,
         "output_interval_s": options.output_interval,
+        "quiet_share": options.quiet,
         "python": platform.python_version(),
         "machine": platform.machine(),
     }
 
 
-def _options(tail: float, output_interval: float, until_end: bool, until_rest: bool = False) -> RunOptions:
+def _options(
+    tail: float, output_interval: float, until_end: bool, until_rest: bool = False, quiet: float = 0.0
+) -> RunOptions:
     return RunOptions(
         check_range("tail", tail, 0.0, 1e4, unit="s"),
         check_range("output interval", output_interval, 0.0, 1e3, unit="s", open_low=True),
         until_end,
         until_rest,
+        quiet=check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion"),
     )

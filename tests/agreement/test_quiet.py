@@ -126,3 +126,33 @@ def test_on_a_joint_without_friction_all_shaking_is_loud():
     assert (np.isinf(reached) == (motion.samples != 0.0)).all()
     assert shaking(motion, slippery, QUIET) == pytest.approx(np.array([[8.0, 9.0], [17.01, 18.01]]), abs=0.02)
     assert not level(motion.scaled(0.0), slippery).any()
+
+
+@pytest.mark.parametrize("model", [MODELS[0], MODELS[3]], ids=["dem2d", "dem3d"])
+@pytest.mark.parametrize("size", [0.1, 4.0], ids=["stands", "collapses"])
+def test_a_single_run_has_the_bits_of_the_batch_and_all_its_times(model, size, tmp_path):
+    # Quiet before, between and behind two shocks: the column is recorded there too, as it lies. Two more ride along.
+    motion = shocks(0.25, size)
+    [batch] = rows([motion], model, QUIET)
+    twins = (COLUMN, COLUMN.with_joint(friction_coefficient=0.6))
+    single = st.simulate(COLUMN, motion, model, quiet=QUIET, twins=twins)
+    row = single.measures.row()
+    assert row == batch == single.twins[0].row()
+    assert row["collapsed"] == (size == 4.0)
+    assert row["stepped_s"] < 0.75 * single.time[-1]
+    whole = st.simulate(COLUMN, motion, model)
+    common = min(len(single.time), len(whole.time)) - 1  # a collapse ends a run between two recorded times
+    assert (single.time[:common] == whole.time[:common]).all()
+    if not single.collapsed:
+        assert (single.time == whole.time).all()
+    before = single.time < row["stepped_from_s"]
+    behind = single.time > row["stepped_to_s"]
+    assert single.time[before].max() > 6.9
+    for stretch in (before, behind) if not single.collapsed else (before,):
+        assert stretch.any()
+        assert (np.diff(single.body_position[stretch], axis=0) == 0.0).all()
+    assert (single.body_position[before] == whole.body_position[0]).all()
+    single.save(tmp_path / "run.nc")
+    again = st.Response.load(tmp_path / "run.nc")
+    assert again.measures == single.measures
+    assert again.provenance["quiet_share"] == QUIET

@@ -282,7 +282,8 @@ def certainty(
     threads : int, optional
         For twins beyond the first fifteen; all cores by default.
     **following
-        ``tail``, ``output_interval``, ``until_end``, ``until_rest``, ``progress``, as in :func:`stylobate.simulate`.
+        ``tail``, ``output_interval``, ``until_end``, ``until_rest``, ``quiet``, ``progress``, as in
+        :func:`stylobate.simulate`.
 
     Raises
     ------
@@ -295,15 +296,18 @@ def certainty(
     riding = () if following.get("until_end") or following.get("until_rest") else tuple(twins[: model.carries])
     response = simulate(column, motion, model, twins=riding, **following)
     rows = [one.row() for one in response.twins]
-    rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, following.get("tail", 0.0), threads)
+    tail, quiet = (following.get(name, 0.0) for name in ("tail", "quiet"))
+    rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, threads, quiet)
     population = Population(twins, tuple(rows), drawn.scatter, seed, drawn.left_out)
     return Certainty(response, population, time.perf_counter() - began)
 
 
-def batch(cases: Sequence[Case], column: Column, model: Model, tail: float, threads: int | None) -> list[dict]:
+def batch(
+    cases: Sequence[Case], column: Column, model: Model, tail: float, threads: int | None, quiet: float = 0.0
+) -> list[dict]:
     """Rows of twins that did not ride along, computed as those that did."""
     rows: list[dict] = [{}] * len(cases)
     if cases:
-        for index, measures in simulate_iter(cases, model.paced(column), tail=tail, threads=threads):
+        for index, measures in simulate_iter(cases, model.paced(column), tail=tail, quiet=quiet, threads=threads):
             rows[index] = measures.row()
     return rows

@@ -16,6 +16,7 @@ from ..campaign.plan import RUNS_FILE, Plan
 from ..campaign.runner import Progress
 from ..column.assembly import Assembly
 from ..errors import InputError
+from ..models.shared.quiet import share_of
 from ..response import Response
 from ..response.rows import Rows
 from ..simulate import simulate, simulate_assembly
@@ -136,7 +137,7 @@ def histories_of(study: Study, number: int) -> Response:
     column, motion = study.case(number)
     if isinstance(column, Assembly):
         return simulate_assembly(column, motion, study.model_of(number), tail=study.tail)
-    return simulate(column, motion, study.model_of(number), tail=study.tail)
+    return simulate(column, motion, study.model_of(number), tail=study.tail, quiet=share_of([motion], study.whole))
 
 
 def keep_histories(

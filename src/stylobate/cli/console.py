@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+import logging
 import math
 import shutil
 import sys
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from functools import partial
@@ -20,6 +22,9 @@ if TYPE_CHECKING:
 #: The command line that is run, as typed, and what was warned of since it began.
 COMMAND: list[str] = []
 WARNED: list[str] = []
+
+#: Time until the first line about progress, where there is no terminal [s].
+FIRST_LINE = 10.0
 
 #: Widest line of a table [characters], and what stands where there is no value.
 WIDEST, MISSING = 100, "-"
@@ -192,14 +197,58 @@ def show(response: Response) -> None:
         VIEWER(response)
 
 
+class Notes(logging.Handler):
+    """Says on standard error what the package tells its log: that it compiles, how long it will take, how far it is."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Say it; lines about waiting are told from others by how they end."""
+        note(record.getMessage().rstrip(".") + " ...")
+
+
+def tell() -> None:
+    """From now on let a person who waits know for what; for a process that is one command."""
+    log = logging.getLogger("stylobate")
+    log.setLevel(logging.INFO)
+    log.addHandler(Notes())
+
+
+class Lines:
+    """Progress in lines, each after half as much time again as the one before.
+
+    Parameters
+    ----------
+    title : str
+        What is counted.
+    """
+
+    def __init__(self, title: str) -> None:
+        self.title, self.due = title, FIRST_LINE
+        self.began = self.first = time.monotonic()
+        self.before: float | None = None
+
+    def __call__(self, done: float, total: float) -> None:
+        """So many are done, of so many."""
+        from ..models.base import duration
+
+        now = time.monotonic()
+        if self.before is None:
+            self.first, self.before = now, done
+        gone = done - self.before
+        if now - self.began < self.due or gone <= 0 or done >= total:
+            return
+        self.due = 1.5 * (now - self.began)
+        left = duration((now - self.first) * (total - done) / gone)
+        logging.getLogger("stylobate").info("%.4g of %.4g %s, about %s to go.", done, total, self.title, left)
+
+
 @contextmanager
-def progress(title: str) -> Iterator[Callable[[int, int], None] | None]:
-    """A bar with the remaining time on standard error; nothing where that is not a terminal."""
+def progress(title: str) -> Iterator[Callable[[float, float], None]]:
+    """A bar with the remaining time on standard error; lines where that is not a terminal."""
     if LISTENER is not None:
         yield partial(LISTENER, title)
         return
     if not sys.stderr.isatty():
-        yield None
+        yield Lines(title)
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn

@@ -103,6 +103,7 @@ def main() -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     signals.listen()
+    console.tell()
     code = INTERRUPTED
     try:
         code = call(sys.argv[1:])

@@ -57,6 +57,7 @@ def run(
     pga: o.Pga = None,
     vertical: o.Vertical = "on",
     tail: o.Tail = "0s",
+    whole: o.Whole = False,
     until_end: Annotated[bool, typer.Option("--until-end", help="Go on after the collapse is certain.")] = False,
     until_rest: Annotated[
         bool, typer.Option("--until-rest", help="Go on until everything lies still, on the ground if need be (dem2d).")
@@ -91,6 +92,7 @@ def run(
     found = asked.expand(stone.frequency_parameter)
     interval, length = parse_time(output_interval), o.the_tail(tail)
     following = {"tail": length, "output_interval": interval, "until_end": until_end, "until_rest": until_rest}
+    following["whole"] = whole
     twins = the_twins(stone, how, o.the_population(replicates, scatter, seed), until_end or until_rest)
     drawn = Drawn(pictures, pictures and twins is not None and replicates is not None)
     follow = partial(run_one, stone, model=how, twins=twins, threads=count, **following)
@@ -159,17 +161,19 @@ def run_one(
     model: Model,
     twins: dict[str, Any] | None,
     threads: int,
+    whole: bool = True,
     **following: Any,
 ) -> tuple[Response, Population | None]:
     """One run, and what became of columns like it; that of an assembly always goes on to its end."""
     from ..analysis.certainty import certainty
     from ..column import Column
+    from ..models.shared.quiet import share_of
     from ..simulate import simulate, simulate_assembly
 
     if not isinstance(stone, Column):
-        for one in ("until_end", "progress"):
-            following.pop(one, None)
+        following.pop("until_end", None)
         return simulate_assembly(stone, motion, model, **following), None
+    following["quiet"] = share_of([motion], whole)
     if twins is None:
         return simulate(stone, motion, model, **following), None
     found = certainty(stone, motion, model, threads=threads, **twins, **following)
@@ -269,6 +273,7 @@ def write_population(
     if population.median is None or not strip:
         return files
     options = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
+    options["quiet"] = response.provenance["quiet_share"]
     middle = simulate(population.twins[population.median], motion, model.paced(response.column), **options)
     return files + plots.save(plots.draw_filmstrip(middle), folder / "median")
 
@@ -308,8 +313,18 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
     if population is not None:
         sentence = f"{sentence} {population.sentence} {population.beside(response.summary())}".rstrip()
         facts |= population_facts(population)
+    what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
+
+
+def quiet_facts(response: Response) -> dict[str, str]:
+    """How much of a record was stepped, where its quiet was left out."""
+    stepped = response.measures.stepped
+    if stepped is None:
+        return {}
+    ends = response.time[-1]
+    return {"stepped": f"{stepped[2]:.3g} of {ends:.3g} s, without what is quiet (--whole steps all)"}
 
 
 def population_facts(population: Population) -> dict[str, str]:

@@ -2,15 +2,17 @@
 
 The cache of compiled code lives in a folder named by a digest of all kernel sources, because the compiler notices an
 edit only in the file of the loop itself, not in the law that the loop calls. The full width of the vector registers is
-asked for before the compiler is loaded.
+asked for before the compiler is loaded. Compiling that takes long enough to be noticed is told to the log of the package.
 """
 
 from __future__ import annotations
 
 import glob
 import hashlib
+import logging
 import os
 import pickle
+import threading
 import time
 import warnings
 from collections.abc import Callable
@@ -53,7 +55,7 @@ def _prepare() -> None:
 _prepare()
 
 import numba  # noqa: E402
-from numba.core import caching, cpu, options  # noqa: E402
+from numba.core import caching, cpu, event, options  # noqa: E402
 
 numba.config.reload_config()
 # The compiler can be told that the arrays of a loop do not overlap, but numba gives this flag no name of its own.
@@ -118,6 +120,56 @@ class _CacheFiles(caching.IndexDataCacheFile):
         warnings.warn(
             f"compiled code in {Path(path).parent} was damaged and is compiled anew.", DamagedFileWarning, stacklevel=2
         )
+
+
+#: Time of compiling after which it is told, and until it is told again [s].
+TOLD_AFTER, TOLD_EVERY = 2.0, 30.0
+
+
+class _Wait(event.Listener):
+    """Tells the log that the compiler is at work; it is asked of what is not found on disk only.
+
+    The compiler has one lock: one thread at a time compiles a kernel, and within it the kernels that it calls.
+    """
+
+    def __init__(self) -> None:
+        self.depth, self.spent, self.began, self.due = 0, 0.0, 0.0, TOLD_AFTER
+        self.bell: threading.Timer | None = None
+
+    def on_start(self, event: event.Event) -> None:
+        """A kernel is being compiled from now on."""
+        self.depth += 1
+        if self.depth == 1:
+            self.began = time.monotonic()
+            self._wind()
+
+    def on_end(self, event: event.Event) -> None:
+        """It is compiled."""
+        self.depth -= 1
+        if self.depth == 0:
+            self.spent += time.monotonic() - self.began
+            if self.bell is not None:
+                self.bell.cancel()
+
+    def _wind(self) -> None:
+        self.bell = threading.Timer(max(0.0, self.due - self.spent - (time.monotonic() - self.began)), self._tell)
+        self.bell.daemon = True
+        self.bell.start()
+
+    def _tell(self) -> None:
+        if self.depth == 0:
+            return
+        if self.due == TOLD_AFTER:
+            logging.getLogger("stylobate").info(
+                "compiling, which these settings need once on this machine: up to a minute, several where it is busy."
+            )
+        else:
+            logging.getLogger("stylobate").info("still compiling, for %.0f s so far.", self.due)
+        self.due += TOLD_EVERY
+        self._wind()
+
+
+event.register("numba:compile", _Wait())
 
 
 def _compiler(**how: Any) -> Callable:

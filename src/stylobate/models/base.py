@@ -77,7 +77,8 @@ class RunOptions:
     twins : tuple of Column
         Columns under the same motion in the other lanes of a single run (models with ``carries``, as many at most).
     progress : callable, optional
-        Called with (time so far, time of the whole run) [s] at every recorded state of a single run, by models of drums.
+        Called with (time so far, time of the whole run) [s] at every recorded state of a single run, by models of drums and
+        for assemblies.
     """
 
     tail: float = 0.0
@@ -214,8 +215,8 @@ def refuse_endless(what: str, length: float, step: float, cost: float) -> None:
     steps = length / step
     if steps * cost > LONGEST_RUN:
         raise InputError(
-            f"a run of {what} would take {steps:.2g} steps of {step:.2g} s, about {_long(steps * cost)}; allowed is up to "
-            f"{_long(LONGEST_RUN)}: lower the joints' stiffness, take fewer bodies, a larger time_step, or less time."
+            f"a run of {what} would take {steps:.2g} steps of {step:.2g} s, about {duration(steps * cost)}; allowed is up "
+            f"to {duration(LONGEST_RUN)}: lower the joints' stiffness, take fewer bodies, a larger time_step, or less time."
         )
 
 
@@ -228,11 +229,12 @@ def refuse_long_histories(states: float, bodies: int) -> None:
         )
 
 
-def _long(seconds: float) -> str:
+def duration(seconds: float) -> str:
+    """A time of computing for people."""
     for name, size in (("years", 3.15576e7), ("days", 86400.0), ("hours", 3600.0)):
         if seconds >= 2.0 * size:
             return f"{seconds / size:.2g} {name}"
-    return f"{seconds / 60.0:.0f} minutes"
+    return f"{seconds / 60.0:.0f} minutes" if seconds >= 100.0 else f"{seconds:.2g} s"
 
 
 #: What a value of ``--set`` must be, by pydantic's name of the mistake.

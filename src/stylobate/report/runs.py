@@ -139,6 +139,8 @@ def _asked(r: Response) -> list[tuple[str, str]]:
     pairs = [("structure", r.structure.name), ("motion", str(p.get("motion", n.NONE)))]
     pairs.append(("model", f"{r.model}, step {r.time_step:.3g} s, {r.steps} steps"))
     pairs.append(("time computed", f"{float(r.time[-1]):.2f} s from the start of the motion"))
+    if (stepped := r.measures.stepped) is not None:
+        pairs.append(("of which stepped", f"{stepped[2]:.2f} s, without the quiet in which the column lies at rest"))
     if p.get("until_rest"):
         pairs.append(("followed", "until everything lies still"))
     else:

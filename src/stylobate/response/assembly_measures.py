@@ -131,9 +131,18 @@ def joint_histories(
 
 def fallen_since(assembly: Assembly, z: np.ndarray, rotation: np.ndarray) -> dict[int, int]:
     """Bodies that have fallen at the end, and the recorded state from which on each of them had."""
-    smaller = np.array([np.ptp(block.corners, axis=0).min() for block in assembly.bodies])
-    down = (z < z[0] - DROP * smaller) | (np.abs(rotation - rotation[0]) > TURNED)
+    down = have_fallen(lowest_standing(assembly, z[0]), z, rotation - rotation[0])
     return {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
+
+
+def lowest_standing(assembly: Assembly, z: np.ndarray) -> np.ndarray:
+    """Height below which the centroid of each body has fallen, from that at the start [m], shape (N,)."""
+    return z - DROP * np.array([np.ptp(block.corners, axis=0).min() for block in assembly.bodies])
+
+
+def have_fallen(lowest: np.ndarray, z: np.ndarray, turned: np.ndarray) -> np.ndarray:
+    """Which bodies have fallen, from their heights [m] and rotations since the start [rad], shape of these."""
+    return (z < lowest) | (np.abs(turned) > TURNED)
 
 
 def first_touch(

@@ -122,6 +122,8 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
         "mechanism": None if response.mechanism is None else dataclasses.asdict(response.mechanism),
         "followed": response.followed,
     }
+    if m.stepped is not None:
+        facts["stepped"] = list(m.stepped)
     if m.links:
         facts["links"] = [link.row() for link in m.links]
     kind = next(name for name, one in KINDS.items() if isinstance(response.structure, one))
@@ -223,6 +225,7 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
         "collapse": None if collapse is None else Collapse.from_dict(collapse),
         "space": None if space is None else SpaceMeasures(**_tuples(space)),
         "blocks": None if blocks is None else BlockMeasures(**blocks),
+        "stepped": tuple(facts["stepped"]) if "stepped" in facts else None,
         "links": tuple(LinkMeasures.from_row(row) for row in facts.get("links", ())),
     }
     mechanism = facts["mechanism"]

@@ -57,7 +57,7 @@ def _undecided(response: Recorded) -> str:
     Of a column whose links pulled from the start, what they and the joints that they press hold counts against it.
     """
     longer = longer_tail(float(response.provenance.get("tail_s", 0.0)))
-    if isinstance(response.structure, Column) and is_pretensioned(response.structure):
+    if isinstance(response.structure, Column) and response.structure.pretensioned:
         return (
             f"The verdict may still change: at the end it is not at rest (go on with {longer}), or it is, and what its "
             "pretension holds could overturn it if it came free, which no tail decides."

@@ -20,7 +20,7 @@ from ..base import Case, RunOptions
 from ..drums.joints import contact_points, joint_stiffnesses
 from ..drums.links import link_stiffness, with_links
 from ..drums.stepped import SteppedDrums
-from ..plane.assemblies import measures_of_assemblies
+from ..plane.assemblies import AssemblyNumbers, expected_step, measures_of_assemblies, run_assembly
 from ..plane.block import Law
 from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
@@ -177,23 +177,32 @@ class DistinctElement2D(SteppedDrums):
             return measures_of_assemblies(self.run_assembly, cases, options, threads)
         return super().run_many(cases, options, threads)
 
-    def run_assembly(self, assembly: Assembly, motion: Motion, options: RunOptions) -> Response:
-        """One run of an assembly of blocks.
+    def run_assembly(
+        self, assembly: Assembly, motion: Motion, options: RunOptions, *, recorded: bool = True
+    ) -> Response:
+        """One run of an assembly of blocks, with histories where they are wanted.
 
         Raises
         ------
         InputError
             The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
         """
-        from ..plane.assemblies import AssemblyNumbers, run_assembly
+        return run_assembly(assembly, motion, self.assembly_numbers(), options, recorded=recorded)
 
+    def expected_step(self, column: Column | Assembly, motion: Motion) -> tuple[float, float]:
+        """Time step and its cost [s]; of an assembly as long as it stands."""
+        if not isinstance(column, Assembly):
+            return super().expected_step(column, motion)
+        return expected_step(column, motion, self.assembly_numbers())
+
+    def assembly_numbers(self) -> AssemblyNumbers:
+        """What assemblies are computed with."""
         if self.block_modulus is not None:
             raise InputError(
                 f"block_modulus is {self.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
             )
         settle = self.start == "settle"
-        numbers = AssemblyNumbers(self.name, self.contacts, self.step_factor, self.time_step, self.restitution, settle)
-        return run_assembly(assembly, motion, numbers, options)
+        return AssemblyNumbers(self.name, self.contacts, self.step_factor, self.time_step, self.restitution, settle)
 
 
 @lru_cache(maxsize=4096)

@@ -248,7 +248,7 @@ class DistinctElement3D(SteppedDrums):
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
-        return 3.0 * super().cost(drums)
+        return 4.5 * super().cost(drums)
 
     def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         """Histories from the snapshots of a run."""

@@ -11,6 +11,7 @@ from ...column import Column
 from ...column.assembly import Assembly
 from ...errors import check_range
 from ...motion import Motion
+from ...outcome import Outcome
 from ...response import Histories, Measures, Response
 from ..base import Case, Model, RunOptions
 from ..shared.lanes import Riders, run_alike
@@ -132,23 +133,40 @@ class SteppedDrums(Model):
         return replace(self, time_step=self.step_for(column))
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories, through the same kernel as a batch; twins of the column in the free lanes."""
+        """One run with histories, through the same kernel as a batch; twins of the column in the free lanes.
+
+        States are recorded at equal times; where quiet is left out, that in which the column lies at rest.
+        """
         kind = self.kind(column)
         block = (self.paced(column) if options.twins else self).block_for(kind, options)
         block.load(0, Case(column, motion))
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
-        whole = float(block.steps[0] * block.dt[0])
+        every, end, dt = stride * block.chunk, int(block.steps[0]), float(block.dt[0])
         twins = Riders(block, [Case(one, motion) for one in options.twins])
         residual = block.residual_acceleration(0)
-        states = [block.snapshot(0)]
-        while not block.is_over(0):
-            block.follow(stride, twins.collect)
-            states.append(block.snapshot(0))
+        states: list[dict[str, Any]] = []
+
+        def record(last: bool = False, until: int | None = None) -> None:
+            """Keep the present state, for every time up to a step that has none; the last one at that step itself."""
+            step = int(block.feed["step"][0, 0]) if until is None else until
+            times = [one * dt for one in range(len(states) * every, step + 1, every)]
+            if last and (len(states) + len(times) - 1) * every < step:
+                times.append(step * dt)
+            if times:
+                present = block.snapshot(0)
+                states.extend(present | {"time": time} for time in times)
             if options.progress:
-                options.progress(float(states[-1]["time"]), whole)
+                options.progress(step * dt, end * dt)
+
+        record()
+        while not block.is_over(0):
+            block.follow(len(states) * stride - int(block.feed["step"][0, 0]) // block.chunk, twins.collect)
+            record()
         provenance = {"time_step_s": float(block.dt[0]), "residual_acceleration_at_start_m_s2": residual}
         measures = block.collect(0)
+        rests = measures.stepped is not None and measures.outcome not in (Outcome.COLLAPSED, Outcome.FAILED)
+        record(last=True, until=end if rests else None)
         histories = self.histories(motion, states)
         return Response(column, histories, measures, self.name, provenance, twins=twins.measures())
 

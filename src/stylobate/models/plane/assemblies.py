@@ -16,14 +16,14 @@ from ...kernels.plane.records import BETA
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ...response import Measures, Response
-from ...response.assembly_measures import first_touch, recorded_blocks
+from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
 from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
 from ..drums.links import link_histories, with_links
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step, highest_frequency, stable_step
 from .links import acting_between, link_measures, stiffness_between
-from .loose import LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
+from .loose import COST_STANDING, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
 
 
 @dataclass(frozen=True)
@@ -51,8 +51,37 @@ class AssemblyNumbers:
     must_settle: bool
 
 
-def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, options: RunOptions) -> Response:
+#: Time after the last block has fallen at which a run of a batch ends [s].
+AFTER_THE_FALL = 5.0
+
+
+def step_for(engine: Loose, numbers: AssemblyNumbers) -> float:
+    """Time step of a run [s]; whole chunks of steps fill the motion.
+
+    Raises
+    ------
+    InputError
+        The step asked for is unstable.
+    """
+    name = repr(engine.assembly.name)
+    return min(
+        chosen_step(stable_step_of(engine), numbers.step_factor, numbers.time_step, name),
+        engine.motion.duration / CHUNK,
+    )
+
+
+def expected_step(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers) -> tuple[float, float]:
+    """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
+    engine = Loose(assembly, numbers.contacts, motion, motion.duration)
+    return step_for(engine, numbers), COST_STANDING * len(engine.records.body) * numbers.contacts.points
+
+
+def run_assembly(
+    assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, options: RunOptions, *, recorded: bool = True
+) -> Response:
     """One run of an assembly to the end of the motion and its tail, or until rest.
+
+    With neither ``until_end`` nor ``until_rest`` it ends some seconds after the last block has fallen.
 
     The contacts are closed by the weight they carry. An assembly that is not in equilibrium begins as drawn, with a
     warning, or is refused.
@@ -63,6 +92,8 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     motion : Motion
     numbers : AssemblyNumbers
     options : RunOptions
+    recorded : bool
+        Whether histories are wanted; without them the ledger is drawn up at the end only, and forces of links are not kept.
 
     Raises
     ------
@@ -78,9 +109,8 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     if restitution is None:
         restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
     engine = Loose(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
-    step = chosen_step(stable_step_of(engine), numbers.step_factor, numbers.time_step, repr(assembly.name))
+    step = step_for(engine, numbers)
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
-    step = min(step, motion.duration / CHUNK)
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
     refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
@@ -94,7 +124,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
         said = f"{assembly.name!r} is not in equilibrium as drawn; it moves from the start."
         warnings.warn(said, OutOfRangeWarning, stacklevel=3)
     start = engine.energies()
-    states, still = follow(engine, options)
+    states, still = follow(engine, options, recorded)
     stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = ledger.imbalance(
@@ -104,7 +134,7 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
     acceleration, displacement = ground_histories(motion, stack["time"])
     step, poses = int(engine.now["touched"][0]), (stack["x"], stack["z"], stack["rotation"])
     touched = first_touch(assembly, stack["time"], *poses, step * engine.dt) if step >= 0 else None
-    recorded = recorded_blocks(
+    made = recorded_blocks(
         assembly,
         stack["time"],
         *poses,
@@ -120,20 +150,26 @@ def run_assembly(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, o
         model=numbers.name,
         touched=touched,
         links=link_measures(acting_between(assembly), engine.records.link, 0, engine.dt),
-        held=link_histories(states),
+        held=link_histories(states) if recorded else None,
         provenance={
             "restitution": restitution,
             "joints": len(assembly.joints),
             "deepest_penetration_m": engine.deepest(),
         },
     )
-    return Response.of(recorded)
+    return Response.of(made)
 
 
-def follow(engine: Loose, options: RunOptions) -> tuple[list[dict[str, Any]], bool]:
-    """Go on to the end of the motion and its tail, or until rest; the states on the way, and whether all lies still."""
+def follow(engine: Loose, options: RunOptions, recorded: bool = True) -> tuple[list[dict[str, Any]], bool]:
+    """Go on to where the run ends; the states on the way, and whether all lies still.
+
+    It ends with the motion and its tail, when all lies still, or some time after the last block has fallen.
+    """
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
-    states, still = [engine.state()], False
+    keep = engine.state if recorded else engine.pose
+    states, still = [keep()], False
+    lowest, rotation = lowest_standing(engine.assembly, states[0]["z"]), states[0]["rotation"]
+    fallen, since = np.zeros(len(rotation), dtype=bool), 0.0
     while not engine.failed:
         left = engine.chunks - engine.steps // CHUNK
         still = engine.at_rest()
@@ -142,14 +178,25 @@ def follow(engine: Loose, options: RunOptions) -> tuple[list[dict[str, Any]], bo
         if left <= 0 and (not options.until_rest or still or engine.time > engine.duration + LONGEST_WAIT):
             break
         engine.advance(min(every, left) if left > 0 else every)
-        states.append(engine.state())
+        states.append(keep())
+        if options.progress:
+            options.progress(min(engine.time, engine.duration), engine.duration)
+        if options.until_end or options.until_rest:
+            continue
+        now = have_fallen(lowest, states[-1]["z"], states[-1]["rotation"] - rotation)
+        if (now != fallen).any():
+            fallen, since = now, engine.time
+        if fallen.any() and engine.time - since > AFTER_THE_FALL:
+            break
+    if not recorded:
+        states[-1]["energy"] = engine.energies()
     return states, still
 
 
 def measures_of_assemblies(
-    run: Callable[[Assembly, Motion, RunOptions], Response], cases: Sequence[Case], options: RunOptions, threads: int
+    run: Callable[..., Response], cases: Sequence[Case], options: RunOptions, threads: int
 ) -> Iterator[tuple[int, Measures]]:
-    """(index of the case, measures) of runs of assemblies as they finish; their histories are not kept."""
+    """(index of the case, measures) of runs of assemblies as they finish; their histories are not recorded."""
     from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 
     under_way: dict[Future[Response], int] = {}
@@ -159,7 +206,7 @@ def measures_of_assemblies(
                 if len(under_way) >= 2 * threads:
                     for one in wait(under_way, return_when=FIRST_COMPLETED).done:
                         yield under_way.pop(one), one.result().measures
-                under_way[pool.submit(run, assembly, motion, options)] = index
+                under_way[pool.submit(run, assembly, motion, options, recorded=False)] = index
             while under_way:
                 for one in wait(under_way, return_when=FIRST_COMPLETED).done:
                     yield under_way.pop(one), one.result().measures

@@ -84,6 +84,20 @@ def share_of(motions: Sequence[Motion], whole: bool) -> float:
     return 0.0 if whole or not all("format" in one.metadata for one in motions) else QUIET
 
 
+def is_cut(case: Case, options: RunOptions) -> bool:
+    """Whether the quiet of a case is left out: what starts from a pose moves at once, what falls is followed to the end."""
+    return options.quiet > 0.0 and not options.until_end and options.start is None and isinstance(case.column, Column)
+
+
+def expected_length(case: Case, options: RunOptions) -> float:
+    """For how long a case is stepped at least, if its column comes to rest as soon as the shaking ends [s]."""
+    whole = case.motion.duration + options.tail
+    if not is_cut(case, options):
+        return whole
+    stretches = shaking(case.motion, case.column, options.quiet)
+    return min(whole, float(np.diff(stretches).sum()) + len(stretches) * (BEFORE + LOOK))
+
+
 class Spans:
     """Which steps the lanes of a block take: all, or those of the shaking and until the column lies at rest.
 
@@ -105,17 +119,13 @@ class Spans:
 
     def begin(self, lane: int, case: Case, dt: float, steps: int) -> tuple[int, int]:
         """First step of a lane, and the one at which it is looked at: of a run of so many steps of dt [s]."""
-        options = self.options
         self.stretches[lane] = []
-        # what starts from a pose moves at once, and what falls is followed to the end
-        self.cut[lane] = (
-            options.quiet > 0.0 and not options.until_end and options.start is None and isinstance(case.column, Column)
-        )
+        self.cut[lane] = is_cut(case, self.options)
         first, end = 0, steps
         if self.cut[lane]:
             piece = self.chunk * dt
             self.look[lane] = self.chunk * max(1, math.ceil(LOOK / piece))
-            for begin, still in shaking(case.motion, case.column, options.quiet):
+            for begin, still in shaking(case.motion, case.column, self.options.quiet):
                 from_step = self.chunk * max(0, math.floor((begin - BEFORE) / piece))
                 to_step = self.chunk * math.ceil(still / piece) + int(self.look[lane])
                 self.stretches[lane].append((from_step, min(steps, to_step)))

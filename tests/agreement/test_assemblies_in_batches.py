@@ -1,0 +1,56 @@
+"""Assemblies in batches: without histories they come to the same, and what has fallen is not watched for ever."""
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.models.assembly.run import AFTER_THE_FALL
+from stylobate.models.base import Case
+from stylobate.simulate import simulate_assembly, simulate_iter
+
+JOINT = st.Joint(1e8, 5e7, friction_angle=35.0)
+MODEL = st.DistinctElement2D()
+
+
+def box(name, left, low, width, height):
+    corners = [(left, low), (left + width, low), (left + width, low + height), (left, low + height)]
+    return st.Block(corners, density=2500.0, name=name, depth=0.8)
+
+
+PORTAL = st.Assembly(
+    [box("left", 0.0, 0.0, 0.8, 4.0), box("right", 3.2, 0.0, 0.8, 4.0), box("architrave", -0.1, 4.0, 4.2, 0.7)],
+    JOINT,
+    name="portal",
+)
+
+
+def batch(motions, **options):
+    found = dict(simulate_iter([Case(PORTAL, motion) for motion in motions], MODEL, threads=1, **options))
+    return [found[i] for i in range(len(motions))]
+
+
+def test_without_histories_a_run_has_the_same_measures():
+    # Neither falls: the batch leaves out the ledger between start and end, and nothing else.
+    motions = [st.harmonic(1.0, size * st.g, 2.0) for size in (0.05, 0.25)]
+    for one, motion in zip(batch(motions), motions, strict=True):
+        alone = simulate_assembly(PORTAL, motion, MODEL).measures
+        assert not alone.collapsed
+        assert one == alone
+
+
+def test_a_run_of_a_batch_ends_after_the_fall():
+    # One push fells it in about two seconds, and 28 s of quiet follow.
+    push = np.concatenate([0.6 * st.g * np.sin(np.pi * np.arange(0, 1.001, 0.01)), np.zeros(2900)])
+    motion = st.Motion(0.01, push)
+    [one] = batch([motion])
+    [whole] = batch([motion], until_end=True)
+    alone = simulate_assembly(PORTAL, motion, MODEL).measures
+    assert whole == alone
+    assert one.collapsed
+    for name in ("outcome", "decided", "collapse_time", "peak_rotation", "peak_joint_opening", "time_step"):
+        assert getattr(one, name) == getattr(alone, name)
+    assert one.blocks.peak_displacement == alone.blocks.peak_displacement
+    assert one.blocks.fell_at == alone.blocks.fell_at
+    ended = one.steps * one.time_step
+    assert max(when for _, when in one.blocks.fell_at) + AFTER_THE_FALL == pytest.approx(ended, abs=0.05)
+    assert ended < 15.0 < whole.steps * whole.time_step

@@ -1,0 +1,129 @@
+"""What a person who waits is told on standard error: that it compiles, how long it will take, how far it is."""
+
+import logging
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from numba.core import event
+
+import stylobate as st
+from stylobate.cli import console
+from stylobate.cli.main import call
+from stylobate.kernels import jit
+from stylobate.models.base import Case, duration
+from stylobate.simulate import simulate_iter
+
+COLUMN = st.preset("paper-12-drums")
+
+
+@pytest.fixture
+def told(capsys):
+    """What is told to the log, as the command line says it."""
+    log = logging.getLogger("stylobate")
+    before, level = list(log.handlers), log.level
+    console.tell()
+    yield lambda: capsys.readouterr().err
+    log.handlers[:] = before
+    log.setLevel(level)
+
+
+class Bell:
+    """A timer that rings when the test says so."""
+
+    rung: "Bell"
+
+    def __init__(self, wait, ring):
+        self.wait, self.ring, self.running = wait, ring, False
+        Bell.rung = self
+
+    def start(self):
+        self.running = True
+
+    def cancel(self):
+        self.running = False
+
+
+def test_compiling_is_told_where_it_takes_long(told, monkeypatch):
+    clock = [100.0]
+    monkeypatch.setattr(jit, "time", SimpleNamespace(monotonic=lambda: clock[0]))
+    monkeypatch.setattr(jit, "threading", SimpleNamespace(Timer=Bell))
+    with event.install_listener("numba:compile", jit._Wait()):
+        with event.trigger_event("numba:compile"), event.trigger_event("numba:compile"):  # kernels compile others
+            assert Bell.rung.wait == 2.0
+            clock[0] += 1.5
+        assert not Bell.rung.running
+        clock[0] += 1000.0  # in which nothing is compiled
+        with event.trigger_event("numba:compile"):
+            assert Bell.rung.wait == 0.5
+            clock[0] += 0.5
+            assert told() == ""
+            Bell.rung.ring()
+            assert told().startswith("stylobate: compiling, which these settings need once on this machine: ")
+            assert Bell.rung.wait == 30.0
+            clock[0] += 30.0
+            last = Bell.rung
+            last.ring()
+            assert told() == "stylobate: still compiling, for 32 s so far ...\n"
+        last.ring()  # one that came too late
+    assert told() == ""
+
+
+def test_nothing_is_told_where_nobody_listens(capsys, monkeypatch):
+    monkeypatch.setattr(console, "FIRST_LINE", 0.0)
+    monkeypatch.setitem(simulate_iter.__globals__, "TOLD_WAIT", 0.0)
+    assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.1g,0.2s", "--replicates", "0", "--json"]) == 0
+    assert capsys.readouterr().err == ""
+
+
+def test_progress_in_lines(told, monkeypatch):
+    clock = [100.0]
+    monkeypatch.setattr(console, "time", SimpleNamespace(monotonic=lambda: clock[0]))
+    lines = console.Lines("runs")
+    for at, done in ((1.0, 0), (9.0, 2), (11.0, 4), (15.0, 7), (17.0, 8), (40.0, 30)):
+        clock[0] = 100.0 + at
+        lines(done, 30)
+    # the first after ten seconds, the next after half as many again; ten seconds for four runs; the end needs no line
+    assert told().splitlines() == [
+        "stylobate: 4 of 30 runs, about 65 s to go ...",
+        "stylobate: 8 of 30 runs, about 44 s to go ...",
+    ]
+
+
+def test_progress_is_in_lines_where_there_is_no_terminal(told, monkeypatch):
+    monkeypatch.setattr(console, "FIRST_LINE", 0.0)
+    assert call(["run", "paper-monolithic", "--harmonic", "1Hz,0.1g,1s", "--replicates", "0"]) == 0
+    assert " of 1 seconds of motion" in told()
+
+
+def test_a_long_computation_is_told_before_it_begins(told, monkeypatch):
+    motion = st.Motion(0.01, np.sin(np.arange(3001) / 10.0), metadata={"format": "made for this test"})
+    model = st.DistinctElement2D()
+    step, cost = model.expected_step(COLUMN, motion)
+    monkeypatch.setitem(simulate_iter.__globals__, "TOLD_WAIT", 1.0)
+    for runs, threads, blocks in ((1, 2, 1), (320, 2, 10), (320, 1, 20)):
+        some = simulate_iter([Case(COLUMN, motion)] * runs, model, threads=threads)
+        monkeypatch.setattr(type(model), "run_many", lambda *_: iter(()))
+        assert list(some) == []
+        what = "this run takes" if runs == 1 else "320 runs take"
+        expected = duration(blocks * cost * motion.duration / step)
+        assert told() == f"stylobate: {what} about {expected} where nothing else runs on this machine ...\n"
+
+
+def test_what_falls_takes_longer_than_told(told, monkeypatch):
+    monkeypatch.setitem(simulate_iter.__globals__, "TOLD_WAIT", 0.0)
+    block = st.Block([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)], density=2500.0, name="cube")
+    cube = st.Assembly([block], st.Joint(1e8, 5e7, friction_angle=35.0), name="cube")
+    st.simulate_assembly(cube, st.harmonic(1.0, 0.1, 0.1))
+    assert told().endswith(" where nothing else runs on this machine, and longer once something falls ...\n")
+
+
+def test_quiet_is_left_out_and_said(capsys, tmp_path):
+    samples = np.concatenate([np.zeros(500), 0.1 * np.sin(2.0 * np.pi * np.arange(101) / 100.0), np.zeros(1500)])
+    record = tmp_path / "record.csv"
+    record.write_text("time_s,ax_g\n" + "".join(f"{0.01 * i:.2f},{one:.6f}\n" for i, one in enumerate(samples)))
+    run = ["run", "paper-monolithic", "--motion", str(record), "--replicates", "0"]
+    assert call(run) == 0
+    assert " of 21 s, without what is quiet (--whole steps all)\n" in capsys.readouterr().out
+    assert call([*run, "--whole"]) == 0
+    assert "quiet" not in capsys.readouterr().out
