@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ..analysis import verdicts as v
+from ..analysis.fragility import between
 from ..analysis.risk import years
 from ..bibliography import cite, cite_run
 from ..column import Column
@@ -200,10 +201,12 @@ def _fragility(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     curves = result.summary.get("curves") or [result.summary]
     one = curves[0]
     unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
+    limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
     sentence = (
-        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval "
-        f"{n.plain(one.get('median_low'))} to {n.plain(one.get('median_high'))}{unit})."
+        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
     )
+    if one.get("bracket"):
+        sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
     keys = ["name", "im", "median", "median_low", "median_high", "beta", "records", "runs", "undecided", "p_value"]
     items: list[Item] = [
         _table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")
