@@ -93,18 +93,17 @@ class Hazard:
         InputError
             The rates are beyond all that shaking can do.
         """
+        told = ""
         for im, rate, why in ENVELOPE:
             at = self.at(im)
-            if at <= rate:
-                continue
             text = (
                 f"by {self.name} shaking of {im:g} {self.unit} is exceeded {at:.3g} times a year, and where the Earth "
                 f"shakes most about {rate:g}; {why}"
             )
             if at > REFUSED * rate:
                 raise InputError(f"{text}.")
-            return text
-        return ""
+            told = told or (text if at > rate else "")
+        return told
 
     def at(self, im: float) -> float:
         """Annual rate at an intensity; before the first one that of the first one, beyond the last one 0."""

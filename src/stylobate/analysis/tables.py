@@ -119,12 +119,15 @@ def _parse(name: str, lines: list[str], delimiter: str, above: int, key: str) ->
     reader = csv.reader(lines, delimiter=delimiter, skipinitialspace=True, strict=True)
     try:
         header = [cell.strip().lower() for cell in next(reader, [])]
-        if key not in header:
-            return None
-        twice = next((one for k, one in enumerate(header) if one and one in header[:k]), None)
-        if twice is not None:
-            raise InputError(f"{name} has two columns called {shown(twice)!r}; rename or remove one.")
-        numbers, rows = [], []
+    except csv.Error:  # quotation marks of another delimiter
+        return None
+    if key not in header:
+        return None
+    twice = next((one for k, one in enumerate(header) if one and one in header[:k]), None)
+    if twice is not None:
+        raise InputError(f"{name} has two columns called {shown(twice)!r}; rename or remove one.")
+    numbers, rows = [], []
+    try:
         for row in reader:
             cells = [cell.strip() for cell in row]
             if not any(cells):

@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from ..errors import InputError, check_range, suggest
+from ..errors import InputError, as_typed, check_range, suggest
 from .link_materials import MATERIALS
 
 #: What becomes of a dowel at its capacity: it yields, snaps, or crushes the stone so that its hole grows.
@@ -362,7 +362,7 @@ class Layer(Link):
 def _pair(link: Any, name: str) -> None:
     value = getattr(link, name)
     if not isinstance(value, (tuple, list)) or len(value) != 2:
-        raise InputError(f"{name} of a {link.kind} is {value!r}; it must be a place in plan, [x, y] in m.")
+        raise InputError(f"{name} of a {link.kind} is {as_typed(value)}; it must be a place in plan, [x, y] in m.")
     place = tuple(check_range(f"{name} of a {link.kind}", one, -LONGEST, LONGEST, unit="m") for one in value)
     object.__setattr__(link, name, place)
 
