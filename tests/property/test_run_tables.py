@@ -69,6 +69,7 @@ def test_names_of_records_stay_as_they_are(tmp_path):
             "record,im,verdict\na,0.5,collapse\n",
             "'verdict' of a run of runs is 'collapse'; allowed is stands, collapsed",
         ),
+        ("record,collapsed,im,note\na,0,1,45\nb,1,2,3\n", "whole numbers only as im and as 'note' behind it"),
         ("record,im,outcome\na,0.5,collapsed\n", "no column 'decided'"),
         ("record,im,outcome,decided,collapsed\na,0.5,fell,1,1\n", "'outcome' of a run of runs is 'fell'"),
     ],

@@ -100,6 +100,7 @@ def read_table(source: str | Path) -> pandas.DataFrame:
             raise InputError(f"{shown(place)} is no table that can be read ({str(error).splitlines()[0]}).") from None
     else:
         cells = tables.read(place, MOST, "record", "the columns record, im, collapsed")
+        cells.refuse_halves("im", ("collapsed", "record"))
         table = pandas.read_csv(cells.to_csv(), low_memory=False)
         if cells.rows:
             table["record"] = cells.texts("record")  # names, whatever they look like

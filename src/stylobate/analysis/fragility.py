@@ -116,10 +116,14 @@ class Fragility:
     def beta_interval(self) -> tuple[float, float]:
         """Confidence limits of β; 0 and +inf where none is known."""
         least, most = np.log(lognormal.BETAS)
-        samples = self.samples[:, 1]
-        samples = np.where(samples <= least + CLOSE, -np.inf, np.where(samples >= most - CLOSE, np.inf, samples))
+        samples = np.where(self.samples[:, 1] >= most - CLOSE, np.inf, self.samples[:, 1])
         with np.errstate(divide="ignore"):
-            low, high = self.limits(math.log(self.beta), samples, np.log(self.dispersions))
+            plausible = np.log(self.dispersions)
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        if low <= least + CLOSE:  # samples that show no dispersion do not say that there is none
+            low, high = plausible.min(), max(high, plausible.max())
+        else:
+            low, high = self.limits(math.log(self.beta), samples, plausible)
         return math.exp(low), math.exp(high)
 
     def limits(self, best: float, samples: np.ndarray, plausible: np.ndarray) -> tuple[float, float]:
@@ -127,7 +131,7 @@ class Fragility:
 
         The bootstrap knows that runs of one record hang together; the region knows what the design leaves open, of which
         samples of the same runs see nothing. Where so many samples have no curve that a limit would be one of theirs, the
-        bootstrap has none.
+        quantiles of the samples are taken as they are, and the limit on that side is none.
 
         Parameters
         ----------
@@ -135,11 +139,10 @@ class Fragility:
         samples, plausible : array
             Of the samples of the bootstrap, infinite where one has no curve; and over the region of the likelihood.
         """
-        low, high = self.basic(best, samples)
-        return (
-            min(low if math.isfinite(low) else math.inf, float(plausible.min())),
-            max(high if math.isfinite(high) else -math.inf, float(plausible.max())),
-        )
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        if np.isfinite([low, high]).all():
+            low, high = self.basic(best, samples)
+        return min(float(low), float(plausible.min())), max(float(high), float(plausible.max()))
 
     def basic(self, best: float, samples: np.ndarray) -> tuple[float, float]:
         """Confidence limits of a quantity from its value and those of the samples.  # Eq. (G3)

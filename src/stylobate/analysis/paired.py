@@ -22,7 +22,7 @@ def unseen(records: int, confidence: float = 0.95) -> float:
 def share_limits(
     sums: np.ndarray, pairs: np.ndarray, levels: float, drawn: np.ndarray, confidence: float = 0.95
 ) -> tuple[float, float]:
-    """Limits of a mean change of pairs: the wider ones of a bootstrap over records and of Eq. (G8).
+    """Limits of a mean change of pairs: the wider ones of a bootstrap over records and of Eq. (G7).
 
     The bootstrap sees no changes but those that happened. The other is Agresti and Coull's of yes and no: as if z² more
     records had been seen, of which one half changes at one level for the better and the other half for the worse.

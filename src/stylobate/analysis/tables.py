@@ -31,12 +31,15 @@ class Table:
         The line of the file on which each row ends.
     rows : list of list of str
         As long as ``columns``; blanks around the cells are gone.
+    commas : bool
+        Commas separate the columns.
     """
 
     name: str
     columns: tuple[str, ...]
     lines: list[int]
     rows: list[list[str]]
+    commas: bool
 
     def texts(self, column: str) -> list[str]:
         """Cells of a column."""
@@ -61,6 +64,24 @@ class Table:
                     f"needed{points(text)}; mend the file."
                 ) from None
         return found
+
+    def refuse_halves(self, column: str, known: tuple[str, ...]) -> None:
+        """Refuse numbers that may have been cut in two at decimal commas, as many fields as the header may name.
+
+        Parameters
+        ----------
+        column : str
+            Of the numbers; whole ones are doubtful where a column of digits follows that is none of the known ones.
+        known : tuple of str
+        """
+        k = self.columns.index(column) if column in self.columns else len(self.columns)
+        if not self.commas or k + 1 >= len(self.columns) or self.columns[k + 1] in known or not self.rows:
+            return
+        if all(row[k].isdigit() and row[k + 1].isdigit() for row in self.rows):
+            raise InputError(
+                f"{self.name} has whole numbers only as {column} and as {shown(self.columns[k + 1])!r} behind it, which may "
+                f"be numbers with decimal commas; write {column} with a decimal point, such as {self.rows[0][k]}.0."
+            )
 
     def to_csv(self) -> io.StringIO:
         """The cells as a plain CSV text, to be read by others."""
@@ -147,7 +168,7 @@ def _parse(name: str, lines: list[str], delimiter: str, above: int, key: str) ->
             raise InputError(f"line {line} of {name} has a value in a column without a name; name it in the header.")
     if len(named) < len(header):
         rows = [[row[k] for k in named] for row in rows]
-    return Table(name, tuple(header[k] for k in named), numbers, rows)
+    return Table(name, tuple(header[k] for k in named), numbers, rows, delimiter == ",")
 
 
 def _ragged(name: str, line: int, cells: list[str], header: list[str], delimiter: str) -> InputError:
