@@ -135,8 +135,10 @@ def table(found: StateComparison) -> str:
 
 
 def _limits(low: float, high: float) -> str:
-    """An interval; of samples in which too few runs fall the median has no end."""
-    return f"{low:.2f} to {high:.2f}" if low > 0.0 else "no interval"
+    """An interval; where too few runs fall the median has no end."""
+    if math.isinf(high):
+        return f"{low:.2f} or more" if low > 0.0 else "no interval"
+    return f"{low:.2f} to {high:.2f}" if low > 0.0 else f"up to {high:.2f}"
 
 
 def main(records: str, out: str, which: str = "bassae", where: str = "plane", only: str = "") -> None:

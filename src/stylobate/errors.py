@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterable
+from typing import Any
 
 #: A longer word is cut in messages.
 _ENDLESS = re.compile(r"\S{400,}")
@@ -29,6 +30,17 @@ class DamagedFileWarning(UserWarning):
 
 class LeftOutWarning(OutOfRangeWarning):
     """A component of the motion is one that the model does not take; the message names both."""
+
+
+def as_typed(value: Any) -> str:
+    """A value as a person types it: numbers and texts of numpy, in lists too, without the names of their types."""
+    return repr(_plain(value))
+
+
+def _plain(value: Any) -> Any:
+    if type(value) in (list, tuple):
+        return type(value)(_plain(one) for one in value)
+    return value.item() if getattr(value, "shape", None) == () and hasattr(value, "item") else value
 
 
 def suggest(word: str, known: Iterable[str]) -> str:
@@ -68,11 +80,11 @@ def check_range(
     interval = f"{'(' if open_low else '['}{low:g}, {high:g}{')' if open_high or math.isinf(high) else ']'}{unit_text}"
     tail = f"; {remedy}" if remedy else ""
     if isinstance(value, bool) or not hasattr(value, "__float__"):
-        raise InputError(f"{name} is {value!r}, not a number; allowed is {interval}{tail}.")
+        raise InputError(f"{name} is {as_typed(value)}, not a number; allowed is {interval}{tail}.")
     try:
         number = float(value)
     except (TypeError, ValueError):
-        raise InputError(f"{name} is {value!r}, not a number; allowed is {interval}{tail}.") from None
+        raise InputError(f"{name} is {as_typed(value)}, not a number; allowed is {interval}{tail}.") from None
     too_low = number <= low if open_low else number < low
     too_high = number >= high if open_high else number > high
     if not math.isfinite(number) or too_low or too_high:

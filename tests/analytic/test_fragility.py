@@ -10,7 +10,7 @@ from scipy.special import log_ndtr
 from scipy.stats import norm
 
 from stylobate.analysis import lognormal
-from stylobate.analysis.evidence import Evidence, evidence
+from stylobate.analysis.evidence import Evidence, evidence, intervals
 from stylobate.analysis.fragility import fragility
 from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
 from stylobate.analysis.verdicts import wilson_interval
@@ -102,7 +102,7 @@ def test_far_tails_do_not_overflow():
 def test_intervals_hold_the_truth_as_often_as_they_say(method, within, monkeypatch):
     # 60 sets: of 95 % intervals 57 hold it on average; below 51 and with a probability of 1 in 400 by the binomial law.
     # The long version, 2,000 sets, is in docs/theory/fragility.md.
-    monkeypatch.setattr("stylobate.analysis.fragility.SETS", 1)
+    monkeypatch.setattr("stylobate.analysis.fragility_points.SETS", 1)
     rng = np.random.default_rng(7)
     beta, held, medians = math.hypot(0.4, within), np.zeros(2), []
     for k in range(60):
@@ -156,8 +156,6 @@ def test_brackets_end_at_the_first_collapse_whatever_stands_above():
     names = np.repeat(np.array([f"r{i}" for i in range(10)], dtype=object), 4)
     codes = np.array([[0, 1, 0, 1], [0, 0, 1, 1], [0, OPEN, 1, 1], [0, 0, 0, 1], [1, 1, 1, 1]] * 2, dtype=np.int8)
     e = Evidence(names, np.tile([1.0, 2.0, 4.0, 8.0], 10), codes.ravel(), "im", "-", "collapse", "x", True)
-    from stylobate.analysis.fragility import intervals
-
     low, high, _ = intervals(e, e.codes, "records")
     assert np.exp(high[:5]).tolist() == pytest.approx([2.0, 4.0, 4.0, 8.0, 1.0])
     assert np.exp(low[:5]).tolist() == pytest.approx([1.0, 2.0, 1.0, 4.0, 0.0])

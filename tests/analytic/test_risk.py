@@ -87,7 +87,7 @@ def test_our_own_hazard_files(tmp_path):
         ("im_g,annual_rate\n-0.1,0.01\n0.2,0.001\n", "not positive"),
         ("im_g,annual_rate\n0.1,often\n0.2,0.001\n", "'often'"),
         ("pga,rate\n0.1,0.01\n", "needs im_g or im_m_s"),
-        ("", "no hazard curve"),
+        ("", "no column .annual_rate"),
     ):
         path.write_text(text)
         with pytest.raises(InputError, match=why):

@@ -1,6 +1,7 @@
 """Was it worth it: states of a column under the same motions, paired."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -30,9 +31,15 @@ def found():
 
 def test_a_state_compared_with_itself_differs_by_nothing(found):
     same = found.differences[0]
-    assert (same.share, same.share_low, same.share_high) == (0.0, 0.0, 0.0)
     assert (same.saved, same.harmed, same.pairs) == (0, 0, 30)
-    assert (same.ratio, same.ratio_low, same.ratio_high) == (1.0, 1.0, 1.0)
+    # and by what ten records at three levels cannot show: a share z²/(10 + z²) of them at one level
+    most = 1.96**2 / (10.0 + 1.96**2)
+    assert (same.share, same.share_low, same.share_high) == pytest.approx((0.0, -most / 3.0, most / 3.0), abs=1e-4)
+    assert same.ratio == 1.0
+    assert same.ratio_low <= math.exp(-most * math.log(0.8 / 0.3) / 2.0) + 1e-4
+    assert same.ratio_low * same.ratio_high == pytest.approx(1.0)
+    assert "as many of the runs as as built; it saves 0 of 30" in same.sentence
+    assert "-9.3 to +9.3 % would hardly show" in same.sentence
 
 
 def test_differences_are_those_of_the_pairs(found):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import InputError, suggest
+from ..errors import InputError, as_typed, suggest
 from ..models.rigid_block.block_stack import BlockStack
 from ..motion.specs import parse_acceleration, parse_time
 from .capacity_spectrum import SECANT, USABLE, CapacityCheck, capacity_spectrum_check
@@ -145,7 +145,7 @@ class CodeSite:
         try:
             amplification = float(given["F0"])
         except ValueError:
-            raise InputError(f"F0 is {given['F0']!r}; allowed is a number from 2.2.") from None
+            raise InputError(f"F0 is {as_typed(given['F0'])}; allowed is a number from 2.2.") from None
         corner = parse_time(given["Tc*"])
         return cls(code, NtcSpectrum(ag, amplification, corner, soil, given.get("topography", "T1")), level)
 

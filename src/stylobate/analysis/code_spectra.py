@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..constants import g
-from ..errors import InputError, check_range
+from ..errors import InputError, as_typed, check_range
 
 
 class Coefficient(NamedTuple):
@@ -158,7 +158,7 @@ class NtcSpectrum:
         check_range("damping", self.damping, 0.0, 0.5)
         for name, known in (("soil", SOILS), ("topography", TOPOGRAPHY)):
             if getattr(self, name) not in known:
-                raise InputError(f"{name} is {getattr(self, name)!r}; allowed are {', '.join(known)}.")
+                raise InputError(f"{name} is {as_typed(getattr(self, name))}; allowed are {', '.join(known)}.")
 
     @property
     def soil_factor(self) -> float:

@@ -10,8 +10,9 @@ import numpy as np
 from ..motion.intensity_specs import KINDS, IntensityMeasure, parse_measure
 from . import lognormal
 from . import verdicts as v
-from .evidence import evidence
-from .fragility import bootstrap, intervals
+from .evidence import evidence, intervals
+from .fragility import bootstrap
+from .likelihood_region import dispersions
 from .limit_states import LimitState, parse_state
 
 if TYPE_CHECKING:
@@ -67,6 +68,8 @@ def which_tells_most(
         samples = np.sort(bootstrap(low, high, owner, 500, np.random.default_rng(seed))[:, 1])
         middle = math.log(best.beta[0])
         limits = [math.exp(2.0 * middle - float(np.quantile(samples, q))) for q in (0.975, 0.025)]
+        plausible = dispersions(low, high, len(low))
+        limits = [min(limits[0], plausible[0]), max(limits[1], plausible[1])]
         row: dict[str, Any] = {
             "measure": measure.name,
             "unit": measure.unit,

@@ -10,7 +10,10 @@ import numpy as np
 
 from ..errors import InputError
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
+from ..outcome import Outcome
 from ..reading import check_file, shown
+from . import tables
+from . import verdicts as v
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, LimitState, parse_state
 
 if TYPE_CHECKING:
@@ -26,6 +29,9 @@ ALSO = {
     "d5_75_s": ("duration_5_75_s",),
     **{f"sa_{t}s_g": (f"psa_{t}s_g",) for t in ("0.1", "0.2", "0.5", "1", "2", "4")},
 }
+
+#: Intensities whose logarithms differ in later digits only are one.
+DIGITS = 6
 
 #: Largest table that is read [bytes].
 MOST = 2_000_000_000
@@ -86,16 +92,18 @@ def read_table(source: str | Path) -> pandas.DataFrame:
                 "suite, or a CSV file with the columns record, im, collapsed."
             )
         place = found[0]
-    check_file(place, MOST)
-    try:
-        if place.suffix == ".parquet":
+    if place.suffix == ".parquet":
+        check_file(place, MOST)
+        try:
             table = pandas.read_parquet(place)
-        else:
-            with place.open("rb") as file:  # comments stand above the table; a name below may hold the same mark
-                above = next((k for k, line in enumerate(file) if not line.lstrip().startswith(b"#")), 0)
-            table = pandas.read_csv(place, skiprows=above, skipinitialspace=True)
-    except (ValueError, OSError, ImportError, pandas.errors.ParserError) as error:
-        raise InputError(f"{shown(place)} is no table that can be read ({str(error).splitlines()[0]}).") from None
+        except (ValueError, OSError, ImportError) as error:
+            raise InputError(f"{shown(place)} is no table that can be read ({str(error).splitlines()[0]}).") from None
+    else:
+        cells = tables.read(place, MOST, "record", "the columns record, im, collapsed")
+        cells.refuse_halves("im", ("collapsed", "record"))
+        table = pandas.read_csv(cells.to_csv(), low_memory=False)
+        if cells.rows:
+            table["record"] = cells.texts("record")  # names, whatever they look like
     if "record" not in table or not len(table):
         raise InputError(
             f"{shown(place)} has no runs with a column 'record'; it needs the columns record, im, collapsed."
@@ -146,16 +154,30 @@ def evidence(
     im = np.asarray(numbers, dtype=float)
     bad = np.flatnonzero(~(np.isfinite(im) & (im >= 0.0)))
     if bad.size:
+        text = str(table[key].iloc[bad[0]])
         raise InputError(
-            f"the intensity {key!r} of run {bad[0] + 1} of {name} is {table[key].iloc[bad[0]]!r}; allowed is a number from "
-            "0."
+            f"the intensity {key!r} of run {bad[0] + 1} of {name} is {text[: tables.LONGEST]!r}; allowed is a number from "
+            f"0{tables.points(text)}."
+        )
+    nameless = np.flatnonzero((table["record"].isna() | (table["record"].astype(str).str.strip() == "")).to_numpy())
+    if nameless.size:
+        raise InputError(
+            f"run {nameless[0] + 1} of {name} has no record, and runs of one record hang together; name it in the column "
+            "'record'."
         )
     if "outcome" in table or "verdict" in table:
+        _check_words(table, name)
         rows = table.astype(object).where(table.notna(), None).to_dict("records")
         codes = np.array([state.of(row) for row in rows], dtype=np.int8)
     else:
         codes = _plain_codes(table, state, name)
     zero = im == 0.0  # of no intensity: nothing is exceeded, and the logarithm does not exist
+    if (codes[zero] == EXCEEDED).any():
+        k = int(np.flatnonzero(zero & (codes == EXCEEDED))[0])
+        raise InputError(
+            f"run {k + 1} of {name} exceeds {state.name} at an intensity {key!r} of 0; choose an intensity that its motion "
+            "has, with --im."
+        )
     return Evidence(
         np.array([str(one) for one in table["record"]], dtype=object)[~zero],
         im[~zero],
@@ -169,11 +191,39 @@ def evidence(
 
 
 def scaled_to(table: pandas.DataFrame) -> str | None:
-    """The intensity measure that the runs of a study or an IDA were scaled to; None where a table does not say."""
-    for key in ("im_name", "measure"):
-        if key in table:
-            return str(table[key].iloc[0])
-    return None
+    """The intensity measure that the runs of a study or an IDA were scaled to; None where a table does not say.
+
+    Raises
+    ------
+    InputError
+        They were scaled to several.
+    """
+    key = next((one for one in ("im_name", "measure") if one in table), None)
+    if key is None:
+        return None
+    names = list(dict.fromkeys(str(one) for one in table[key]))
+    if len(names) > 1:
+        raise InputError(f"runs are over different intensities ({', '.join(names[:5])}); give those of one of them.")
+    return names[0]
+
+
+def _check_words(table: pandas.DataFrame, name: str) -> None:
+    """Refuse words about the end of a run that are none of ours: what they mean would be guessed."""
+    allowed: dict[str, tuple[Any, ...]] = {"verdict": v.VERDICTS}
+    if "verdict" not in table:
+        allowed = {"outcome": tuple(map(str, Outcome)), "decided": (True, False), "collapsed": (True, False)}
+        missing = [one for one in allowed if one not in table]
+        if missing:
+            raise InputError(
+                f"the runs of {name} have an outcome but no column {missing[0]!r}; give the columns record, im, collapsed."
+            )
+    for key, words in allowed.items():
+        strange = [one for one in table[key].dropna().unique() if one not in words]
+        if strange:
+            text = str(strange[0])
+            raise InputError(
+                f"{key!r} of a run of {name} is {text[: tables.LONGEST]!r}; allowed is {', '.join(map(str, words))}."
+            )
 
 
 def _plain_codes(table: pandas.DataFrame, state: LimitState, name: str) -> np.ndarray:
@@ -187,3 +237,22 @@ def _plain_codes(table: pandas.DataFrame, state: LimitState, name: str) -> np.nd
     if strange:
         raise InputError(f"'collapsed' of {name} is {strange[0]!r}; allowed is 0, 1, or nothing where it is undecided.")
     return np.array([words[one] for one in texts], dtype=np.int8)
+
+
+def intervals(evidence: Evidence, codes: np.ndarray, method: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Intervals of ln capacity that the runs say, as of :func:`lognormal.fit`, and the number of each one's record.
+
+    Open and failed runs say nothing.
+    """
+    y = np.log(evidence.im)
+    names, owner = np.unique(evidence.records, return_inverse=True)
+    if method == "runs":
+        told = codes >= 0
+        low = np.where(codes[told] == EXCEEDED, -np.inf, y[told])
+        return low, np.where(codes[told] == EXCEEDED, y[told], np.inf), owner[told]
+    low, high = np.full(len(names), -np.inf), np.full(len(names), np.inf)
+    np.minimum.at(high, owner[codes == EXCEEDED], y[codes == EXCEEDED])
+    below = (codes == NOT_EXCEEDED) & (y < high[owner])  # above the first that exceeds it stands again: a resurrection
+    np.maximum.at(low, owner[below], y[below])
+    told = np.isfinite(low) | np.isfinite(high)
+    return low[told], high[told], np.arange(len(names))[told]

@@ -3,44 +3,30 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+from scipy.special import ndtr
 
 from ..errors import InputError
-from . import lognormal
-from .evidence import Evidence
+from . import likelihood_region, lognormal
+from .evidence import DIGITS, Evidence, intervals
+from .fragility_points import Points, goodness, points_of
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
-from .verdicts import wilson_interval
+from .lognormal import curve
 
 #: Fewest records of which a fragility is made: fewer say nothing about the next earthquake.
 FEWEST = 10
 
-#: Samples of the bootstrap, and sets of runs drawn from the curve to tell how good its fit is.
-SAMPLES, SETS = 1000, 200
+#: Samples of the bootstrap.
+SAMPLES = 1000
 
-#: Intensities told apart by the points behind the curve; more of them are put together.
-MOST_POINTS = 12
+#: A limit of the median that is farther from all intensities that were run than by this factor is none.
+FAR = 1000.0
 
-
-@dataclass(frozen=True, eq=False)
-class Points:
-    """Shares of the records that exceed the state, without a curve.
-
-    Parameters
-    ----------
-    im, share, low, high : array, shape (k,)
-        Intensity, share, and its Wilson interval; how often a record counts does not hang on how many runs it has.
-    records : array of int, shape (k,)
-    """
-
-    im: np.ndarray
-    share: np.ndarray
-    low: np.ndarray
-    high: np.ndarray
-    records: np.ndarray
+#: A dispersion so near, in its logarithm, to where the fit ends is at the end [-].
+CLOSE = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +42,13 @@ class Fragility:
         ln θ and β.
     samples : array, shape (S, 2)
         ln θ and ln β of the bootstrap over records.
+    region : array, shape (k, 2)
+        ln θ and ln β at the edge of what the likelihood leaves plausible, see :mod:`~stylobate.analysis.likelihood_region`.
+    dispersions : (float, float)
+        What it leaves plausible of β.
+    bracket : (float, float) or None
+        The largest intensity up to which nothing exceeds the state and the smallest from which everything does, where no
+        run contradicts them: then the median lies between them, and of the dispersion only an upper limit is known.
     extremes : (Fit, Fit)
         Of all runs, open and failed ones counted as exceeded, and as not exceeded.
     points : Points
@@ -70,6 +63,9 @@ class Fragility:
     log_median: float
     beta: float
     samples: np.ndarray
+    region: np.ndarray
+    dispersions: tuple[float, float]
+    bracket: tuple[float, float] | None
     extremes: tuple[tuple[float, float], tuple[float, float]]
     points: Points
     distance: float
@@ -83,40 +79,78 @@ class Fragility:
 
     @property
     def records(self) -> int:
-        """Number of records."""
-        return len(np.unique(self.evidence.records))
+        """Number of records of which a run is decided."""
+        return len(np.unique(self.evidence.records[self.evidence.codes >= 0]))
 
     def probability(self, im: np.ndarray) -> np.ndarray:
         """Probability of exceedance given the intensity, shape of ``im``."""
         return curve(im, self.log_median, self.beta)
 
     def interval(self, im: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Confidence limits of :meth:`probability`, point by point: the quantiles of the samples' curves."""
-        found = np.array([curve(im, m, math.exp(s)) for m, s in self.samples])
-        share = self._share
-        low, high = np.quantile(found, [share, 1.0 - share], axis=0)
-        return low, high
+        """Confidence limits of :meth:`probability`, point by point: what the quantiles of the samples' curves hold, and the
+        curves of the region.
+        """
+        samples, plausible = (
+            np.array([curve(im, m, math.exp(s)) for m, s in one]) for one in (self.samples, self.region)
+        )
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], axis=0)
+        return np.minimum(low, plausible.min(axis=0)), np.maximum(high, plausible.max(axis=0))
 
     @property
     def median_interval(self) -> tuple[float, float]:
-        """Confidence limits of θ."""
-        low, high = self.limits(np.array(self.log_median), self.samples[:, 0])
-        return float(np.exp(low)), float(np.exp(high))
+        """Confidence limits of θ; 0 and +inf where none is known."""
+        middle, spread = self.samples.T
+        endless = spread >= math.log(lognormal.BETAS[1]) - CLOSE
+        im = np.log(self.evidence.im)
+        samples = np.where(endless, np.copysign(np.inf, middle - im.mean()), middle)
+        low, high = self.limits(self.log_median, samples, self.region[:, 0])
+        if self.bracket is not None:
+            low, high = min(low, math.log(self.bracket[0])), max(high, math.log(self.bracket[1]))
+        far = math.log(FAR)
+        return (
+            math.exp(low) if low > im.min() - far else 0.0,
+            math.exp(high) if high < im.max() + far else math.inf,
+        )
 
     @property
     def beta_interval(self) -> tuple[float, float]:
-        """Confidence limits of β."""
-        low, high = self.limits(np.array(math.log(self.beta)), self.samples[:, 1])
-        return float(np.exp(low)), float(np.exp(high))
+        """Confidence limits of β; 0 and +inf where none is known."""
+        least, most = np.log(lognormal.BETAS)
+        samples = np.where(self.samples[:, 1] >= most - CLOSE, np.inf, self.samples[:, 1])
+        with np.errstate(divide="ignore"):
+            plausible = np.log(self.dispersions)
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        if low <= least + CLOSE:  # samples that show no dispersion do not say that there is none
+            low, high = plausible.min(), max(high, plausible.max())
+        else:
+            low, high = self.limits(math.log(self.beta), samples, plausible)
+        return math.exp(low), math.exp(high)
 
-    def limits(self, best: Any, samples: np.ndarray) -> tuple[Any, Any]:
-        """Confidence limits of a quantity from its value and those of the samples, along the first axis.  # Eq. (G3)
+    def limits(self, best: float, samples: np.ndarray, plausible: np.ndarray) -> tuple[float, float]:
+        """Confidence limits of a quantity: the wider ones of the bootstrap and of the likelihood.
+
+        The bootstrap knows that runs of one record hang together; the region knows what the design leaves open, of which
+        samples of the same runs see nothing. Where so many samples have no curve that a limit would be one of theirs, the
+        quantiles of the samples are taken as they are, and the limit on that side is none.
+
+        Parameters
+        ----------
+        best : float
+        samples, plausible : array
+            Of the samples of the bootstrap, infinite where one has no curve; and over the region of the likelihood.
+        """
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        if np.isfinite([low, high]).all():
+            low, high = self.basic(best, samples)
+        return min(float(low), float(plausible.min())), max(float(high), float(plausible.max()))
+
+    def basic(self, best: float, samples: np.ndarray) -> tuple[float, float]:
+        """Confidence limits of a quantity from its value and those of the samples.  # Eq. (G3)
 
         The basic bootstrap, its quantiles widened as Student's t is against the normal distribution.
         """
-        share = self._share
-        low, high = np.quantile(samples, [share, 1.0 - share], axis=0, method="nearest")
-        return 2.0 * best - high, 2.0 * best - low
+        low, high = np.quantile(samples, [self._share, 1.0 - self._share], method="nearest")
+        return float(2.0 * best - high), float(2.0 * best - low)
 
     @property
     def _share(self) -> float:
@@ -124,6 +158,24 @@ class Fragility:
 
         n = self.records
         return float(ndtr(math.sqrt(n / (n - 1.0)) * t.ppf(0.5 - 0.5 * self.confidence, n - 1)))
+
+    @property
+    def sentence(self) -> str:
+        """What the runs say of the median, in a sentence."""
+        e = self.evidence
+        where = f"{e.state} at {e.measure}"
+        unit = "" if e.unit == "-" else f" {e.unit}"
+        if self.bracket is None:
+            return f"{e.name}: half of the records bring {where} = {self.median:.3g}{unit}."
+        low, high = self.bracket
+        if low == high:
+            return (
+                f"{e.name}: no run below {e.measure} = {low:.4g}{unit} brings {e.state}, and every run above it does."
+            )
+        return (
+            f"{e.name}: half of the records bring {where} between {low:.4g} and {high:.4g}{unit}: no run up to the one "
+            "brings it, and every run from the other on does."
+        )
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate fragility``."""
@@ -133,7 +185,7 @@ class Fragility:
             "median": self.median,
             "median_low": self.median_interval[0],
             "median_high": self.median_interval[1],
-            "beta": self.beta,
+            "beta": _seen(self.beta),
             "beta_low": self.beta_interval[0],
             "beta_high": self.beta_interval[1],
             "im": e.measure,
@@ -147,23 +199,17 @@ class Fragility:
             "undecided": e.count(OPEN),
             "failed": e.count(FAILED),
             "confidence": self.confidence,
-            "if_open_exceed": {"median": math.exp(high_median), "beta": high_beta},
-            "if_open_do_not": {"median": math.exp(low_median), "beta": low_beta},
+            "bracket": None if self.bracket is None else list(self.bracket),
+            "if_open_exceed": {"median": math.exp(high_median), "beta": _seen(high_beta)},
+            "if_open_do_not": {"median": math.exp(low_median), "beta": _seen(low_beta)},
             "largest_distance": self.distance,
             "p_value": self.p_value,
+            "sentence": self.sentence,
             "points": [
                 {"im": x, "share": s, "low": a, "high": b, "records": n}
                 for x, s, a, b, n in zip(*(one.tolist() for one in vars(self.points).values()), strict=True)
             ],
         }
-
-
-def curve(im: np.ndarray, log_median: float, beta: float) -> np.ndarray:
-    """Φ(ln(im/θ)/β); 0 and 1 everywhere for medians of +inf and −inf."""
-    if math.isinf(log_median):
-        return np.full(np.shape(im), 0.0 if log_median > 0.0 else 1.0)
-    with np.errstate(divide="ignore"):
-        return ndtr((np.log(np.asarray(im, dtype=float)) - log_median) / beta)
 
 
 def fragility(
@@ -196,62 +242,100 @@ def fragility(
     Raises
     ------
     InputError
-        Fewer than ten records, or no run that exceeds the state, or none that does not.
+        Fewer than ten records of which a run is decided; no run that exceeds the state, or none that does not; all runs at
+        one intensity; or runs that exceed it no oftener where the intensity is larger: that is no fragility.
     """
     clusters = np.arange(len(evidence.im)).astype(str).astype(object) if records_are_one else evidence.records
-    count = len(np.unique(clusters))
-    if count < FEWEST:
-        what = ("run" if records_are_one else "record") + ("" if count == 1 else "s")
-        remedy = f"give at least {FEWEST}" if records_are_one else (
-            f"give at least {FEWEST}, or say --records-are-one to take every run for a record of its own"
-        )  # fmt: skip
-        raise InputError(f"a fragility of {count} {what} says nothing about the next earthquake; {remedy}.")
+    used = replace(evidence, records=clusters)
+    _check_number(used, records_are_one)
     how = method or ("records" if evidence.brackets and not records_are_one else "runs")
-    used = Evidence(clusters, *(getattr(evidence, one) for one in _REST))
     codes = evidence.codes
     low, high, owner = intervals(used, codes, how)
     best = lognormal.fit(low, high)
-    if math.isinf(best.log_median[0]):
-        every = "every run exceeds" if best.log_median[0] < 0.0 else "no run exceeds"
-        raise InputError(
-            f"{every} {evidence.state}, so that no curve can be drawn; give {'smaller' if 'every' in every else 'larger'} "
-            "intensities."
-        )
+    _check_shape(used, low, high, best)
+    below, above = float(low.max()), float(high.min())
+    bracket = (math.exp(below), math.exp(above)) if below <= above else None
+    log_median, beta = (float(one[0]) for one in best)
     rng = np.random.default_rng(seed)
     extremes = []
     for counted in (EXCEEDED, NOT_EXCEEDED):
-        ends = intervals(used, np.where(codes < 0, counted, codes), how)
-        one = lognormal.fit(*ends[:2])
-        extremes.append((float(one.log_median[0]), float(one.beta[0])))
-    points = _points(used, codes, how)
-    log_median, beta = float(best.log_median[0]), float(best.beta[0])
-    distance, p_value = _goodness(used, how, points, log_median, beta, rng)
+        one = lognormal.fit(*intervals(used, np.where(codes < 0, counted, codes), how)[:2])
+        extremes.append(
+            (math.nan, math.nan) if lognormal.falls(one) else (float(one.log_median[0]), float(one.beta[0]))
+        )
+    points = points_of(used, codes, how)
+    distance, p_value = goodness(used, how, points, log_median, beta, rng)
+    number = len(np.unique(owner))
     return Fragility(
-        used, how, log_median, beta, bootstrap(low, high, owner, samples, rng), (extremes[0], extremes[1]), points,
-        distance, p_value, confidence,
+        used, how, log_median, beta, bootstrap(low, high, owner, samples, rng),
+        likelihood_region.region(low, high, number, confidence),
+        likelihood_region.dispersions(low, high, number, confidence), bracket,
+        (extremes[0], extremes[1]), points, distance, p_value, confidence,
     )  # fmt: skip
 
 
-_REST = ("im", "codes", "measure", "unit", "state", "name", "brackets")
+def _seen(beta: float) -> float | None:
+    """β, if the runs show one."""
+    return beta if beta > lognormal.BETAS[0] else None
 
 
-def intervals(evidence: Evidence, codes: np.ndarray, method: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Intervals of ln capacity that the runs say, as of :func:`lognormal.fit`, and the number of each one's record.
+def between(low: float | None, high: float | None, unit: str = "-", digits: int = 4) -> str:
+    """Limits in words, with their unit; 0 and +inf, or None, where there are none."""
+    low, high = low or 0.0, math.inf if high is None else high
+    behind = "" if unit == "-" else f" {unit}"
+    if low > 0.0:
+        return (
+            f"{low:.{digits}g} to {high:.{digits}g}{behind}" if high < math.inf else f"{low:.{digits}g}{behind} or more"
+        )
+    return f"up to {high:.{digits}g}{behind}" if high < math.inf else "no limits known"
 
-    Open and failed runs say nothing.
-    """
-    y = np.log(evidence.im)
-    names, owner = np.unique(evidence.records, return_inverse=True)
-    if method == "runs":
-        told = codes >= 0
-        low = np.where(codes[told] == EXCEEDED, -np.inf, y[told])
-        return low, np.where(codes[told] == EXCEEDED, y[told], np.inf), owner[told]
-    low, high = np.full(len(names), -np.inf), np.full(len(names), np.inf)
-    np.minimum.at(high, owner[codes == EXCEEDED], y[codes == EXCEEDED])
-    below = (codes == NOT_EXCEEDED) & (y < high[owner])  # above the first that exceeds it stands again: a resurrection
-    np.maximum.at(low, owner[below], y[below])
-    told = np.isfinite(low) | np.isfinite(high)
-    return low[told], high[told], np.arange(len(names))[told]
+
+def _check_number(evidence: Evidence, records_are_one: bool) -> None:
+    """Refuse what is no sample of earthquakes, whatever its runs say."""
+    decided = evidence.codes >= 0
+    if not decided.any():
+        raise InputError(
+            f"none of the {len(decided)} runs of {evidence.name} is decided ({evidence.count(OPEN)} undecided, "
+            f"{evidence.count(FAILED)} failed), so that nothing is known of {evidence.state}; follow them longer, such as "
+            "with --tail 10s."
+        )
+    count, every = len(np.unique(evidence.records[decided])), len(np.unique(evidence.records))
+    if count >= FEWEST:
+        return
+    what = ("run" if records_are_one else "record") + ("" if count == 1 else "s")
+    what += f" (of {every}; the others have no decided run)" if count < every else ""
+    remedy = f"give at least {FEWEST}" + (
+        "" if records_are_one else ", or say --records-are-one to take every run for a record of its own"
+    )
+    raise InputError(f"a fragility of {count} {what} says nothing about the next earthquake; {remedy}.")
+
+
+def _check_shape(evidence: Evidence, low: np.ndarray, high: np.ndarray, best: lognormal.Fit) -> None:
+    """Refuse runs through which no fragility goes."""
+    state, unit = evidence.state, "" if evidence.unit == "-" else f" {evidence.unit}"
+    if math.isinf(best.log_median[0]):
+        every = best.log_median[0] < 0.0
+        raise InputError(
+            f"{'every decided run exceeds' if every else 'no decided run exceeds'} {state}, so that no curve can be drawn; "
+            f"give {'smaller' if every else 'larger'} intensities."
+        )
+    ends = np.concatenate((low, high))
+    ends = np.unique(np.round(ends[np.isfinite(ends)], DIGITS))
+    if len(ends) == 1:
+        raise InputError(
+            f"all runs of {evidence.name} are at one intensity, {evidence.measure} = {math.exp(ends[0]):.4g}{unit}, where "
+            f"{evidence.count(EXCEEDED)} of {int((evidence.codes >= 0).sum())} exceed {state}: what happens at others is "
+            "not known; give runs at several intensities."
+        )
+    if lognormal.falls(best):
+        with_it, without = (
+            math.exp(np.log(evidence.im[evidence.codes == one]).mean()) for one in (EXCEEDED, NOT_EXCEEDED)
+        )
+        raise InputError(
+            f"runs of {evidence.name} do not exceed {state} more often where {evidence.measure} is larger (its geometric "
+            f"mean is {with_it:.3g}{unit} where they do, {without:.3g}{unit} where they do not), and that is no fragility; "
+            "check which value of 'collapsed' is which, or give intensities farther apart."
+        )
 
 
 def bootstrap(
@@ -269,59 +353,3 @@ def bootstrap(
             found.append(np.stack((one.log_median, np.log(one.beta)), axis=1))
     values = np.concatenate(found)
     return np.where(np.isnan(values), math.log(lognormal.BETAS[0]), values)
-
-
-def _points(evidence: Evidence, codes: np.ndarray, method: str) -> Points:
-    if method == "records":
-        low, high, _ = intervals(evidence, codes, method)
-        at = np.unique(high[np.isfinite(high)])
-        at = at[np.unique(np.linspace(0, len(at) - 1, min(MOST_POINTS, len(at))).round().astype(int))]
-        known = (high[:, None] <= at) | (low[:, None] >= at)
-        passed, trials = (high[:, None] <= at).sum(axis=0).astype(float), known.sum(axis=0)
-        return _with_wilson(np.exp(at), passed, trials)
-    told = codes >= 0
-    y, hit, owner = evidence.im[told], codes[told] == EXCEEDED, evidence.records[told]
-    y = np.exp(np.round(np.log(y), 6))  # stripes that differ in their last digits are one
-    levels = np.unique(y)
-    if len(levels) > MOST_POINTS:
-        edges = np.quantile(y, np.linspace(0.0, 1.0, 1 + min(8, max(3, len(np.unique(owner)) // 5))))
-        group = np.clip(np.searchsorted(edges, y, side="right") - 1, 0, len(edges) - 2)
-    else:
-        group = np.searchsorted(levels, y)
-    names, owner = np.unique(owner, return_inverse=True)
-    cell = group * len(names) + owner
-    runs = np.bincount(cell, minlength=(group.max() + 1) * len(names)).reshape(-1, len(names))
-    hits = np.bincount(cell, hit, minlength=runs.size).reshape(runs.shape)
-    filled = runs.sum(axis=1) > 0
-    shares = np.divide(hits, runs, out=np.zeros(runs.shape), where=runs > 0).sum(axis=1)
-    at = np.bincount(group, np.log(y)) / np.maximum(runs.sum(axis=1), 1)
-    return _with_wilson(np.exp(at[filled]), shares[filled], (runs > 0).sum(axis=1)[filled])
-
-
-def _with_wilson(at: np.ndarray, passed: np.ndarray, trials: np.ndarray) -> Points:
-    low, high = wilson_interval(passed, trials)
-    return Points(at, passed / np.maximum(trials, 1), low, high, trials)
-
-
-def _goodness(
-    evidence: Evidence, method: str, points: Points, log_median: float, beta: float, rng: np.random.Generator
-) -> tuple[float, float]:
-    """Largest distance of the points from the curve, and how often runs drawn from the curve have a larger one.
-
-    Each set gives every record one capacity, drawn from the curve, and fits a curve of its own.
-    """
-    distance = float(np.abs(points.share - curve(points.im, log_median, beta)).max())
-    names, owner = np.unique(evidence.records, return_inverse=True)
-    y, told = np.log(evidence.im), evidence.codes >= 0
-    drawn = []
-    for _ in range(SETS):
-        capacity = log_median + beta * ndtri(rng.uniform(size=len(names)))
-        drawn.append(np.where(told, (y >= capacity[owner]).astype(np.int8), evidence.codes))
-    ends = [intervals(evidence, codes, method)[:2] for codes in drawn]
-    own = lognormal.fit(np.array([low for low, _ in ends]), np.array([high for _, high in ends]))
-    larger = []
-    for codes, middle, width in zip(drawn, own.log_median, own.beta):
-        if not math.isinf(middle):
-            one = _points(evidence, codes, method)
-            larger.append(np.abs(one.share - curve(one.im, middle, width)).max() >= distance)
-    return distance, float(np.mean(larger)) if larger else math.nan

@@ -11,12 +11,26 @@ import numpy as np
 
 from ..errors import InputError
 from ..reading import read_bytes, shown
+from . import tables
 
 #: Largest file that is read [bytes].
 MOST = 50_000_000
 
 #: Columns of an intensity, by unit.
 COLUMNS = {"im_g": "g", "im_m_s": "m/s", "im_s": "s", "im": "-"}
+
+#: Intensity [g or m/s], how often a year it is exceeded where the Earth shakes most, and why a file may say more.
+ENVELOPE = (
+    (
+        0.1,
+        1.0,
+        "annual_rate is the number of times a year, no return period, no percentage and no probability in 50 years",
+    ),
+    (5.0, 1e-3, "im_g is in g and im_m_s in m/s, not in % of g, cm/s² or cm/s"),
+)
+
+#: A rate is refused that is larger by more than this factor.
+REFUSED = 10.0
 
 _POE = re.compile(r"poe-([0-9.eE+-]+)")
 _HEADED = re.compile(r"investigation_time=([0-9.eE+]+)")
@@ -63,12 +77,39 @@ class Hazard:
         rises = np.flatnonzero(np.diff(rate) > 0.0)
         if rises.size:
             k = int(rises[0])
+            periods = " (return periods? the rate is 1 over the period)" if (rate >= 1.0).all() else ""
             raise InputError(
                 f"hazard curve {self.name} rises from {rate[k]:.3g} a year at {im[k]:g} {self.unit} to {rate[k + 1]:.3g} at "
-                f"{im[k + 1]:g}; the rate of exceeding more cannot be larger: check its columns."
+                f"{im[k + 1]:g}; the rate of exceeding more cannot be larger: check its columns{periods}."
             )
         object.__setattr__(self, "im", im)
         object.__setattr__(self, "rate", rate)
+
+    def doubt(self) -> str:
+        """What no site on Earth has, in a clause; empty where the rates are plausible. For PGA, PGV and spectra in g.
+
+        Raises
+        ------
+        InputError
+            The rates are beyond all that shaking can do.
+        """
+        told = ""
+        for im, rate, why in ENVELOPE:
+            at = self.at(im)
+            text = (
+                f"by {self.name} shaking of {im:g} {self.unit} is exceeded {at:.3g} times a year, and where the Earth "
+                f"shakes most about {rate:g}; {why}"
+            )
+            if at > REFUSED * rate:
+                raise InputError(f"{text}.")
+            told = told or (text if at > rate else "")
+        return told
+
+    def at(self, im: float) -> float:
+        """Annual rate at an intensity; before the first one that of the first one, beyond the last one 0."""
+        if im > self.im[-1]:
+            return 0.0
+        return float(np.exp(np.interp(math.log(im), np.log(self.im), np.log(self.rate))))
 
 
 def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Hazard:
@@ -87,27 +128,24 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
     InputError
         The file cannot be read, has several sites, or holds no hazard curve.
     """
-    text = read_bytes(path, MOST).decode("utf-8", "replace")
+    text = read_bytes(path, MOST).decode("utf-8-sig", "replace")
     lines = [line.strip() for line in text.replace("\r", "").split("\n") if line.strip()]
     comments = [line for line in lines if line.startswith("#")]
     lines = [line for line in lines if not line.startswith("#")]
-    name = shown(Path(path).name)
-    if len(lines) < 2:
-        raise InputError(f"{name} holds no hazard curve; it needs the columns im_g or im_m_s, and annual_rate.")
-    head = [one.strip().strip('"') for one in lines[0].split(",")]
+    head = [one.strip().strip('"') for one in lines[0].split(",")] if lines else []
     if any(_POE.fullmatch(one) for one in head):
-        return _openquake(name, " ".join(comments), head, lines[1:], site)
-    key = next((one for one in COLUMNS if one in head), None)
-    if key is None or "annual_rate" not in head:
-        raise InputError(
-            f"{name} has the columns {', '.join(head)[:200]}; it needs im_g or im_m_s, and annual_rate, or to be a hazard "
-            "curve that OpenQuake has exported."
-        )
-    columns = [head.index(key), head.index("annual_rate")]
-    values = np.array(
-        [[_number(name, line, row.split(","), k) for k in columns] for line, row in enumerate(lines[1:], 2)]
+        return _openquake(shown(Path(path).name), " ".join(comments), head, lines[1:], site)
+    table = tables.read(
+        path, MOST, "annual_rate", "im_g or im_m_s, and annual_rate, or to be a hazard curve of OpenQuake"
     )
-    return Hazard(values[:, 0], values[:, 1], COLUMNS[key], name)
+    name = shown(Path(path).name)
+    keys = [one for one in COLUMNS if one in table.columns]
+    if len(keys) != 1:
+        raise InputError(
+            f"{name} has the columns {shown(', '.join(table.columns))[:200]}; it needs one of {', '.join(COLUMNS)} beside "
+            "annual_rate."
+        )
+    return Hazard(np.array(table.numbers(keys[0])), np.array(table.numbers("annual_rate")), COLUMNS[keys[0]], name)
 
 
 def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:
@@ -115,8 +153,10 @@ def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tup
     if time is None or float(time[1]) <= 0.0:
         raise InputError(f"{name} does not state its investigation_time; export the curve again with its header.")
     at = [k for k, one in enumerate(head) if _POE.fullmatch(one)]
-    im = np.array([float(head[k].removeprefix("poe-")) for k in at])
+    im = np.array([_number(name, 1, [head[k].removeprefix("poe-")], 0) for k in at])
     cells = [row.split(",") for row in rows]
+    if any(len(row) != len(head) for row in cells):
+        raise InputError(f"{name} has rows with more or fewer fields than its header; export the curve again.")
     chosen = 0
     if len(cells) > 1:
         if site is None or "lon" not in head or "lat" not in head:

@@ -66,7 +66,7 @@ class LimitState:
         A collapse exceeds every state. A peak that is passed stays passed, whatever the end; what an undecided run has not
         passed yet is open.
         """
-        verdict = row.get("verdict") or v.verdict(row)
+        verdict = row.get("verdict") or (v.verdict(row) if "outcome" in row else v.UNDECIDED)
         if verdict in (v.FAILED, v.NOT_RUN):
             return FAILED
         if verdict == v.COLLAPSED:

@@ -11,10 +11,11 @@ in its one maximum; all samples of a bootstrap take them together.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import log_ndtr
+from scipy.special import log_ndtr, ndtr, ndtri
 
 #: Dispersions are kept inside these [-]: where the runs below and above do not overlap the best one is 0.
 BETAS = (0.01, 10.0)
@@ -31,7 +32,8 @@ class Fit(NamedTuple):
     Parameters
     ----------
     log_median, beta : array, shape (S,)
-        ln θ and β; +inf or −inf where no run, or every one, exceeds the state.
+        ln θ and β; +inf or −inf where no run, or every one, exceeds the state. β is the least of all where capacities need
+        not scatter at all: then θ is the middle of what is known.
     """
 
     log_median: np.ndarray
@@ -63,13 +65,40 @@ def fit(low: np.ndarray, high: np.ndarray, weight: np.ndarray | None = None) -> 
     low, high, weight = np.broadcast_arrays(np.atleast_2d(low), np.atleast_2d(high), np.atleast_2d(weight))
     some_above = ((weight > 0.0) & np.isfinite(low)).any(axis=1)
     some_below = ((weight > 0.0) & np.isfinite(high)).any(axis=1)
-    solvable = some_above & some_below
     log_median = np.where(some_above, np.inf, -np.inf)
     beta = np.full(len(low), np.nan)
+    last, first = np.where(weight > 0.0, low, -np.inf).max(axis=1), np.where(weight > 0.0, high, np.inf).min(axis=1)
+    apart = some_above & some_below & (last <= first)
+    if apart.any():
+        beta[apart] = BETAS[0]
+        log_median[apart] = _between(low[apart], high[apart], weight[apart], last[apart], first[apart])
+    solvable = some_above & some_below & ~apart
     if solvable.any():
         found = _newton(low[solvable], high[solvable], weight[solvable])
         log_median[solvable], beta[solvable] = found
     return Fit(log_median, beta)
+
+
+def falls(found: Fit) -> bool:
+    """Whether the likelihood of the first sample wants a curve that does not rise."""
+    return bool(found.beta[0] >= BETAS[1] * (1.0 - 1e-6))
+
+
+def _between(low: np.ndarray, high: np.ndarray, weight: np.ndarray, last: np.ndarray, first: np.ndarray) -> np.ndarray:
+    """ln θ where no run contradicts a capacity that is the same for all: the middle between the last run below it and the
+    first above; where both are at one intensity, as the share there says.
+    """
+    hit = np.where(high == first[:, None], weight, 0.0).sum(axis=1)
+    missed = np.where(low == last[:, None], weight, 0.0).sum(axis=1)
+    return 0.5 * (last + first) - np.where(last < first, 0.0, BETAS[0] * ndtri(hit / (hit + missed)))
+
+
+def curve(im: np.ndarray, log_median: float, beta: float) -> np.ndarray:
+    """Φ(ln(im/θ)/β); 0 and 1 everywhere for medians of +inf and −inf."""
+    if math.isinf(log_median):
+        return np.full(np.shape(im), 0.0 if log_median > 0.0 else 1.0)
+    with np.errstate(divide="ignore"):
+        return ndtr((np.log(np.asarray(im, dtype=float)) - log_median) / beta)
 
 
 def _newton(low: np.ndarray, high: np.ndarray, weight: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -122,11 +151,7 @@ def _terms(a: np.ndarray, b: np.ndarray, u: np.ndarray, v: np.ndarray, w: np.nda
     a, b = a[:, None], b[:, None]
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
         s, t = a + b * u, a + b * v
-        # Φ(t) − Φ(s) from the tail in which both are small
-        flip = s > 0.0
-        upper, lower = np.where(flip, -s, t), np.where(flip, -t, s)
-        big = log_ndtr(upper)
-        p = big + np.log(-np.expm1(np.minimum(log_ndtr(lower) - big, -1e-300)))
+        p = log_interval(s, t)
         rs, rt = (np.where(np.isfinite(z), np.exp(-0.5 * z * z - _LOG_ROOT - p), 0.0) for z in (s, t))
     u, v, s, t = (np.where(np.isfinite(one), one, 0.0) for one in (u, v, s, t))
     p = np.where(w > 0.0, np.maximum(p, -1e300), 0.0)
@@ -135,3 +160,11 @@ def _terms(a: np.ndarray, b: np.ndarray, u: np.ndarray, v: np.ndarray, w: np.nda
     hab = -(v * t * rt - u * s * rs) - ea * eb
     hbb = -(v * v * t * rt - u * u * s * rs) - eb * eb
     return tuple((w * one).sum(axis=1) for one in (p, ea, eb, haa, hab, hbb))
+
+
+def log_interval(s: np.ndarray, t: np.ndarray) -> np.ndarray:
+    """ln(Φ(t) − Φ(s)) from the tail in which both are small."""
+    flip = s > 0.0
+    upper, lower = np.where(flip, -s, t), np.where(flip, -t, s)
+    big = log_ndtr(upper)
+    return big + np.log(-np.expm1(np.minimum(log_ndtr(lower) - big, -1e-300)))

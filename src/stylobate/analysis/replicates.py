@@ -19,7 +19,7 @@ from ..campaign.ledger import PROGRESS_FILE, discard
 from ..campaign.runner import Progress, finished_runs
 from ..column import Column
 from ..column.imperfections import Imperfection, imperfect_columns
-from ..errors import InputError, check_range
+from ..errors import InputError, as_typed, check_range
 from ..models.base import Case, Model
 from ..motion import Motion, harmonic
 from ..response import Measures
@@ -195,5 +195,5 @@ def _kept(measures: Measures) -> dict:
 
 def _whole(name: str, value: Any, low: int, high: int) -> int:
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
-        raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
+        raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
     return int(value)

@@ -12,11 +12,18 @@ import numpy as np
 from scipy.special import ndtr
 
 from ..errors import InputError, check_range
-from .fragility import Fragility, curve
+from .fragility import Fragility
 from .hazard import Hazard
+from .lognormal import curve, log_interval
 
 #: Share of the rate beyond the ends of a hazard curve above which it is said [-].
 BEYOND = 0.05
+
+#: A rate of a state above which it is said that something is wrong [1/y].
+OFTEN = 1.0
+
+#: Kinds of intensity whose hazard is known well enough to doubt one.
+ENVELOPED = ("pga", "pgv", "sa", "avgsa")
 
 #: Parts of a decade of the intensity by which a rate is deaggregated.
 PARTS = 10
@@ -43,7 +50,9 @@ class Risk:
         Intensities, shape (k + 1,), and the rate that comes from between them [1/y], shape (k,); the last part is that of
         the shaking beyond the curve.
     extremes : (float, float)
-        Rates if all undecided and failed runs exceed the state, and if none does [1/y].
+        Rates if all undecided and failed runs exceed the state, and if none does [1/y]; NaN where they make no curve.
+    doubt : str
+        What about the hazard curve is not plausible.
     """
 
     fragility: Fragility
@@ -56,11 +65,22 @@ class Risk:
     edges: np.ndarray
     parts: np.ndarray
     extremes: tuple[float, float]
+    doubt: str = ""
 
     @property
     def warnings(self) -> list[str]:
-        """What the hazard curve does not cover, in sentences."""
-        found = []
+        """What is to be doubted, and what the hazard curve does not cover, in sentences."""
+        found = [f"{self.doubt}."] if self.doubt else []
+        if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
+            found.append(
+                f"the runs do not say what their intensity is; it is taken for that of {self.hazard.name}, in "
+                f"{self.hazard.unit}: say so with --im."
+            )
+        if self.rate > OFTEN:
+            found.append(
+                f"{self.fragility.evidence.state} {self.rate:.3g} times a year leaves no such column to ask about: check "
+                f"the intensities of the runs and {self.hazard.name}."
+            )
         if self.beyond > BEYOND * self.rate:
             found.append(
                 f"{self.hazard.name} ends at {self.hazard.im[-1]:g} {self.hazard.unit}; stronger shaking could add up to "
@@ -179,9 +199,15 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
         raise InputError(
             f"the fragility is over {measure} and {hazard.name} is of {hazard.imt}; give one of {measure}."
         )
+    kind = measure.partition("@")[0].partition(":")[0]
+    doubt = hazard.doubt() if kind in ENVELOPED and hazard.unit in ("g", "m/s") else ""
     rate, edges, parts = _rate(hazard, fragility.log_median, fragility.beta)
-    rates = np.array([_rate(hazard, float(m), math.exp(s), split=False)[0] for m, s in fragility.samples])
-    low, high = fragility.limits(math.log(max(rate, 1e-300)), np.log(np.maximum(rates, 1e-300)))
+    samples, plausible = (
+        np.array([_rate(hazard, float(m), math.exp(s), split=False)[0] for m, s in one])
+        for one in (fragility.samples, fragility.region)
+    )
+    with np.errstate(divide="ignore"):
+        low, high = fragility.limits(math.log(max(rate, 1e-300)), np.log(samples), np.log(plausible))
     last = float(curve(hazard.im[-1:], fragility.log_median, fragility.beta)[0])
     return Risk(
         fragility,
@@ -194,6 +220,7 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
         edges,
         parts,
         tuple(_rate(hazard, *one, split=False)[0] for one in fragility.extremes),  # type: ignore[arg-type]
+        doubt,
     )
 
 
@@ -251,10 +278,8 @@ def _rate(hazard: Hazard, log_median: float, beta: float, split: bool = True) ->
         # k₀ exp(−k ln θ + k²β²/2) with k₀ from the left end, in one exponent
         exponent = log_rate[:-1] + slope * (y[:-1] - log_median) + 0.5 * shift**2
         u, v = z[:-1] + shift, z[1:] + shift
-        flip = u > 0.0
-        between = np.where(flip, ndtr(-u) - ndtr(-v), ndtr(v) - ndtr(u))
-        with np.errstate(over="ignore", invalid="ignore"):
-            gain = np.where(between > 0.0, np.exp(exponent + np.log(np.maximum(between, 1e-300))), 0.0)
+        with np.errstate(over="ignore", divide="ignore", invalid="ignore"):
+            gain = np.nan_to_num(np.exp(exponent + log_interval(u, v)))
         parts = np.maximum(own + gain, 0.0)
     last = float(np.exp(log_rate[-1]) * curve(np.exp(y[-1:]), log_median, beta)[0])
     rate = float(parts.sum()) + last

@@ -20,10 +20,11 @@ from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
 from .difference import Difference
-from .evidence import Evidence, evidence
-from .fragility import SAMPLES, Fragility, bootstrap, fragility, intervals
+from .evidence import Evidence, evidence, intervals
+from .fragility import SAMPLES, Fragility, bootstrap, fragility
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
-from .lognormal import fit
+from .lognormal import falls, fit
+from .paired import levels_of, share_limits, unseen
 from .side_by_side import Share, shares
 from .studies import StudyResult, run_study
 
@@ -266,32 +267,38 @@ def _difference(
     was, now = first.codes[known] == EXCEEDED, other.codes[known] == EXCEEDED
     names, owner = np.unique(first.records, return_inverse=True)
     change, mine = now.astype(float) - was, owner[known]
-    share = float(change.mean()) if len(change) else math.nan
-    weight = np.random.default_rng(seed).multinomial(len(names), np.full(len(names), 1.0 / len(names)), samples)
-    sums, runs = np.bincount(mine, change, len(names)), np.bincount(mine, minlength=len(names))
-    drawn = (weight @ sums) / np.maximum(weight @ runs, 1)
-    tail = 0.5 - 0.5 * confidence
-    low, high = np.quantile(drawn, [tail, 1.0 - tail]) if len(change) else (math.nan, math.nan)
+    share, low, high = math.nan, math.nan, math.nan
+    if len(change):
+        share = float(change.mean())
+        weight = np.random.default_rng(seed).multinomial(len(names), np.full(len(names), 1.0 / len(names)), samples)
+        sums, runs = np.bincount(mine, change, len(names)), np.bincount(mine, minlength=len(names))
+        drawn = (weight @ sums) / np.maximum(weight @ runs, 1)
+        paired, (levels, _) = runs > 0, levels_of(first.records[known], first.im[known])
+        low, high = share_limits(sums[paired], runs[paired], levels, drawn, confidence)
     ratio = (math.nan, math.nan, math.nan)
     if first_curve is not None and other_curve is not None:
         ratio = _ratio(first, other, first_curve, samples, seed)
     return Difference(
-        other.name, first.name, int(known.sum()), int((was & ~now).sum()), int((now & ~was).sum()), share, float(low),
-        float(high), *ratio,
+        other.name, first.name, int(known.sum()), int((was & ~now).sum()), int((now & ~was).sum()), share, low,
+        high, *ratio,
     )  # fmt: skip
 
 
 def _ratio(first: Evidence, other: Evidence, curve: Fragility, samples: int, seed: int) -> tuple[float, float, float]:
     """Ratio of the medians and its interval: both curves fitted to the runs that both states know, and to the same samples
     of their records. NaN where these runs alone make no curve.
+
+    Its limits are at least as far off as the runs leave both medians open, and as records that nobody saw may move them.
     """
     known = (first.codes >= 0) & (other.codes >= 0)
-    best, drawn = [], []
+    best, drawn, slack = [], [], 0.0
     for one in (first, other):
         low, high, owner = intervals(one, np.where(known, one.codes, OPEN), "runs")
         if not len(low):
             return math.nan, math.nan, math.nan
-        best.append(float(fit(low, high).log_median[0]))
+        curve_of_both = fit(low, high)
+        best.append(float(curve_of_both.log_median[0]) if not falls(curve_of_both) else math.nan)
+        slack += 0.5 * max(0.0, float(high.min() - low.max()))
         drawn.append(bootstrap(low, high, owner, samples, np.random.default_rng(seed))[:, 0])
     if not np.isfinite(best).all():
         return math.nan, math.nan, math.nan
@@ -299,7 +306,11 @@ def _ratio(first: Evidence, other: Evidence, curve: Fragility, samples: int, see
     with np.errstate(invalid="ignore"):
         change = drawn[1] - drawn[0]
     change = change[np.isfinite(change)]
-    if len(change) < samples // 2:
+    number, step = len(np.unique(first.records[known])), levels_of(first.records[known], first.im[known])[1]
+    if len(change) < samples // 2 or math.isnan(step):
         return math.exp(middle), math.nan, math.nan
-    low, high = curve.limits(middle, change)
-    return math.exp(middle), float(np.exp(low)), float(np.exp(high))
+    slack = max(slack, unseen(number, curve.confidence) * step)
+    low, high = curve.basic(middle, change)
+    low, high = min(low, middle - slack), max(high, middle + slack)
+    with np.errstate(over="ignore"):
+        return math.exp(middle), float(np.exp(low)), float(np.exp(high))

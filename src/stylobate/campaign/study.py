@@ -12,7 +12,7 @@ import numpy as np
 from ..column import Column
 from ..column.files import load_column
 from ..column.toml import Table, parse_toml, read_table
-from ..errors import InputError, check_range
+from ..errors import InputError, as_typed, check_range
 from ..models.base import Model
 from ..models.registry import make_model
 from ..motion.ranges import amplitude_range, frequency_range
@@ -95,14 +95,14 @@ def _values(
     if isinstance(given, str):
         return parse_range(given)
     if not isinstance(given, list):
-        raise InputError(f"{name} is {given!r}; it must be a list, or a text such as first:last:number.")
+        raise InputError(f"{name} is {as_typed(given)}; it must be a list, or a text such as first:last:number.")
     values = []
     for one in given:
         if isinstance(one, str):
             values.append(parse(one))
         elif isinstance(one, bool) or not isinstance(one, (int, float)):
             raise InputError(
-                f"one of the {name} is {one!r}; it must be a number, or a text with a number and its unit."
+                f"one of the {name} is {as_typed(one)}; it must be a number, or a text with a number and its unit."
             )
         elif unit is None:
             raise InputError(f"one of the {name} is {one:g}, without a unit; write it as a text such as '0.3g'.")

@@ -13,7 +13,7 @@ from ..column.assembly_files import load_structure
 from ..column.scatter import LARGEST, Scatter
 from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
-from ..errors import InputError
+from ..errors import InputError, as_typed
 from ..models.registry import make_model
 from ..motion import harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
@@ -186,7 +186,9 @@ def levels_of(im: str, given: Any) -> tuple[IntensityMeasure | None, list[float]
         low, high, number = given.split(":")
         first, last = _level(low.strip(), unit), _level(high.strip(), unit)
         if not number.strip().isdecimal() or not 1 <= int(number) <= 10_000:
-            raise InputError(f"levels are {given!r}; write them as first:last:number, such as 0.1m/s:1.0m/s:10.")
+            raise InputError(
+                f"levels are {as_typed(given)}; write them as first:last:number, such as 0.1m/s:1.0m/s:10."
+            )
         return measure, np.linspace(first, last, int(number)).tolist()
     return measure, [_level(one, unit) for one in (given if isinstance(given, list) else [given])]
 
@@ -201,9 +203,9 @@ def _level(value: Any, unit: str) -> float:
         try:
             return float(value)
         except ValueError:
-            raise InputError(f"level {value!r} is no number; write it as 1.5.") from None
+            raise InputError(f"level {as_typed(value)} is no number; write it as 1.5.") from None
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise InputError(f"level {value!r} is no number; write it as '0.2 {unit}'.")
+        raise InputError(f"level {as_typed(value)} is no number; write it as '0.2 {unit}'.")
     if unit in ("g", "m/s"):
         raise InputError(f"level {value:g} has no unit; write it as a text such as '{value:g}{unit}'.")
     return float(value)
@@ -222,5 +224,5 @@ def _whole(name: str, value: int, low: int) -> int:
 
 def _seconds(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise InputError(f"tail is {value!r}; write it with its unit, such as '5s'.")
+        raise InputError(f"tail is {as_typed(value)}; write it with its unit, such as '5s'.")
     return float(value)

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..column import Column
 from ..column.scatter import Scatter, scattered_columns, usual_scatter
-from ..errors import InputError
+from ..errors import InputError, as_typed
 from ..models.base import Model
 
 #: Largest number of twins.
@@ -37,7 +37,7 @@ def the_twins(column: Column, model: Model, replicates: int, scatter: Scatter | 
         raise InputError(f"{column.name!r} is no column, and only columns have twins; leave --replicates out.")
     for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
-            raise InputError(f"{name} is {value!r}; allowed is a whole number from {low} to {high}.")
+            raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
     asked = usual_scatter(column) if scatter is None else scatter
     if not asked.given:
         raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -149,21 +150,26 @@ def one_curve(sources: Path, im: str | None, state: str, of: Sequence[str] | Non
 
 def describe(found: Fragility) -> None:
     """A curve in words."""
+    from ..analysis.fragility import between
     from . import console
 
     s = found.summary()
+    unit = "" if s["unit"] == "-" else f" {s['unit']}"
     counts = [f"{s[one]} {one}" for one in ("undecided", "failed") if s[one]]
     open_ = ""
     if counts:
-        low, high = sorted(s[one]["median"] for one in ("if_open_exceed", "if_open_do_not"))
-        open_ = f"; with the {' and '.join(counts)} all the one or all the other, {low:.3g} to {high:.3g}"
+        ends = [s[one]["median"] for one in ("if_open_exceed", "if_open_do_not")]
+        low, high = (f"{one:.3g}" if math.isfinite(one) else "no curve" for one in ends)
+        open_ = f"; with the {' and '.join(counts)} all exceeding it {low}, all not exceeding it {high}"
+    median = f"{s['median']:.4g}{unit} (95 %: {between(s['median_low'], s['median_high'])}){open_}"
+    limits = between(s["beta_low"], s["beta_high"], digits=2)
+    spread = f"not seen in these runs (95 %: {limits})" if s["beta"] is None else f"{s['beta']:.3f} (95 %: {limits})"
     fit = "the points lie as a lognormal curve lets expect" if s["p_value"] >= 0.05 else "a lognormal curve fits badly"
-    unit = "" if s["unit"] == "-" else f" {s['unit']}"
     console.say(
-        f"{s['name']}: half of the records bring {s['state']} at {s['im']} = {s['median']:.3g}{unit}.",
+        s["sentence"],
         {
-            "median": f"{s['median']:.4g}{unit} (95 %: {s['median_low']:.4g} to {s['median_high']:.4g}){open_}",
-            "dispersion": f"{s['beta']:.3f} (95 %: {s['beta_low']:.3f} to {s['beta_high']:.3f})",
+            "median": f"middle {median}" if s["bracket"] else median,
+            "dispersion": spread,
             "from": f"{s['runs']} runs of {s['records']} records, {s['exceeded']} exceed; by {s['method']}",
             "fit": f"{fit} (largest distance {s['largest_distance']:.2f}, p = {s['p_value']:.2f})",
         },

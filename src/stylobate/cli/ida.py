@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 from typing import Annotated
@@ -130,7 +131,7 @@ def ida(
     facts = {
         "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",
         "collapses": f"under {fell} of {_count(len(curves), 'curve')}"
-        + (f", half of them up to {measure.name} = {half:.3g}{shown}" if half < float("inf") else ""),
+        + (f", under half of all up to {measure.name} = {half:.3g}{shown}" if half < float("inf") else ""),
         "resurrections": f"{_count(result['resurrections'], 'run')} above a collapse that stand, in "
         f"{_count(result['curves_with_resurrections'], 'curve')}",
     }
@@ -138,7 +139,7 @@ def ida(
         facts["open"] = f"{result['undecided']} undecided, {result['failed']} failed; go on with {longer_tail(after)}"
     console.say(f"{stone.name}, {how.name}: {_count(len(curves), 'curve')} over {measure.words}.", facts, files)
     if len(best):
-        console.print_table(best.drop(columns=["beta_low", "beta_high"]), digits=3)
+        console.print_table(best.drop(columns=["median", "unit", "beta_low", "beta_high"]), digits=3)
     console.print_refused(records.refused)
 
 
@@ -150,7 +151,7 @@ def the_facts(about: Path | None, sources: list[Path], names: list[str]) -> dict
     """Magnitude and distance by record: of a file, or of a manifest beside the records."""
     import pandas
 
-    from ..reading import check_file
+    from ..analysis import tables
 
     found: dict[str, dict[str, float]] = {}
     for folder in (one for one in sources if about is None and (one / "manifest.csv").is_file()):
@@ -160,13 +161,12 @@ def the_facts(about: Path | None, sources: list[Path], names: list[str]) -> dict
             if told and row.get("file"):
                 found[str(row["file"])] = {"magnitude": float(told[1])}
     if about is not None:
-        check_file(about, 10_000_000)
-        table = pandas.read_csv(about)
-        if "record" not in table or not {"magnitude", "distance_km"} & set(table):
+        table = tables.read(about, 10_000_000, "record", "the columns record, and magnitude or distance_km")
+        known = [one for one in ("magnitude", "distance_km") if one in table.columns]
+        if not known:
             raise InputError(f"{about} needs the columns record, and magnitude or distance_km.")
-        for row in table.to_dict("records"):
-            facts = {k: float(row[k]) for k in ("magnitude", "distance_km") if k in row}
-            found[str(row["record"])] = facts
+        for name, *values in zip(table.texts("record"), *(table.numbers(one, math.nan) for one in known), strict=True):
+            found[name] = dict(zip(known, values, strict=True))
         if not set(found) & set(names):
             raise InputError(f"{about} names none of the records; they are {', '.join(names[:5])} …")
     return found

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import InputError, check_range
+from ..errors import InputError, as_typed, check_range
 
 #: Edges that may be chipped.
 SIDES = ("left", "right", "front", "back")
@@ -64,7 +64,7 @@ class FoundDrum:
     def __post_init__(self) -> None:
         if isinstance(self.drum, bool) or not isinstance(self.drum, (int, np.integer)) or self.drum < 1:
             raise InputError(
-                f"a drum as found has number {self.drum!r}; allowed is a whole number from 1 (at the base)."
+                f"a drum as found has number {as_typed(self.drum)}; allowed is a whole number from 1 (at the base)."
             )
         for name, low, high, unit in (
             ("offset", -10.0, 10.0, "m"),

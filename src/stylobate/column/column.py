@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, OutOfRangeWarning, as_typed, check_range
 from .as_found import AS_BUILT, AsFound
 from .drum import Drum
 from .found_geometry import check_as_found, uplift_accelerations
@@ -240,7 +240,7 @@ class Column(Stack):
             As in :meth:`of_drums`.
         """
         if isinstance(drums, bool) or not isinstance(drums, (int, np.integer)) or not 1 <= drums <= MAX_DRUMS:
-            raise InputError(f"drums is {drums!r}; allowed is a whole number from 1 to {MAX_DRUMS}.")
+            raise InputError(f"drums is {as_typed(drums)}; allowed is a whole number from 1 to {MAX_DRUMS}.")
         whole = Drum(height, bottom_width, top_width, density, section, depth, top_depth)
         taper = (whole.top_width - whole.bottom_width) / drums
         widths = [whole.bottom_width + taper * i for i in range(drums)] + [whole.top_width]

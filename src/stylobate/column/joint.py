@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..constants import DEGREE
-from ..errors import InputError, check_range
+from ..errors import InputError, as_typed, check_range
 from .drum import LENGTHS
 
 DEFAULT_FRICTION_ANGLE = 35.0
@@ -55,8 +55,8 @@ class Joint:
         object.__setattr__(self, "cohesion", check_range("cohesion of a joint", self.cohesion, 0.0, 1e9, unit="Pa"))
         if self.friction_angle is not None and self.friction_coefficient is not None:
             raise InputError(
-                f"friction_angle = {self.friction_angle!r} and friction_coefficient = {self.friction_coefficient!r} "
-                "are both given; give one of the two."
+                f"friction_angle = {as_typed(self.friction_angle)} and friction_coefficient = "
+                f"{as_typed(self.friction_coefficient)} are both given; give one of the two."
             )
         if self.friction_coefficient is not None:
             mu = check_range("friction_coefficient of a joint", self.friction_coefficient, 0.0, 1e6)

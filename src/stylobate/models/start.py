@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..errors import InputError, check_range
+from ..errors import InputError, as_typed, check_range
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Start:
         spin = tuple(self.angular_velocity)
         if len(spin) != 3:
             raise InputError(
-                f"angular_velocity of a start is {spin!r}; give three components, about x, y and z [rad/s]."
+                f"angular_velocity of a start is {as_typed(spin)}; give three components, about x, y and z [rad/s]."
             )
         spin = tuple(check_range("angular_velocity of a start", one, -1e4, 1e4, unit="rad/s") for one in spin)
         object.__setattr__(self, "angular_velocity", spin)

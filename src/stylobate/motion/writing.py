@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from ..atomic import replacing
+from ..errors import as_typed
 from .motion import Motion
 
 
@@ -28,8 +29,8 @@ def write_csv(motion: Motion, path: str | Path) -> Path:
     """
     place = Path(path)
     azimuths = motion.metadata.get("azimuths") or {}
-    notes = [f"# dt_s: {motion.dt!r}", f"# name: {_one_line(motion.name)}"]
-    notes += [f"# azimuth_{axis}_deg: {angle!r}" for axis, angle in azimuths.items() if angle is not None]
+    notes = [f"# dt_s: {as_typed(motion.dt)}", f"# name: {_one_line(motion.name)}"]
+    notes += [f"# azimuth_{axis}_deg: {as_typed(angle)}" for axis, angle in azimuths.items() if angle is not None]
     for key in ("station", "network", "event", "start_time", "stage", "terms"):
         if motion.metadata.get(key):
             notes.append(f"# {key}: {_one_line(str(motion.metadata[key]))}")

@@ -10,7 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from ..analysis.fragility import Fragility, curve
+from ..analysis.fragility import Fragility
+from ..analysis.lognormal import curve
 from ..motion.intensity_specs import parse_measure
 from .style import BLACK, BLUE, GREY, RED, legend_below, panel, styled
 
@@ -49,7 +50,8 @@ def draw_fragility(
     found = [curves] if isinstance(curves, Fragility) else list(curves)
     figure, axes = panel(ax, NARROW)
     values = np.concatenate([one.evidence.im for one in found])
-    steep = [(one.median * np.exp(-WIDE * one.beta), one.median * np.exp(WIDE * one.beta)) for one in found]
+    wide = [WIDE * (one.beta if one.bracket is None else min(one.beta_interval[1], 1.0)) for one in found]
+    steep = [(one.median * np.exp(-far), one.median * np.exp(far)) for one, far in zip(found, wide, strict=True)]
     low = max(values.min(), min(below for below, _ in steep))
     high = min(values.max(), max([above for _, above in steep] + [one.points.im.max() for one in found]))
     x = np.geomspace(low / 1.1, high * 1.2, 300)
@@ -63,7 +65,8 @@ def draw_fragility(
                 axes.plot(x, curve(x, *extreme), color=colour, **fine)
         name = one.evidence.name if len(found) > 1 else "lognormal"
         badly = ", fits badly" if one.p_value < BADLY else ""
-        label = f"{name}: {one.median:.3g} {one.evidence.unit}, β {one.beta:.2f}, {one.records} records{badly}"
+        spread = f"β {one.beta:.2f}" if one.bracket is None else "β not seen"
+        label = f"{name}: {one.median:.3g} {one.evidence.unit}, {spread}, {one.records} records{badly}"
         axes.plot(x, one.probability(x), color=colour, linestyle=look["linestyle"], linewidth=1.6, label=label)
         p = one.points
         bars = np.clip(np.stack((p.share - p.low, p.high - p.share)), 0.0, None)

@@ -97,13 +97,12 @@ def draw_efficiency(table: pandas.DataFrame, title: str | None = None, *, ax: Ax
     figure, axes = panel(ax, (NARROW[0], 1.2 + 0.23 * len(table)))
     at = np.arange(len(table))
     beta = table["beta"].to_numpy(dtype=float)
-    axes.hlines(at, table["beta_low"], table["beta_high"], color=BLACK, linewidth=1.2)
+    high = table["beta_high"].to_numpy(dtype=float)
+    most = 1.05 * min(float(np.max(high)), 3.0 * float(beta.max()))
+    axes.hlines(at, table["beta_low"], np.minimum(high, 2.0 * most), color=BLACK, linewidth=1.2)
     axes.plot(beta, at, "o", color=RED, markersize=4.5)
     axes.set_yticks(at, list(table["measure"]), fontsize=8)
-    axes.set(
-        ylim=(len(at) - 0.5, -0.5),
-        xlim=(0.0, 1.05 * min(float(np.max(table["beta_high"].to_numpy())), 3.0 * float(beta.max()))),
-    )
+    axes.set(ylim=(len(at) - 0.5, -0.5), xlim=(0.0, most))
     axes.set_xlabel("dispersion of the capacities, β [-]")
     axes.grid(True, axis="x")
     axes.set_title(title or "Which intensity measure tells most", fontsize=9)

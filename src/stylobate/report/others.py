@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
+from ..analysis.fragility import between
 from ..analysis.risk import years
 from ..analysis.side_by_side import codes_of, median_words, shares
 from ..analysis.studies import StudyResult
@@ -220,10 +221,12 @@ def _fragility(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     curves = result.summary.get("curves") or [result.summary]
     one = curves[0]
     unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
+    limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
     sentence = (
-        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval "
-        f"{n.plain(one.get('median_low'))} to {n.plain(one.get('median_high'))}{unit})."
+        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
     )
+    if one.get("bracket"):
+        sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
     for each in curves:
         if each.get("undecided") or each.get("failed"):
             each["median_undecided_both_ways"] = median_words(each)

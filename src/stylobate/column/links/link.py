@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, NamedTuple, Self
 
-from ...errors import InputError, check_range, suggest
+from ...errors import InputError, as_typed, check_range, suggest
 from ..joint import Joint
 from .materials import MATERIALS
 
@@ -202,7 +202,7 @@ class Link:
     def _pair(self, name: str) -> None:
         value = getattr(self, name)
         if not isinstance(value, (tuple, list)) or len(value) != 2:
-            raise InputError(f"{name} of a {self.kind} is {value!r}; it must be a place in plan, [x, y] in m.")
+            raise InputError(f"{name} of a {self.kind} is {as_typed(value)}; it must be a place in plan, [x, y] in m.")
         place = tuple(check_range(f"{name} of a {self.kind}", one, -LONGEST, LONGEST, unit="m") for one in value)
         object.__setattr__(self, name, place)
 

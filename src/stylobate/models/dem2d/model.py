@@ -11,7 +11,7 @@ import numpy as np
 
 from ...column import Column
 from ...column.assembly import Assembly
-from ...errors import InputError, check_range
+from ...errors import InputError, as_typed, check_range
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import LANES
 from ...motion import Motion
@@ -115,7 +115,7 @@ class DistinctElement2D(SteppedDrums):
     def __post_init__(self) -> None:
         super().__post_init__()
         if isinstance(self.points, bool) or int(self.points) != self.points or not 2 <= self.points <= MAX_POINTS:
-            raise InputError(f"points is {self.points!r}; allowed is a whole number from 2 to {MAX_POINTS}.")
+            raise InputError(f"points is {as_typed(self.points)}; allowed is a whole number from 2 to {MAX_POINTS}.")
         if self.block_modulus is not None:
             check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
         if self.start not in ("static", "settle"):
