@@ -9,10 +9,10 @@ from stylobate.column import AsFound, Column, FoundDrum, Joint, preset
 from stylobate.column.as_blocks import of_column
 from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
-from stylobate.models.assembly.engine import Engine
 from stylobate.models.base import RunOptions
-from stylobate.models.dem2d.collapse import _ColumnRun, follow
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.plane.collapse import _ColumnRun, follow
+from stylobate.models.plane.loose import Loose
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate
 
@@ -29,23 +29,11 @@ def forces_along(engine, path):
     found = np.empty((len(path), 3))
     engine.start(1e-9)
     for k, (x, z, angle) in enumerate(path):
-        b = engine.body
-        b["x"][-1], b["z"][-1], b["th"][-1], b["c"][-1], b["s"][-1] = x, z, angle, math.cos(angle), math.sin(angle)
+        b = engine.records.body[-1]
+        b["x"], b["z"], b["th"], b["c"], b["s"] = x, z, angle, math.cos(angle), math.sin(angle)
         engine.renew_pairs()
-        engine.kernel.joint_forces(b, engine.joint, engine.now)
-        engine.kernel.bed_forces(
-            b,
-            engine.corner,
-            engine.joint,
-            engine.now,
-            engine.pairs,
-            engine.joined,
-            engine.law,
-            engine.memory,
-            engine.real,
-            engine.whole,
-        )
-        found[k] = b["fx"][-1], b["fz"][-1], b["mo"][-1]
+        engine.kernel.loose_forces(engine.records.state, engine.search)
+        found[k] = b["fx"][0], b["fz"][0], b["mo"][0]
     return found
 
 
@@ -70,10 +58,10 @@ def test_no_jump_where_a_joint_hands_over(path):
     assembly = Assembly(blocks, SMOOTH, ground=None)
     jumps, weights = [], None
     for steps in (4_000, 8_000, 16_000):
-        engine = Engine(assembly, DistinctElement2D().contacts, STILL, 1.0)
-        assert len(engine.joint) == 1
+        engine = Loose(assembly, DistinctElement2D().contacts, STILL, 1.0)
+        assert len(engine.records.joint) == 1
         force = forces_along(engine, path(steps))
-        weights = engine.joint["weight"][0]
+        weights = engine.hand["weight"][0]
         jumps.append(np.abs(np.diff(force, axis=0)).max() / np.abs(force).max())
     assert weights == 0.0  # the joint is gone at the end of the path
     assert jumps[2] < 0.3 * jumps[0]  # a jump would not shrink with the steps
@@ -86,7 +74,7 @@ def test_no_jump_on_a_slow_path_over_an_edge():
     for steps in (8_000, 16_000, 32_000):
         blocks = (box(-1.0, 0.0, -1.0, 0.0, "edge", fixed=True), box(2.0, 3.0, 2.0, 3.0, "block"))
         with pytest.warns(UserWarning, match="will fall"):
-            engine = Engine(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+            engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
         turn = np.linspace(0.0, 0.5 * math.pi, steps)
         radius = 0.5 * math.sqrt(2.0)
         # round the corner (0, 0), pressed in by 0.5 mm, turning on the way
@@ -121,18 +109,21 @@ def test_until_something_comes_loose_every_bit_is_that_of_the_joints_alone(colum
         assert np.array_equal(getattr(alone.histories, field), getattr(followed.histories, field))
 
 
+@pytest.mark.parametrize("certain", [False, True])
 @pytest.mark.parametrize("column", [preset("paper-12-drums"), FOUND], ids=["12", "found"])
-def test_the_engine_has_the_joints_of_the_lanes(column):
-    """The engine of assemblies alone, from the start: a column's motion to rounding."""
+def test_what_may_come_loose_has_the_joints_of_the_lanes(column, certain, monkeypatch):
+    """As an assembly from the start: a column's motion to rounding; with the search, and while nothing comes loose without."""
+    if not certain:
+        monkeypatch.setattr(Loose, "chunks_ahead", lambda _: 0)
     motion = harmonic(1.0, 0.15 * g, 2.0)
     model = DistinctElement2D(start="settle")
     lanes = simulate(column, motion, model)
     options = RunOptions()
     run = _ColumnRun(column, motion, model.followed(column, options), options, ())
     run.loose = True
-    start = run.engine.body["x"].copy()
+    start = run.engine.records.body["x"][:, 0].copy()
     run.advance(run.engine.chunks)
-    moved = run.engine.body["x"] - start
+    moved = run.engine.records.body["x"][:, 0] - start
     assert moved[1:] == pytest.approx(lanes.drum_x[-1] + moved[0], abs=1e-11)
     assert np.abs(lanes.drum_x).max() > 1e-6
 

@@ -110,12 +110,12 @@ def test_a_broken_link_changes_nothing_afterwards() -> None:
         block = model.block_for(model.kind(column), RunOptions())
         block.load(0, Case(column, motion))
         if column.links:
-            block.lane["mon"][1:, 0] = 0.0
+            block.records.link["on"] = 0.0
         block.advance(200)
-        found.append(block.drum["x"][1:, 0].copy())
+        found.append(block.records.body["x"][1:, 0].copy())
         if column.links:
-            assert not block.lane["mfx"][1:, 0].any()
-            assert not block.lane["mft"][1:, 0].any()
+            assert not block.records.link["fx"].any()
+            assert not block.records.link["ft"].any()
     assert found[1] == pytest.approx(found[0], rel=1e-9, abs=1e-15)
 
 

@@ -162,8 +162,9 @@ class Loose:
         self.kernel.renew_pairs(self.records.state, self.search)
 
     def may_come_loose(self, time: float) -> bool:
-        """Whether bodies that are not joined may touch, or a joint may hand over, within a time [s]."""
-        return bool(self.kernel.may_come_loose(self.records.state, self.search, time))
+        """Whether bodies that are not joined may touch, or a joint may hand over or has, within a time [s]."""
+        gone = not self.hand["live"].all()  # where its faces meet again the bed holds them
+        return gone or bool(self.kernel.may_come_loose(self.records.state, self.search, time))
 
     def chunks_ahead(self) -> int:
         """Chunks of steps for which it is certain that joints and links alone hold everything; 0 if something is loose."""
@@ -195,6 +196,7 @@ class Loose:
                 self.safe = self.chunks_ahead()
             piece = min(chunks, longest_piece(self.cost, CHUNK), self.safe if self.safe > 0 else self.look)
             if self.safe > 0:
+                self.records.link["dt"] = self.dt
                 self.records.law.advance(self.records.state, piece)
                 self.safe -= piece
             else:
@@ -292,6 +294,7 @@ class Loose:
                 array[...] = before
             self.renew_pairs()
             self.begin_links()
+        self.safe = 0
         self._push()
         return rests
 
