@@ -166,8 +166,6 @@ def test_a_response_with_links_comes_back_from_its_file(tmp_path) -> None:
 
 def test_what_cannot_go_with_links_says_so() -> None:
     column = COLUMN.replace(links=KINDS["core"])
-    with pytest.raises(st.InputError, match="followed to the ground knows no links"):
-        st.simulate(column, MOTION, PLANE, until_rest=True)
     with pytest.raises(st.InputError, match="a start from a pose knows no links"):
         st.simulate(column, MOTION, PLANE, start=st.Start(tilt=0.01))
     with pytest.raises(st.InputError, match="not in equilibrium"):
