@@ -8,13 +8,12 @@ import pytest
 from validation.space import round_column
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
-from stylobate.column.found_geometry import geometry
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.dem3d.verdict import flat_barrier
-from stylobate.models.drums.barriers import flat_barrier as in_the_plane
+from stylobate.models.plane.standing import flat_barrier as in_the_plane
 from stylobate.models.start import Start
 from stylobate.motion import Motion
 from stylobate.outcome import Outcome
@@ -65,9 +64,8 @@ def test_soft_joints_overturn_with_less_energy_in_the_plane_too(points, stiffnes
         block = model.block_for(model.kind(column), RunOptions(start=Start(float(tilt))))
         block.load(0, Case(column, Motion(1.0, np.zeros(2))))
         energies.append(block.rest[0])
-    flat = geometry(column)
-    rigid = in_the_plane(column, flat, np.zeros(1))
-    taken = in_the_plane(column, flat, model.pack(column).toes)
+    rigid = in_the_plane(column, np.zeros(1), np.zeros(1))
+    taken = in_the_plane(column, np.zeros(1), model.pack(column).toes)
     assert taken <= max(energies) < rigid
     assert taken > 0.93 * max(energies)
 

@@ -57,10 +57,11 @@ class Records:
             "hold": topology.stack if topology.links else 0, "pair": contacts + spare, "span": topology.bodies,
             "touch": 2 * (contacts + spare),
         }  # fmt: skip
-        self.state: tuple[Any, ...] = tuple(
+        arrays = (
             aligned_zeros(rows[name], law.types[name]) if rows[name] else np.zeros(0, law.types[name])
             for name in STATE[:-1]
-        ) + (topology.stack,)
+        )
+        self.state: tuple[Any, ...] = (*arrays, topology.stack)
         (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
          self.pair, self.span, self.touch, _) = self.state  # fmt: skip
         for k, (lower, upper) in enumerate((*topology.joints, *topology.links)):

@@ -1,4 +1,4 @@
-"""What may come loose, in one lane: bodies of an assembly, or of a column that is followed to the ground, until all lies still."""
+"""What may come loose, in one lane, until all lies still: an assembly, or a column that is followed to the ground."""
 
 from __future__ import annotations
 
