@@ -112,7 +112,7 @@ def test_until_something_comes_loose_every_bit_is_that_of_the_joints_alone(colum
 @pytest.mark.parametrize("certain", [False, True])
 @pytest.mark.parametrize("column", [preset("paper-12-drums"), FOUND], ids=["12", "found"])
 def test_what_may_come_loose_has_the_joints_of_the_lanes(column, certain, monkeypatch):
-    """As an assembly from the start, a column's motion to rounding: with the search, and while nothing comes loose without it."""
+    """As an assembly from the start, a column's motion to rounding: with the search, and without while nothing is loose."""
     if not certain:
         monkeypatch.setattr(Loose, "chunks_ahead", lambda _: 0)
     motion = harmonic(1.0, 0.15 * g, 2.0)

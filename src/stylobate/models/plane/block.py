@@ -46,7 +46,6 @@ class Records:
 
     def __init__(self, law: Law, topology: Topology, spare: int = 0) -> None:
         from ...kernels.plane import step
-        from ...kernels.shared.contacts import list_contacts
 
         self.law, self.topology, self.step = law, topology, step
         self.lanes = int(law.types["body"]["x"].shape[0])
@@ -68,7 +67,13 @@ class Records:
             self.pair[k] = lower, upper
         self.span["fixed"][list(topology.fixed)] = 1
         self.contacts = contacts
-        list_contacts(self.pair, contacts, contacts + spare, self.span, self.touch)
+        self.forget_pairs()
+
+    def forget_pairs(self) -> None:
+        """Let the bodies have the contacts of joints and links alone, whatever a search has found."""
+        from ...kernels.shared.contacts import list_contacts
+
+        list_contacts(self.pair, self.contacts, len(self.load) - 1, self.span, self.touch)
 
     def put(self, lane: int, packed: Packed) -> None:
         """Write the numbers of a run into a lane: of all records that differ from lane to lane."""

@@ -197,6 +197,7 @@ class Loose:
             piece = min(chunks, longest_piece(self.cost, CHUNK), self.safe if self.safe > 0 else self.look)
             if self.safe > 0:
                 self.records.link["dt"] = self.dt
+                self.records.forget_pairs()  # none of them touches, but their last loads are kept
                 self.records.law.advance(self.records.state, piece)
                 self.safe -= piece
             else:
