@@ -5,10 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from stylobate.column import AsFound, Column, FoundDrum, Joint, preset
+from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint, preset
 from stylobate.column.as_blocks import of_column
 from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
+from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.plane.collapse import _ColumnRun, follow
@@ -149,3 +150,30 @@ def test_a_column_on_a_narrow_step_falls_past_its_edge():
     heights = column.centroid_heights + response.drum_z[-1]
     assert heights.min() < -0.2  # below the top of the step
     assert response.mechanism.at_rest
+
+
+def test_a_joint_that_has_parted_stays_the_bed_s_where_its_faces_meet_again():
+    blocks = (box(-0.5, 0.5, 0.0, 1.0, "lower", fixed=True), box(-0.5, 0.5, 1.0, 2.0, "upper"))
+    engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+    engine.start(1e-4)
+    assert engine.chunks_ahead() > 0
+    forces_along(engine, [(1.05, 1.5, 0.0), (0.0, 1.5, 0.0)])  # off the edge, and back as drawn
+    assert engine.hand["live"][0] == 0
+    assert engine.chunks_ahead() == 0
+
+
+def test_a_column_that_collapses_as_its_motion_ends_goes_on():
+    """Elastic, so that nothing but the run itself asks for fine steps: it is computed on, not left where it was."""
+    column = Column.of_drums([Drum(4.0, 0.4, 0.4, 2000.0)], Joint(1e10, 5e9, friction_coefficient=0.7))
+    whole = harmonic(0.5, 0.3 * g, 2.0)
+    motion = Motion(whole.dt, whole.factor * whole.samples[: round(1.3 / whole.dt)])
+    model, options = DistinctElement2D(restitution=1.0), RunOptions(until_rest=True)
+    run = _ColumnRun(column, motion, model.followed(column, options), options, ())
+    while run.chunks_left() > 0:
+        run.advance(run.chunks_left())
+    assert run.collapsed
+    before = int(run.block.feed["step"][0, 0])
+    turned = float(run.block.records.body["th"][1, 0])
+    run.advance(8)
+    assert run.engine.steps == before + 8 * CHUNK
+    assert abs(float(run.block.records.body["th"][1, 0])) > abs(turned)

@@ -64,7 +64,12 @@ def test_ties_hold_a_column_that_falls_without_them() -> None:
 def test_links_that_break_in_the_fall_are_told() -> None:
     """A tie that the column stretches by 0.4 m while it falls, and a dowel that its shaking snaps long before."""
     tie = st.Tie(
-        at=(-0.3, 0.0), to=(-0.25, 0.0), to_height=1.7, axial_stiffness=1e3, axial_capacity=50.0, ultimate_elongation=0.4
+        at=(-0.3, 0.0),
+        to=(-0.25, 0.0),
+        to_height=1.7,
+        axial_stiffness=1e3,
+        axial_capacity=50.0,
+        ultimate_elongation=0.4,
     )
     dowel = st.Dowel(joint=1, shear_stiffness=1e7, shear_capacity=600.0, failure="brittle")
     response = to_the_ground((tie, dowel))

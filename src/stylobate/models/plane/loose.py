@@ -192,7 +192,9 @@ class Loose:
         """Advance by some chunks of steps: as lanes do while joints and links hold everything, with the search otherwise."""
         while chunks > 0 and not self.failed:
             even = float(self.now["last"][0]) == self.dt and float(self.now["dull"][0]) == 0.0
-            if self.safe <= 0 and even:
+            if not even:
+                self.safe = 0
+            elif self.safe <= 0:
                 self.safe = self.chunks_ahead()
             piece = min(chunks, longest_piece(self.cost, CHUNK), self.safe if self.safe > 0 else self.look)
             if self.safe > 0:
