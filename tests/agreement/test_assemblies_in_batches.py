@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from stylobate.models.assembly.run import AFTER_THE_FALL
 
 import stylobate as st
-from stylobate.models.assembly.run import AFTER_THE_FALL
 from stylobate.models.base import Case
 from stylobate.simulate import simulate_assembly, simulate_iter
 

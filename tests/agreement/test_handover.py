@@ -5,14 +5,15 @@ import math
 import numpy as np
 import pytest
 
-from stylobate.column import AsFound, Column, FoundDrum, Joint, preset
+from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint, preset
 from stylobate.column.as_blocks import of_column
 from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
-from stylobate.models.assembly.engine import Engine
+from stylobate.kernels.run_codes import CHUNK
 from stylobate.models.base import RunOptions
-from stylobate.models.dem2d.collapse import _ColumnRun, follow
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.plane.collapse import _ColumnRun, follow
+from stylobate.models.plane.loose import Loose
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate
 
@@ -29,23 +30,11 @@ def forces_along(engine, path):
     found = np.empty((len(path), 3))
     engine.start(1e-9)
     for k, (x, z, angle) in enumerate(path):
-        b = engine.body
-        b["x"][-1], b["z"][-1], b["th"][-1], b["c"][-1], b["s"][-1] = x, z, angle, math.cos(angle), math.sin(angle)
+        b = engine.records.body[-1]
+        b["x"], b["z"], b["th"], b["c"], b["s"] = x, z, angle, math.cos(angle), math.sin(angle)
         engine.renew_pairs()
-        engine.kernel.joint_forces(b, engine.joint, engine.now)
-        engine.kernel.bed_forces(
-            b,
-            engine.corner,
-            engine.joint,
-            engine.now,
-            engine.pairs,
-            engine.joined,
-            engine.law,
-            engine.memory,
-            engine.real,
-            engine.whole,
-        )
-        found[k] = b["fx"][-1], b["fz"][-1], b["mo"][-1]
+        engine.kernel.loose_forces(engine.records.state, engine.search)
+        found[k] = b["fx"][0], b["fz"][0], b["mo"][0]
     return found
 
 
@@ -70,10 +59,10 @@ def test_no_jump_where_a_joint_hands_over(path):
     assembly = Assembly(blocks, SMOOTH, ground=None)
     jumps, weights = [], None
     for steps in (4_000, 8_000, 16_000):
-        engine = Engine(assembly, DistinctElement2D().contacts, STILL, 1.0)
-        assert len(engine.joint) == 1
+        engine = Loose(assembly, DistinctElement2D().contacts, STILL, 1.0)
+        assert len(engine.records.joint) == 1
         force = forces_along(engine, path(steps))
-        weights = engine.joint["weight"][0]
+        weights = engine.hand["weight"][0]
         jumps.append(np.abs(np.diff(force, axis=0)).max() / np.abs(force).max())
     assert weights == 0.0  # the joint is gone at the end of the path
     assert jumps[2] < 0.3 * jumps[0]  # a jump would not shrink with the steps
@@ -86,7 +75,7 @@ def test_no_jump_on_a_slow_path_over_an_edge():
     for steps in (8_000, 16_000, 32_000):
         blocks = (box(-1.0, 0.0, -1.0, 0.0, "edge", fixed=True), box(2.0, 3.0, 2.0, 3.0, "block"))
         with pytest.warns(UserWarning, match="will fall"):
-            engine = Engine(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+            engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
         turn = np.linspace(0.0, 0.5 * math.pi, steps)
         radius = 0.5 * math.sqrt(2.0)
         # round the corner (0, 0), pressed in by 0.5 mm, turning on the way
@@ -121,18 +110,21 @@ def test_until_something_comes_loose_every_bit_is_that_of_the_joints_alone(colum
         assert np.array_equal(getattr(alone.histories, field), getattr(followed.histories, field))
 
 
+@pytest.mark.parametrize("certain", [False, True])
 @pytest.mark.parametrize("column", [preset("paper-12-drums"), FOUND], ids=["12", "found"])
-def test_the_engine_has_the_joints_of_the_lanes(column):
-    """The engine of assemblies alone, from the start: a column's motion to rounding."""
+def test_what_may_come_loose_has_the_joints_of_the_lanes(column, certain, monkeypatch):
+    """As an assembly from the start, a column's motion to rounding: with the search, and without while nothing is loose."""
+    if not certain:
+        monkeypatch.setattr(Loose, "chunks_ahead", lambda _: 0)
     motion = harmonic(1.0, 0.15 * g, 2.0)
     model = DistinctElement2D(start="settle")
     lanes = simulate(column, motion, model)
     options = RunOptions()
     run = _ColumnRun(column, motion, model.followed(column, options), options, ())
     run.loose = True
-    start = run.engine.body["x"].copy()
+    start = run.engine.records.body["x"][:, 0].copy()
     run.advance(run.engine.chunks)
-    moved = run.engine.body["x"] - start
+    moved = run.engine.records.body["x"][:, 0] - start
     assert moved[1:] == pytest.approx(lanes.drum_x[-1] + moved[0], abs=1e-11)
     assert np.abs(lanes.drum_x).max() > 1e-6
 
@@ -158,3 +150,30 @@ def test_a_column_on_a_narrow_step_falls_past_its_edge():
     heights = column.centroid_heights + response.drum_z[-1]
     assert heights.min() < -0.2  # below the top of the step
     assert response.mechanism.at_rest
+
+
+def test_a_joint_that_has_parted_stays_the_bed_s_where_its_faces_meet_again():
+    blocks = (box(-0.5, 0.5, 0.0, 1.0, "lower", fixed=True), box(-0.5, 0.5, 1.0, 2.0, "upper"))
+    engine = Loose(Assembly(blocks, SMOOTH, ground=None), DistinctElement2D().contacts, STILL, 1.0)
+    engine.start(1e-4)
+    assert engine.chunks_ahead() > 0
+    forces_along(engine, [(1.05, 1.5, 0.0), (0.0, 1.5, 0.0)])  # off the edge, and back as drawn
+    assert engine.hand["live"][0] == 0
+    assert engine.chunks_ahead() == 0
+
+
+def test_a_column_that_collapses_as_its_motion_ends_goes_on():
+    """Elastic, so that nothing but the run itself asks for fine steps: it is computed on, not left where it was."""
+    column = Column.of_drums([Drum(4.0, 0.4, 0.4, 2000.0)], Joint(1e10, 5e9, friction_coefficient=0.7))
+    whole = harmonic(0.5, 0.3 * g, 2.0)
+    motion = Motion(whole.dt, whole.factor * whole.samples[: round(1.3 / whole.dt)])
+    model, options = DistinctElement2D(restitution=1.0), RunOptions(until_rest=True)
+    run = _ColumnRun(column, motion, model.followed(column, options), options, ())
+    while run.chunks_left() > 0:
+        run.advance(run.chunks_left())
+    assert run.collapsed
+    before = int(run.block.feed["step"][0, 0])
+    turned = float(run.block.records.body["th"][1, 0])
+    run.advance(8)
+    assert run.engine.steps == before + 8 * CHUNK
+    assert abs(float(run.block.records.body["th"][1, 0])) > abs(turned)

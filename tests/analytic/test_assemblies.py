@@ -9,8 +9,8 @@ import pytest
 from stylobate.column import Joint, preset
 from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
-from stylobate.models.assembly.engine import SETTLED
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.plane.loose import SETTLED
 from stylobate.motion import Motion, harmonic
 from stylobate.response.mechanism import Mechanism
 from stylobate.simulate import simulate, simulate_assembly

@@ -8,13 +8,12 @@ import pytest
 from validation.space import round_column
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
-from stylobate.column.found_geometry import geometry
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.dem3d.verdict import flat_barrier
-from stylobate.models.drums.standing import flat_barrier as in_the_plane
+from stylobate.models.plane.standing import flat_barrier as in_the_plane
 from stylobate.models.start import Start
 from stylobate.motion import Motion
 from stylobate.outcome import Outcome
@@ -62,12 +61,11 @@ def test_soft_joints_overturn_with_less_energy_in_the_plane_too(points, stiffnes
     alpha = math.atan(0.5 * column.drums[0].bottom_width / column.drums[0].centroid_height)
     energies = []
     for tilt in np.linspace(0.8, 1.0, 21) * alpha:
-        block = model.make_block(1, RunOptions(start=Start(float(tilt))))
+        block = model.block_for(model.kind(column), RunOptions(start=Start(float(tilt))))
         block.load(0, Case(column, Motion(1.0, np.zeros(2))))
         energies.append(block.rest[0])
-    flat = geometry(column)
-    rigid = in_the_plane(column, flat, np.zeros(1))
-    taken = in_the_plane(column, flat, block.toes(column))
+    rigid = in_the_plane(column, np.zeros(1), np.zeros(1))
+    taken = in_the_plane(column, np.zeros(1), model.pack(column).toes)
     assert taken <= max(energies) < rigid
     assert taken > 0.93 * max(energies)
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from stylobate.kernels.rigid_block import interface_law
-from stylobate.kernels.rigid_block.interface_law import compression, compression_with_strength, shear
+from stylobate.kernels.plane import interface_law
+from stylobate.kernels.plane.interface_law import compression, compression_with_strength, shear
 
 LAW, STRENGTH, SHEAR = compression.py_func, compression_with_strength.py_func, shear.py_func
 KN, KM, HALF = 4.0e9, 3.0e8, 0.45

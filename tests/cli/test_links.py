@@ -36,3 +36,19 @@ def test_run_tells_which_links_broke_and_models_without_links_refuse(tmp_path, c
     said = capsys.readouterr().err
     assert "knows no links" in said
     assert "Traceback" not in said
+
+
+def test_a_run_until_rest_follows_a_column_with_links_to_the_ground(tmp_path, capsys) -> None:
+    path = write_column(COLUMN.with_joint(friction_coefficient=0.7), tmp_path / "column.toml")
+    path.write_text(path.read_text() + DOWELS)
+    line = ["run", str(path), "--harmonic", "1Hz,1g,1.5s", "--replicates", "1", "--model", "dem2d", "--until-rest"]
+    assert call([*line, "--json", "--out", str(tmp_path / "out")]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["outcome"] == "collapsed"
+    assert found["links_broken"] == 2
+    assert max(found["link_broken_s"]) < found["collapse_time_s"]
+    assert found["energy_imbalance"] < 0.01
+    assert call(line) == 0
+    said = " ".join(capsys.readouterr().out.split())
+    assert "2 of 2 dowels broke" in said
+    assert "drums fell" in said

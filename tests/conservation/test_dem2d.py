@@ -101,7 +101,7 @@ def test_every_term_of_the_ledger_is_there():
 @pytest.mark.parametrize("column", [MONOLITH, TWELVE, FOUND], ids=["monolith", "12 drums", "found"])
 @pytest.mark.parametrize("points", [2, 5])
 def test_mirrored_input_gives_the_mirrored_motion(column, points):
-    """As long as rounding stays below 1e-12: to 1e-11, a ten-millionth of what the joints have opened by then.
+    """As long as rounding stays below 1e-12: to 1e-11, less than a millionth of what the joints have opened by then.
 
     Sums that are mirrored round otherwise. What the motion makes of that, on this processor or another, runs say whose
     input differs in its last bit; rounding enters at each of thousands of steps, so that it differs from run to run by a
@@ -111,7 +111,8 @@ def test_mirrored_input_gives_the_mirrored_motion(column, points):
     right, left = simulate(column, motion, model), simulate(mirrored(column), motion.scaled(-1.0), model)
     before = slice(0, min(first_impact(right) - 2, rounding_shows(right, column, motion, model)))
     assert right.peak_top_displacement > 0.1
-    assert right.joint_opening[before].max() > 1e-4
+    # of drums found askew the opening doubles from row to row, and rounding is seen some rows earlier or later
+    assert right.joint_opening[before].max() > 3e-5
     for name, sign in (("drum_x", -1.0), ("drum_z", 1.0), ("drum_rotation", -1.0), ("joint_opening", 1.0)):
         a, b = getattr(right, name)[before], getattr(left, name)[before]
         np.testing.assert_allclose(b, sign * a, rtol=0, atol=1e-11)

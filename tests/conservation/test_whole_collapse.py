@@ -7,12 +7,13 @@ from stylobate.column import Joint, preset
 from stylobate.column.as_blocks import of_column
 from stylobate.column.assembly import Assembly, Block
 from stylobate.constants import g
-from stylobate.kernels.assembly import narrow_phase as near
+from stylobate.kernels.plane import clip as near
+from stylobate.kernels.plane.records import LOCAL
 from stylobate.kernels.run_codes import CHUNK
-from stylobate.models.assembly.engine import RESTITUTION_TO_REST, Engine, stable_step
-from stylobate.models.assembly.run import follow
 from stylobate.models.base import RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.plane.assemblies import follow, stable_step_of
+from stylobate.models.plane.loose import RESTITUTION_TO_REST, Loose
 from stylobate.motion import harmonic
 from stylobate.response.assembly_measures import recorded_blocks
 from stylobate.simulate import simulate_assembly
@@ -44,12 +45,12 @@ CASES = {
 
 def contacts(engine):
     """Depth [m], width [m] and stiffness [N/m³ · m] of every overlap, and the force with which its bed presses [N]."""
-    x, z, rotation = (engine.body[name][None] for name in ("x", "z", "th"))
+    x, z, rotation = (engine.records.body[name][None, :, 0] for name in ("x", "z", "th"))
     recorded = recorded_blocks(
         engine.assembly, np.zeros(1), x, z, rotation, {}, np.zeros(1), np.zeros(1), at_rest=True, failed=False,
         in_equilibrium=True, energy_imbalance=0.0, time_step=1.0, steps=1, model="dem2d", provenance={},
     )  # fmt: skip
-    n, found = len(engine.body), {}
+    n, found = len(engine.records.body), {}
     outlines = [np.ascontiguousarray(recorded.outline(0, i).T) for i in range(n)]
     px, pz, qx, qz = (np.zeros(near.MOST) for _ in range(4))
     from_b, q_from = (np.zeros(near.MOST, dtype=np.int64) for _ in range(2))
@@ -61,7 +62,7 @@ def contacts(engine):
                 area, _, _, gx, gz = near.measure(px, pz, from_b, count)
                 width = float(np.hypot(gx, gz))
                 depth = float(np.ptp((px[:count] * -gz + pz[:count] * gx) / width))
-                thick = min(engine.body["depth"][i], engine.body["depth"][j])
+                thick = min(engine.shape["depth"][i], engine.shape["depth"][j])
                 stiffness = engine.law[i, j, 0] * thick
                 found[i, j] = (depth, width, stiffness, stiffness * area)
     return found
@@ -76,8 +77,8 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     overlap is a triangle, at most 2 F/(k L) deep, with L the width of that overlap.
     """
     make, motion = CASES[name]
-    engine = Engine(make(), DistinctElement2D().contacts, motion, motion.duration, RESTITUTION_TO_REST)
-    engine.start(0.4 * stable_step(engine))
+    engine = Loose(make(), DistinctElement2D().contacts, motion, motion.duration, RESTITUTION_TO_REST)
+    engine.start(0.4 * stable_step_of(engine))
     assert engine.settle()
     _, rests = follow(engine, RunOptions(until_rest=True, output_interval=0.05))
     assert rests
@@ -85,16 +86,17 @@ def test_at_rest_nothing_is_deeper_than_static(name):
     for _ in range(50):
         engine.advance(max(1, round(0.02 / (CHUNK * engine.dt))))
         forces.append({pair: force for pair, (*_, force) in contacts(engine).items()})
-    before = engine.body.copy()
-    engine.now["local"] = 0.8
-    engine.addresses = np.zeros_like(engine.addresses)
+    body, feed = engine.records.body, engine.records.feed
+    before = body.copy()
+    engine.records.lane["damp"][0, LOCAL] = 0.8
+    feed["x"] = feed["z"] = 0
     for _ in range(100):
         engine.advance(100)
         if engine.residual_acceleration() < 1e-3:
             break
     assert engine.residual_acceleration() < 1e-3
-    way = np.hypot(engine.body["x"] - before["x"], engine.body["z"] - before["z"])
-    assert (way + engine.body["r"] * np.abs(engine.body["th"] - before["th"])).max() < 2e-4
+    way = np.hypot(body["x"] - before["x"], body["z"] - before["z"])[:, 0]
+    assert (way + engine.shape["r"] * np.abs(body["th"] - before["th"])[:, 0]).max() < 2e-4
     static = contacts(engine)
     assert set(lying) == set(static)
     for pair, (depth, width, stiffness, _) in lying.items():

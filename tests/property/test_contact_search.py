@@ -7,10 +7,12 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from stylobate.kernels.dem2d import step as kernel
+from stylobate.kernels.run_codes import LANES
 from stylobate.models.drums.joints import contact_points
+from stylobate.models.plane.block import Records
+from stylobate.models.plane.laws import point_law
+from stylobate.models.plane.packing import Topology
 
-LANES = kernel.LANES
 KN, KS, MU, COHESION, DT = 3.0e10, 1.1e10, 0.6, 2.0e4, 1e-5
 
 
@@ -108,13 +110,13 @@ def expected(pose, points):
 
 
 def kernel_forces(poses, points):
-    """The kernel's answer for LANES poses at once; the arrays after one call."""
-    types = kernel.block_types(points, False)
-    drum, joint, lane = np.zeros(2, types[0]), np.zeros(2, types[1]), np.zeros(1, types[2])
+    """The kernel's answer for LANES poses at once: records of bodies, of the joint and of its load after one call."""
+    records = Records(point_law(points, False, LANES, False), Topology(2, ((0, 1),)))
+    drum, joint, lane = records.body, records.joint, records.lane
     places, shares = contact_points("rectangular", points)
     lane["xi"][0], lane["sh"][0] = places[:, None], shares[:, None]
     lane["dt"][0] = DT
-    joint["kn"][0], joint["ks"][0], joint["co"][0], joint["mu"][0] = KN, KS, COHESION, MU
+    joint["kn"], joint["ks"], joint["co"], joint["mu"], joint["uc"] = KN, KS, COHESION, MU, 1.0
     for l, pose in enumerate(poses):
         for i, (x, angle, v, omega) in enumerate([("xl", "al", "vl", "wl"), ("xu", "au", "vu", "wu")]):
             drum["x"][i, l], drum["z"][i, l] = pose[x]
@@ -123,12 +125,12 @@ def kernel_forces(poses, points):
             drum["c"][i, l], drum["s"][i, l] = math.cos(frame), math.sin(frame)
             drum["vx"][i, l], drum["vz"][i, l] = pose[v]
             drum["w"][i, l] = pose[omega]
-        drum["fc"][0, l], drum["fs"][0, l] = math.cos(pose["lean"]), math.sin(pose["lean"])
-        drum["bl"][1, l], drum["br"][1, l], drum["hb"][1, l] = pose["bl"], pose["br"], pose["hb"]
-        drum["t"][0, l], drum["ht"][0, l] = pose["w"], pose["ht"]
+        joint["lc"][0, l], joint["ls"][0, l] = math.cos(pose["lean"]), math.sin(pose["lean"])
+        for name, value in {"wl": "w", "wr": "w", "ht": "ht", "bl": "bl", "br": "br", "hb": "hb"}.items():
+            joint[name][0, l] = pose[value]
         joint["fs"][0, :, l] = pose["fs"][:points]
-    kernel.forces(drum, joint, lane)
-    return drum, joint, lane
+    records.law.gather(records.state)
+    return drum, joint, records.load
 
 
 def random_poses(seed, steep, deep):
@@ -172,16 +174,16 @@ def random_poses(seed, steep, deep):
 @settings(max_examples=60, deadline=None)
 def test_forces_and_moments_agree_with_brute_force(points, seed, steep, deep):
     poses = random_poses(seed, steep, deep)
-    _, joint, _ = kernel_forces(poses, points)
+    _, joint, load = kernel_forces(poses, points)
     for l, pose in enumerate(poses):
         force, on_upper, on_lower, fn, fs = expected(pose, points)
         # rounding of a gap of coordinates of some metres, times the stiffness
         scale = KN * 3.0 * 4e-15 + 1e-9 * (np.abs(fn).sum() + np.abs(fs).sum())
         np.testing.assert_allclose(joint["fn"][0, :, l], fn, rtol=1e-9, atol=scale)
         np.testing.assert_allclose(joint["fs"][0, :, l], fs, rtol=1e-9, atol=scale)
-        np.testing.assert_allclose([joint["fx"][0, l], joint["fz"][0, l]], force, rtol=0, atol=3 * points * scale)
-        np.testing.assert_allclose(joint["mu_"][0, l], on_upper, rtol=0, atol=20 * points * scale)
-        np.testing.assert_allclose(joint["ml"][0, l], on_lower, rtol=0, atol=20 * points * scale)
+        np.testing.assert_allclose([load["fx"][0, l], load["fz"][0, l]], force, rtol=0, atol=3 * points * scale)
+        np.testing.assert_allclose(load["mu_"][0, l], on_upper, rtol=0, atol=20 * points * scale)
+        np.testing.assert_allclose(load["ml"][0, l], on_lower, rtol=0, atol=20 * points * scale)
 
 
 def test_the_poses_reach_every_kind_of_contact():
@@ -227,10 +229,10 @@ def test_gap_is_the_distance_to_the_nearest_feature(seed):
 @settings(max_examples=40, deadline=None)
 def test_action_and_reaction_share_a_line(points, seed):
     """Moments about the origin: what the joint gives the upper drum it takes from the lower one."""
-    drum, joint, _ = kernel_forces(random_poses(seed, math.radians(80.0), 1e-3), points)
-    fx, fz = joint["fx"][0], joint["fz"][0]
-    upper = joint["mu_"][0] + drum["x"][1] * fz - drum["z"][1] * fx
-    lower = joint["ml"][0] + drum["x"][0] * fz - drum["z"][0] * fx
+    drum, _, load = kernel_forces(random_poses(seed, math.radians(80.0), 1e-3), points)
+    fx, fz = load["fx"][0], load["fz"][0]
+    upper = load["mu_"][0] + drum["x"][1] * fz - drum["z"][1] * fx
+    lower = load["ml"][0] + drum["x"][0] * fz - drum["z"][0] * fx
     scale = (np.abs(fx) + np.abs(fz)) * 10.0 + 1.0
     assert (np.abs(upper - lower) <= 1e-11 * scale + 1e-12 * KN * 1e-3).all()
 
@@ -262,9 +264,9 @@ def test_force_is_continuous_when_a_drum_slides_over_an_edge(tilt, lower_angle):
         poses.append(pose)
     size, jump, last = 0.0, 0.0, None
     for k in range(0, steps, LANES):
-        _, joint, _ = kernel_forces(poses[k : k + LANES], 2)
+        _, _, load = kernel_forces(poses[k : k + LANES], 2)
         for l in range(LANES):
-            now = np.array([joint["fx"][0, l], joint["fz"][0, l]])
+            now = np.array([load["fx"][0, l], load["fz"][0, l]])
             if tilt == 0.0:
                 overlap = min(2 * b, b + w - slid[k + l])
                 assert np.linalg.norm(now) == pytest.approx(KN * overlap * depth, rel=1e-8)

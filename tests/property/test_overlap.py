@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from stylobate.kernels.assembly import narrow_phase as near
+from stylobate.kernels.plane import clip as near
 
 
 def kernel_overlap(a, b):

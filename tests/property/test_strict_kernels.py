@@ -12,12 +12,11 @@ import pytest
 from stylobate import kernels
 from stylobate.column import preset
 from stylobate.kernels import jit, run_codes
-from stylobate.kernels.assembly import narrow_phase
-from stylobate.kernels.assembly import step as assembly_2d
-from stylobate.kernels.dem2d import step as distinct_element_2d
-from stylobate.kernels.drums import lanes as drum_lanes
+from stylobate.kernels.plane import clip, look
 from stylobate.kernels.rigid_beam import step as rigid_beam
-from stylobate.kernels.rigid_block import step as rigid_block
+from stylobate.models.plane.block import Records
+from stylobate.models.plane.laws import interface_law, point_law
+from stylobate.models.plane.packing import Topology
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_beam.state import measures_of
 from stylobate.models.rocking.model import HousnerBlock
@@ -52,27 +51,29 @@ def test_every_compiled_function_states_its_own_mode():
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
 def test_drums_without_finite_positions_have_failed(bad):
-    drum, *_, watch = (np.zeros(3, kind) for kind in distinct_element_2d.block_types(2, False))
+    types = point_law(2, False, run_codes.LANES, False).types
+    drum, watch = np.zeros(3, types["body"]), np.zeros(1, types["watch"])
+    drum["im"][1:] = 1.0
     watch["status"] = run_codes.RUNNING
     for lane, name in enumerate(("x", "z", "th")):
         drum[name][1 + lane % 2, lane] = bad
-    compiled(drum_lanes.check_finite)(drum, watch)
+    compiled(look.check_finite)(drum, watch)
     failed, running = run_codes.FAILED, run_codes.RUNNING
     assert watch["status"][0, :4].tolist() == [failed] * 3 + [running]
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
 def test_bodies_without_finite_positions_are_reported(bad):
-    body_type, _, now_type = assembly_2d.types(2)
-    settle = compiled(assembly_2d.settle_lengths)
+    types = point_law(2, True, 1, False).types
+    check = compiled(look.check_finite)
     for name in ("x", "z", "th"):
-        body, now = np.zeros(2, body_type), np.zeros(1, now_type)
-        body["im"] = 1.0
-        settle(body, now)
-        assert now["failed"][0] == 0
+        body, watch = np.zeros(2, types["body"]), np.zeros(1, types["watch"])
+        body["im"], watch["status"] = 1.0, run_codes.RUNNING
+        check(body, watch)
+        assert watch["status"][0, 0] == run_codes.RUNNING
         body[name][1] = bad
-        settle(body, now)
-        assert now["failed"][0] == 1
+        check(body, watch)
+        assert watch["status"][0, 0] == run_codes.FAILED
 
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
@@ -88,16 +89,16 @@ def test_beams_without_finite_states_have_failed(bad):
     assert watch["status"][0, :6].tolist() == [run_codes.FAILED] * 5 + [run_codes.RUNNING]
 
 
-@pytest.mark.parametrize("module", [distinct_element_2d, rigid_block])
-def test_ledger_of_drums_without_finite_velocities_is_nan(module):
-    types = module.block_types(2 if module is distinct_element_2d else False, False)
-    drum, joint, lane, ground, _, _ = (np.zeros(3, kind) for kind in types)
-    drum["m"] = drum["i"] = drum["im"] = drum["ii"] = 1.0
-    ledger, out = compiled(module.ledger), np.zeros(6)
-    ledger(drum, joint, lane, ground, 0, 1e-3, 0, out)
+@pytest.mark.parametrize("law", [point_law(2, False, 16, False), interface_law(False, False, 16, False)])
+def test_ledger_of_drums_without_finite_velocities_is_nan(law):
+    records = Records(law, Topology(3, ((0, 1), (1, 2))))
+    for name in ("m", "i", "im", "ii"):
+        records.body[name] = 1.0
+    ledger, out = compiled(law.ledger), np.zeros(6)
+    ledger(records.state, 0.0, 0.0, 1e-3, 0, out)
     assert np.isfinite(out).all()
-    drum["vx"][1, 0] = NAN
-    ledger(drum, joint, lane, ground, 0, 1e-3, 0, out)
+    records.body["vx"][1, 0] = NAN
+    ledger(records.state, 0.0, 0.0, 1e-3, 0, out)
     assert math.isnan(out[1])
 
 
@@ -150,7 +151,7 @@ def test_a_rocking_block_with_a_value_that_is_not_finite_has_no_verdict(place):
 
 def test_a_chord_without_overlap_has_no_depth():
     # The search for the extent of an overlap starts from infinity.
-    depth_square = compiled(narrow_phase.depth_square)
+    depth_square = compiled(clip.depth_square)
     x, z = np.array([0.0, 2.0, 2.0, 0.0]), np.array([0.0, 0.0, 0.5, 0.5])
     assert depth_square(x, z, 4, 1.0, 0.0) == pytest.approx(2.0 * 0.25)
     assert depth_square(x, 0.0 * z, 4, 1.0, 0.0) == 0.0

@@ -149,19 +149,19 @@ def bed_moment(column: Column, phi: float) -> float:
 
 def dem_moment(column: Column, points: int, phi: float) -> float:
     """Moment about the middle of the base of a drum turned by φ, lowered until it is pressed by its weight [N m]."""
-    block = DistinctElement2D(points=points).make_block(1, RunOptions())
+    model = DistinctElement2D(points=points)
+    block = model.block_for(model.kind(column), RunOptions())
     block.load(0, Run(column, Motion(0.1, np.zeros(2))))
     height, weight = column.centroid_height, float(column.joint_weights[0])
-    drum = block.drum
+    records = block.records
+    drum = records.body
+    records.joint["ks"] = 0.0
 
     def forces(sunk: float) -> np.ndarray:
         drum["th"][1, 0], drum["c"][1, 0], drum["s"][1, 0] = phi, np.cos(phi), np.sin(phi)
         drum["x"][1, 0], drum["z"][1, 0] = -height * np.sin(phi), height * np.cos(phi) - sunk
-        joint, lane = block.joint.copy(), block.lane.copy()
-        joint["fs"][:] = 0.0
-        joint["ks"][:] = 0.0
-        block.kernel.forces(drum, joint, lane)
-        return np.array([joint[name][0, 0] for name in ("fx", "fz", "mu_")])
+        records.joint["fs"] = 0.0
+        return np.array([one[1] for one in records.forces(0)])
 
     width = column.base_width
     sunk = brentq(lambda s: forces(s)[1] - weight, -width * phi, width * phi + 1e-3, xtol=1e-16)

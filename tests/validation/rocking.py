@@ -135,19 +135,19 @@ def dem_prism(width: float, height: float, stiffness: float, friction: float = 5
 def release(column: Column, tilt: float, model: DistinctElement2D, duration: float) -> tuple[np.ndarray, np.ndarray]:
     """Rotation of a monolith let go from a tilt on its left corner, that corner closed by the weight: time, rotation."""
     quiet = Motion(1.0, np.zeros(2))
-    block = model.make_block(1, RunOptions(tail=duration - quiet.duration))
+    block = model.block_for(model.kind(column), RunOptions(tail=duration - quiet.duration))
     block.load(0, Run(column, quiet))
     half, height, weight = 0.5 * column.base_width, column.centroid_height, column.mass * column.gravity
     c, s = math.cos(tilt), math.sin(tilt)
     share = contact_points(column.section, model.points)[1][0]
-    closure = weight / (block.joint["kn"][0, 0] * 2.0 * half * c * share)
+    closure = weight / (block.records.joint["kn"][0, 0] * 2.0 * half * c * share)
     place = {"x": half * (c - 1.0) - height * s, "z": half * s + height * c - closure, "th": tilt, "c": c, "s": s}
     for name, value in place.items():
-        block.drum[name][1, 0] = value
+        block.records.body[name][1, 0] = value
     time, rotation = [], []
     while not block.is_over(0):
         time.append(block.time(0))
-        rotation.append(block.drum["th"][1, 0])
+        rotation.append(block.records.body["th"][1, 0])
         block.advance(1)
     return np.array(time), np.array(rotation)
 

@@ -150,13 +150,14 @@ def _kernel(model: SteppedDrums, column: Column, motion: Motion, source: str, po
     ours, native = [], []
 
     def timed(chunks: int) -> tuple[float, float]:
-        block = model.make_block(column.n, RunOptions(until_end=True))
+        block = model.block_for(model.kind(column), RunOptions(until_end=True))
         for lane in range(block.lanes):
             block.load(lane, Case(column, shaking))
+        bodies = block.records.body if hasattr(block, "records") else block.drum
         started = time.thread_time()
         block.advance(chunks)
         steps = chunks * block.chunk * column.n * points * block.lanes
-        return (time.thread_time() - started) / steps * 1e9, float(block.drum["x"][-1, 0])
+        return (time.thread_time() - started) / steps * 1e9, float(bodies["x"][-1, 0])
 
     with tempfile.TemporaryDirectory() as folder:
         program = native_reference(source, folder)

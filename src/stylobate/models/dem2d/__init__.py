@@ -1,1 +1,1 @@
-"""Plane distinct elements: the model, columns as found, and columns followed to the ground."""
+"""Plane distinct elements: the model; its engine is in ``plane``."""

@@ -51,10 +51,10 @@ def without_tension(column: Column) -> Column:
 
 
 def set_free(column: Column, tensions: np.ndarray, pressed: float) -> float:
-    """Energy of pretension that links under these tensions [N], shape (m,), and the joints that they press, have given away since the start [J].
+    """Energy that pretensioned links and the joints that they press have given away since the start [J].
 
-    What the joints had, ``pressed`` [J], falls with the square of the tension; they are taken to have lost as much of it as
-    the link that has lost most.
+    ``tensions`` are those of the links now [N], shape (m,). What the joints had, ``pressed`` [J], falls with the square of
+    the tension; they are taken to have lost as much of it as the link that has lost most.
     """
     free = least = 0.0
     for m, one in enumerate(acting(column)):

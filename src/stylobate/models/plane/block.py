@@ -46,7 +46,6 @@ class Records:
 
     def __init__(self, law: Law, topology: Topology, spare: int = 0) -> None:
         from ...kernels.plane import step
-        from ...kernels.shared.contacts import list_contacts
 
         self.law, self.topology, self.step = law, topology, step
         self.lanes = int(law.types["body"]["x"].shape[0])
@@ -57,17 +56,24 @@ class Records:
             "hold": topology.stack if topology.links else 0, "pair": contacts + spare, "span": topology.bodies,
             "touch": 2 * (contacts + spare),
         }  # fmt: skip
-        self.state: tuple[Any, ...] = tuple(
+        arrays = (
             aligned_zeros(rows[name], law.types[name]) if rows[name] else np.zeros(0, law.types[name])
             for name in STATE[:-1]
-        ) + (topology.stack,)
+        )
+        self.state: tuple[Any, ...] = (*arrays, topology.stack)
         (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
          self.pair, self.span, self.touch, _) = self.state  # fmt: skip
         for k, (lower, upper) in enumerate((*topology.joints, *topology.links)):
             self.pair[k] = lower, upper
         self.span["fixed"][list(topology.fixed)] = 1
         self.contacts = contacts
-        list_contacts(self.pair, contacts, contacts + spare, self.span, self.touch)
+        self.forget_pairs()
+
+    def forget_pairs(self) -> None:
+        """Let the bodies have the contacts of joints and links alone, whatever a search has found."""
+        from ...kernels.shared.contacts import list_contacts
+
+        list_contacts(self.pair, self.contacts, len(self.load) - 1, self.span, self.touch)
 
     def put(self, lane: int, packed: Packed) -> None:
         """Write the numbers of a run into a lane: of all records that differ from lane to lane."""

@@ -1,4 +1,4 @@
-"""Blocks of an assembly in the numbers of the engine in the plane: bodies, joints, the bed, and how joints hand over to it."""
+"""Blocks of an assembly in the numbers of the engine in the plane: bodies, joints, the bed, how joints hand over to it."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from ...column import Column
 from ...column.as_blocks import of_column
 from ...column.found_geometry import drum_outline
 from ...constants import DEGREE
-from ...kernels.run_codes import CHUNK, ENDED, RUNNING
+from ...kernels.run_codes import CHUNK, FAILED, RUNNING
 from ...motion import Motion
 from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures, Response
@@ -179,10 +179,9 @@ class _ColumnRun:
             self.ahead -= piece
 
     def watch_on(self) -> None:
-        """Look for collapses after the motion too; nothing of it is left to set against them."""
-
+        """Go on after the motion, and look for collapses; nothing of it is left to set against them."""
         watch = self.block.watch[0]
-        if watch["status"][0] == ENDED:
+        if watch["status"][0] != FAILED:
             watch["status"][0] = RUNNING
             watch["amax"][0] = watch["vmax"][0] = 0.0
 

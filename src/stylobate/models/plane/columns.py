@@ -315,7 +315,7 @@ class ColumnLanes:
         """Whether the column in a lane, with these slips [m] and this change of its ledger [J], stands for good."""
         column = self.column(lane)
         mechanical = float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
-        return stands_for_good(column, self.records, lane, slip, mechanical, self.pack(column).toes)
+        return bool(stands_for_good(column, self.records, lane, slip, mechanical, self.pack(column).toes))
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""

@@ -1,4 +1,4 @@
-"""What may come loose, in one lane: bodies of an assembly, or of a column that is followed to the ground, until all lies still."""
+"""What may come loose, in one lane, until all lies still: an assembly, or a column that is followed to the ground."""
 
 from __future__ import annotations
 
@@ -163,8 +163,9 @@ class Loose:
         self.kernel.renew_pairs(self.records.state, self.search)
 
     def may_come_loose(self, time: float) -> bool:
-        """Whether bodies that are not joined may touch, or a joint may hand over, within a time [s]."""
-        return bool(self.kernel.may_come_loose(self.records.state, self.search, time))
+        """Whether bodies that are not joined may touch, or a joint may hand over or has, within a time [s]."""
+        gone = not self.hand["live"].all()  # where its faces meet again the bed holds them
+        return gone or bool(self.kernel.may_come_loose(self.records.state, self.search, time))
 
     def chunks_ahead(self) -> int:
         """Chunks of steps for which it is certain that joints and links alone hold everything; 0 if something is loose."""
@@ -192,10 +193,14 @@ class Loose:
         """Advance by some chunks of steps: as lanes do while joints and links hold everything, with the search otherwise."""
         while chunks > 0 and not self.failed:
             even = float(self.now["last"][0]) == self.dt and float(self.now["dull"][0]) == 0.0
-            if self.safe <= 0 and even:
+            if not even:
+                self.safe = 0
+            elif self.safe <= 0:
                 self.safe = self.chunks_ahead()
             piece = min(chunks, longest_piece(self.cost, CHUNK), self.safe if self.safe > 0 else self.look)
             if self.safe > 0:
+                self.records.link["dt"] = self.dt
+                self.records.forget_pairs()  # none of them touches, but their last loads are kept
                 self.records.law.advance(self.records.state, piece)
                 self.safe -= piece
             else:
@@ -293,6 +298,7 @@ class Loose:
                 array[...] = before
             self.renew_pairs()
             self.begin_links()
+        self.safe = 0
         self._push()
         return rests
 

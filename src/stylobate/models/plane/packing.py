@@ -89,9 +89,9 @@ def one_lane(dtype: np.dtype, rows: int, fields: Mapping[str, Any]) -> np.ndarra
 def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     """Numbers of the drums, the base first: upright, at rest, each joint closed by ``closure`` [m], shape (n,).
 
-    Besides fields of ``body``: ``hb`` and ``ht``, centroid to the lower and to the upper face [m]; ``bl`` and ``br``, from the
-    centroid's foot on the lower face to that face's left and right end, ``t``, half width of the upper face [m]; ``fc`` and
-    ``fs``, cosine and sine of the upper face's inclination to the lower one.
+    Besides fields of ``body``: ``hb`` and ``ht``, centroid to the lower and to the upper face [m]; ``bl`` and ``br``, from
+    the centroid's foot on the lower face to that face's left and right end, ``t``, half width of the upper face [m];
+    ``fc`` and ``fs``, cosine and sine of the upper face's inclination to the lower one.
     """
     centroid = np.array([drum.centroid_height for drum in column.drums])
     n = column.n + 1
