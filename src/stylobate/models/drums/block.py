@@ -140,7 +140,7 @@ class DrumBlock:
             self.take_pose(lane, case.column, start)
         self.half_a_step_back(lane)
         self.start[lane] = self.energies(lane)
-        self.pressed[lane] = pressed_joints(self, lane, case.column) if self.tied else 0.0
+        self.pressed[lane] = self.pressed_joints(lane, case.column) if self.tied else 0.0
         if start is not None:  # what the pose and the velocity hold above the column upright
             self.rest[lane] += self.start[lane, 1:4].sum()
 
@@ -156,11 +156,18 @@ class DrumBlock:
             self.drum[name][:, lane] = values
         self.joint["fs"][0, :, lane] = 0.0
         self.joint["fs"][0, -1 if leans_right(start) else 0, lane] = push
-        sink(self, lane, lift)
+        joint, state = self.joint.copy(), self.lane.copy()
+        state["dt"][0, lane] = 0.0
 
-    def lift(self, joint: np.ndarray, lane: int) -> float:
-        """What the base carries [N]."""
-        return float(joint["fz"][0, lane])
+        def carried() -> float:
+            self.kernel.forces(self.drum, joint, state)
+            return float(joint["fz"][0, lane])
+
+        sink(self.drum, lane, lift, carried)
+
+    def pressed_joints(self, lane: int, column: Column) -> float:
+        """Energy at the start of joints that pretension presses [J], see :mod:`.pretension`."""
+        return pressed_joints(self, lane, column)
 
     def half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
@@ -187,8 +194,12 @@ class DrumBlock:
         running = np.count_nonzero(self.running())
         while left > 0 and np.count_nonzero(self.running()) == running:
             count = min(left, self.piece)
-            self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
+            self.step(count)
             left -= count
+
+    def step(self, chunks: int) -> None:
+        """Let the kernel take so many chunks of steps."""
+        self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, chunks)
 
     def running(self) -> np.ndarray:
         """Which lanes' runs go on, shape (lanes,)."""
@@ -224,7 +235,7 @@ class DrumBlock:
         change = self.energies(lane) - self.start[lane]
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
-            free = set_free(case.column, self.lane, lane, float(self.pressed[lane]))
+            free = set_free(case.column, self.lane["mft"][1:, lane], float(self.pressed[lane]))
         return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(case.column)
 
     def time(self, lane: int) -> float:

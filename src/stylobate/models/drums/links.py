@@ -11,7 +11,6 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_geometry import geometry
-from ...column.found_in_space import space_geometry
 from ...column.link_laws import LinkProperties, properties
 from ...column.link_loads import own_places
 from ...kernels.drums.link_records import OWN
@@ -71,7 +70,7 @@ def pack_links(column: Column, joint: np.ndarray, line: np.ndarray, ends: np.nda
         "mpx": joint[:, 0],
         "mpy": joint[:, 1],
         "mwhen": np.full(count, -1),
-        "mhold": np.array([_hold(column, one) for one in links]),
+        "mhold": np.array([hold_of(column, one) for one in links]),
     }
     own |= {f"m{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
     return PackedLinks(shared, own)
@@ -144,28 +143,7 @@ def plane_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | No
     return pack_links(column, joint, line, ends)
 
 
-def space_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | None:
-    """Links of a column in space whose drums stand as these fields of the kernel's records say."""
-    links = acting(column)
-    if not links:
-        return None
-    joint, line, ends = np.zeros((len(links), 3)), np.zeros(len(links)), np.zeros((2, len(links), 3))
-    axes = np.stack([np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
-    centroids, foot = (np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in ("", "f"))
-    beds = space_geometry(column).bed if column.as_found else np.repeat(np.eye(3)[None], column.n, axis=0)
-    for m, link in enumerate(links):
-        low, up = link.lower, link.upper
-        if link.straight:
-            ends[:, m] = own_places(column, link)
-            one, other = (centroids[body] + axes[body] @ end for body, end in ((low, ends[0, m]), (up, ends[1, m])))
-            line[m] = math.dist(one, other)
-            continue
-        ends[1, m] = foot[up] + beds[up - 1] @ (*link.high[:2], 0.0)
-        joint[m] = axes[low].T @ (centroids[up] + axes[up] @ ends[1, m] - centroids[low]) - (0.0, 0.0, drum["ht"][low])
-    return pack_links(column, joint, line, ends)
-
-
-def _hold(column: Column, link: LinkProperties) -> float:
+def hold_of(column: Column, link: LinkProperties) -> float:
     """Largest moment that a link can set against overturning about a joint that it crosses [N m].
 
     One across a joint in tension at its distance from the farthest edge; one in shear over the lift at which it is in its

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -71,21 +72,18 @@ def leans_right(start: Start) -> bool:
     return math.cos(start.azimuth) > 0.0
 
 
-def sink(block: Any, lane: int, force: float) -> None:
-    """Lower the whole column in a lane of a block until the base carries a force [N]."""
-    joint, state = block.joint.copy(), block.lane.copy()
-    state["dt"][0, lane] = 0.0
-    z = block.drum["z"][1:, lane].copy()
+def sink(drum: np.ndarray, lane: int, force: float, carried: Callable[[], float]) -> None:
+    """Lower the whole column in a lane until the base, which now carries ``carried()``, carries a force [N]."""
+    z = drum["z"][1:, lane].copy()
 
-    def carried(depth: float) -> float:
-        block.drum["z"][1:, lane] = z - depth
-        block.kernel.forces(block.drum, joint, state)
-        return block.lift(joint, lane)
+    def carried_at(depth: float) -> float:
+        drum["z"][1:, lane] = z - depth
+        return carried()
 
     low, high = 0.0, 1e-12
-    while carried(high) < force:
+    while carried_at(high) < force:
         high *= 2.0
-    while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
+    while high - low > 1e-15 and carried_at(0.5 * (low + high)) != force:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried(middle) < force else (low, middle)
-    carried(high)
+        low, high = (middle, high) if carried_at(middle) < force else (low, middle)
+    carried_at(high)

@@ -50,8 +50,8 @@ def without_tension(column: Column) -> Column:
     return column.replace(links=tuple(one for one in column.links if not getattr(one, "pretension", 0.0)))
 
 
-def set_free(column: Column, records: np.ndarray, lane: int, pressed: float) -> float:
-    """Energy of pretension that a lane's links, and the joints that they press, have given away since the start [J].
+def set_free(column: Column, tensions: np.ndarray, pressed: float) -> float:
+    """Energy of pretension that links with these tensions [N], and the joints that they press, have given away [J].
 
     What the joints had, ``pressed`` [J], falls with the square of the tension; they are taken to have lost as much of it as
     the link that has lost most.
@@ -59,7 +59,7 @@ def set_free(column: Column, records: np.ndarray, lane: int, pressed: float) -> 
     free = least = 0.0
     for m, one in enumerate(acting(column)):
         if one.pretension:
-            left = min(float(records["mft"][1 + m, lane]) / one.pretension, 1.0) ** 2
+            left = min(float(tensions[m]) / one.pretension, 1.0) ** 2
             free += 0.5 * one.pretension**2 / one.axial_stiffness * (1.0 - left)
             least = max(least, 1.0 - left)
     return free + least * max(pressed, 0.0)
