@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from ..jit import apart, law, strict
 from .pose import cross
 from .records import ALPHA, LOCAL
@@ -25,14 +27,13 @@ def add_lower(u, f, l):
 
 
 @law
-def gather(u, i, load, span, touch):
-    """Force and moment of body i, whose record is u: the loads of its contacts, in the order of its list."""
+def gather(u, load, touch, first, last):
+    """Force and moment of a body with record u: the loads of contacts ``first`` … ``last`` − 1 of the list, in its order."""
     lanes = range(u.x.shape[0])
     for l in lanes:
         for c in range(3):
             u.f[c, l] = u.mo[c, l] = 0.0
-    first = span[i].first
-    for t in range(first, first + span[i].count):
+    for t in range(first, last):
         f = load[touch[t].contact]
         if touch[t].upper != 0:
             for l in lanes:
@@ -40,6 +41,14 @@ def gather(u, i, load, span, touch):
         else:
             for l in lanes:
                 add_lower(u, f, l)
+
+
+@law
+def contact_of(load, touch, t, there):
+    """Load of contact t of the list, its sign, and its moment on the body; of the last row, which is nothing, without one."""
+    f = load[touch[t].contact] if there else load[load.shape[0] - 1]
+    upper = there and touch[t].upper != 0
+    return f, (1.0 if upper else -1.0), (f.up if upper else f.lo)
 
 
 @law
@@ -76,15 +85,17 @@ def half_about_i(u, l, lx, ly, lz, time):
 
 
 @law
-def drift(u, o, g, l):
-    """Motion of a body from t_n to t_{n+1} under its forces at t_n."""
+def drift(u, one, other, o, g, l):
+    """Motion of a body from t_n to t_{n+1} under the loads of two contacts at t_n, and of others, ``f`` and ``mo``."""
+    e, here, me = one
+    a, there, ma = other
     dt = o.dt[l]
     free = o.free[l]
     im, m = u.im[l], u.m[l]
-    ax = u.f[0, l] * im - g.a[0, l] - o.g[0, l]
-    ay = u.f[1, l] * im - g.a[1, l] - o.g[1, l]
-    az = u.f[2, l] * im - g.a[2, l] - o.g[2, l]
-    mx, my, mz = u.mo[0, l], u.mo[1, l], u.mo[2, l]
+    ax = (here * e.f[0, l] + there * a.f[0, l] + u.f[0, l]) * im - g.a[0, l] - o.g[0, l]
+    ay = (here * e.f[1, l] + there * a.f[1, l] + u.f[1, l]) * im - g.a[1, l] - o.g[1, l]
+    az = (here * e.f[2, l] + there * a.f[2, l] + u.f[2, l]) * im - g.a[2, l] - o.g[2, l]
+    mx, my, mz = me[0, l] + ma[0, l] + u.mo[0, l], me[1, l] + ma[1, l] + u.mo[1, l], me[2, l] + ma[2, l] + u.mo[2, l]
     vx, vy, vz = u.vx[l], u.vy[l], u.vz[l]
     lx, ly, lz = u.lx[l], u.ly[l], u.lz[l]
     if o.damp.shape[0] > 1:
@@ -161,9 +172,13 @@ def move_all(body, load, span, touch, lane, ground, k):
         o.p[0, l] = o.p[1, l] = o.p[2, l] = 0.0
     for i in range(1, body.shape[0]):
         u = body[i]
-        gather(u, i, load, span, touch)
+        first, count = span[i].first, span[i].count
+        # two contacts are what most bodies have: read where they are, without a sum in between
+        one, other = contact_of(load, touch, first, count > 0), contact_of(load, touch, first + np.uint64(1), count > 1)
+        if count > 2:
+            gather(u, load, touch, first + np.uint64(2), first + count)
         for l in lanes:
-            drift(u, o, g, l)
+            drift(u, one, other, o, g, l)
     for l in lanes:
         work_done(o, g, h, l)
 
@@ -172,7 +187,7 @@ def move_all(body, load, span, touch, lane, ground, k):
 def gather_all(body, load, span, touch):
     """Forces and moments of all bodies but the base."""
     for i in range(1, body.shape[0]):
-        gather(body[i], i, load, span, touch)
+        gather(body[i], load, touch, span[i].first, span[i].first + span[i].count)
 
 
 @strict
