@@ -11,44 +11,53 @@ from .turning import spun, turned
 
 
 @law
-def add_upper(u, f, l):
+def add_upper(force, moment, f, l):
     """Adds a load to the upper body of its contact."""
     for c in range(3):
-        u.f[c, l] += f.f[c, l]
-        u.mo[c, l] += f.up[c, l]
+        force[c, l] += f.f[c, l]
+        moment[c, l] += f.up[c, l]
 
 
 @law
-def add_lower(u, f, l):
+def add_lower(force, moment, f, l):
     """Adds a load to the lower body of its contact."""
     for c in range(3):
-        u.f[c, l] -= f.f[c, l]
-        u.mo[c, l] += f.lo[c, l]
+        force[c, l] -= f.f[c, l]
+        moment[c, l] += f.lo[c, l]
 
 
 @law
-def gather(u, load, touch, first, last):
-    """Force and moment of a body with record u: the loads of contacts ``first`` … ``last`` − 1 of the list, in its order."""
-    lanes = range(u.x.shape[0])
+def gather(force, moment, load, touch, first, last):
+    """Force and moment on a body: the loads of contacts ``first`` … ``last`` − 1 of the list, in its order."""
+    lanes = range(force.shape[1])
     for l in lanes:
         for c in range(3):
-            u.f[c, l] = u.mo[c, l] = 0.0
+            force[c, l] = moment[c, l] = 0.0
     for t in range(first, last):
         f = load[touch[t].contact]
         if touch[t].upper != 0:
             for l in lanes:
-                add_upper(u, f, l)
+                add_upper(force, moment, f, l)
         else:
             for l in lanes:
-                add_lower(u, f, l)
+                add_lower(force, moment, f, l)
 
 
 @law
-def contact_of(load, touch, t, there):
-    """Load of contact t of the list, its sign, and its moment on the body; of the last row, which is nothing, without one."""
-    f = load[touch[t].contact] if there else load[load.shape[0] - 1]
-    upper = there and touch[t].upper != 0
-    return f, (1.0 if upper else -1.0), (f.up if upper else f.lo)
+def two_loads(i, load, span, touch):
+    """Two loads that are all that acts on a body, as the upper body of one contact and the lower one of another.
+
+    Of a drum on another one, under a third, they are those of its joints, where they are; of others their sum, and nothing.
+    """
+    first, count = span[i].first, span[i].count
+    second = first + np.uint64(1)
+    total, nothing = load[load.shape[0] - 2], load[load.shape[0] - 1]
+    if count == 1 and touch[first].upper != 0:
+        return load[touch[first].contact], nothing
+    if count == 2 and touch[first].upper != 0 and touch[second].upper == 0:
+        return load[touch[first].contact], load[touch[second].contact]
+    gather(total.f, total.up, load, touch, first, first + count)
+    return total, nothing
 
 
 @law
@@ -85,17 +94,15 @@ def half_about_i(u, l, lx, ly, lz, time):
 
 
 @law
-def drift(u, one, other, o, g, l):
-    """Motion of a body from t_n to t_{n+1} under the loads of two contacts at t_n, and of others, ``f`` and ``mo``."""
-    e, here, me = one
-    a, there, ma = other
+def drift(u, e, a, o, g, l):
+    """Motion of a body from t_n to t_{n+1} under two loads at t_n, as their upper and their lower body."""
     dt = o.dt[l]
     free = o.free[l]
     im, m = u.im[l], u.m[l]
-    ax = (here * e.f[0, l] + there * a.f[0, l] + u.f[0, l]) * im - g.a[0, l] - o.g[0, l]
-    ay = (here * e.f[1, l] + there * a.f[1, l] + u.f[1, l]) * im - g.a[1, l] - o.g[1, l]
-    az = (here * e.f[2, l] + there * a.f[2, l] + u.f[2, l]) * im - g.a[2, l] - o.g[2, l]
-    mx, my, mz = me[0, l] + ma[0, l] + u.mo[0, l], me[1, l] + ma[1, l] + u.mo[1, l], me[2, l] + ma[2, l] + u.mo[2, l]
+    ax = (e.f[0, l] - a.f[0, l]) * im - g.a[0, l] - o.g[0, l]
+    ay = (e.f[1, l] - a.f[1, l]) * im - g.a[1, l] - o.g[1, l]
+    az = (e.f[2, l] - a.f[2, l]) * im - g.a[2, l] - o.g[2, l]
+    mx, my, mz = e.up[0, l] + a.lo[0, l], e.up[1, l] + a.lo[1, l], e.up[2, l] + a.lo[2, l]
     vx, vy, vz = u.vx[l], u.vy[l], u.vz[l]
     lx, ly, lz = u.lx[l], u.ly[l], u.lz[l]
     if o.damp.shape[0] > 1:
@@ -172,13 +179,9 @@ def move_all(body, load, span, touch, lane, ground, k):
         o.p[0, l] = o.p[1, l] = o.p[2, l] = 0.0
     for i in range(1, body.shape[0]):
         u = body[i]
-        first, count = span[i].first, span[i].count
-        # two contacts are what most bodies have: read where they are, without a sum in between
-        one, other = contact_of(load, touch, first, count > 0), contact_of(load, touch, first + np.uint64(1), count > 1)
-        if count > 2:
-            gather(u, load, touch, first + np.uint64(2), first + count)
+        e, a = two_loads(i, load, span, touch)
         for l in lanes:
-            drift(u, one, other, o, g, l)
+            drift(u, e, a, o, g, l)
     for l in lanes:
         work_done(o, g, h, l)
 
@@ -187,7 +190,7 @@ def move_all(body, load, span, touch, lane, ground, k):
 def gather_all(body, load, span, touch):
     """Forces and moments of all bodies but the base."""
     for i in range(1, body.shape[0]):
-        gather(body[i], load, touch, span[i].first, span[i].first + span[i].count)
+        gather(body[i].f, body[i].mo, load, touch, span[i].first, span[i].first + span[i].count)
 
 
 @strict

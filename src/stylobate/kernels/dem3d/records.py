@@ -9,8 +9,7 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                m im           mass and its inverse [kg]
                ia ic          1/A, and 1/C − 1/A, with the inertia A about j and C about k           [1/(kg m²)]
                ib             1/B − 1/A, with the inertia B about i (0 for round drums)                    [1/(kg m²)]
-               f[3] mo[3]     force and moment at t_n of its contacts behind the first two [N], [N m]; where the ledger is
-                              asked for, of all of them
+               f[3] mo[3]     force and moment of all its contacts at t_n, where the ledger is asked for [N], [N m]
                fx fy fz       middle of the lower face from the centroid, in the axes of the body [m]
                nx ny nz       normal of the lower face (up), in the axes of the body [-]
                ht             centroid to the middle of the upper face, along k [m]
@@ -33,7 +32,7 @@ Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at
                               limit of torsion over ρ μ N; of one row without sunken middles
                w[22]          with corners: what they share within one evaluation, see corners.py
     load[n]    f[3] up[3] lo[3]  force of contact n on its upper body [N], moments on both about their centroids [N m]
-                              the last row: nothing
+                              the last two rows: a sum of several, and nothing
     link[m] bond[m]           see shared/link_records.py; of type ``none`` without links
     lane       dt             step [s];  g[3]  gravity, as an acceleration of the base: up is positive [m/s²]
                damp[3]        damped only, rows BETA, ALPHA, LOCAL: stiffness- and mass-proportional damping [s], [1/s];
@@ -168,3 +167,9 @@ def vertex_fields() -> list[tuple]:
 
 #: Most rows of vertices that a body may have.
 MOST_ROWS = 5120
+
+
+def rows(array, name: str) -> int:
+    """Rows of a field of an array of records as the compiler knows it, 0 where it has no such field."""
+    field = array.dtype.fields.get(name)
+    return 0 if field is None else 1 if len(field.type.shape) == 1 else field.type.shape[0]

@@ -5,7 +5,7 @@ functions chosen by them here are compiled with what they are chosen for.
 """
 
 from ..ground import sample
-from ..jit import apart, chosen, kernel, law, long_law, strict
+from ..jit import chosen, kernel, long_law, strict
 from ..run_codes import CHUNK, RUNNING
 from ..shared.frame import (
     BODY,
@@ -25,80 +25,14 @@ from ..shared.frame import (
 )  # fmt: skip
 from ..shared.links import add_to_ledger
 from . import vertices
-from .beds import disc_beds, ring_beds
-from .corners import on_corners
+from .joints import joint_forces
 from .links import add_links, look_at_all, look_for_slack
 from .look import check_finite, joint_state, look_at_column
 from .move import gather_all, kinetic_and_gravitational, move_all, stored_in_faces
-from .rims import chipped_rims, whole_rims
-from .round_faces import on_face
+from .records import rows
 
 #: The models read these here.
 __all__ = ["advance", "forces", "joint_state", "ledger"]
-
-
-@law
-def round_joints(pressure_of, body, joint, load, pair, lane):
-    """All joints of round faces in all lanes, under a law of pressure."""
-    o = lane[0]
-    for q in range(joint.shape[0]):
-        u = body[pair[q].upper]
-        v = body[pair[q].lower]
-        e = joint[q]
-        f = load[q]
-        for l in range(o.dt.shape[0]):
-            on_face(pressure_of, e, f, o, u, v, l)
-
-
-@apart
-def whole_rim_joints(body, joint, load, pair, lane):
-    """Joints of whole round faces on their rims."""
-    round_joints(whole_rims, body, joint, load, pair, lane)
-
-
-@apart
-def chipped_rim_joints(body, joint, load, pair, lane):
-    """Joints of chipped round faces on what is left of their rims."""
-    round_joints(chipped_rims, body, joint, load, pair, lane)
-
-
-@apart
-def bed_joints(body, joint, load, pair, lane):
-    """Joints of round faces on an elastic bed."""
-    round_joints(disc_beds, body, joint, load, pair, lane)
-
-
-@apart
-def ring_joints(body, joint, load, pair, lane):
-    """Joints of faces with sunken middles on an elastic bed."""
-    round_joints(ring_beds, body, joint, load, pair, lane)
-
-
-@apart
-def corner_joints(body, joint, load, pair, lane):
-    """Joints of rectangular faces on their corners."""
-    for q in range(joint.shape[0]):
-        on_corners(joint[q], load[q], lane[0], body[pair[q].upper], body[pair[q].lower])
-
-
-def rows(array, name: str) -> int:
-    """Rows of a field of an array of records as the compiler knows it, 0 where it has no such field."""
-    field = array.dtype.fields.get(name)
-    return 0 if field is None else 1 if len(field.type.shape) == 1 else field.type.shape[0]
-
-
-@chosen
-def joint_forces(body, joint, load, pair, lane):
-    """Forces of all joints at t_n, as their records tell; brings the contact memory from t_{n−1} to t_n."""
-    if rows(joint, "rest"):
-        loop = vertices.on_vertices
-    elif rows(joint, "w"):
-        loop = corner_joints
-    elif rows(joint, "ring"):
-        loop = ring_joints if rows(joint, "ring") > 1 else bed_joints
-    else:
-        loop = chipped_rim_joints if rows(joint, "chip") > 1 else whole_rim_joints
-    return lambda body, joint, load, pair, lane: loop(body, joint, load, pair, lane)
 
 
 @chosen
@@ -186,17 +120,23 @@ def look_ahead(state):
     may_hold(state[BODY], state[JOINT], state[LOAD], state[LINK], state[BOND], state[LANE], state[WATCH], state[PAIR])
 
 
-@kernel
-def forces(state):
+@long_law
+def contact_forces(state):
     """Loads of all contacts at t_n; brings their memory from t_{n−1} to t_n."""
     joint_forces(state[BODY], state[JOINT], state[LOAD], state[PAIR], state[LANE])
     link_forces(state[BODY], state[LOAD], state[LINK], state[BOND], state[PAIR], state[JOINT].shape[0])
 
 
 @kernel
+def forces(state):
+    """See :func:`contact_forces`."""
+    contact_forces(state)
+
+
+@kernel
 def gather(state):
     """Loads of all contacts at t_n, as :func:`forces`, and what they add up to on every body."""
-    forces(state)
+    contact_forces(state)
     gather_all(state[BODY], state[LOAD], state[SPAN], state[TOUCH])
 
 
@@ -238,4 +178,4 @@ def ledger(state, k, dt, l, out):
 @kernel
 def advance(state, chunks):
     """Advance all lanes: see :func:`run_chunks`."""
-    run_chunks(fill_ground, look_ahead, forces, move, look, state, chunks)
+    run_chunks(fill_ground, look_ahead, contact_forces, move, look, state, chunks)

@@ -30,7 +30,7 @@ def stack_arrays(types: dict[str, np.dtype], bodies: int, joints: int, links: in
     rows = {
         "body": bodies,
         "joint": joints,
-        "load": contacts + 1,
+        "load": contacts + 2,
         "link": links,
         "bond": links,
         "ground": CHUNK + 1,

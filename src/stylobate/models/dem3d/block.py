@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,22 +13,20 @@ from ...column.found_in_space import base_axes
 from ...column.link_loads import is_pretensioned
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
-from ...motion import Motion
 from ...outcome import Outcome, classify
-from ...response import Collapse, Histories, LinkMeasures, Measures
+from ...response import Collapse, LinkMeasures, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
-from ...response.poses import quaternions
 from ..base import Case, RunOptions
 from ..drums.block import CALLS_PER_RUN, DrumBlock
 from ..drums.histories import ledger_imbalance
-from ..drums.links import acting, with_link_histories
+from ..drums.links import acting
 from ..drums.packing import PackedColumn, whole_steps
 from ..drums.pose import sink
 from ..drums.pretension import held_at_start, set_free, without_tension
 from ..drums.standing import lowest_barrier
 from ..shared import ledger, quiet
-from ..shared.ground import ground_histories, value_at
+from ..shared.ground import value_at
 from ..shared.lanes import longest_piece
 from ..start import check_in_plane
 from .arrays import join_links, stack_arrays, state_of
@@ -391,24 +389,3 @@ class SpaceBlock(DrumBlock):
         """Where a collapse goes, in words."""
         azimuth = math.degrees(self.collapse(lane).azimuth or 0.0)
         return f"towards azimuth {round(azimuth) % 360}° (from x towards y)"
-
-
-def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
-    """Histories from the snapshots of a run."""
-    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
-    energy = stack["energy"]
-    acceleration, displacement = ground_histories(motion, stack["time"])
-    found = Histories.in_space(
-        time=stack["time"],
-        position=stack["position"],
-        orientation=quaternions(stack["axes"]),
-        joint_opening=stack["opening"],
-        joint_slip=stack["slip"],
-        joint_twist=stack["twist"],
-        base_displacement=stack["base"] - stack["base"][0],
-        top_displacement=stack["top"],
-        ground_acceleration=acceleration,
-        ground_displacement=displacement,
-        energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(ledger.TERMS)},
-    )
-    return with_link_histories(found, states)

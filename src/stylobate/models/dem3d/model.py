@@ -26,8 +26,9 @@ from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
-from .block import SpaceBlock, histories
+from .block import SpaceBlock
 from .found_start import found_start
+from .histories import histories
 from .links import space_links
 from .packing import chipped, damping_rows, drum_fields, joint_fields, lane_fields
 from .restitution import damping_for

@@ -62,7 +62,7 @@ def placed(
             fields[axis + name] = np.concatenate(([float(a == c)], np.full(column.n, turn[c, a])))
     for name in "xyz":  # the base stays where it is
         fields[name][0] = drum[name][0, lane]
-    shear = np.zeros((column.n + 1, 3 if low is None else 3 * len(CORNERS)))
+    shear = np.zeros((column.n, 3 if low is None else 3 * len(CORNERS)))
     for corner in (0,) if low is None else low:
         shear[0, 3 * corner : 3 * corner + 2] = force[:2] / (1 if low is None else len(low))
     return fields, {"s": shear}, max(float(force[2]), 0.0)
