@@ -160,6 +160,13 @@ def rotate(u, l, lx, ly, lz, dt):
         u.wx[l], u.wy[l], u.wz[l] = wx + spin * kx, wy + spin * ky, wz + spin * kz
 
 
+@apart
+def drift_in_lanes(u, e, a, o, g):
+    """:func:`drift` in all lanes: of records that the compiler is told to be apart, whichever they are."""
+    for l in range(u.x.shape[0]):
+        drift(u, e, a, o, g, l)
+
+
 @law
 def work_done(o, g, h, l):
     """Adds the work of the body force −m a over a step by the trapezoidal rule.  # Eq. (D5)"""
@@ -180,8 +187,7 @@ def move_all(body, load, span, touch, lane, ground, k):
     for i in range(1, body.shape[0]):
         u = body[i]
         e, a = two_loads(i, load, span, touch)
-        for l in lanes:
-            drift(u, e, a, o, g, l)
+        drift_in_lanes(u, e, a, o, g)
     for l in lanes:
         work_done(o, g, h, l)
 

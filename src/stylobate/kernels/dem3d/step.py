@@ -120,23 +120,17 @@ def look_ahead(state):
     may_hold(state[BODY], state[JOINT], state[LOAD], state[LINK], state[BOND], state[LANE], state[WATCH], state[PAIR])
 
 
-@long_law
-def contact_forces(state):
+@kernel
+def forces(state):
     """Loads of all contacts at t_n; brings their memory from t_{n−1} to t_n."""
     joint_forces(state[BODY], state[JOINT], state[LOAD], state[PAIR], state[LANE])
     link_forces(state[BODY], state[LOAD], state[LINK], state[BOND], state[PAIR], state[JOINT].shape[0])
 
 
 @kernel
-def forces(state):
-    """See :func:`contact_forces`."""
-    contact_forces(state)
-
-
-@kernel
 def gather(state):
     """Loads of all contacts at t_n, as :func:`forces`, and what they add up to on every body."""
-    contact_forces(state)
+    forces(state)
     gather_all(state[BODY], state[LOAD], state[SPAN], state[TOUCH])
 
 
@@ -178,4 +172,4 @@ def ledger(state, k, dt, l, out):
 @kernel
 def advance(state, chunks):
     """Advance all lanes: see :func:`run_chunks`."""
-    run_chunks(fill_ground, look_ahead, contact_forces, move, look, state, chunks)
+    run_chunks(fill_ground, look_ahead, forces, move, look, state, chunks)

@@ -192,12 +192,12 @@ class _Contact:
         self.kernel.forces(state_of(self.arrays | {"joint": memory}))
         held = np.empty((len(poses), n, 6))
         for k, pose in enumerate(poses):
-            force = load["f"][:, :, k]
-            moment = load["up"][:, :, k] + np.cross(pose.centroid - pose.origin, force)
+            force = load["f"][:n, :, k]
+            moment = load["up"][:n, :, k] + np.cross(pose.centroid - pose.origin, force)
             force, moment = (np.einsum("nba,nb->na", pose.frame, one) for one in (force, moment))
             held[k] = np.column_stack((force[:, 2], moment, force[:, :2]))
         if self.cornered:
-            each = np.einsum("nb,nbp->np", lower[:n, :, 0], load["f"][:, :, 4 : 4 + len(CORNERS)])
+            each = np.einsum("nb,nbp->np", lower[:n, :, 0], load["f"][:n, :, 4 : 4 + len(CORNERS)])
             each = np.maximum(each, 0.0)
             friction.bears = each / np.maximum(each.sum(axis=1, keepdims=True), 1e-300)
         return held, stored
