@@ -161,7 +161,7 @@ class SpaceBlock(DrumBlock):
         for array, fields in ((self.drum, drums), (self.joint, joints)):
             for name, values in fields.items():
                 array[name][..., lane] = values
-        now = self.copies(lane)
+        now = self.copies(lane, body=self.drum)  # which sinks
 
         def carried() -> float:
             self.kernel.forces(state_of(now))
@@ -249,12 +249,13 @@ class SpaceBlock(DrumBlock):
     def energies(self, lane: int) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
         # the forces at the present positions, found as the next step will find them
-        return self.energies_of(lane, self.copies(lane, self.dt[lane]))
+        return self.ledger_of(lane, self.copies(lane, self.dt[lane]))
 
-    def energies_of(self, lane: int, now: dict[str, Any]) -> np.ndarray:
+    def ledger_of(self, lane: int, now: dict[str, Any]) -> np.ndarray:
         """The same of these arrays, which are changed."""
-        now["ground"] = np.zeros(1, self.ground.dtype)
-        now["ground"]["a"][0, :, lane] = self.ground_acceleration(lane, self.time(lane))
+        ground: Any = np.zeros(1, self.ground.dtype)
+        now["ground"] = ground
+        ground["a"][0, :, lane] = self.ground_acceleration(lane, self.time(lane))
         state = state_of(now)
         self.kernel.gather(state)
         out = np.empty(6)
@@ -269,7 +270,7 @@ class SpaceBlock(DrumBlock):
                 now[name][field][..., lane] = values
         now["lane"]["dt"][0, lane] = self.dt[lane]
         now["link"]["on"][:, lane] = now["link"]["ft"][:, lane] = 0.0
-        return self.energies_of(lane, now)
+        return self.ledger_of(lane, now)
 
     def residual_acceleration(self, lane: int) -> float:
         """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""

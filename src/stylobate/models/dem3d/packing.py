@@ -83,7 +83,7 @@ def _cornered(half: dict[str, list[float]], on_base: Callable[..., np.ndarray]) 
 
 def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np.ndarray]:
     """Fields of the joints, the one with the base first."""
-    memory = {name: np.zeros(column.n) for name in ("t", "kf", "kt", "en", "ox", "oy", "ot")}
+    memory: dict[str, np.ndarray] = {name: np.zeros(column.n) for name in ("t", "kf", "kt", "en", "ox", "oy", "ot")}
     memory["s"] = np.zeros((column.n, 3 if column.section == "circular" else 3 * len(CORNERS)))
     own = {"ring": _sunken(column)} if column.on_rings else {"chip": _lost(column)} if chipped(column) else {}
     return (
