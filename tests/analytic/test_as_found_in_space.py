@@ -13,6 +13,7 @@ from stylobate.column.files import write_column
 from stylobate.column.found_geometry import uplift_accelerations
 from stylobate.column.found_in_space import space_geometry, space_load
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.dem3d.arrays import state_of
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.motion import Motion
 
@@ -76,17 +77,17 @@ def test_the_eccentric_closure_of_an_offset_column_carries_its_load_where_static
     """An offset in the plane: normal force and moment of each joint are those of the plane's statics."""
     column = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.1),)))
     block = block_of(column)
-    joint, state = block.joint.copy(), block.lane.copy()
-    state["dt"] = 0.0
-    block.kernel.forces(block.drum, joint, state)
+    now = block.copies(0)
+    block.kernel.forces(state_of(now))
+    load = now["load"]
     mass = column.masses
     for j in range(3):
         weight = mass[j:].sum() * column.gravity
-        assert joint["f"][j, 2, 0] == pytest.approx(weight, rel=1e-8)
+        assert load["f"][j, 2, 0] == pytest.approx(weight, rel=1e-8)
     # about its centroid drum 1 feels the weight of the others 0.1 m to the right, and the base's answer
-    moment = joint["up"][0, 1, 0] + joint["lo"][1, 1, 0]
+    moment = load["up"][0, 1, 0] + load["lo"][1, 1, 0]
     assert moment == pytest.approx(0.0, abs=1e-6 * weight)
-    assert joint["lo"][1, 1, 0] == pytest.approx(
+    assert load["lo"][1, 1, 0] == pytest.approx(
         0.1 * mass[1:].sum() * column.gravity, rel=1e-4
     )  # and what the joints give
 

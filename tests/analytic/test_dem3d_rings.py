@@ -14,6 +14,7 @@ from stylobate.errors import InputError
 from stylobate.kernels.dem3d.bed import settle_ring
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
+from stylobate.models.dem3d.arrays import state_of
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.shared.toes import disc_on_bed
 from stylobate.models.start import Start
@@ -103,12 +104,11 @@ def test_static_uplift_of_a_column_on_a_ring():
         foot = turn @ np.array([0.0, 0.0, block.drum["fz"][1, 0]])
         for c, name in enumerate("xyz"):
             block.drum[name][1, 0] = -foot[c] - (depth if c == 2 else 0.0)
-        joint, lane = block.joint.copy(), block.lane.copy()
-        lane["dt"] = 0.0
-        block.kernel.forces(block.drum, joint, lane)
-        assert joint["f"][0, 2, 0] == pytest.approx(column.mass * g, rel=2e-3)
+        now = block.copies(0)
+        block.kernel.forces(state_of(now))
+        assert now["load"]["f"][0, 2, 0] == pytest.approx(column.mass * g, rel=2e-3)
         towards = np.array([math.cos(azimuth), math.sin(azimuth)])
-        about = joint["lo"][0, :2, 0] @ (-towards[1], towards[0])
+        about = now["load"]["lo"][0, :2, 0] @ (-towards[1], towards[0])
         assert about == pytest.approx(column.mass * g * arm, rel=2e-3)
 
 

@@ -24,8 +24,9 @@ def test_first_decompression_is_at_half_the_radius_over_the_height():
     put_axes(block, 1, 0, rotation(np.array([0.0, 1.0, 0.0]), tilt))
     axis = block.drum["kx"][1, 0], 0.0, block.drum["kz"][1, 0]
     put(block, 1, 0, "x y z", column.centroid_height * np.array(axis) - (0.0, 0.0, closure))
-    block.kernel.forces(block.drum, block.joint, block.lane)
-    reach = -block.joint["up"][0, 1, 0] / block.joint["f"][0, 2, 0] + block.drum["x"][1, 0]
+    block.kernel.forces(block.state)
+    load = block.arrays["load"]
+    reach = -load["up"][0, 1, 0] / load["f"][0, 2, 0] + block.drum["x"][1, 0]
     assert reach / column.centroid_height == pytest.approx(0.109347, rel=2e-5)
 
 

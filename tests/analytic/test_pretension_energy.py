@@ -25,10 +25,8 @@ def loaded(model, links=(), drums=1, joint=JOINT):
 
 
 def links_of(block):
-    """Fields of the links of a block by their names in the plane, and its bodies."""
-    if hasattr(block, "records"):
-        return block.records.link, "", block.records.body
-    return block.lane[1:], "m", block.drum
+    """Records of the links of a block, in the plane or in space."""
+    return block.records.link if hasattr(block, "records") else block.link
 
 
 def core(**more):
@@ -68,8 +66,7 @@ def test_a_column_that_moves_with_what_pretension_gave_away_is_not_at_rest(model
     """
     block = loaded(model, [core()])
     assert block.at_rest(0)
-    links, m, _ = links_of(block)
-    links[m + "on"][0, 0] = links[m + "ft"][0, 0] = 0.0
+    links_of(block)["on"][0, 0] = links_of(block)["ft"][0, 0] = 0.0
     assert not block.at_rest(0)
 
 
@@ -79,14 +76,17 @@ def test_a_dowel_out_of_its_hole_is_not_bent(model):
     dowel = st.Dowel(joint=1, shear_stiffness=1e6, embedment=0.05, ultimate_slip=0.02)
     for lift, out in ((0.06, 1.0), (0.0, 0.0)):
         block = loaded(model, [dowel])
-        links, m, body = links_of(block)
+        plane = hasattr(block, "records")
+        body = block.records.body if plane else block.drum
         body["z"][1, 0] += lift
         body["x"][1, 0] += 0.03
-        block.records.law.gather(block.records.state) if not m else block.kernel.forces(
-            block.drum, block.joint, block.lane
-        )
-        assert (links[m + "out"][0, 0], links[m + "on"][0, 0]) == (out, out)
-        assert links[m + "fx"][0, 0] == 0.0
+        if plane:
+            block.records.law.gather(block.records.state)
+        else:
+            block.kernel.forces(block.state)
+        one = links_of(block)
+        assert (one["out"][0, 0], one["on"][0, 0]) == (out, out)
+        assert one["fx"][0, 0] == 0.0
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
@@ -96,8 +96,8 @@ def test_dowels_within_their_slack_count_with_what_they_can_hold(model):
     block = loaded(model, [dowel], joint=st.Joint(1e11, 5e10, friction_coefficient=0.7))
     block.advance(1)
     plane = hasattr(block, "records")
-    assert (block.records.bond["near"][0] if plane else block.lane["mnear"][1]) == 0
-    hold = block.records.hold["moment"][0] if plane else block.watch["hold"][0]
+    assert (block.records.bond if plane else block.arrays["bond"])["near"][0] == 0
+    hold = (block.records.hold if plane else block.arrays["hold"])["moment"][0]
     assert hold.max() == pytest.approx(1e4 * 0.05)
 
 

@@ -105,7 +105,7 @@ def test_the_law_is_that_of_points_round_the_rim():
         poses.append((rl, chip, c, axes[:, 2], axes[:, 0]))
         block.drum["rt"][1, lane] = rl
         angle = math.acos(1.0 - chip / ru)
-        block.joint["lost"][1, :, lane] = 1.0, 0.0, 0.0, angle, math.cos(angle), math.sin(angle)
+        block.joint["chip"][1, :, lane] = 1.0, 0.0, 0.0, angle, math.cos(angle), math.sin(angle)
         lower = np.array([block.drum[name][1, lane] for name in "xyz"])
         for a, axis in enumerate("ijk"):
             for b, name in enumerate("xyz"):
@@ -113,13 +113,13 @@ def test_the_law_is_that_of_points_round_the_rim():
         foot = axes @ [block.drum[name][2, lane] for name in ("fx", "fy", "fz")]
         for b, name in enumerate("xyz"):
             block.drum[name][2, lane] = lower[b] + ht * (b == 2) + c[b] - foot[b]
-    block.kernel.forces(block.drum, block.joint, block.lane)
+    block.kernel.forces(block.state)
     loaded = 0
     for lane, (rl, chip, c, n, e) in enumerate(poses):
         force, moment = by_quadrature(ru, rl, chip, c, n, e)
-        held = block.joint["f"][1, :, lane] / kn
+        held = block.arrays["load"]["f"][1, :, lane] / kn
         # the moment on the lower drum, about its centroid: from the middle of its upper face
-        turned = -block.joint["lo"][1, :, lane] / kn - np.cross((0.0, 0.0, ht), held)
+        turned = -block.arrays["load"]["lo"][1, :, lane] / kn - np.cross((0.0, 0.0, ht), held)
         scale = max(np.linalg.norm(force), 1e-9)
         assert np.abs(held - force).max() < 1e-3 * scale, lane
         assert np.abs(turned - moment).max() < 1e-3 * scale * ru, lane
@@ -239,10 +239,14 @@ def stiffness(column):
             block.drum[name][1, lane] = high * axes[b, 2] - (depth + down) * (b == 2)
             for a, axis in enumerate("ijk"):
                 block.drum[axis + name][1, lane] = axes[b, a]
-    block.kernel.forces(block.drum, block.joint, block.lane)
+    block.kernel.forces(block.state)
     held = np.array(
         [
-            (block.joint["f"][0, 2, lane], block.joint["lo"][0, 0, lane], block.joint["lo"][0, 1, lane])
+            (
+                block.arrays["load"]["f"][0, 2, lane],
+                block.arrays["load"]["lo"][0, 0, lane],
+                block.arrays["load"]["lo"][0, 1, lane],
+            )
             for lane in range(4)
         ]
     )

@@ -45,10 +45,10 @@ def resistance(column, tilts, law):
             for lane, turn in enumerate(turns):
                 put_axes(block, 1, lane, turn)
                 put(block, 1, lane, "x y z", height * turn[:, 2] - (0.0, 0.0, depth))
-            block.kernel.forces(block.drum, block.joint, block.lane)
-            carried = block.joint["f"][0, 2]
+            block.kernel.forces(block.state)
+            carried = block.arrays["load"]["f"][0, 2]
             low, high = (depth, high) if carried.mean() < weight else (low, depth)
-        moment = block.joint["up"][0, :, :] / carried
+        moment = block.arrays["load"]["up"][0, :, :] / carried
         # the force acts at P: moment about the centroid = (P − G) × N z
         px, py = -moment[1] + block.drum["x"][1], moment[0] + block.drum["y"][1]
         reach = (px - block.drum["x"][1]) * h[0] + (py - block.drum["y"][1]) * h[1]

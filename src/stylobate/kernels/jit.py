@@ -7,6 +7,7 @@ asked for before the compiler is loaded. Compiling that takes long enough to be 
 
 from __future__ import annotations
 
+import functools
 import glob
 import hashlib
 import logging
@@ -56,6 +57,7 @@ _prepare()
 
 import numba  # noqa: E402
 from numba.core import caching, cpu, event, options  # noqa: E402
+from numba.extending import overload  # noqa: E402
 
 numba.config.reload_config()
 # The compiler can be told that the arrays of a loop do not overlap, but numba gives this flag no name of its own.
@@ -192,5 +194,20 @@ apart = _compiler(fastmath=FAST, noalias=True)
 #: For the scalar laws that several kernels share.
 law = numba.njit(inline="always", fastmath=FAST, error_model="numpy")
 
+#: For laws that are made of many others, or take some as arguments: compiled once, and only then written into the loop, with
+#: the same bits in little more than half of the compiler's time. Not for what is strict: it keeps its own flags.
+long_law = numba.njit(forceinline=True, fastmath=FAST, error_model="numpy")
+
 #: For what looks at non-finite values: no assumption about them. Said outright, or the first fast caller would pass its own.
 strict = _compiler(fastmath=False)
+
+
+def chosen(choose: Callable) -> Callable:
+    """For what depends on the types of its arguments: asked where a kernel that calls it is compiled, it gives what is
+    compiled there."""
+
+    def stands_for_it(*arguments: Any) -> Any:
+        raise NotImplementedError(f"{choose.__name__} is for compiled code")
+
+    overload(stands_for_it, strict=False)(choose)
+    return functools.wraps(choose)(stands_for_it)

@@ -10,8 +10,8 @@ cosine, sine): all sines and cosines follow from the addition theorem.
 Legend, beside that of ``rim.py``::
 
     e, f          directions in the upper face: towards the chip, and a quarter turn on
-    lost[0–2]     e in the axes of the upper drum                                           [-]
-    lost[3–5]     half the angle of the chip's segment, its cosine and its sine
+    chip[0–2]     e in the axes of the upper drum                                           [-]
+    chip[3–5]     half the angle of the chip's segment, its cosine and its sine
     tau           distance of the chord from the middle of the lower face, along e           [m]
     kept          ends of the intervals that are left of an arc: start, end, start, end
 """

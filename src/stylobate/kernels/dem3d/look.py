@@ -2,11 +2,9 @@
 
 import math
 
-from ..drums.lanes import FAR
-from ..jit import kernel, law, strict
-from ..run_codes import FAILED, LANES, RUNNING, SUPPORT_MARGIN
+from ..jit import kernel, law, long_law, strict
+from ..run_codes import FAILED, RUNNING, SUPPORT_MARGIN
 from .pose import cross, faces, in_body, in_space, lean
-from .records import CHIPS
 from .support import (
     end_of_chipped,
     end_of_corners,
@@ -17,6 +15,9 @@ from .support import (
     opening_of_corners,
 )
 
+#: A lane whose positions are larger has failed [m].
+FAR = 1.0e6
+
 #: Cosine of the angle between two faces below which they count as parted [-].
 ON_EDGE = 0.1
 
@@ -25,12 +26,12 @@ UPRIGHT = 1e-3
 
 
 @strict
-def check_finite(drum, watch):
+def check_finite(body, watch):
     """Lanes whose state is not finite, or that are far away, have failed."""
     w = watch[0]
-    for i in range(1, drum.shape[0]):
-        u = drum[i]
-        for l in range(LANES):
+    for i in range(1, body.shape[0]):
+        u = body[i]
+        for l in range(u.x.shape[0]):
             size = abs(u.x[l]) + abs(u.y[l]) + abs(u.z[l]) + abs(u.wx[l]) + abs(u.wy[l]) + abs(u.wz[l])
             lost = w.status[l] == RUNNING and not (size < FAR)
             w.status[l] = FAILED if lost else w.status[l]
@@ -93,8 +94,147 @@ def top_place(u, l):
     return u.x[l] + u.ht[l] * u.kx[l], u.y[l] + u.ht[l] * u.ky[l]
 
 
+@long_law
+def sum_up(body, w, l):
+    """Sums over all drums of a lane, in ``watch``: mass, and its first moments and momentum; their axes are put right."""
+    w.m[l] = w.x[l] = w.y[l] = w.z[l] = w.px[l] = w.py[l] = 0.0
+    for i in range(1, body.shape[0]):
+        u = body[i]
+        straighten(u, l)
+        m = u.m[l]
+        w.m[l] += m
+        w.x[l] += m * u.x[l]
+        w.y[l] += m * u.y[l]
+        w.z[l] += m * u.z[l]
+        w.px[l] += m * u.vx[l]
+        w.py[l] += m * u.vy[l]
+
+
+@long_law
+def take_off(u, w, l):
+    """Takes a drum off those sums."""
+    m = u.m[l]
+    w.m[l] -= m
+    w.x[l] -= m * u.x[l]
+    w.y[l] -= m * u.y[l]
+    w.z[l] -= m * u.z[l]
+    w.px[l] -= m * u.vx[l]
+    w.py[l] -= m * u.vy[l]
+
+
+@long_law
+def look_at_drums(body, w, l, standing):
+    """Tilts of a lane's drums and the way of the topmost face, as long as the column stands."""
+    for i in range(1, body.shape[0]):
+        u = body[i]
+        if standing:
+            w.turn[l] = max(w.turn[l], 1.0 - u.kz[l])
+            along = u.kx[l] * u.ax[l] + u.ky[l] * u.ay[l] + u.kz[l] * u.az[l]
+            w.lean[l] = max(w.lean[l], 1.0 - along)
+        elif is_lying(u, l):
+            w.follow[l] = 0  # flanks touch nothing: what lies on the ground is followed no further
+    if standing:
+        tx, ty = top_place(body[body.shape[0] - 1], l)
+        tx -= w.sx[l]
+        ty -= w.sy[l]
+        w.topx[l] = max(w.topx[l], abs(tx))
+        w.topy[l] = max(w.topy[l], abs(ty))
+        w.top[l] = max(w.top[l], math.sqrt(tx * tx + ty * ty))
+
+
+@long_law
+def leaving(u, v, e, o, w, l, a, b, margin, moment):
+    """Whether what is above a joint has parted from it, is beyond its support and moves outward, is lost; and where to.
+
+    ``a``, ``b`` is where the middle of its face is, ``margin`` the reserve of acceleration [m/s²], ``moment`` what links
+    hold [N m].
+    """
+    # centroid of the part above, and how far it is beyond both faces on the side to which it leans
+    each = 1.0 / w.m[l]
+    gx, gy, gz = w.x[l] * each, w.y[l] * each, w.z[l] * each
+    hx, hy, hz = v.x[l] + v.ht[l] * v.kx[l], v.y[l] + v.ht[l] * v.ky[l], v.z[l] + v.ht[l] * v.kz[l]
+    if u.px.shape[0] > 1:
+        mx, my, parted = middle_of_corners(u, v, l)
+    else:
+        mx, my, parted = middle_of_discs(u, v, l, a, b)
+        if e.chip.shape[0] > 1:
+            mx, my, parted = middle_of_chipped(u, v, e, l, a, b, mx, my, parted)
+    # a drum that stands on its edge has left the face below as well
+    nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+    parted |= nx * v.kx[l] + ny * v.ky[l] + nz * v.kz[l] < ON_EDGE
+    mx, my, _ = in_space(v, l, mx, my, 0.0)
+    dx, dy = gx - hx - mx, gy - hy - my
+    size = max(math.sqrt(dx * dx + dy * dy), 1e-12)
+    dx, dy = dx / size, dy / size
+    if u.px.shape[0] > 1:
+        ex, ey, ez = end_of_corners(u, v, l, dx, dy)
+    else:
+        ex, ey, ez = end_of_discs(u, v, l, dx, dy)
+        if e.chip.shape[0] > 1:
+            ex, ey, ez = end_of_chipped(u, v, e, l, dx, dy, ex, ey, ez)
+    ex, ey, ez = ex + hx, ey + hy, ez + hz
+    ru = u.rb[l]
+    out = (gx - ex) * dx + (gy - ey) * dy
+    up = max(gz - ez, 0.0)
+    bx, by, _ = cross(v.wx[l], v.wy[l], v.wz[l], ex - v.x[l], ey - v.y[l], ez - v.z[l])
+    outward = (w.px[l] * each - v.vx[l] - bx) * dx + (w.py[l] * each - v.vy[l] - by) * dy
+    down = max(o.g[2, l] - w.vmax[l], 0.0)
+    against = max(w.amax[l] + o.g[0, l] * dx + o.g[1, l] * dy, 0.0) + margin
+    # what spin about the own axis can hold while the body rolls round its rim
+    axial = abs(u.wx[l] * u.kx[l] + u.wy[l] * u.ky[l] + u.wz[l] * u.kz[l])
+    about = math.sqrt(u.wx[l] * u.wx[l] + u.wy[l] * u.wy[l] + u.wz[l] * u.wz[l])
+    tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
+    gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
+    held = moment * each
+    lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + gyro + held)
+    return parted, (out > 0.0) & (outward > 0.0), lost, dx, dy
+
+
+@long_law
+def look_at_joint(u, v, e, o, w, l, j, step, standing, moment):
+    """Peaks of a joint, and whether what is above it is lost for good."""
+    opening, a, b, twist = joint_numbers(u, v, l)
+    twist = whole_turns(twist, e.tw[l])
+    e.tw[l] = twist
+    if standing:
+        w.open[l] = max(w.open[l], opening)
+        w.spin[l] = max(w.spin[l], abs(twist - e.ot[l]))
+    margin = SUPPORT_MARGIN if j > 0 else 0.0
+    parted, going, lost, dx, dy = leaving(u, v, e, o, w, l, a, b, margin, moment)
+    w.going[l] = 1.0 if going else w.going[l]
+    hit = (lost | parted | is_lying(u, l)) & standing
+    if hit and w.when[l] < 0:
+        w.when[l] = step
+        w.which[l] = j
+        w.ex[l] = dx
+        w.ey[l] = dy
+        w.parted[l] = 1 if parted else 0
+    if w.when[l] == step and opening > w.wide[l]:
+        w.wide[l] = opening
+        w.about[l] = j
+    if parted:  # a joint that has parted does not close again
+        e.kn[l] = e.ks[l] = e.co[l] = 0.0
+
+
+@long_law
+def look_at_lane(body, joint, o, w, step, hold, l):
+    """Peaks of a lane, and certain collapse, as :func:`look_at_column` says."""
+    standing = w.when[l] < 0
+    w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
+    sum_up(body, w, l)
+    look_at_drums(body, w, l, standing)
+    w.going[l] = 0.0
+    for j in range(joint.shape[0]):
+        u = body[j + 1]
+        moment = hold[j].moment[l] if j < hold.shape[0] else 0.0
+        look_at_joint(u, body[j], joint[j], o, w, l, j, step, standing, moment)
+        take_off(u, w, l)
+    if w.when[l] < 0 and w.going[l] == 0.0:
+        keep_peaks(w, l)
+
+
 @kernel
-def observe(drum, joint, lane, feed, watch):
+def look_at_column(body, joint, lane, feed, watch, hold):
     """Look at all lanes: peaks, and certain collapses.
 
     A collapse is certain when, for the part of the column above a joint, its centroid lies beyond the overlap of the two
@@ -105,115 +245,14 @@ def observe(drum, joint, lane, feed, watch):
     Peaks are kept apart as they were when last no part was beyond its support and moving outward: those of a column that
     falls are its peaks before it fell.
     """
-    drums = drum.shape[0] - 1
-    o = lane[0]
-    f = feed[0]
-    w = watch[0]
-    for l in range(LANES):
-        if w.status[l] != RUNNING:
-            continue
-        standing = w.when[l] < 0
-        w.m[l] = w.x[l] = w.y[l] = w.z[l] = w.px[l] = w.py[l] = 0.0
-        w.wmax[l] = max(w.wmax[l], abs(o.work[l]))
-        for i in range(1, drums + 1):
-            u = drum[i]
-            straighten(u, l)
-            m = u.m[l]
-            w.m[l] += m
-            w.x[l] += m * u.x[l]
-            w.y[l] += m * u.y[l]
-            w.z[l] += m * u.z[l]
-            w.px[l] += m * u.vx[l]
-            w.py[l] += m * u.vy[l]
-            if standing:
-                w.turn[l] = max(w.turn[l], 1.0 - u.kz[l])
-                along = u.kx[l] * u.ax[l] + u.ky[l] * u.ay[l] + u.kz[l] * u.az[l]
-                w.lean[l] = max(w.lean[l], 1.0 - along)
-            elif is_lying(u, l):
-                w.follow[l] = 0  # flanks touch nothing: what lies on the ground is followed no further
-        if standing:
-            tx, ty = top_place(drum[drums], l)
-            tx -= w.sx[l]
-            ty -= w.sy[l]
-            w.topx[l] = max(w.topx[l], abs(tx))
-            w.topy[l] = max(w.topy[l], abs(ty))
-            w.top[l] = max(w.top[l], math.sqrt(tx * tx + ty * ty))
-        w.going[l] = 0.0
-        for j in range(drums):
-            u = drum[j + 1]
-            v = drum[j]
-            e = joint[j]
-            opening, a, b, twist = joint_numbers(u, v, l)
-            twist = whole_turns(twist, e.tw[l])
-            e.tw[l] = twist
-            if standing:
-                w.open[l] = max(w.open[l], opening)
-                w.spin[l] = max(w.spin[l], abs(twist - e.ot[l]))
-            # centroid of the part above, and how far it is beyond both faces on the side to which it leans
-            each = 1.0 / w.m[l]
-            gx, gy, gz = w.x[l] * each, w.y[l] * each, w.z[l] * each
-            hx, hy, hz = v.x[l] + v.ht[l] * v.kx[l], v.y[l] + v.ht[l] * v.ky[l], v.z[l] + v.ht[l] * v.kz[l]
-            if u.px.shape[0] > 1:
-                mx, my, parted = middle_of_corners(u, v, l)
-            else:
-                mx, my, parted = middle_of_discs(u, v, l, a, b)
-                if e.lost.shape[0] == CHIPS:
-                    mx, my, parted = middle_of_chipped(u, v, e, l, a, b, mx, my, parted)
-            # a drum that stands on its edge has left the face below as well
-            nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
-            parted |= nx * v.kx[l] + ny * v.ky[l] + nz * v.kz[l] < ON_EDGE
-            mx, my, _ = in_space(v, l, mx, my, 0.0)
-            dx, dy = gx - hx - mx, gy - hy - my
-            size = max(math.sqrt(dx * dx + dy * dy), 1e-12)
-            dx, dy = dx / size, dy / size
-            if u.px.shape[0] > 1:
-                ex, ey, ez = end_of_corners(u, v, l, dx, dy)
-            else:
-                ex, ey, ez = end_of_discs(u, v, l, dx, dy)
-                if e.lost.shape[0] == CHIPS:
-                    ex, ey, ez = end_of_chipped(u, v, e, l, dx, dy, ex, ey, ez)
-            ex, ey, ez = ex + hx, ey + hy, ez + hz
-            ru = u.rb[l]
-            out = (gx - ex) * dx + (gy - ey) * dy
-            up = max(gz - ez, 0.0)
-            bx, by, _ = cross(v.wx[l], v.wy[l], v.wz[l], ex - v.x[l], ey - v.y[l], ez - v.z[l])
-            outward = (w.px[l] * each - v.vx[l] - bx) * dx + (w.py[l] * each - v.vy[l] - by) * dy
-            down = max(o.g[2, l] - w.vmax[l], 0.0)
-            against = max(w.amax[l] + o.g[0, l] * dx + o.g[1, l] * dy, 0.0) + (SUPPORT_MARGIN if j > 0 else 0.0)
-            # what spin about the own axis can hold while the body rolls round its rim
-            axial = abs(u.wx[l] * u.kx[l] + u.wy[l] * u.ky[l] + u.wz[l] * u.kz[l])
-            about = math.sqrt(u.wx[l] * u.wx[l] + u.wy[l] * u.wy[l] + u.wz[l] * u.wz[l])
-            tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
-            gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
-            held = w.hold[j * LANES + l] * each  # by links
-            lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + gyro + held)
-            w.going[l] = 1.0 if (out > 0.0) & (outward > 0.0) else w.going[l]
-            hit = (lost | parted | is_lying(u, l)) & standing
-            if hit and w.when[l] < 0:
-                w.when[l] = f.step[l]
-                w.which[l] = j
-                w.ex[l] = dx
-                w.ey[l] = dy
-                w.parted[l] = 1 if parted else 0
-            if w.when[l] == f.step[l] and opening > w.wide[l]:
-                w.wide[l] = opening
-                w.about[l] = j
-            if parted:  # a joint that has parted does not close again
-                e.kn[l] = e.ks[l] = e.co[l] = 0.0
-            m = u.m[l]
-            w.m[l] -= m
-            w.x[l] -= m * u.x[l]
-            w.y[l] -= m * u.y[l]
-            w.z[l] -= m * u.z[l]
-            w.px[l] -= m * u.vx[l]
-            w.py[l] -= m * u.vy[l]
-        if w.when[l] < 0 and w.going[l] == 0.0:
-            keep_peaks(w, l)
+    for l in range(watch[0].status.shape[0]):
+        if watch[0].status[l] == RUNNING:
+            look_at_lane(body, joint, lane[0], watch[0], feed[0].step[l], hold, l)
 
 
 @strict
-def joint_state(drum, joint, l, opening, slip, twist):
+def joint_state(body, joint, l, opening, slip, twist):
     """Opening [m], slip in the axes of the drum below [m] and twist with its full turns [rad] of every joint of a lane."""
-    for j in range(drum.shape[0] - 1):
-        opening[j], slip[j, 0], slip[j, 1], twist[j] = joint_numbers(drum[j + 1], drum[j], l)
+    for j in range(joint.shape[0]):
+        opening[j], slip[j, 0], slip[j, 1], twist[j] = joint_numbers(body[j + 1], body[j], l)
         twist[j] = whole_turns(twist[j], joint[j].tw[l])

@@ -1,23 +1,60 @@
-"""Motion of drums in space under the forces of their joints: kicks, and drifts that are exact for free bodies."""
+"""Motion of bodies in space: what their contacts add up to, kicks, and drifts that are exact for free bodies."""
 
 import math
 
 from ..jit import apart, law, strict
-from ..run_codes import LANES
 from .pose import cross
+from .records import ALPHA, LOCAL
 from .turning import spun, turned
 
 
 @law
-def net(e, a, l, c):
-    """Component c of the force of the joint under a drum and of the one above it."""
-    return e.f[c, l] - a.f[c, l]
+def add_upper(force, moment, f, l):
+    """Adds a load to the upper body of its contact."""
+    for c in range(3):
+        force[c, l] += f.f[c, l]
+        moment[c, l] += f.up[c, l]
 
 
 @law
-def turning_moment(e, a, l, c):
-    """Component c of the moments of the joint under a drum and of the one above it."""
-    return e.up[c, l] + a.lo[c, l]
+def add_lower(force, moment, f, l):
+    """Adds a load to the lower body of its contact."""
+    for c in range(3):
+        force[c, l] -= f.f[c, l]
+        moment[c, l] += f.lo[c, l]
+
+
+@law
+def gather(force, moment, s, load, touch):
+    """Force and moment on a body: the loads of all its contacts, the first two and then the others in their order."""
+    lanes = range(force.shape[1])
+    for l in lanes:
+        for c in range(3):
+            force[c, l] = moment[c, l] = 0.0
+        add_upper(force, moment, load[s.under], l)
+        add_lower(force, moment, load[s.above], l)
+    for t in range(s.first, s.first + s.count):
+        f = load[touch[t].contact]
+        if touch[t].upper != 0:
+            for l in lanes:
+                add_upper(force, moment, f, l)
+        else:
+            for l in lanes:
+                add_lower(force, moment, f, l)
+
+
+@law
+def two_loads(i, load, span, touch):
+    """Two loads that are all that acts on a body, as the upper body of one contact and the lower one of another.
+
+    Of a drum on another one, under a third, they are those of its joints, where they are; of others their sum, and nothing.
+    """
+    s = span[i]
+    total, nothing = load[load.shape[0] - 2], load[load.shape[0] - 1]
+    if s.count == 0:
+        return load[s.under], load[s.above]
+    gather(total.f, total.up, s, load, touch)
+    return total, nothing
 
 
 @law
@@ -53,123 +90,145 @@ def half_about_i(u, l, lx, ly, lz, time):
     u.jx[l], u.jy[l], u.jz[l] = cross(kx, ky, kz, u.ix[l], u.iy[l], u.iz[l])
 
 
+@law
+def drift(u, e, a, o, g, l):
+    """Motion of a body from t_n to t_{n+1} under two loads at t_n, as their upper and their lower body."""
+    dt = o.dt[l]
+    free = o.free[l]
+    im, m = u.im[l], u.m[l]
+    ax = (e.f[0, l] - a.f[0, l]) * im - g.a[0, l] - o.g[0, l]
+    ay = (e.f[1, l] - a.f[1, l]) * im - g.a[1, l] - o.g[1, l]
+    az = (e.f[2, l] - a.f[2, l]) * im - g.a[2, l] - o.g[2, l]
+    mx, my, mz = e.up[0, l] + a.lo[0, l], e.up[1, l] + a.lo[1, l], e.up[2, l] + a.lo[2, l]
+    vx, vy, vz = u.vx[l], u.vy[l], u.vz[l]
+    lx, ly, lz = u.lx[l], u.ly[l], u.lz[l]
+    if o.damp.shape[0] > 1:
+        # local damping (Cundall): a share of the unbalanced force, against the velocity; for settling only
+        still, alpha = o.damp[LOCAL, l], o.damp[ALPHA, l]
+        size = math.sqrt(ax * ax + ay * ay + az * az) / max(math.sqrt(vx * vx + vy * vy + vz * vz), 1e-30)
+        ax, ay, az = ax - still * size * vx, ay - still * size * vy, az - still * size * vz
+        size = math.sqrt(mx * mx + my * my + mz * mz) / max(math.sqrt(lx * lx + ly * ly + lz * lz), 1e-30)
+        mx, my, mz = mx - still * size * lx, my - still * size * ly, mz - still * size * lz
+        half = 0.5 * alpha * dt
+        less, each = 1.0 - half, 1.0 / (1.0 + half)
+        px, py, pz = vx, vy, vz
+        hx, hy, hz = lx, ly, lz
+        vx, vy, vz = (vx * less + ax * dt) * each, (vy * less + ay * dt) * each, (vz * less + az * dt) * each
+        lx, ly, lz = (lx * less + mx * dt) * each, (ly * less + my * dt) * each, (lz * less + mz * dt) * each
+        vy, lx, lz = vy * free, lx * free, lz * free
+        px, py, pz = px + vx, py + vy, pz + vz
+        hx, hy, hz = hx + lx, hy + ly, hz + lz
+        twice = m * (px * px + py * py + pz * pz) + twice_kinetic(u, l, hx, hy, hz)
+        o.visc[l] += 0.25 * alpha * dt * twice
+    else:
+        vx, vy, vz = vx + ax * dt, (vy + ay * dt) * free, vz + az * dt
+        lx, ly, lz = (lx + mx * dt) * free, ly + my * dt, (lz + mz * dt) * free
+    u.vx[l], u.vy[l], u.vz[l] = vx, vy, vz
+    u.lx[l], u.ly[l], u.lz[l] = lx, ly, lz
+    u.x[l] += vx * dt
+    u.y[l] += vy * dt
+    u.z[l] += vz * dt
+    o.p[0, l] += m * vx
+    o.p[1, l] += m * vy
+    o.p[2, l] += m * vz
+    rotate(u, l, lx, ly, lz, dt)
+
+
+@law
+def rotate(u, l, lx, ly, lz, dt):
+    """Free rotation of a body over the step.  # Eq. (E7)"""
+    if u.px.shape[0] > 1:
+        half_about_i(u, l, lx, ly, lz, 0.5 * dt)
+    kx, ky, kz = u.kx[l], u.ky[l], u.kz[l]
+    ia = u.ia[l]
+    spin = u.ic[l] * (lx * kx + ly * ky + lz * kz)
+    ix, iy, iz = spun(u.ix[l], u.iy[l], u.iz[l], u.jx[l], u.jy[l], u.jz[l], spin * dt)
+    wx, wy, wz = lx * ia, ly * ia, lz * ia
+    ix, iy, iz = turned(ix, iy, iz, wx * dt, wy * dt, wz * dt)
+    kx, ky, kz = turned(kx, ky, kz, wx * dt, wy * dt, wz * dt)
+    u.ix[l], u.iy[l], u.iz[l] = ix, iy, iz
+    u.kx[l], u.ky[l], u.kz[l] = kx, ky, kz
+    u.jx[l], u.jy[l], u.jz[l] = cross(kx, ky, kz, ix, iy, iz)
+    if u.px.shape[0] > 1:
+        half_about_i(u, l, lx, ly, lz, 0.5 * dt)
+        wx, wy, wz = omega(u, l, lx, ly, lz)
+        u.wx[l], u.wy[l], u.wz[l] = wx, wy, wz
+    else:
+        u.wx[l], u.wy[l], u.wz[l] = wx + spin * kx, wy + spin * ky, wz + spin * kz
+
+
 @apart
-def move(drum, joint, lane, ground, k):
-    """Motion of all drums from t_n to t_{n+1} under the forces at t_n."""
+def drift_in_lanes(u, e, a, o, g):
+    """:func:`drift` in all lanes: of records that the compiler is told to be apart, whichever they are."""
+    for l in range(u.x.shape[0]):
+        drift(u, e, a, o, g, l)
+
+
+@law
+def work_done(o, g, h, l):
+    """Adds the work of the body force −m a over a step by the trapezoidal rule.  # Eq. (D5)"""
+    power = 0.0
+    for c in range(3):
+        power += (g.a[c, l] + h.a[c, l]) * o.p[c, l]
+    o.work[l] -= 0.5 * power * o.dt[l]
+
+
+@apart
+def move_all(body, load, span, touch, lane, ground, k):
+    """Motion of all bodies from t_n to t_{n+1} under the loads at t_n."""
     o = lane[0]
-    g = ground[k]
-    for l in range(LANES):
-        o.p[0, l] = 0.0
-        o.p[1, l] = 0.0
-        o.p[2, l] = 0.0
-    for q in range(drum.shape[0] - 1):
-        u = drum[q + 1]
-        e = joint[q]
-        damped = e.d.shape[0] > 1
-        a = joint[q + 1]  # the joint above; behind the topmost joint stands one without force
-        for l in range(LANES):
-            dt = o.dt[l]
-            free = o.free[l]
-            im, m = u.im[l], u.m[l]
-            ax = net(e, a, l, 0) * im - g.a[0, l] - o.g[0, l]
-            ay = net(e, a, l, 1) * im - g.a[1, l] - o.g[1, l]
-            az = net(e, a, l, 2) * im - g.a[2, l] - o.g[2, l]
-            mx, my, mz = turning_moment(e, a, l, 0), turning_moment(e, a, l, 1), turning_moment(e, a, l, 2)
-            vx, vy, vz = u.vx[l], u.vy[l], u.vz[l]
-            lx, ly, lz = u.lx[l], u.ly[l], u.lz[l]
-            if damped:
-                # local damping (Cundall): a share of the unbalanced force, against the velocity; for settling only
-                still = o.local[l]
-                size = math.sqrt(ax * ax + ay * ay + az * az) / max(math.sqrt(vx * vx + vy * vy + vz * vz), 1e-30)
-                ax, ay, az = ax - still * size * vx, ay - still * size * vy, az - still * size * vz
-                size = math.sqrt(mx * mx + my * my + mz * mz) / max(math.sqrt(lx * lx + ly * ly + lz * lz), 1e-30)
-                mx, my, mz = mx - still * size * lx, my - still * size * ly, mz - still * size * lz
-                half = 0.5 * o.alpha[l] * dt
-                less, each = 1.0 - half, 1.0 / (1.0 + half)
-                px, py, pz = vx, vy, vz
-                hx, hy, hz = lx, ly, lz
-                vx, vy, vz = (vx * less + ax * dt) * each, (vy * less + ay * dt) * each, (vz * less + az * dt) * each
-                lx, ly, lz = (lx * less + mx * dt) * each, (ly * less + my * dt) * each, (lz * less + mz * dt) * each
-                vy, lx, lz = vy * free, lx * free, lz * free
-                px, py, pz = px + vx, py + vy, pz + vz
-                hx, hy, hz = hx + lx, hy + ly, hz + lz
-                twice = m * (px * px + py * py + pz * pz) + twice_kinetic(u, l, hx, hy, hz)
-                o.visc[l] += 0.25 * o.alpha[l] * dt * twice
-            else:
-                vx, vy, vz = vx + ax * dt, (vy + ay * dt) * free, vz + az * dt
-                lx, ly, lz = (lx + mx * dt) * free, ly + my * dt, (lz + mz * dt) * free
-            u.vx[l], u.vy[l], u.vz[l] = vx, vy, vz
-            u.lx[l], u.ly[l], u.lz[l] = lx, ly, lz
-            u.x[l] += vx * dt
-            u.y[l] += vy * dt
-            u.z[l] += vz * dt
-            o.p[0, l] += m * vx
-            o.p[1, l] += m * vy
-            o.p[2, l] += m * vz
-            # free rotation over the step  # Eq. (E7)
-            if u.px.shape[0] > 1:
-                half_about_i(u, l, lx, ly, lz, 0.5 * dt)
-            kx, ky, kz = u.kx[l], u.ky[l], u.kz[l]
-            ia = u.ia[l]
-            spin = u.ic[l] * (lx * kx + ly * ky + lz * kz)
-            ix, iy, iz = spun(u.ix[l], u.iy[l], u.iz[l], u.jx[l], u.jy[l], u.jz[l], spin * dt)
-            wx, wy, wz = lx * ia, ly * ia, lz * ia
-            ix, iy, iz = turned(ix, iy, iz, wx * dt, wy * dt, wz * dt)
-            kx, ky, kz = turned(kx, ky, kz, wx * dt, wy * dt, wz * dt)
-            u.ix[l], u.iy[l], u.iz[l] = ix, iy, iz
-            u.kx[l], u.ky[l], u.kz[l] = kx, ky, kz
-            u.jx[l], u.jy[l], u.jz[l] = cross(kx, ky, kz, ix, iy, iz)
-            if u.px.shape[0] > 1:
-                half_about_i(u, l, lx, ly, lz, 0.5 * dt)
-                wx, wy, wz = omega(u, l, lx, ly, lz)
-                u.wx[l], u.wy[l], u.wz[l] = wx, wy, wz
-            else:
-                u.wx[l], u.wy[l], u.wz[l] = wx + spin * kx, wy + spin * ky, wz + spin * kz
-    # work of the body force −m a by the trapezoidal rule  # Eq. (D5)
-    h = ground[k + 1]
-    for l in range(LANES):
-        power = 0.0
-        for c in range(3):
-            power += (g.a[c, l] + h.a[c, l]) * o.p[c, l]
-        o.work[l] -= 0.5 * power * o.dt[l]
+    g, h = ground[k], ground[k + 1]
+    lanes = range(o.dt.shape[0])
+    for l in lanes:
+        o.p[0, l] = o.p[1, l] = o.p[2, l] = 0.0
+    for i in range(1, body.shape[0]):
+        u = body[i]
+        e, a = two_loads(i, load, span, touch)
+        drift_in_lanes(u, e, a, o, g)
+    for l in lanes:
+        work_done(o, g, h, l)
+
+
+@apart
+def gather_all(body, load, span, touch):
+    """Forces and moments of all bodies but the base."""
+    for i in range(1, body.shape[0]):
+        gather(body[i].f, body[i].mo, span[i], load, touch)
 
 
 @strict
-def ledger(drum, joint, lane, ground, k, dt, l, out):
-    """Ledger of one lane at t_n, after its ``forces``, with velocities brought to the whole step.  # Eq. (D5)
-
-    Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J].
-    ``dt`` is the step of the lane (its own is 0 once it stands still), ``k`` the row of ``ground`` that holds t_n.
-    """
+def kinetic_and_gravitational(body, lane, ground, k, dt, l):
+    """Kinetic and gravitational energy of one lane at t_n [J], with the forces there; velocities as of the whole step."""
     o = lane[0]
     g = ground[k]
     kinetic = 0.0
     height = 0.0
-    elastic = 0.0
-    stored = 0.0
-    for q in range(drum.shape[0] - 1):
-        u = drum[q + 1]
-        e = joint[q]
-        a = joint[q + 1]
+    for i in range(1, body.shape[0]):
+        u = body[i]
         free = o.free[l]
         half = 0.5 * dt
-        vx = u.vx[l] + half * (net(e, a, l, 0) * u.im[l] - g.a[0, l] - o.g[0, l])
-        vy = (u.vy[l] + half * (net(e, a, l, 1) * u.im[l] - g.a[1, l] - o.g[1, l])) * free
-        vz = u.vz[l] + half * (net(e, a, l, 2) * u.im[l] - g.a[2, l] - o.g[2, l])
-        lx = (u.lx[l] + half * turning_moment(e, a, l, 0)) * free
-        ly = u.ly[l] + half * turning_moment(e, a, l, 1)
-        lz = (u.lz[l] + half * turning_moment(e, a, l, 2)) * free
+        vx = u.vx[l] + half * (u.f[0, l] * u.im[l] - g.a[0, l] - o.g[0, l])
+        vy = (u.vy[l] + half * (u.f[1, l] * u.im[l] - g.a[1, l] - o.g[1, l])) * free
+        vz = u.vz[l] + half * (u.f[2, l] * u.im[l] - g.a[2, l] - o.g[2, l])
+        lx = (u.lx[l] + half * u.mo[0, l]) * free
+        ly = u.ly[l] + half * u.mo[1, l]
+        lz = (u.lz[l] + half * u.mo[2, l]) * free
         kinetic += 0.5 * (u.m[l] * (vx * vx + vy * vy + vz * vz) + twice_kinetic(u, l, lx, ly, lz))
         height += u.m[l] * (o.g[0, l] * u.x[l] + o.g[1, l] * u.y[l] + o.g[2, l] * u.z[l])
+    return kinetic, height
+
+
+@strict
+def stored_in_faces(joint, l):
+    """Energy that joints between faces hold in one lane by pressure, and by friction [J]."""
+    elastic = 0.0
+    stored = 0.0
+    for q in range(joint.shape[0]):
+        e = joint[q]
         elastic += e.en[l]
         if e.kf[l] > 0.0:
             for c in range(e.s.shape[0]):
                 stored += 0.5 * e.s[c, l] ** 2 / e.kf[l]
         if e.kt[l] > 0.0:
             stored += 0.5 * e.t[l] ** 2 / e.kt[l]
-    out[0] = o.work[l]
-    out[1] = kinetic
-    out[2] = height
-    out[3] = elastic + stored
-    out[4] = o.shear[l] - stored
-    out[5] = o.visc[l]
+    return elastic, stored

@@ -1,14 +1,15 @@
-"""Records of the lanes of drums in space: every field holds one value per lane.
+"""Records of the lanes of drums in space: every field holds one value per lane; the number of lanes is in the types.
 
-Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at t_n, velocities at t_{n−1/2})::
+Legend (i body, 0 is the base; j joint, between bodies j and j + 1; positions at t_n, velocities at t_{n−1/2})::
 
-    drum[i]    x y z          centroid [m];  vx vy vz  its velocity [m/s]
+    body[i]    x y z          centroid [m];  vx vy vz  its velocity [m/s]
                i. j. k.       axes of the body (x, y, z each), k its axis of symmetry, j = k × i   [-]
                lx ly lz       angular momentum about the centroid, in space [kg m²/s]
                wx wy wz       angular velocity that goes with it at t_n [rad/s]
                m im           mass and its inverse [kg]
                ia ic          1/A, and 1/C − 1/A, with the inertia A about j and C about k           [1/(kg m²)]
                ib             1/B − 1/A, with the inertia B about i (0 for round drums)                    [1/(kg m²)]
+               f[3] mo[3]     force and moment of all its contacts at t_n, where the ledger is asked for [N], [N m]
                fx fy fz       middle of the lower face from the centroid, in the axes of the body [m]
                nx ny nz       normal of the lower face (up), in the axes of the body [-]
                ht             centroid to the middle of the upper face, along k [m]
@@ -24,20 +25,23 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                en             elastic energy of the normal pressure [J]
                ox oy ot       slip in the axes of the drum below [m] and twist [rad] at the start
                tw             twist at the last look, full turns counted [rad]
-               f[3] up[3] lo[3]  force on the drum above [N], moments on both drums about their centroids [N m]
                d[6]           dashpots: force and moment on the drum above, about the middle of the face below (damped only);
                               with corners the force of each of them, in the axes of the drum below
-               lost           what the faces lack. Rings, [3]: radii of the sunken middles of the upper and of the lower face
-                              [m], and the limit of torsion over ρ μ N. Chips, [6]: see chipped.py
-               w[22]          with corners: what they share within one evaluation, see corner_forces.py
+               chip[6]        what the upper face lacks, with chips: see chipped.py
+               ring[3]        on an elastic bed: radii of the sunken middles of the upper and of the lower face [m], and the
+                              limit of torsion over ρ μ N; of one row without sunken middles
+               w[22]          with corners: what they share within one evaluation, see corners.py
+    load[n]    f[3] up[3] lo[3]  force of contact n on its upper body [N], moments on both about their centroids [N m]
+                              the last two rows: a sum of several, and nothing
+    link[m] bond[m]           see shared/link_records.py; of type ``none`` without links
     lane       dt             step [s];  g[3]  gravity, as an acceleration of the base: up is positive [m/s²]
-               beta alpha     stiffness- and mass-proportional damping [s], [1/s]; local: local damping [-]
+               damp[3]        damped only, rows BETA, ALPHA, LOCAL: stiffness- and mass-proportional damping [s], [1/s];
+                              Cundall's local damping [-]
                pivot          share of the torsional friction that acts [-]
                roll           resistance to rolling, a share of the lever of pressure (only where there is some) [-]
                free           1; 0 holds the motion in the plane of x and z
                work shear visc  work of the input, of the friction springs on their surroundings reversed, of dampers [J]
-               p[3]           momentum of all drums [kg m/s]
-               m…             links, see drums/link_records.py
+               p[3]           momentum of all bodies [kg m/s]
     ground[k]  a[3]           acceleration of the base at step k of the chunk [m/s²]
     feed       x y z          addresses of the samples of the lane's motion (0: no such component)
                last step end  index of the last sample, step now, last step
@@ -56,71 +60,116 @@ Legend (i drum, 0 is the base; j joint, between drums j and j + 1; positions at 
                tw             twist of a specimen at the last look, full turns counted [rad]
                going          1 while some part is beyond its support and moves outward
                ktop … kspin   the peaks as they were when last no part was on its way out
-               m x y z px py  running sums over the drums above a joint
-               hold           what links hold, see drums/link_records.py
+               m x y z px py  running sums over the bodies above a joint
+    hold[j]    moment         what whole links hold about joint j [N m]; no such rows without links
+    pair span touch           contacts of bodies, see shared/records.py: joints first, then links
 """
 
 import numpy as np
 
-from ..drums.link_records import hold_field, link_fields
 from ..run_codes import LANES
+from ..shared.link_records import BOND_TYPE, link_types
+from ..shared.records import PAIR_TYPE, SPAN_TYPE, TOUCH_TYPE
 
-#: Rows of ``lost``.
-RINGS, CHIPS = 3, 6
+#: Rows of ``damp``.
+BETA, ALPHA, LOCAL = range(3)
+
+#: Rows of ``ring`` and of ``chip``, and those of ``w`` with corners.
+RINGS, CHIPS, SHARED = 3, 6, 22
+
+#: Corners of a rectangular face.
+CORNERS = 4
 
 #: Peaks that are kept, see the legend of ``watch``.
 PEAKS = ("top", "topx", "topy", "open", "turn", "lean", "spin")
 
 
-def block_types(damped: bool, corners: int = 1, lost: int = 1, rolling: bool = False) -> tuple[np.dtype, ...]:
-    """Record types (drum, joint, lane, ground, feed, watch).
+def fields(names: str, *rows: int, kind: type = np.float64, lanes: int = LANES) -> list[tuple]:
+    """Fields of so many rows of lanes."""
+    return [(name, kind, (*rows, lanes)) for name in names.split()]
 
-    Whether there are dashpots (``d`` of more than one row), corners (``px``), rings or chips (``lost``, so many rows) and
-    resistance to rolling (``roll``) is part of the types: each loop is compiled for what is used. A body with corners may
-    have three different moments of inertia.
+
+def types(face: str, damped: bool = False, rolling: bool = False, linked: bool = False) -> dict[str, np.dtype]:
+    """Record types by their names in ``STATE`` (``shared/frame.py``).
+
+    They tell what is computed: each loop is compiled for what is used. A body with corners may have three different moments
+    of inertia.
+
+    Parameters
+    ----------
+    face : {"rim", "chip", "bed", "ring", "corner", "vertex"}
+        On what bodies stand: on whole or chipped rims, on an elastic bed of discs or of rings, on the corners of their
+        faces; or one body on its vertices.
+    damped, rolling, linked : bool
+        Whether there are dashpots, resistance to rolling, links.
     """
-    dashpots = (3 * corners if corners > 1 else 6) if damped else 1
-    row = (LANES,)
-
-    def fields(single: str, **several: int) -> list[tuple]:
-        return [(name, np.float64, row) for name in single.split()] + [
-            (name, np.float64, (rows, LANES)) for name, rows in several.items()
-        ]
-
-    def counts(names: str) -> list[tuple]:
-        return [(name, np.int64, row) for name in names.split()]
-
+    corners = CORNERS if face in ("corner", "vertex") else 1
     axes = " ".join(f"{axis}{c}" for axis in "ijk" for c in "xyz")
-    return (
-        np.dtype(
-            fields(
-                f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty",
-                px=corners,
-                py=corners,
-                pz=corners,
-            )
+    link, hold = link_types(LANES)
+    return {
+        "body": np.dtype(
+            fields(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib fx fy fz nx ny nz ax ay az ht rb rt tx ty")
+            + fields("f mo", 3)
+            + fields("px py pz", corners)
         ),
-        np.dtype(
-            fields(
-                "kn ks co mu t kf kt en ox oy ot tw",
-                s=3 * corners,
-                f=3,
-                up=3,
-                lo=3,
-                d=dashpots,
-                lost=lost,
-                w=22 if corners > 1 else 1,
-            )
+        "joint": vertex_type() if face == "vertex" else joint_type(face, damped),
+        "load": np.dtype(fields("f up lo", 3)),
+        "link": link if linked else np.dtype(fields("none")),
+        "bond": BOND_TYPE,
+        "lane": np.dtype(
+            fields("dt pivot free work shear visc")
+            + fields("g p", 3)
+            + fields("damp", 3 if damped else 1)
+            + fields("roll", 2 if rolling else 1)
+            + (vertex_fields() if face == "vertex" else [])
         ),
-        np.dtype(
-            fields("dt beta alpha local pivot free work shear visc", g=3, p=3, roll=2 if rolling else 1) + link_fields()
-        ),
-        np.dtype(fields("", a=3)),
-        np.dtype(counts("x y z last step end") + fields("ratio factor", r=9)),
-        np.dtype(
-            counts("status follow when which parted about")
+        "ground": np.dtype(fields("a", 3)),
+        "feed": np.dtype(fields("x y z last step end", kind=np.int64) + fields("ratio factor") + fields("r", 9)),
+        "watch": np.dtype(
+            fields("status follow when which parted about", kind=np.int64)
             + fields("amax vmax sx sy wmax wide ex ey tw going m x y z px py")
             + fields(" ".join(PEAKS) + " k" + " k".join(PEAKS))
-            + hold_field()
         ),
+        "hold": hold,
+        "pair": PAIR_TYPE,
+        "span": SPAN_TYPE,
+        "touch": TOUCH_TYPE,
+    }
+
+
+def joint_type(face: str, damped: bool) -> np.dtype:
+    """Record type of a joint between faces."""
+    cornered = face == "corner"
+    dashpots = (3 * CORNERS if cornered else 6) if damped else 1
+    own = {
+        "chip": fields("chip", CHIPS),
+        "bed": fields("chip ring", 1),
+        "ring": fields("chip", 1) + fields("ring", RINGS),
+        "corner": fields("chip", 1) + fields("w", SHARED),
+    }
+    return np.dtype(
+        fields("kn ks co mu t kf kt en ox oy ot tw")
+        + fields("s", 3 * CORNERS if cornered else 3)
+        + fields("d", dashpots)
+        + own.get(face, fields("chip", 1))
     )
+
+
+def vertex_type() -> np.dtype:
+    """Record type of a vertex of a specimen, see ``vertices.py``."""
+    return np.dtype(fields("x y z kn ks rest") + fields("s d", 3))
+
+
+def vertex_fields() -> list[tuple]:
+    """Fields that a lane has besides, of a specimen, see ``vertices.py``."""
+    return fields("mu lost reach above en st count") + fields("near", MOST_ROWS // LANES)
+
+
+#: Most rows of vertices that a body may have.
+MOST_ROWS = 5120
+
+
+def rows(array, name: str) -> int:
+    """Rows of a field of an array of records as the compiler knows it, 0 where it has no such field."""
+    field = array.dtype.fields.get(name)
+    return 0 if field is None else 1 if len(field.type.shape) == 1 else field.type.shape[0]

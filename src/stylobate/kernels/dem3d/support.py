@@ -2,7 +2,7 @@
 
 import math
 
-from ..jit import law
+from ..jit import law, long_law
 from .corner import clamped
 from .pose import cross, faces, in_body, in_space
 
@@ -10,7 +10,7 @@ from .pose import cross, faces, in_body, in_space
 PARTED = 1e-9
 
 
-@law
+@long_law
 def middle_of_discs(u, v, l, a, b):
     """Middle of the overlap of two discs in the frame of the face below, and whether they have parted.
 
@@ -22,7 +22,7 @@ def middle_of_discs(u, v, l, a, b):
     return a * middle, b * middle, gap >= ru + rl
 
 
-@law
+@long_law
 def end_of_discs(u, v, l, dx, dy):
     """The end of the overlap of two discs in a horizontal direction, from the middle of the face below, in space [m]."""
     _, _, _, cx, cy, cz = faces(u, v, l)
@@ -41,28 +41,28 @@ def end_of_discs(u, v, l, dx, dy):
     return scale * (dx - sl * v.kx[l]), scale * (dy - sl * v.ky[l]), -scale * sl * v.kz[l]
 
 
-@law
+@long_law
 def middle_of_chipped(u, v, e, l, a, b, mx, my, parted):
     """As :func:`middle_of_discs` for an upper face with a chip, from what that has found."""
-    x, y, z = in_space(u, l, e.lost[0, l], e.lost[1, l], e.lost[2, l])
+    x, y, z = in_space(u, l, e.chip[0, l], e.chip[1, l], e.chip[2, l])
     x, y, _ = in_body(v, l, x, y, z)
     ru, rl = u.rb[l], v.rt[l]
-    reach = ru * e.lost[4, l]
+    reach = ru * e.chip[4, l]
     half = 0.5 * (reach - ru)
     # beyond the chord lies nothing
     return mx + half * x, my + half * y, parted | (reach + a * x + b * y <= -rl)
 
 
-@law
+@long_law
 def end_of_chipped(u, v, e, l, dx, dy, ex, ey, ez):
     """As :func:`end_of_discs` for an upper face with a chip, from what that has found: an end of the chord if nearer."""
     ru = u.rb[l]
     nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
-    ax, ay, az = in_space(u, l, e.lost[0, l], e.lost[1, l], e.lost[2, l])
+    ax, ay, az = in_space(u, l, e.chip[0, l], e.chip[1, l], e.chip[2, l])
     bx, by, bz = cross(nx, ny, nz, ax, ay, az)
     toward, beside = dx * ax + dy * ay, dx * bx + dy * by
-    cosine = e.lost[4, l]
-    sine = e.lost[5, l] if beside > 0.0 else -e.lost[5, l]
+    cosine = e.chip[4, l]
+    sine = e.chip[5, l] if beside > 0.0 else -e.chip[5, l]
     # whether the end of the whole disc lies on the segment that is lost
     beyond = toward > cosine * math.sqrt(toward * toward + beside * beside)
     _, _, _, cx, cy, cz = faces(u, v, l)
@@ -83,7 +83,7 @@ def corner_of(u, v, l, p):
     return in_body(v, l, cx + px, cy + py, cz + pz)
 
 
-@law
+@long_law
 def middle_of_corners(u, v, l):
     """Mean of the corners of the overlap of two rectangles in the frame of the face below, and whether they have parted."""
     tx, ty = v.tx[l], v.ty[l]
@@ -102,7 +102,7 @@ def middle_of_corners(u, v, l):
     return x * each, y * each, area < PARTED * u.rb[l] * u.rb[l]
 
 
-@law
+@long_law
 def end_of_corners(u, v, l, dx, dy):
     """The corner of the overlap of two rectangles that is farthest in a horizontal direction, as :func:`end_of_discs`."""
     far, ex, ey, ez = -math.inf, 0.0, 0.0, 0.0

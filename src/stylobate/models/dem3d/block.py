@@ -3,28 +3,33 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import base_axes
-from ...kernels.run_codes import COLLAPSED, FAILED, RUNNING
-from ...motion import Motion
+from ...errors import InputError
+from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
 from ...outcome import Outcome, classify
-from ...response import Collapse, Histories, Measures
+from ...response import Collapse, LinkMeasures, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
-from ...response.poses import quaternions
-from ..base import Case
+from ..base import Case, RunOptions
+from ..drums.barriers import lowest_barrier
 from ..drums.block import CALLS_PER_RUN, DrumBlock
 from ..drums.histories import ledger_imbalance
-from ..drums.links import put_links, with_link_histories
-from ..drums.packing import whole_steps
-from ..shared import ledger
-from ..shared.ground import ground_histories, value_at
+from ..drums.links import acting
+from ..drums.packing import PackedColumn, whole_steps
+from ..drums.pretension import held_at_start, set_free, without_tension
+from ..plane.links import link_measures, link_snapshot
+from ..shared import ledger, quiet
+from ..shared.ground import value_at
+from ..shared.lanes import longest_piece
 from ..start import check_in_plane
+from .arrays import join_links, stack_arrays, state_of
+from .links import SpaceLinks
 from .pose import placed, sink
 from .touching import slips_where_closest
 from .verdict import stands_for_good
@@ -35,13 +40,44 @@ class SpaceBlock(DrumBlock):
 
     Parameters
     ----------
+    types : dict of dtype
+        Of the kernel's records by their names.
     planar : bool
         Hold the motion in the plane of x and z.
     """
 
-    def __init__(self, *arguments: Any, planar: bool) -> None:
-        super().__init__(*arguments)
-        self.planar = planar
+    def __init__(
+        self,
+        kernel: Any,
+        types: dict[str, np.dtype],
+        pack: Callable[[Any], PackedColumn],
+        drums: int,
+        options: RunOptions,
+        cost: float,
+        links: int = 0,
+        rows: int | None = None,
+        *,
+        planar: bool,
+    ) -> None:
+        self.kernel, self.pack, self.options = kernel, pack, options
+        self.planar, self.tied = planar, links > 0
+        self.lanes = LANES
+        self.chunk = CHUNK
+        self.arrays = stack_arrays(types, drums + 1, drums if rows is None else rows, links)
+        self.drum, self.joint, self.link, self.lane, self.ground, self.feed, self.watch = (
+            self.arrays[name] for name in ("body", "joint", "link", "lane", "ground", "feed", "watch")
+        )
+        self.state = state_of(self.arrays)
+        self.watch["status"] = FREE
+        self.dt = np.zeros(self.lanes)
+        self.steps = np.zeros(self.lanes, dtype=np.int64)
+        self.start = np.zeros((self.lanes, 6))
+        self.rest = np.zeros(self.lanes)
+        self.pressed = np.zeros(self.lanes)
+        self.cases: list[Case | None] = [None] * self.lanes
+        self.spans = quiet.Spans(self.lanes, options, self.chunk)
+        self.chunks_per_call = 1
+        self.piece = longest_piece(cost, self.chunk)
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
@@ -74,7 +110,7 @@ class SpaceBlock(DrumBlock):
         if self.tied:
             links = self.pack(case.column).links
             assert links is not None
-            put_links(self.lane, links, lane, dt)
+            self.put_links(links, lane, dt)
         watch["sx"][lane], watch["sy"][lane] = self.top_place(lane)
         self.mark_start(lane)
         self.steps[lane] = steps
@@ -94,12 +130,25 @@ class SpaceBlock(DrumBlock):
         self.joint["d"][..., lane] = 0.0
         return packed.step
 
+    def put_links(self, links: SpaceLinks, lane: int, step: float) -> None:
+        """Write links into a lane; ``step`` is that of time [s]."""
+        for name, values in links.bond.items():
+            self.arrays["bond"][name] = values
+        for name, values in links.link.items():
+            self.link[name][..., lane] = values
+        self.link["dt"][:, lane] = step
+        join_links(self.arrays, links.lower, links.upper)
+
+    def step(self, chunks: int) -> None:
+        """Let the kernel take so many chunks of steps."""
+        self.kernel.advance(self.state, chunks)
+
     def mark_start(self, lane: int) -> None:
         """Keep where the drums stood, and how on each other."""
         self.joint["tw"][:, lane] = 0.0
         _, slip, twist = self.joints(lane)
-        self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane] = slip.T
-        self.joint["ot"][:-1, lane] = self.joint["tw"][:-1, lane] = twist
+        self.joint["ox"][:, lane], self.joint["oy"][:, lane] = slip.T
+        self.joint["ot"][:, lane] = self.joint["tw"][:, lane] = twist
         for c in "xyz":
             self.drum["a" + c][..., lane] = self.drum["k" + c][..., lane]
 
@@ -111,11 +160,13 @@ class SpaceBlock(DrumBlock):
         for array, fields in ((self.drum, drums), (self.joint, joints)):
             for name, values in fields.items():
                 array[name][..., lane] = values
-        sink(self, lane, force)
+        now = self.copies(lane, body=self.drum)  # which sinks
 
-    def lift(self, joint: np.ndarray, lane: int) -> float:
-        """What the base carries [N]."""
-        return float(joint["f"][0, 2, lane])
+        def carried() -> float:
+            self.kernel.forces(state_of(now))
+            return float(now["load"]["f"][0, 2, lane])
+
+        sink(self.drum, lane, force, carried)
 
     def half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
@@ -161,7 +212,7 @@ class SpaceBlock(DrumBlock):
         n = len(self.drum) - 1
         opening, slip, twist = np.empty(n), np.empty((n, 2)), np.empty(n)
         self.kernel.joint_state(self.drum, self.joint, lane, opening, slip, twist)
-        return opening, slips_where_closest(self.drum, lane, slip, twist, self.joint["lost"][:-1, :, lane]), twist
+        return opening, slips_where_closest(self.drum, lane, slip, twist, self.joint["chip"][:, :, lane]), twist
 
     def since_start(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Slip [m] and twist [rad] of every joint since the start, shapes (n, 2) and (n,)."""
@@ -169,8 +220,8 @@ class SpaceBlock(DrumBlock):
         return self._moved(lane, slip, twist)
 
     def _moved(self, lane: int, slip: np.ndarray, twist: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        first = np.stack((self.joint["ox"][:-1, lane], self.joint["oy"][:-1, lane]), axis=1)
-        return slip - first, twist - self.joint["ot"][:-1, lane]
+        first = np.stack((self.joint["ox"][:, lane], self.joint["oy"][:, lane]), axis=1)
+        return slip - first, twist - self.joint["ot"][:, lane]
 
     def top_place(self, lane: int) -> np.ndarray:
         """Place of the middle of the topmost face along the base [m], shape (2,)."""
@@ -181,17 +232,44 @@ class SpaceBlock(DrumBlock):
         """Axes of every drum as the columns of a matrix [-], shape (n, 3, 3)."""
         return np.stack([np.stack([self.drum[a + c][1:, lane] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
 
-    def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
-        """Forces [N] and moments [N m] of its joints on every drum in its present position, each of shape (n, 3)."""
-        joint, state = self.joint.copy(), self.lane.copy()
-        state["dt"][0, lane] = 0.0
-        self.kernel.forces(self.drum, joint, state)
-        force, up, lo = (joint[name][:, :, lane] for name in ("f", "up", "lo"))
-        return force[:-1] - force[1:], up[:-1] + lo[1:]
+    def copies(self, lane: int, step: float = 0.0, **others: np.ndarray) -> dict[str, Any]:
+        """The arrays, with copies of all that changes where forces are asked for, for a step of a lane [s]."""
+        names = ("body", "joint", "load", "link", "lane")
+        found = self.arrays | {name: self.arrays[name].copy() for name in names} | others
+        found["lane"]["dt"][0, lane] = step
+        return found
 
-    def put_ground(self, ground: np.ndarray, lane: int, acceleration: np.ndarray) -> None:
-        """Write the base's acceleration as the kernel wants it."""
-        ground["a"][0, :, lane] = acceleration
+    def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Forces [N] and moments [N m] of their contacts on every drum in its present position, each of shape (n, 3)."""
+        now = self.copies(lane)
+        self.kernel.gather(state_of(now))
+        return now["body"]["f"][1:, :, lane], now["body"]["mo"][1:, :, lane]
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        # the forces at the present positions, found as the next step will find them
+        return self.ledger_of(lane, self.copies(lane, self.dt[lane]))
+
+    def ledger_of(self, lane: int, now: dict[str, Any]) -> np.ndarray:
+        """The same of these arrays, which are changed."""
+        ground: Any = np.zeros(1, self.ground.dtype)
+        now["ground"] = ground
+        ground["a"][0, :, lane] = self.ground_acceleration(lane, self.time(lane))
+        state = state_of(now)
+        self.kernel.gather(state)
+        out = np.empty(6)
+        self.kernel.ledger(state, 0, self.dt[lane], lane, out)
+        return out
+
+    def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
+        """Ledger of a lane as if the column stood there without its pretension; ``bare`` is that column [J]."""
+        now = self.copies(lane, self.dt[lane])
+        for name, fields in zip(("body", "joint", "lane"), self.pack(bare).fields, strict=True):
+            for field, values in fields.items():
+                now[name][field][..., lane] = values
+        now["lane"]["dt"][0, lane] = self.dt[lane]
+        now["link"]["on"][:, lane] = now["link"]["ft"][:, lane] = 0.0
+        return self.ledger_of(lane, now)
 
     def residual_acceleration(self, lane: int) -> float:
         """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
@@ -199,6 +277,37 @@ class SpaceBlock(DrumBlock):
         linear = force * self.drum["im"][1:, lane, None] - self.lane["g"][0, :, lane]
         turning = moment * (self.drum["ia"] * self.drum["rb"])[1:, lane, None]
         return float(max(np.abs(linear).max(), np.abs(turning).max()))
+
+    def pressed_joints(self, lane: int, column: Column) -> float:
+        """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J]."""
+        if not column.pretensioned:
+            return 0.0
+        held = held_at_start(column)
+        try:
+            alone = self.energies_without_tension(lane, without_tension(column))
+        except InputError:  # it cannot stand
+            return float(self.start[lane, 3]) - held
+        return float((self.start[lane] - alone)[2:4].sum()) - held
+
+    def at_rest(self, lane: int) -> bool:
+        """Whether a lane's column has next to no energy above that at its start."""
+        case = self.cases[lane]
+        assert case is not None
+        change = self.energies(lane) - self.start[lane]
+        free = 0.0  # what pretension has given away is not missing from the motion
+        if self.tied:
+            free = set_free(case.column, self.link["ft"][:, lane], float(self.pressed[lane]))
+        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(case.column)
+
+    def links_now(self, lane: int) -> dict[str, Any]:
+        """What a snapshot keeps of the links, where there are some."""
+        return {"links": link_snapshot(self.link, lane)} if self.tied else {}
+
+    def links_done(self, lane: int) -> tuple[LinkMeasures, ...]:
+        """What a lane's run has come to for each link."""
+        case = self.cases[lane]
+        assert case is not None
+        return link_measures(acting(case.column), self.link, lane, float(self.dt[lane])) if self.tied else ()
 
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
@@ -280,24 +389,3 @@ class SpaceBlock(DrumBlock):
         """Where a collapse goes, in words."""
         azimuth = math.degrees(self.collapse(lane).azimuth or 0.0)
         return f"towards azimuth {round(azimuth) % 360}° (from x towards y)"
-
-
-def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
-    """Histories from the snapshots of a run."""
-    stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
-    energy = stack["energy"]
-    acceleration, displacement = ground_histories(motion, stack["time"])
-    found = Histories.in_space(
-        time=stack["time"],
-        position=stack["position"],
-        orientation=quaternions(stack["axes"]),
-        joint_opening=stack["opening"],
-        joint_slip=stack["slip"],
-        joint_twist=stack["twist"],
-        base_displacement=stack["base"] - stack["base"][0],
-        top_displacement=stack["top"],
-        ground_acceleration=acceleration,
-        ground_displacement=displacement,
-        energy={term: energy[:, i] - (0.0 if term == "input" else energy[0, i]) for i, term in enumerate(ledger.TERMS)},
-    )
-    return with_link_histories(found, states)

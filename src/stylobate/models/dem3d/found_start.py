@@ -11,6 +11,7 @@ from ...column import Column, Drum
 from ...column.as_found import FoundDrum
 from ...column.found_in_space import SpaceGeometry, SpaceLoad, space_geometry, space_load
 from ...errors import InputError
+from .arrays import stack_arrays, state_of
 from .packing import CORNERS
 
 #: What may be left of a joint's force and moment over its load and its load's lever; from where on Newton's steps are
@@ -49,7 +50,7 @@ def found_fields(column: Column, at: SpaceGeometry) -> dict[str, np.ndarray]:
 
 
 def found_start(
-    column: Column, kernel: Any, types: tuple, fields: tuple[dict[str, Any], ...], closure: np.ndarray
+    column: Column, kernel: Any, types: dict[str, np.dtype], fields: tuple[dict[str, Any], ...], closure: np.ndarray
 ) -> tuple[dict[str, np.ndarray], dict[str, np.ndarray]]:
     """Fields of the drums, and friction held by the joints, in equilibrium under gravity.
 
@@ -61,7 +62,7 @@ def found_start(
     column : Column
     kernel : module
         Of the law of contact.
-    types : tuple of dtype
+    types : dict of dtype
         Of its records.
     fields : tuple of dict
         Fields of drums, joints and lane of the column as built.
@@ -93,7 +94,7 @@ def found_start(
             break
         if worst < ALLOWED:
             places = {name: contact.drum[name][..., 0].copy() for name in found_fields(column, poses[0])}
-            found, left = (places, {"s": stored, "t": np.concatenate((friction.turning, [0.0]))}), worst
+            found, left = (places, {"s": stored, "t": friction.turning.copy()}), worst
         friction.take(size < NEAR, slid, twisting)
         unknowns.go_on(size, missing, held, step)
     if found is None:
@@ -157,20 +158,19 @@ class _Unknowns:
 class _Contact:
     """The law of contact with the column's drums in lanes: as they stand, and with each unknown of the joints changed."""
 
-    def __init__(self, column: Column, kernel: Any, types: tuple, fields: tuple[dict[str, Any], ...]) -> None:
+    def __init__(
+        self, column: Column, kernel: Any, types: dict[str, np.dtype], fields: tuple[dict[str, Any], ...]
+    ) -> None:
         n = column.n
         self.column, self.kernel, self.cornered = column, kernel, column.section != "circular"
-        self.drum: Any
-        self.joint: Any
-        self.lane: Any
-        arrays: list[Any] = [np.zeros(rows, one) for rows, one in zip((n + 1, n + 1, 1), types[:3], strict=True)]
-        self.drum, self.joint, self.lane = arrays
-        for array, values in zip(arrays, fields, strict=True):
+        self.arrays = stack_arrays(types, n + 1, n)
+        self.drum, self.joint, lane = (self.arrays[name] for name in ("body", "joint", "lane"))
+        for array, values in zip((self.drum, self.joint, lane), fields, strict=True):
             for name, value in values.items():
                 array[name][...] = np.asarray(value)[..., None]
-        self.lane["beta"] = self.lane["dt"] = 0.0
+        lane["damp"] = lane["dt"] = 0.0
         self.half = np.array([0.5 * one.bottom_width for one in column.drums])
-        self.pivots = not self.cornered and float(self.lane["pivot"][0, 0]) > 0.0
+        self.pivots = not self.cornered and float(lane["pivot"][0, 0]) > 0.0
 
     def ask(self, poses: list[SpaceGeometry], friction: _Friction) -> tuple[np.ndarray, np.ndarray]:
         """What the joints hold in their own frames at every pose: normal force, moments and shear, shape (poses, n, 6); and
@@ -182,22 +182,22 @@ class _Contact:
         lower = np.concatenate((np.eye(3)[None], at.axes[:-1]))
         own = np.einsum("nba,nbc,nc->na", lower, at.frame, friction.shear)
         memory = self.joint.copy()
-        stored = np.zeros((n + 1, *memory["s"].shape[1:2]))
-        stored[:n] = (friction.bears[:, :, None] * own[:, None, :]).reshape(n, -1) if self.cornered else own
+        stored = (friction.bears[:, :, None] * own[:, None, :]).reshape(n, -1) if self.cornered else own
         memory["s"][..., :4] = stored[..., None]
-        memory["t"][:n] = friction.turning[:, None]
+        memory["t"][:] = friction.turning[:, None]
         for p in range(len(CORNERS) if self.cornered else 0):  # in lanes of their own: what each corner bears
             memory["mu"][:, 4 + p], memory["co"][:, 4 + p] = 1.0, 0.0
             memory["s"][:, 3 * p, 4 + p] = PROBE
-        self.kernel.forces(self.drum, memory, self.lane)
+        load = self.arrays["load"]
+        self.kernel.forces(state_of(self.arrays | {"joint": memory}))
         held = np.empty((len(poses), n, 6))
         for k, pose in enumerate(poses):
-            force = memory["f"][:n, :, k]
-            moment = memory["up"][:n, :, k] + np.cross(pose.centroid - pose.origin, force)
+            force = load["f"][:n, :, k]
+            moment = load["up"][:n, :, k] + np.cross(pose.centroid - pose.origin, force)
             force, moment = (np.einsum("nba,nb->na", pose.frame, one) for one in (force, moment))
             held[k] = np.column_stack((force[:, 2], moment, force[:, :2]))
         if self.cornered:
-            each = np.einsum("nb,nbp->np", lower[:n, :, 0], memory["f"][:n, :, 4 : 4 + len(CORNERS)])
+            each = np.einsum("nb,nbp->np", lower[:n, :, 0], load["f"][:n, :, 4 : 4 + len(CORNERS)])
             each = np.maximum(each, 0.0)
             friction.bears = each / np.maximum(each.sum(axis=1, keepdims=True), 1e-300)
         return held, stored

@@ -8,30 +8,35 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
 
+import numpy as np
+
 from ...column import Column
 from ...column.found_in_space import shares_left
 from ...column.specimen import Specimen
 from ...errors import InputError, check_range
-from ...kernels.dem3d.records import CHIPS, RINGS
+from ...kernels.dem3d.records import types
 from ...motion import Motion
 from ...response import Histories, Response
 from ..base import Model, RunOptions
 from ..drums.joints import joint_stiffnesses
-from ..drums.links import kind_of, link_stiffness, space_links, with_beds_alone, with_links
+from ..drums.links import kind_of, link_stiffness, with_beds_alone, with_links
 from ..drums.packing import PackedColumn
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
-from .block import SpaceBlock, histories
+from .block import SpaceBlock
 from .found_start import found_start
-from .packing import CORNERS, chipped, drum_fields, joint_fields, lane_fields
+from .histories import histories
+from .links import space_links
+from .packing import chipped, damping_rows, drum_fields, joint_fields, lane_fields
 from .restitution import damping_for
 from .specimen import SpecimenBlock, rows_for, top_frequency
 from .stability import highest_frequency
 
-#: Contact laws: the module of kernels, and the bending stiffness of a closed joint over k_n J, less 1.
-LAWS = {"rim": ("rim_forces", 1.0), "bed": ("bed_forces", 0.0)}
+#: Bending stiffness of a closed joint over k_n J, less 1: of each law of contact of round faces, and of corners.
+LAWS = {"rim": 1.0, "bed": 0.0}
+ON_CORNERS = 2.0
 
 #: What a joint of each law gives with its load on its edge.
 TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
@@ -39,11 +44,8 @@ TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_to
 #: In place of a section: one body that stands on its vertices; round drums on rings, or with chips.
 SPECIMEN, RING, CHIPPED = "specimen", "ring", "chipped"
 
-#: Numbers that the kernels need of what faces lack.
-LOST = {RING: RINGS, CHIPPED: CHIPS}
-
-#: The same for rectangular faces, and their corners.
-CORNER_LAW = ("corner_forces", 2.0)
+#: On what the bodies of a section stand, as the kernels' records are told; others by the law of contact.
+FACES = {SPECIMEN: "vertex", "rectangular": "corner", RING: "ring", CHIPPED: "chip"}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -205,23 +207,14 @@ class DistinctElement3D(SteppedDrums):
         section = RING if column.on_rings else CHIPPED if chipped(column) else column.section
         return (column.n, section, *kind_of(column))
 
-    def kernel(self, section: str = "circular", links: int = 0) -> Any:
-        """Module of kernels, for so many links."""
-        if section == SPECIMEN:
-            return importlib.import_module("...kernels.dem3d.vertex_forces", __package__)
-        others = {"rectangular": CORNER_LAW[0], CHIPPED: "chipped_forces"}
-        name = others.get(section, LAWS[self.law][0])
-        if links:
-            return importlib.import_module("...kernels.dem3d.linked", __package__).LAWS[name]
-        return importlib.import_module(f"...kernels.dem3d.{name}", __package__)
+    def kernel(self) -> Any:
+        """Module of kernels."""
+        return importlib.import_module("...kernels.dem3d.step", __package__)
 
-    def record_types(self, section: str = "circular") -> tuple:
-        """Record types of the kernel's arrays."""
-        if section == SPECIMEN:
-            return self.kernel(section).block_types()
-        corners = len(CORNERS) if section == "rectangular" else 1
-        rolling = self.rolling_resistance > 0.0
-        return self.kernel(section).block_types(self.damped, corners, LOST.get(section, 1), rolling)
+    def record_types(self, section: str = "circular", links: int = 0) -> dict[str, np.dtype]:
+        """Record types of the kernel's arrays, for bodies of a section and for so many links."""
+        damped = self.damped or section == SPECIMEN
+        return types(FACES.get(section, self.law), damped, self.rolling_resistance > 0.0, links > 0)
 
     def pack(self, column: Column) -> PackedColumn:
         """A column as the kernel wants it."""
@@ -237,7 +230,7 @@ class DistinctElement3D(SteppedDrums):
         self, drums: int, options: RunOptions, section: str = "circular", links: int = 0, which: tuple = ()
     ) -> SpaceBlock:
         """A block of lanes for columns of so many drums with a section, and of so many links which these are."""
-        kernel, types = self.kernel(section, links), self.record_types(section)
+        kernel, types = self.kernel(), self.record_types(section, links)
         if section == SPECIMEN:
             damping, cost = (self.stiffness_damping, self.mass_damping), self.cost(drums // 32)
             return SpecimenBlock(
@@ -261,11 +254,12 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
     closure = column.joint_weights / (kn * column.joint_areas)
     drums, joints = drum_fields(column, closure), joint_fields(column, kn, ks)
     options = model.pivot_friction, model.planar, model.rolling_resistance
-    lane = lane_fields(column, model.damping(column), model.mass_damping, *options)
+    lane = lane_fields(column, damping_rows(model.damped, model.damping(column), model.mass_damping), *options)
     if column.as_found or column.pretensioned:
         section = model.kind(column)[1]
-        kernel, types = model.kernel(section), model.record_types(section)
-        found, friction = found_start(column, kernel, types, (drums, joints, lane), closure)
+        found, friction = found_start(
+            column, model.kernel(), model.record_types(section), (drums, joints, lane), closure
+        )
         drums, joints = drums | found, joints | friction
     law = model.law if column.section == "circular" else "corners"
     toes = TOES[law](column, kn * shares_left(column))
@@ -275,7 +269,7 @@ def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
 @lru_cache(maxsize=4096)
 def _stable_step(column: Column, model: DistinctElement3D) -> float:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
-    share = (LAWS[model.law] if column.section == "circular" else CORNER_LAW)[1]
+    share = LAWS[model.law] if column.section == "circular" else ON_CORNERS
     return stable_step(
         *with_links(link_stiffness(column), highest_frequency(column, kn, ks, share), model.damping(column))
     )

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import space_geometry, upward
-from ...kernels.dem3d.records import CHIPS, RINGS
+from ...kernels.dem3d.records import ALPHA, BETA, CHIPS, RINGS
 
 #: Radius of the base, wide enough to be a half-space [m].
 BASE_RADIUS = 1.0e3
@@ -82,21 +82,20 @@ def _cornered(half: dict[str, list[float]], on_base: Callable[..., np.ndarray]) 
 
 
 def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np.ndarray]:
-    """Fields of the joints, the one with the base first; behind the topmost joint stands one without force."""
-
-    def with_free_top(values: Any) -> np.ndarray:
-        return np.concatenate((values, [0.0]))
-
-    memory = {name: np.zeros(column.n + 1) for name in ("t", "kf", "kt", "en", "ox", "oy", "ot")}
-    memory |= {name: np.zeros((column.n + 1, 3)) for name in ("f", "up", "lo")}
-    memory["s"] = np.zeros((column.n + 1, 3 if column.section == "circular" else 3 * len(CORNERS)))
-    return memory | {
-        "kn": with_free_top(kn),
-        "ks": with_free_top(ks),
-        "lost": _lost(column),
-        "co": with_free_top([joint.cohesion for joint in column.joints]),
-        "mu": with_free_top(column.friction),
-    }
+    """Fields of the joints, the one with the base first."""
+    memory: dict[str, np.ndarray] = {name: np.zeros(column.n) for name in ("t", "kf", "kt", "en", "ox", "oy", "ot")}
+    memory["s"] = np.zeros((column.n, 3 if column.section == "circular" else 3 * len(CORNERS)))
+    own = {"ring": _sunken(column)} if column.on_rings else {"chip": _lost(column)} if chipped(column) else {}
+    return (
+        memory
+        | own
+        | {
+            "kn": kn,
+            "ks": ks,
+            "co": np.array([joint.cohesion for joint in column.joints]),
+            "mu": column.friction,
+        }
+    )
 
 
 def chipped(column: Column) -> bool:
@@ -114,25 +113,22 @@ def chip_directions(column: Column) -> np.ndarray:
 
 
 def _lost(column: Column) -> np.ndarray:
-    """What the faces of every joint lack (legend of kernels), (n + 1, 1), (n + 1, 3) with rings, (n + 1, 6) with chips."""
-    if column.on_rings:
-        return _sunken(column)
-    lost = np.zeros((column.n + 1, CHIPS if chipped(column) else 1))
-    if chipped(column):
-        lost[:-1, :3] = chip_directions(column)
-        for i, drum in enumerate(column.drums):
-            versine = 2.0 * max(column.as_found.of(i + 1).chips) / drum.bottom_width
-            sine = math.sqrt(versine * (2.0 - versine))
-            lost[i, 3:] = math.atan2(sine, 1.0 - versine), 1.0 - versine, sine
+    """What chips have taken of the upper face of every joint (legend of kernels), (n, 6)."""
+    lost = np.zeros((column.n, CHIPS))
+    lost[:, :3] = chip_directions(column)
+    for i, drum in enumerate(column.drums):
+        versine = 2.0 * max(column.as_found.of(i + 1).chips) / drum.bottom_width
+        sine = math.sqrt(versine * (2.0 - versine))
+        lost[i, 3:] = math.atan2(sine, 1.0 - versine), 1.0 - versine, sine
     return lost
 
 
 def _sunken(column: Column) -> np.ndarray:
-    """Radii of the sunken middles of the upper and the lower face [m], and the limit of torsion over ρ μ N, (n + 1, 3).
+    """Radii of the sunken middles of the upper and the lower face [m], and the limit of torsion over ρ μ N, (n, 3).
 
     The limit is that of two concentric rings under even pressure.
     """
-    holes = np.zeros((column.n + 1, RINGS))
+    holes = np.zeros((column.n, RINGS))
     for j in range(column.n):
         radius = 0.5 * column.joint_widths[j]
         upper, lower = (0.5 * width for width in column.sunken_widths(j))
@@ -144,19 +140,24 @@ def _sunken(column: Column) -> np.ndarray:
 
 def lane_fields(
     column: Column,
-    stiffness_damping: float,
-    mass_damping: float,
+    damping: np.ndarray,
     pivot_friction: float,
     planar: bool,
     rolling_resistance: float = 0.0,
 ) -> dict[str, Any]:
-    """Fields of a lane at the start of a run; parameters as of the model."""
-    sums = dict.fromkeys(("local", "work", "shear", "visc"), 0.0)
+    """Fields of a lane at the start of a run; ``damping`` from :func:`damping_rows`, other parameters as of the model."""
+    sums = dict.fromkeys(("work", "shear", "visc"), 0.0)
     return sums | {
         "g": column.gravity * upward(column),
-        "beta": stiffness_damping,
-        "alpha": mass_damping,
+        "damp": damping,
         "pivot": pivot_friction,
         "roll": rolling_resistance,
         "free": 0.0 if planar else 1.0,
     }
+
+
+def damping_rows(damped: bool, stiffness_damping: float, mass_damping: float) -> np.ndarray:
+    """Rows of a lane's ``damp``, without local damping; one row of nothing where nothing is damped."""
+    rows = np.zeros(3)
+    rows[BETA], rows[ALPHA] = stiffness_damping, mass_damping
+    return rows if damped else np.zeros(1)

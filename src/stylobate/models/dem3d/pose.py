@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from collections.abc import Callable
 
 import numpy as np
 
@@ -63,7 +63,7 @@ def placed(
             fields[axis + name] = np.concatenate(([float(a == c)], np.full(column.n, turn[c, a])))
     for name in "xyz":  # the base stays where it is
         fields[name][0] = drum[name][0, lane]
-    shear = np.zeros((column.n + 1, 3 if low is None else 3 * len(CORNERS)))
+    shear = np.zeros((column.n, 3 if low is None else 3 * len(CORNERS)))
     for corner in (0,) if low is None else low:
         shear[0, 3 * corner : 3 * corner + 2] = force[:2] / (1 if low is None else len(low))
     return fields, {"s": shear}, max(float(force[2]), 0.0)
@@ -109,21 +109,18 @@ def _rolling_force(
     return mass * (gravity * up - np.cross(turning, arm) - centripetal)
 
 
-def sink(block: Any, lane: int, force: float) -> None:
-    """Lower the whole column in a lane of a block until the base carries a force [N]."""
-    joint, state = block.joint.copy(), block.lane.copy()
-    state["dt"][0, lane] = 0.0
-    z = block.drum["z"][1:, lane].copy()
+def sink(drum: np.ndarray, lane: int, force: float, carried: Callable[[], float]) -> None:
+    """Lower the whole column in a lane until the base, which now carries ``carried()``, carries a force [N]."""
+    z = drum["z"][1:, lane].copy()
 
-    def carried(depth: float) -> float:
-        block.drum["z"][1:, lane] = z - depth
-        block.kernel.forces(block.drum, joint, state)
-        return block.lift(joint, lane)
+    def carried_at(depth: float) -> float:
+        drum["z"][1:, lane] = z - depth
+        return carried()
 
     low, high = 0.0, 1e-12
-    while carried(high) < force:
+    while carried_at(high) < force:
         high *= 2.0
-    while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
+    while high - low > 1e-15 and carried_at(0.5 * (low + high)) != force:
         middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried(middle) < force else (low, middle)
-    carried(high)
+        low, high = (middle, high) if carried_at(middle) < force else (low, middle)
+    carried_at(high)

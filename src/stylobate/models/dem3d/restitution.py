@@ -11,6 +11,7 @@ import numpy as np
 
 from ...column import Column, Drum
 from ...errors import InputError
+from ...kernels.dem3d.records import BETA
 from ...motion import Motion
 from ..base import Case, RunOptions
 from ..start import Start
@@ -41,7 +42,7 @@ def restitutions(column: Column, model: Any) -> np.ndarray:
     duration = 10.0 / body.frequency_parameter
     for lane, beta in enumerate(TRIED):
         block.load(lane, Case(body, Motion(duration, np.zeros(2))))
-        block.lane["beta"][0, lane] = beta
+        block.lane["damp"][0, BETA, lane] = beta
     lean = []
     while not block.is_over(0):
         block.advance(1)

@@ -11,7 +11,7 @@ import numpy as np
 
 from ...column.specimen import Specimen
 from ...errors import InputError
-from ...kernels.run_codes import COLLAPSED, FAILED, LANES
+from ...kernels.run_codes import COLLAPSED, FAILED
 from ...outcome import Outcome, classify
 from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED
@@ -23,6 +23,7 @@ from ..shared.stable_step import highest_frequency
 from ..start import Toss
 from .block import SpaceBlock
 from .lying import lying, potential, turned
+from .packing import damping_rows
 
 #: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
 ROUND_UP = 64
@@ -114,10 +115,7 @@ class SpecimenBlock(SpaceBlock):
         *arguments: Any,
         planar: bool,
     ) -> None:
-        super().__init__(*arguments, planar=planar)
-        from ..shared.lanes import aligned_zeros
-
-        self.joint = aligned_zeros(self.kernel.FIRST + rows, self.joint.dtype)
+        super().__init__(*arguments, rows=rows, planar=planar)
         self.damping, self.step_for = damping, step_for
 
     def base(self, case: Case) -> np.ndarray:
@@ -127,25 +125,24 @@ class SpecimenBlock(SpaceBlock):
     def place(self, lane: int, case: Case) -> float:
         """Put a specimen at rest into a lane; its step [s]."""
         specimen: Any = case.column
-        first, rest = self.kernel.FIRST, specimen.resting
+        rest = specimen.resting
         moments, axes = principal(specimen)
         up = rest.rotation.T[:, 2] @ axes
         vertices = specimen.vertices[resting_first(specimen)] @ axes
         kn, ks = vertex_stiffness(specimen)
         for array in (self.drum, self.joint, self.lane):
             for name in array.dtype.names or ():
-                if array.dtype[name].shape[-1:] == (LANES,):  # others are of links, which specimens have none of
-                    array[name][..., lane] = 0.0
+                array[name][..., lane] = 0.0
         joint, drum = self.joint, self.drum
         m = len(vertices)
-        every = np.arange(len(self.joint) - first)
-        self.lane["near"][0].reshape(-1)[every] = first + every
+        every = np.arange(len(self.joint))
+        self.lane["near"][0].reshape(-1)[every] = every
         self.lane["count"][:] = len(every)
         for c, name in enumerate("xyz"):
-            joint[name][first : first + m, lane] = vertices[:, c]
-        joint["kn"][first : first + m, lane], joint["ks"][first : first + m, lane] = kn, ks
+            joint[name][:m, lane] = vertices[:, c]
+        joint["kn"][:m, lane], joint["ks"][:m, lane] = kn, ks
         self.lane["mu"][0, lane], self.lane["lost"][0, lane] = specimen.joint.tan_phi, 1.0 - specimen.restitution**2
-        joint["rest"][first : first + len(rest.footprint), lane] = 1.0
+        joint["rest"][: len(rest.footprint), lane] = 1.0
         turn = rest.rotation @ axes
         values = {"m": specimen.mass, "im": 1.0 / specimen.mass, "z": rest.height}
         values |= {
@@ -159,7 +156,7 @@ class SpecimenBlock(SpaceBlock):
             drum[name][1, lane] = value
         self._turn(lane, turn)
         self.lane["g"][0, 2, lane] = specimen.gravity
-        self.lane["beta"][0, lane], self.lane["alpha"][0, lane] = self.damping
+        self.lane["damp"][0, :, lane] = damping_rows(True, *self.damping)
         self.lane["free"][0, lane] = 1.0
         self._settle(lane, turn, specimen)
         return self.step_for(specimen)
@@ -245,8 +242,8 @@ class SpecimenBlock(SpaceBlock):
         Where it is lowest, so that a body that only leans has not slipped; shapes (1,), (1, 2), (1,).
         """
         specimen: Any = self.cases[lane].column  # type: ignore[union-attr]
-        rows = self.kernel.FIRST + np.arange(len(specimen.resting.footprint))
-        arms = np.stack([self.joint[c][rows, lane] for c in "xyz"], axis=-1)
+        foot = len(specimen.resting.footprint)
+        arms = np.stack([self.joint[c][:foot, lane] for c in "xyz"], axis=-1)
         axes = self.axes(lane)[0]
         places = np.array([self.drum[c][1, lane] for c in "xyz"]) + arms @ axes.T
         foot = np.array([self.drum[c][0, lane] for c in "xyz"])
@@ -272,13 +269,6 @@ class SpecimenBlock(SpaceBlock):
         least = 1.0 / principal(self.cases[lane].column)[0].min()  # type: ignore[union-attr, arg-type]
         linear = force[0] * drum["im"][lane] - self.lane["g"][0, :, lane]
         return float(max(np.abs(linear).max(), np.abs(moment).max() * least * drum["rb"][lane]))
-
-    def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
-        """Force [N] and moment [N m] of the base on the body in its present position, each of shape (1, 3)."""
-        joint, state = self.joint.copy(), self.lane.copy()
-        state["dt"][0, lane] = 0.0
-        self.kernel.forces(self.drum, joint, state)
-        return joint["f"][:1, :, lane], joint["up"][:1, :, lane]
 
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state; axes are those of the specimen's vertices."""

@@ -8,7 +8,7 @@ from ...kernels.dem3d.records import CHIPS
 
 
 def slips_where_closest(
-    drum: np.ndarray, lane: int, middles: np.ndarray, twists: np.ndarray, lost: np.ndarray
+    drum: np.ndarray, lane: int, middles: np.ndarray, twists: np.ndarray, chips: np.ndarray
 ) -> np.ndarray:
     """Slip of every joint in the axes of the drum below, at the place where its two faces are closest [m], shape (n, 2).
 
@@ -25,8 +25,8 @@ def slips_where_closest(
         Middle of each upper face along the face below [m], shape (n, 2).
     twists : array
         Turn of each upper drum about the joint's normal [rad], shape (n,).
-    lost : array
-        What the joints' faces lack (legend of the kernels), shape (n, rows).
+    chips : array
+        What chips have taken of the joints' upper faces (legend of the kernels), shape (n, 6); of one column without chips.
     """
     u, v = drum[1:], drum[:-1]
 
@@ -54,12 +54,12 @@ def slips_where_closest(
         each = 1.0 / np.where(flat, 1.0, sine)
         h = np.stack((np.where(flat, 1.0, normal[:, 0] * each), normal[:, 1] * each, np.zeros(n)), axis=1)
         down = np.stack((normal[:, 2] * h[:, 0], normal[:, 2] * h[:, 1], -sine), axis=1)
-        if lost.shape[1] == CHIPS:
-            toward = (turn @ lost[:, :3, None])[:, :, 0]
+        if chips.shape[1] == CHIPS:
+            toward = (turn @ chips[:, :3, None])[:, :, 0]
             beside = np.cross(normal, toward)
             side = np.where((down * beside).sum(axis=1) < 0.0, -1.0, 1.0)
-            end = lost[:, 4, None] * toward + (side * lost[:, 5])[:, None] * beside
-            down = np.where((down * toward).sum(axis=1, keepdims=True) > lost[:, 4, None], end, down)
+            end = chips[:, 4, None] * toward + (side * chips[:, 5])[:, None] * beside
+            down = np.where((down * toward).sum(axis=1, keepdims=True) > chips[:, 4, None], end, down)
         places = np.stack((middle + u["rb"][:, lane, None] * down, v["rt"][:, lane, None] * h), axis=1)
         inside = np.array([True, False])
     gaps = np.where(inside, places[..., 2], ((middle[:, None] - places) @ normal[:, :, None])[..., 0])

@@ -19,7 +19,7 @@ from ..shared.lanes import aligned_zeros, longest_piece
 from .barriers import lowest_barrier
 from .links import acting, link_measures, link_snapshot
 from .packing import PackedColumn
-from .pretension import held_at_start, pressed_joints, set_free
+from .pretension import held_at_start, set_free
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
@@ -95,7 +95,7 @@ class DrumBlock:
             self.take_pose(lane, case.column, start)
         self.half_a_step_back(lane)
         self.start[lane] = self.energies(lane)
-        self.pressed[lane] = pressed_joints(self, lane, case.column) if self.tied else 0.0
+        self.pressed[lane] = self.pressed_joints(lane, case.column) if self.tied else 0.0
         if start is not None:  # what the pose and the velocity hold above the column upright
             self.rest[lane] += self.start[lane, 1:4].sum()
 
@@ -109,8 +109,12 @@ class DrumBlock:
         running = np.count_nonzero(self.running())
         while left > 0 and np.count_nonzero(self.running()) == running:
             count = min(left, self.piece)
-            self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, count)
+            self.step(count)
             left -= count
+
+    def step(self, chunks: int) -> None:
+        """Let the kernel take so many chunks of steps."""
+        self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, chunks)
 
     def running(self) -> np.ndarray:
         """Which lanes' runs go on, shape (lanes,)."""

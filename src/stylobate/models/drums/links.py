@@ -11,7 +11,6 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_geometry import geometry
-from ...column.found_in_space import space_geometry
 from ...column.links.placed import PlacedLink
 from ...kernels.drums.link_records import OWN
 from ...response import Histories, LinkHistories, LinkMeasures
@@ -140,27 +139,6 @@ def plane_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | No
         hb = drum["hb"][up]
         joint[m, 0] = cl * dx + sl * dz + sr * hb + cr * along
         joint[m, 2] = cl * dz - sl * dx - drum["ht"][low] - cr * hb + sr * along
-    return pack_links(column, joint, line, ends)
-
-
-def space_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | None:
-    """Links of a column in space whose drums stand as these fields of the kernel's records say."""
-    links = acting(column)
-    if not links:
-        return None
-    joint, line, ends = np.zeros((len(links), 3)), np.zeros(len(links)), np.zeros((2, len(links), 3))
-    axes = np.stack([np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
-    centroids, foot = (np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in ("", "f"))
-    beds = space_geometry(column).bed if column.as_found else np.repeat(np.eye(3)[None], column.n, axis=0)
-    for m, link in enumerate(links):
-        low, up = link.lower, link.upper
-        if link.straight:
-            ends[:, m] = link.arms
-            one, other = (centroids[body] + axes[body] @ end for body, end in ((low, ends[0, m]), (up, ends[1, m])))
-            line[m] = math.dist(one, other)
-            continue
-        ends[1, m] = foot[up] + beds[up - 1] @ (*link.high[:2], 0.0)
-        joint[m] = axes[low].T @ (centroids[up] + axes[up] @ ends[1, m] - centroids[low]) - (0.0, 0.0, drum["ht"][low])
     return pack_links(column, joint, line, ends)
 
 

@@ -13,7 +13,6 @@ from ...column.found_geometry import gravity_vector
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
 from ..shared.soft_joints import resolving
-from .links import PackedLinks
 
 #: Half width of the base, wide enough to be a half-plane [m].
 BASE_HALF_WIDTH = 1.0e4
@@ -26,7 +25,7 @@ class PackedColumn:
     fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]]
     step: float
     toes: np.ndarray
-    links: PackedLinks | None = None
+    links: Any = None
 
 
 def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:

@@ -68,7 +68,7 @@ class SteppedDrums(Model):
         """Module of kernels."""
         raise NotImplementedError
 
-    def record_types(self) -> tuple:
+    def record_types(self) -> Any:
         """Record types of the kernel's arrays."""
         raise NotImplementedError
 

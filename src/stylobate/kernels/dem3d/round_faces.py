@@ -1,10 +1,21 @@
-"""From the pressure of a joint to the forces on its two drums: friction, dashpots, and the memory of both."""
+"""Joints of round faces: how two faces stand to each other, the pressure of a law there, friction, forces on both drums.
+
+A law of pressure, of faces that carry on their rims (``rims.py``) or on a bed (``beds.py``), is handed in. From the joint,
+the lane, both drums, and how the faces stand to each other it gives::
+
+    pressing, spread      normal force [N], mean square distance of pressure from its middle [m²]
+    closed                area of what touches [m²]
+    torsion               κ and λ of K_T = κ K_s ρ² and of the limit λ ρ μ N
+    middle                of pressure [m]
+    pressure, elastic     its force and moment about the middle of the face below; the same without dashpots
+"""
 
 import math
 
 from ..jit import law
 from .friction import NOTHING, kept, returned
-from .pose import cross, in_body, in_space
+from .pose import cross, faces, in_body, in_space, lean, middles, passing
+from .records import BETA
 
 #: Share of a relative rolling velocity that its resistance may take in one step.
 STOPPING = 0.5
@@ -30,17 +41,31 @@ def resistance(rolling, pressing, dx, dy, dz, ox, oy, oz, u, v, l, dt):
 
 
 @law
-def carry(
-    e, o, u, v, l, damped, pressing, spread, kf, cohesion, torsion, face, middle, velocity, spin, pressure, elastic
-):
+def on_face(pressure_of, e, f, o, u, v, l):
+    """Forces at t_n of a joint of round faces under a law of pressure; brings its memory from t_{n−1} to t_n."""
+    zx, zy, zz = v.kx[l], v.ky[l], v.kz[l]
+    nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+    rx, ry, rz, cx, cy, cz = faces(u, v, l)
+    hx, hy, hz, tx, ty, tz, sine, cosine = lean(nx, ny, nz, zx, zy, zz, v.ix[l], v.iy[l], v.iz[l])
+    vx, vy, vz, ox, oy, oz = passing(u, v, l, rx, ry, rz, cx, cy, cz)
+    leaning = (nx, ny, nz, hx, hy, hz, tx, ty, tz, sine, cosine)
+    way = middles(cx, cy, cz, hx, hy, hz, tx, ty, tz)
+    face, velocity, spin = (rx, ry, rz, cx, cy, cz), (vx, vy, vz), (ox, oy, oz)
+    pressing, spread, closed, torsion, middle, pressure, elastic = pressure_of(
+        e, o, u, v, l, leaning, way, (cx, cy, cz), velocity, spin
+    )
+    rub(e, f, o, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic)
+
+
+@law
+def rub(e, f, o, u, v, l, pressing, spread, closed, torsion, face, middle, velocity, spin, pressure, elastic):
     """Adds friction to the pressure of a joint and puts the sum on the two drums.
 
-    ``pressing`` and ``spread`` are the normal force and the mean square distance of pressure from its middle; ``kf`` the
-    shear stiffness of what touches, ``cohesion`` its force; ``torsion`` holds κ and λ of K_T = κ K_s ρ² and of the limit
-    λ ρ μ N. Vectors: ``face`` from the upper centroid to the middle of its face, and that middle from the one below;
-    ``middle`` of pressure; ``velocity`` of the upper face's middle and ``spin`` as seen from the drum below; ``pressure``
-    its force and moment about the middle of the face below, ``elastic`` the same without dashpots.
+    Vectors, beside those of a law of pressure: ``face`` from the upper centroid to the middle of its face, and that middle
+    from the one below; ``velocity`` of the upper face's middle and ``spin`` as seen from the drum below.
     """
+    damped = e.d.shape[0] > 1
+    kf, cohesion = e.ks[l] * closed, e.co[l] * closed
     rx, ry, rz, cx, cy, cz = face
     px, py, pz = middle
     vx, vy, vz = velocity
@@ -81,9 +106,9 @@ def carry(
     e.kt[l] = kt
     if damped:
         # dashpots parallel to the springs; friction in sum stays within Coulomb's
-        drag = o.beta[l] * kf
+        drag = o.damp[BETA, l] * kf
         gx, gy, gz = qx - drag * ax, qy - drag * ay, qz - drag * az
-        turn = twist - o.beta[l] * kt * turning
+        turn = twist - o.damp[BETA, l] * kt * turning
         keep, less = returned(gx * gx + gy * gy + gz * gz, turn * turn, limit, limit * arm * o.pivot[l], kf, kt)
         gx, gy, gz, turn = gx * keep - qx, gy * keep - qy, gz * keep - qz, turn * less - twist
         ex, ey, ez = fx - ex + gx, fy - ey + gy, fz - ez + gz
@@ -117,7 +142,7 @@ def carry(
     ax, ay, az = cross(px, py, pz, qx, qy, qz)
     mx, my, mz = mx + ax + twist * nx, my + ay + twist * ny, mz + az + twist * nz
     ax, ay, az = cross(cx - rx, cy - ry, cz - rz, fx, fy, fz)
-    e.f[0, l], e.f[1, l], e.f[2, l] = fx, fy, fz
-    e.up[0, l], e.up[1, l], e.up[2, l] = mx - ax, my - ay, mz - az
+    f.f[0, l], f.f[1, l], f.f[2, l] = fx, fy, fz
+    f.up[0, l], f.up[1, l], f.up[2, l] = mx - ax, my - ay, mz - az
     ax, ay, az = cross(-ht * zx, -ht * zy, -ht * zz, fx, fy, fz)
-    e.lo[0, l], e.lo[1, l], e.lo[2, l] = ax - mx, ay - my, az - mz
+    f.lo[0, l], f.lo[1, l], f.lo[2, l] = ax - mx, ay - my, az - mz

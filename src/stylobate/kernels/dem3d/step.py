@@ -1,0 +1,175 @@
+"""The step of bodies in space: forces of all contacts, motion, looks between chunks, and the ledger, each once.
+
+What the bodies of an array stand on, and whether there are links, is told by the types of its records (``records.py``): the
+functions chosen by them here are compiled with what they are chosen for.
+"""
+
+from ..ground import sample
+from ..jit import chosen, kernel, long_law, strict
+from ..run_codes import CHUNK, RUNNING
+from ..shared.frame import run_chunks
+from ..shared.links import add_to_ledger
+from ..shared.records import (
+    BODY,
+    BOND,
+    FEED,
+    GROUND,
+    HOLD,
+    JOINT,
+    LANE,
+    LINK,
+    LOAD,
+    PAIR,
+    SPAN,
+    TOUCH,
+    WATCH,
+)  # fmt: skip
+from . import vertices
+from .joints import joint_forces
+from .links import add_links, look_at_all, look_for_slack
+from .look import check_finite, joint_state, look_at_column
+from .move import gather_all, kinetic_and_gravitational, move_all, stored_in_faces
+from .records import rows
+
+#: The models read these here.
+__all__ = ["advance", "forces", "joint_state", "ledger"]
+
+
+@chosen
+def link_forces(body, load, link, bond, pair, joints):
+    """Forces of all links at t_n, where there are some; brings their memory from t_{n−1} to t_n."""
+    if rows(link, "none"):
+        return lambda body, load, link, bond, pair, joints: None
+    return lambda body, load, link, bond, pair, joints: add_links(body, load, link, bond, pair, joints)
+
+
+@chosen
+def may_hold(body, joint, load, link, bond, lane, watch, pair):
+    """Which vertices, or which links, may act within the next chunk of steps."""
+    if rows(joint, "rest"):
+        near = vertices.mark_near
+        return lambda body, joint, load, link, bond, lane, watch, pair: near(body, joint, lane, watch)
+    if rows(link, "none"):
+        return lambda body, joint, load, link, bond, lane, watch, pair: None
+    return lambda body, joint, load, link, bond, lane, watch, pair: look_for_slack(
+        body, load, link, bond, pair, joint.shape[0], watch
+    )
+
+
+@chosen
+def look_at_links(joint, link, bond, lane, feed, watch, hold, pair):
+    """Peaks and breaks of links, where there are some, and what the whole ones hold."""
+    if rows(link, "none"):
+        return lambda joint, link, bond, lane, feed, watch, hold, pair: None
+    return lambda joint, link, bond, lane, feed, watch, hold, pair: look_at_all(
+        link, bond, lane, feed, watch, hold, pair, joint.shape[0]
+    )
+
+
+@chosen
+def look_at_bodies(body, joint, lane, feed, watch, hold):
+    """Peaks and certain collapses of a column, or of one body."""
+    looks = vertices.look_at_body if rows(joint, "rest") else look_at_column
+    return lambda body, joint, lane, feed, watch, hold: looks(body, joint, lane, feed, watch, hold)
+
+
+@chosen
+def stored(joint, lane, l):
+    """Energy that all joints hold in one lane by pressure, and by friction [J]."""
+    if rows(joint, "rest"):
+        return lambda joint, lane, l: (lane[0].en[l], lane[0].st[l])
+    return lambda joint, lane, l: stored_in_faces(joint, l)
+
+
+@chosen
+def ledger_of_links(link, bond, l, out):
+    """Adds what links hold to the ledger of one lane, where there are some."""
+    if rows(link, "none"):
+        return lambda link, bond, l, out: None
+    return lambda link, bond, l, out: add_to_ledger(link, bond, l, out)
+
+
+@long_law
+def base_acceleration(f, ground, running, l):
+    """Acceleration of the base for the next chunk in a lane, in the axes of the base, from the lane's own motion."""
+    for k in range(CHUNK + 1):
+        a = ground[k].a
+        if running:
+            place = (f.step[l] + k) * f.ratio[l]
+            last, factor = f.last[l], f.factor[l]
+            x = factor * sample(f.x[l], last, place)
+            y = factor * sample(f.y[l], last, place) if f.y[l] != 0 else 0.0
+            z = factor * sample(f.z[l], last, place) if f.z[l] != 0 else 0.0
+            for c in range(3):
+                a[c, l] = f.r[3 * c, l] * x + f.r[3 * c + 1, l] * y + f.r[3 * c + 2, l] * z
+        else:
+            for c in range(3):
+                a[c, l] = 0.0
+
+
+@kernel
+def fill_ground(ground, feed, watch):
+    """Acceleration of the base for the next chunk."""
+    for l in range(watch[0].status.shape[0]):
+        base_acceleration(feed[0], ground, watch[0].status[l] == RUNNING, l)
+
+
+@long_law
+def look_ahead(state):
+    """What is looked for before a chunk of steps."""
+    may_hold(state[BODY], state[JOINT], state[LOAD], state[LINK], state[BOND], state[LANE], state[WATCH], state[PAIR])
+
+
+@kernel
+def forces(state):
+    """Loads of all contacts at t_n; brings their memory from t_{n−1} to t_n."""
+    joint_forces(state[BODY], state[JOINT], state[LOAD], state[PAIR], state[LANE])
+    link_forces(state[BODY], state[LOAD], state[LINK], state[BOND], state[PAIR], state[JOINT].shape[0])
+
+
+@kernel
+def gather(state):
+    """Loads of all contacts at t_n, as :func:`forces`, and what they add up to on every body."""
+    forces(state)
+    gather_all(state[BODY], state[LOAD], state[SPAN], state[TOUCH])
+
+
+@long_law
+def move(state, k):
+    """Motion of all bodies over step k of the chunk."""
+    move_all(state[BODY], state[LOAD], state[SPAN], state[TOUCH], state[LANE], state[GROUND], k)
+
+
+@long_law
+def look(state):
+    """What is looked at between chunks of steps."""
+    check_finite(state[BODY], state[WATCH])
+    look_at_links(
+        state[JOINT], state[LINK], state[BOND], state[LANE], state[FEED], state[WATCH], state[HOLD], state[PAIR]
+    )
+    look_at_bodies(state[BODY], state[JOINT], state[LANE], state[FEED], state[WATCH], state[HOLD])
+
+
+@strict
+def ledger(state, k, dt, l, out):
+    """Ledger of one lane at t_n, after :func:`gather`, with velocities brought to the whole step.  # Eq. (D5)
+
+    Writes input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J]. What links hold is elastic.
+    ``dt`` is the step of the lane (its own is 0 once it stands still), ``k`` the row of ``ground`` that holds t_n.
+    """
+    o = state[LANE][0]
+    kinetic, height = kinetic_and_gravitational(state[BODY], state[LANE], state[GROUND], k, dt, l)
+    elastic, held = stored(state[JOINT], state[LANE], l)
+    out[0] = o.work[l]
+    out[1] = kinetic
+    out[2] = height
+    out[3] = elastic + held
+    out[4] = o.shear[l] - held
+    out[5] = o.visc[l]
+    ledger_of_links(state[LINK], state[BOND], l, out)
+
+
+@kernel
+def advance(state, chunks):
+    """Advance all lanes: see :func:`run_chunks`."""
+    run_chunks(fill_ground, look_ahead, forces, move, look, state, chunks)
