@@ -10,23 +10,17 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import base_axes
-from ...errors import InputError
-from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
+from ...kernels.run_codes import COLLAPSED, FAILED, RUNNING
 from ...outcome import Outcome, classify
-from ...response import Collapse, LinkMeasures, Measures
+from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
-from ..drums.barriers import lowest_barrier
-from ..drums.block import CALLS_PER_RUN, DrumBlock
 from ..drums.histories import ledger_imbalance
-from ..drums.links import acting
 from ..drums.packing import PackedColumn, whole_steps
-from ..drums.pretension import held_at_start, set_free, without_tension
-from ..plane.links import link_measures, link_snapshot
-from ..shared import ledger, quiet
+from ..drums.runs import CALLS_PER_RUN, LaneRuns
+from ..shared import ledger
 from ..shared.ground import value_at
-from ..shared.lanes import longest_piece
 from ..start import check_in_plane
 from .arrays import join_links, stack_arrays, state_of
 from .links import SpaceLinks
@@ -35,8 +29,8 @@ from .touching import slips_where_closest
 from .verdict import stands_for_good
 
 
-class SpaceBlock(DrumBlock):
-    """See :class:`stylobate.models.shared.lanes.LaneBlock`; parameters as for :class:`DrumBlock`.
+class SpaceBlock(LaneRuns):
+    """See :class:`stylobate.models.shared.lanes.LaneBlock`; others as for :class:`LaneRuns`.
 
     Parameters
     ----------
@@ -59,25 +53,12 @@ class SpaceBlock(DrumBlock):
         *,
         planar: bool,
     ) -> None:
-        self.kernel, self.pack, self.options = kernel, pack, options
-        self.planar, self.tied = planar, links > 0
-        self.lanes = LANES
-        self.chunk = CHUNK
+        self.kernel, self.planar = kernel, planar
         self.arrays = stack_arrays(types, drums + 1, drums if rows is None else rows, links)
-        self.drum, self.joint, self.link, self.lane, self.ground, self.feed, self.watch = (
-            self.arrays[name] for name in ("body", "joint", "link", "lane", "ground", "feed", "watch")
-        )
+        self.drum, self.joint, self.ground = (self.arrays[name] for name in ("body", "joint", "ground"))
         self.state = state_of(self.arrays)
-        self.watch["status"] = FREE
-        self.dt = np.zeros(self.lanes)
-        self.steps = np.zeros(self.lanes, dtype=np.int64)
-        self.start = np.zeros((self.lanes, 6))
-        self.rest = np.zeros(self.lanes)
-        self.pressed = np.zeros(self.lanes)
-        self.cases: list[Case | None] = [None] * self.lanes
-        self.spans = quiet.Spans(self.lanes, options, self.chunk)
-        self.chunks_per_call = 1
-        self.piece = longest_piece(cost, self.chunk)
+        lane, feed, watch, link = (self.arrays[name] for name in ("lane", "feed", "watch", "link"))
+        super().__init__(pack, (lane, feed, watch, link), options, cost)
 
     def load(self, lane: int, case: Case) -> None:
         """Start a case in a lane."""
@@ -278,37 +259,6 @@ class SpaceBlock(DrumBlock):
         turning = moment * (self.drum["ia"] * self.drum["rb"])[1:, lane, None]
         return float(max(np.abs(linear).max(), np.abs(turning).max()))
 
-    def pressed_joints(self, lane: int, column: Column) -> float:
-        """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J]."""
-        if not column.pretensioned:
-            return 0.0
-        held = held_at_start(column)
-        try:
-            alone = self.energies_without_tension(lane, without_tension(column))
-        except InputError:  # it cannot stand
-            return float(self.start[lane, 3]) - held
-        return float((self.start[lane] - alone)[2:4].sum()) - held
-
-    def at_rest(self, lane: int) -> bool:
-        """Whether a lane's column has next to no energy above that at its start."""
-        case = self.cases[lane]
-        assert case is not None
-        change = self.energies(lane) - self.start[lane]
-        free = 0.0  # what pretension has given away is not missing from the motion
-        if self.tied:
-            free = set_free(case.column, self.link["ft"][:, lane], float(self.pressed[lane]))
-        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(case.column)
-
-    def links_now(self, lane: int) -> dict[str, Any]:
-        """What a snapshot keeps of the links, where there are some."""
-        return {"links": link_snapshot(self.link, lane)} if self.tied else {}
-
-    def links_done(self, lane: int) -> tuple[LinkMeasures, ...]:
-        """What a lane's run has come to for each link."""
-        case = self.cases[lane]
-        assert case is not None
-        return link_measures(acting(case.column), self.link, lane, float(self.dt[lane])) if self.tied else ()
-
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
         drum = self.drum
@@ -371,7 +321,7 @@ class SpaceBlock(DrumBlock):
 
     def stays(self, column: Column, lane: int, slip: np.ndarray, energy: float) -> bool:
         """Whether the column in a lane stands for good; in the plane no drum walks."""
-        toes, walks = self.toes(column), not self.planar
+        toes, walks = self.pack(column).toes, not self.planar
         return stands_for_good(column, self.drum, lane, slip, energy, toes, walks=walks)
 
     def collapse(self, lane: int) -> Collapse:

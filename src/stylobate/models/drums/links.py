@@ -10,18 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ...column import Column
-from ...column.found_geometry import geometry
 from ...column.links.placed import PlacedLink
-from ...kernels.drums.link_records import OWN
-from ...response import Histories, LinkHistories, LinkMeasures
+from ...response import Histories, LinkHistories
 from ..shared.stable_step import highest_frequency
-
-
-class PackedLinks(NamedTuple):
-    """Links as the kernel wants them: what all lanes share, by name, shape (m,); and what a lane has, last axis left out."""
-
-    shared: dict[str, np.ndarray]
-    own: dict[str, np.ndarray]
 
 
 def acting(column: Column) -> tuple[PlacedLink, ...]:
@@ -33,46 +24,6 @@ def kind_of(column: Column) -> tuple[Any, ...]:
     """What tells whose links can share a block of lanes: how many act, and all of them; nothing where none acts."""
     count = len(acting(column))
     return (count, column.links) if count else ()
-
-
-def pack_links(column: Column, joint: np.ndarray, line: np.ndarray, ends: np.ndarray) -> PackedLinks | None:
-    """Links of a column at rest.
-
-    Parameters
-    ----------
-    column : Column
-    joint : array
-        Where the upper place of what crosses a joint stands at the start, along the joint below and over it [m], shape
-        (m, 3), and unused for lines.
-    line : array
-        Length of a straight line at the start [m], shape (m,).
-    ends : array
-        Places on the lower and on the upper body as the kernel wants them [m], shape (2, m, 3).
-    """
-    links = acting(column)
-    if not links:
-        return None
-
-    count, shared = len(links), law_fields(links)
-    axial, pretension = shared["mka"], np.array([one.pretension for one in links])
-    stretch = np.where(axial > 0.0, pretension / np.where(axial > 0.0, axial, 1.0), 0.0)
-    start = np.where(shared["mline"] > 0, line, joint[:, 2])
-    none = dict.fromkeys(OWN.split(), np.zeros(count))
-    own = none | {
-        **{name: shared.pop(name) for name in ("mka", "mfa", "mua", "mgap")},
-        "mh": start,
-        "ml0": start - stretch,
-        "mon": np.ones(count),
-        "mft": pretension,
-        "msx": joint[:, 0],
-        "msy": joint[:, 1],
-        "mpx": joint[:, 0],
-        "mpy": joint[:, 1],
-        "mwhen": np.full(count, -1),
-        "mhold": np.array([hold_of(column, one) for one in links]),
-    }
-    own |= {f"m{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
-    return PackedLinks(shared, own)
 
 
 def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
@@ -108,38 +59,6 @@ def slip_at(capacity: np.ndarray, stiffness: np.ndarray) -> np.ndarray:
     """Slip at which springs of these stiffnesses [N/m] reach these capacities [N]; infinite of those without stiffness."""
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.where(stiffness > 0.0, capacity / stiffness, math.inf)
-
-
-def plane_links(column: Column, drum: dict[str, np.ndarray]) -> PackedLinks | None:
-    """Links of a column in the plane whose drums stand as these fields of the kernel's records say."""
-    links = acting(column)
-    if not links:
-        return None
-    foot = geometry(column).foot if column.as_found else np.zeros(column.n)
-    joint, line, ends = np.zeros((len(links), 3)), np.zeros(len(links)), np.zeros((2, len(links), 3))
-    x, z, c, s = (drum[name] for name in ("x", "z", "c", "s"))
-    faces = (c * drum["fc"] - s * drum["fs"], s * drum["fc"] + c * drum["fs"])
-
-    def placed(body: int, place: np.ndarray) -> np.ndarray:
-        cosine, sine = faces[0][body], faces[1][body]
-        return np.array(
-            [x[body] + cosine * place[0] - sine * place[2], place[1], z[body] + sine * place[0] + cosine * place[2]]
-        )
-
-    for m, link in enumerate(links):
-        low, up = link.lower, link.upper
-        if link.straight:
-            ends[:, m] = link.arms
-            line[m] = math.dist(placed(low, ends[0, m]), placed(up, ends[1, m]))
-            continue
-        ends[1, m, 0] = along = link.high[0] - foot[up - 1]
-        dx, dz = x[up] - x[low], z[up] - z[low]
-        cl, sl = faces[0][low], faces[1][low]
-        cr, sr = c[up] * cl + s[up] * sl, s[up] * cl - c[up] * sl
-        hb = drum["hb"][up]
-        joint[m, 0] = cl * dx + sl * dz + sr * hb + cr * along
-        joint[m, 2] = cl * dz - sl * dx - drum["ht"][low] - cr * hb + sr * along
-    return pack_links(column, joint, line, ends)
 
 
 def hold_of(column: Column, link: PlacedLink) -> float:
@@ -216,36 +135,6 @@ def with_links(added: LinkStiffness, omega: float, stiffness_damping: float) -> 
         return omega, stiffness_damping
     whole = math.hypot(omega, added.frequency)
     return whole, (stiffness_damping * omega**2 + added.rate) / whole**2
-
-
-def put_links(records: np.ndarray, packed: PackedLinks, lane: int, step: float) -> None:
-    """Write links into the rows of a lane behind its own; ``step`` is that of time [s]."""
-    for name, values in packed.shared.items():
-        records[name][1:] = values
-    for name, values in packed.own.items():
-        records[name][1:, ..., lane] = values
-    records["mdt"][1:, lane] = step
-
-
-def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
-    """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
-    shear = np.hypot(records["mfx"][:, lane], records["mfy"][:, lane])
-    return np.stack((shear, *(records[name][:, lane] for name in ("mft", "mslip", "mlong"))))
-
-
-def link_measures(links: Sequence[PlacedLink], one: np.ndarray, lane: int, step: float) -> tuple[LinkMeasures, ...]:
-    """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
-    found = []
-    for m, link in enumerate(links):
-        when = int(one["mwhen"][m, lane])
-        shear, pull, far, most = (float(one[name][m, lane]) for name in ("mpeak", "mpull", "mfar", "mmost"))
-        found.append(
-            LinkMeasures(
-                link.name, link.kind, link.joint, math.nan if when < 0 else when * step, shear, pull, far, most,
-                link.shear_capacity, link.axial_capacity,
-            )
-        )  # fmt: skip
-    return tuple(found)
 
 
 def link_histories(states: Sequence[dict[str, Any]]) -> LinkHistories | None:

@@ -2,41 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from ...column import Column
-from ...errors import InputError
 from .links import acting
-
-
-def pressed_joints(block: Any, lane: int, column: Column) -> float:
-    """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J].
-
-    Their elastic energy is larger by more than this, because what stands on them has sunk. Where only the pretension holds
-    the column up there is no weight alone, and all that the joints hold counts.
-
-    Parameters
-    ----------
-    block : DrumBlock
-        Which knows its energies at the start.
-    lane : int
-    column : Column
-    """
-    if not column.pretensioned:
-        return 0.0
-    try:
-        bare = without_tension(column)
-    except InputError:  # it cannot stand
-        return float(block.start[lane, 3]) - held_at_start(column)
-    drum, joint, state = block.drum.copy(), block.joint.copy(), block.lane.copy()
-    for array, fields in zip((drum, joint, state), block.pack(bare).fields, strict=True):
-        for name, values in fields.items():
-            array[name][..., lane] = values
-    state["mon"][1:, lane] = state["mft"][1:, lane] = 0.0
-    alone = block.energies_of(lane, drum, joint, state)
-    return float((block.start[lane] - alone)[2:4].sum()) - held_at_start(column)
 
 
 def held_at_start(column: Column) -> float:

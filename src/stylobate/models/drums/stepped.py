@@ -17,9 +17,8 @@ from ..base import Case, Model, RunOptions
 from ..shared.lanes import Riders, run_alike
 from ..shared.soft_joints import check_sinking, check_step_resolves
 from ..shared.stable_step import chosen_step
-from .block import DrumBlock
 from .histories import histories
-from .packing import PackedColumn, whole_steps
+from .packing import whole_steps
 
 #: Largest share of the stable step at which columns alike are computed in one step: joints 2.8 times as stiff bear it.
 SAFE_FACTOR = 0.6
@@ -64,34 +63,21 @@ class SteppedDrums(Model):
 
     # -- given by each model -------------------------------------------------------------------------------------
 
-    def kernel(self) -> Any:
-        """Module of kernels."""
+    def pack(self, column: Any) -> Any:
+        """A column as the engine wants it."""
         raise NotImplementedError
 
-    def record_types(self) -> Any:
-        """Record types of the kernel's arrays."""
-        raise NotImplementedError
-
-    def pack(self, column: Column) -> PackedColumn:
-        """A column as the kernel wants it."""
-        raise NotImplementedError
-
-    def stable_step(self, column: Column) -> float:
+    def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
         raise NotImplementedError
 
-    def kind(self, column: Column) -> tuple:
-        """Number of drums, and what else tells which columns can share a block of lanes."""
-        return (column.n,)
+    def kind(self, column: Any) -> Any:
+        """What tells which columns can share a block of lanes."""
+        raise NotImplementedError
 
-    def make_block(self, drums: int, options: RunOptions) -> Any:
-        """A block of lanes for columns of so many drums."""
-        return DrumBlock(self.kernel(), self.record_types(), self.pack, drums, options, self.cost(drums))
-
-    def block_for(self, kind: tuple, options: RunOptions) -> Any:
+    def block_for(self, kind: Any, options: RunOptions) -> Any:
         """A block of lanes for columns of a kind."""
-        drums, *rest = kind
-        return self.make_block(drums, options, *rest)
+        raise NotImplementedError
 
     def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
         """Histories from the snapshots of a run."""

@@ -1,4 +1,4 @@
-"""A block of lanes of stacked drums: kernel arrays, the way of a case into them, and of its results out of them."""
+"""Runs in the lanes of a block, in the plane and in space alike: how they go on and end, and what they started with."""
 
 from __future__ import annotations
 
@@ -8,75 +8,86 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
+from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
 from ...outcome import Outcome
-from ...response import LinkMeasures
+from ...response import Collapse, LinkMeasures
 from ...response.collapse import what_is_lost
 from ..base import Case, RunOptions
+from ..plane.links import link_measures, link_snapshot
 from ..plane.pose import check_takes_pose
 from ..shared import ledger, quiet
-from ..shared.lanes import aligned_zeros, longest_piece
+from ..shared.lanes import longest_piece
 from .barriers import lowest_barrier
-from .links import acting, link_measures, link_snapshot
-from .packing import PackedColumn
-from .pretension import held_at_start, set_free
+from .links import acting
+from .pretension import held_at_start, set_free, without_tension
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
 
 
-class DrumBlock:
-    """See :class:`stylobate.models.shared.lanes.LaneBlock`.
+class LaneRuns:
+    """Runs in the lanes of a block; the base of the blocks of the engines in the plane and in space.
 
     Parameters
     ----------
-    kernel : module
-        Of the joints' law: ``forces``, ``ledger``, ``advance``.
-    types : tuple of dtype
-        Record types of the kernel's arrays.
     pack : callable
         Gives the numbers of a column.
-    drums : int
-        Number of drums of every column in this block.
+    records : tuple of array
+        Of the engine: ``lane``, ``feed``, ``watch`` and ``link``.
     options : RunOptions
     cost : float
         About what a step of a run costs [s].
-    links : int
-        Number of links of every column in this block.
     """
 
     def __init__(
-        self,
-        kernel: Any,
-        types: tuple,
-        pack: Callable[[Column], PackedColumn],
-        drums: int,
-        options: RunOptions,
-        cost: float,
-        links: int = 0,
+        self, pack: Callable[[Any], Any], records: tuple[Any, Any, Any, Any], options: RunOptions, cost: float
     ) -> None:
-        self.kernel, self.pack, self.options = kernel, pack, options
-        self.lanes = LANES
-        self.chunk = CHUNK
-        self.tied = links > 0
-        self.drum = aligned_zeros(drums + 1, types[0])
-        self.joint = aligned_zeros(drums + 1, types[1])
-        self.lane = aligned_zeros(1 + links, types[2])
-        self.ground = aligned_zeros(CHUNK + 1, types[3])
-        self.feed = aligned_zeros(1, types[4])
-        self.watch = aligned_zeros(1, types[5])
+        self.pack, self.options = pack, options
+        self.lane, self.feed, self.watch, self.link = records
+        self.lanes, self.chunk, self.tied = LANES, CHUNK, len(self.link) > 0
         self.watch["status"] = FREE
         self.dt = np.zeros(self.lanes)
         self.steps = np.zeros(self.lanes, dtype=np.int64)
         self.start = np.zeros((self.lanes, 6))
-        self.slip = np.zeros((self.lanes, drums))
         self.rest = np.zeros(self.lanes)
         self.pressed = np.zeros(self.lanes)
-        self.stood = np.zeros((self.lanes, 2, drums))
         self.cases: list[Case | None] = [None] * self.lanes
         self.spans = quiet.Spans(self.lanes, options, self.chunk)
         self.chunks_per_call = 1
         self.piece = longest_piece(cost, self.chunk)
+
+    # -- given by each engine ------------------------------------------------------------------------------------
+
+    def step(self, chunks: int) -> None:
+        """Let the kernel take so many chunks of steps."""
+        raise NotImplementedError
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        raise NotImplementedError
+
+    def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
+        """The same as if the column stood there without its pretension; ``bare`` is that column."""
+        raise NotImplementedError
+
+    def take_pose(self, lane: int, column: Any, start: Any) -> None:
+        """Put a column that stands in a lane where a run starts from."""
+        raise NotImplementedError
+
+    def half_a_step_back(self, lane: int) -> None:
+        """Velocities half a step before the start."""
+        raise NotImplementedError
+
+    def collapse(self, lane: int) -> Collapse:
+        """The collapse of a lane."""
+        raise NotImplementedError
+
+    def direction(self, lane: int) -> str:
+        """Where a collapse goes, in words."""
+        raise NotImplementedError
+
+    # -- how a run begins ----------------------------------------------------------------------------------------
 
     def begin(self, lane: int) -> None:
         """Take the start's pose, if there is one; velocities half a step before the start, and the energy there.
@@ -86,22 +97,38 @@ class DrumBlock:
         InputError
             A pose that this column or this model does not take.
         """
-        case, start = self.cases[lane], self.options.start
-        assert case is not None
+        column, start = self.column(lane), self.options.start
         self.rest[lane] = 0.0
         if start is not None:
-            self.check_start(case.column)
+            self.check_start(column)
             self.rest[lane] = -self.energies(lane)[2:4].sum()
-            self.take_pose(lane, case.column, start)
+            self.take_pose(lane, column, start)
         self.half_a_step_back(lane)
         self.start[lane] = self.energies(lane)
-        self.pressed[lane] = self.pressed_joints(lane, case.column) if self.tied else 0.0
+        self.pressed[lane] = self.pressed_joints(lane, column) if self.tied else 0.0
         if start is not None:  # what the pose and the velocity hold above the column upright
             self.rest[lane] += self.start[lane, 1:4].sum()
 
     def check_start(self, column: Any) -> None:
         """Refuse a start that is not one for this column."""
         check_takes_pose(self.options.start, column)
+
+    def pressed_joints(self, lane: int, column: Column) -> float:
+        """Energy at the start of joints that pretension presses, above that of joints under their weight alone [J].
+
+        Their elastic energy is larger by more than this, because what stands on them has sunk. Where only the pretension
+        holds the column up there is no weight alone, and all that the joints hold counts.
+        """
+        if not column.pretensioned:
+            return 0.0
+        held = held_at_start(column)
+        try:
+            alone = self.energies_without_tension(lane, without_tension(column))
+        except InputError:  # it cannot stand
+            return float(self.start[lane, 3]) - held
+        return float((self.start[lane] - alone)[2:4].sum()) - held
+
+    # -- how it goes on ------------------------------------------------------------------------------------------
 
     def advance(self, chunks: int | None = None) -> None:
         """Advance all lanes by some chunks of steps."""
@@ -111,10 +138,6 @@ class DrumBlock:
             count = min(left, self.piece)
             self.step(count)
             left -= count
-
-    def step(self, chunks: int) -> None:
-        """Let the kernel take so many chunks of steps."""
-        self.kernel.advance(self.drum, self.joint, self.lane, self.ground, self.feed, self.watch, chunks)
 
     def running(self) -> np.ndarray:
         """Which lanes' runs go on, shape (lanes,)."""
@@ -145,52 +168,37 @@ class DrumBlock:
 
     def at_rest(self, lane: int) -> bool:
         """Whether a lane's column has next to no energy above that at its start."""
-        case = self.cases[lane]
-        assert case is not None
+        column = self.column(lane)
         change = self.energies(lane) - self.start[lane]
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
-            free = set_free(case.column, self.lane["mft"][1:, lane], float(self.pressed[lane]))
-        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(case.column)
+            free = set_free(column, self.link["ft"][:, lane], float(self.pressed[lane]))
+        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(column)
+
+    # -- what it tells -------------------------------------------------------------------------------------------
+
+    def column(self, lane: int) -> Any:
+        """The column, or the body, in a lane."""
+        case = self.cases[lane]
+        assert case is not None
+        return case.column
 
     def time(self, lane: int) -> float:
         """Time of the lane's present state [s]."""
         return float(self.feed["step"][0, lane]) * self.dt[lane]
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        # the forces at the present positions, found as the next step will find them, on a copy
-        return self.energies_of(lane, self.drum, self.joint.copy(), self.lane.copy())
-
-    def energies_of(self, lane: int, drum: np.ndarray, joint: np.ndarray, state: np.ndarray) -> np.ndarray:
-        """The same of these records, of which those of joints and lanes are changed."""
-        ground = np.zeros(1, self.ground.dtype)
-        self.put_ground(ground, lane, self.ground_acceleration(lane, self.time(lane)))
-        state["dt"][0, lane] = self.dt[lane]
-        self.kernel.forces(drum, joint, state)
-        out = np.empty(6)
-        self.kernel.ledger(drum, joint, state, ground, 0, self.dt[lane], lane, out)
-        return out
-
     def links_now(self, lane: int) -> dict[str, Any]:
         """What a snapshot keeps of the links, where there are some."""
-        return {"links": link_snapshot(self.lane[1:], lane)} if self.tied else {}
+        return {"links": link_snapshot(self.link, lane)} if self.tied else {}
 
     def links_done(self, lane: int) -> tuple[LinkMeasures, ...]:
         """What a lane's run has come to for each link."""
-        case = self.cases[lane]
-        assert case is not None
-        return link_measures(acting(case.column), self.lane[1:], lane, float(self.dt[lane])) if self.tied else ()
+        links = acting(self.column(lane)) if self.tied else ()
+        return link_measures(links, self.link, lane, float(self.dt[lane]))
 
     def held_by_links(self, lane: int) -> float:
         """Energy of pretension at the start, in links and in the joints that they press, which may be set free [J]."""
-        case = self.cases[lane]
-        assert case is not None
-        return held_at_start(case.column) + float(self.pressed[lane]) if self.tied else 0.0
-
-    def toes(self, column: Column) -> np.ndarray:
-        """What a column's joints give with their load on their edge [J], shape (n,)."""
-        return self.pack(column).toes
+        return held_at_start(self.column(lane)) + float(self.pressed[lane]) if self.tied else 0.0
 
     def begun(self, lane: int, change: np.ndarray) -> float:
         """What a run started with, for its imbalance: its elastic energy, or what the pose and the velocity hold [J]."""
@@ -206,11 +214,10 @@ class DrumBlock:
 
     def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
         """Why a run failed, or what happened in a collapse; empty for a column that stands."""
-        watch = self.watch[0]
         if outcome is Outcome.FAILED:
-            if watch["status"][lane] == FAILED:
+            if self.watch["status"][0, lane] == FAILED:
                 return f"the state is not finite at {self.time(lane):.4g} s; try a smaller step_factor"
             return ledger.out_of_balance(imbalance)
         if outcome is not Outcome.COLLAPSED:
             return ""
-        return f"{what_is_lost(self.collapse(lane), len(self.drum) - 1)}, {self.direction(lane)}"
+        return f"{what_is_lost(self.collapse(lane), self.column(lane).n)}, {self.direction(lane)}"
