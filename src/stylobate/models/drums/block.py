@@ -13,9 +13,9 @@ from ...outcome import Outcome
 from ...response import LinkMeasures
 from ...response.collapse import what_is_lost
 from ..base import Case, RunOptions
-from ..plane.pose import check_takes_pose
 from ..shared import ledger, quiet
 from ..shared.lanes import aligned_zeros, longest_piece
+from ..start import check_takes_pose
 from .barriers import lowest_barrier
 from .links import acting, link_measures, link_snapshot
 from .packing import PackedColumn

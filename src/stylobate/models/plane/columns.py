@@ -24,11 +24,11 @@ from ..drums.packing import whole_steps
 from ..drums.pretension import held_at_start, set_free, without_tension
 from ..shared import ledger, quiet
 from ..shared.lanes import longest_piece
-from ..start import check_in_plane
+from ..start import check_in_plane, check_takes_pose
 from .block import Law, Records, base_acceleration, clear_watch, feed_motion
 from .links import link_measures, link_snapshot
 from .packing import Packed, Topology
-from .pose import check_takes_pose, leans_right, placed, sink
+from .pose import leans_right, placed, sink
 from .standing import stands_for_good
 
 #: Calls of the kernel per run.
