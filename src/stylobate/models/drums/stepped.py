@@ -18,7 +18,7 @@ from ..shared.soft_joints import check_sinking, check_step_resolves
 from ..shared.stable_step import chosen_step
 from .block import DrumBlock
 from .histories import histories
-from .packing import PackedColumn, whole_steps
+from .packing import whole_steps
 
 #: Largest share of the stable step at which columns alike are computed in one step: joints 2.8 times as stiff bear it.
 SAFE_FACTOR = 0.6
@@ -71,7 +71,7 @@ class SteppedDrums(Model):
         """Record types of the kernel's arrays."""
         raise NotImplementedError
 
-    def pack(self, column: Column) -> PackedColumn:
+    def pack(self, column: Column) -> Any:
         """A column as the kernel wants it."""
         raise NotImplementedError
 
@@ -79,7 +79,7 @@ class SteppedDrums(Model):
         """Largest stable time step of the closed column [s]."""
         raise NotImplementedError
 
-    def kind(self, column: Column) -> tuple:
+    def kind(self, column: Column) -> Any:
         """Number of drums, and what else tells which columns can share a block of lanes."""
         return (column.n,)
 
@@ -87,7 +87,7 @@ class SteppedDrums(Model):
         """A block of lanes for columns of so many drums."""
         return DrumBlock(self.kernel(), self.record_types(), self.pack, drums, options, self.cost(drums))
 
-    def block_for(self, kind: tuple, options: RunOptions) -> Any:
+    def block_for(self, kind: Any, options: RunOptions) -> Any:
         """A block of lanes for columns of a kind."""
         drums, *rest = kind
         return self.make_block(drums, options, *rest)

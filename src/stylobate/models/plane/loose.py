@@ -128,7 +128,7 @@ class Loose:
         self.law, self.memory = bed_laws(assembly), np.zeros((n, n, 3))
         real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
-        self.search = (
+        self.search: tuple[Any, ...] = (
             now, hand, shape, corner, np.zeros((n, 4)), np.arange(n), joined, self.law, self.memory, real, whole
         )  # fmt: skip
         self.begin_links()
