@@ -33,7 +33,7 @@ def found(turned=0.0, tilt=0.0, azimuth=0.0, **third):
 
 def block_of(column, motion=STILL, **model):
     model = DistinctElement3D(**model)
-    block = model.make_block(column.n, RunOptions(), column.section)
+    block = model.block_for(model.kind(column), RunOptions())
     block.load(0, Case(column, motion))
     return block
 

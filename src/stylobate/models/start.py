@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 from ..errors import InputError, as_typed, check_range
 
@@ -44,6 +45,17 @@ class Start:
             )
         spin = tuple(check_range("angular_velocity of a start", one, -1e4, 1e4, unit="rad/s") for one in spin)
         object.__setattr__(self, "angular_velocity", spin)
+
+
+def check_takes_pose(start: Any, column: Any) -> None:
+    """Refuse a start that is not one for this column."""
+    if not isinstance(start, Start):
+        raise InputError(f"a toss is for a specimen, and {column.name!r} is a column; give a Start.")
+    if column.as_found:
+        raise InputError(
+            f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
+        )
+    column.must_be_without_links("a start from a pose")
 
 
 def check_in_plane(start: Start, who: str) -> None:

@@ -1,9 +1,9 @@
 """Records of bodies in the plane over lanes: what a run of stacked drums, of an assembly or of a collapse is computed with.
 
 A block advances as many independent runs together as its records have lanes: sixteen in batches, one where something has
-come loose. The innermost loops run over lanes, without a branch that depends on one, so that they fill the vector registers.
-Every array is one of records whose fields hold one value per lane: distances in memory are then known to the compiler. A lane
-whose run is over has ``dt = 0`` and stands still; it is taken out before the block goes on.
+come loose. The innermost loops run over lanes, without a branch that depends on one, so that they fill the vector
+registers. Every array is one of records whose fields hold one value per lane: distances in memory are then known to the
+compiler. A lane whose run is over has ``dt = 0`` and stands still; it is taken out before the block goes on.
 
 Legend (contacts and lists of them: ``shared/records.py``; links: ``shared/link_records.py``; body 0 of a column is its base;
 positions at t_n, velocities at t_{n−1/2})::

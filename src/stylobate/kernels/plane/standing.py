@@ -9,8 +9,8 @@ Legend (axes along and normal to the base, from the middle of its contact)::
                weight         above that joint [N];  moment  the largest that the joint can carry [N m]
                over           height of the centroid of the part above over that joint [m]
                toe            what the joint gives with its load on its edge [J]
-               lean cx cz ox oz low high   the drums put down flat with their offsets: inclination of the joint [rad], centroid
-                              and middle of the face below [m], ends of the contact along it [m]
+               lean cx cz ox oz low high   the drums put down flat with their offsets: inclination of the joint [rad],
+                              centroid and middle of the face below [m], ends of the contact along it [m]
 """
 
 import math

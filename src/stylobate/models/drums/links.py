@@ -11,7 +11,7 @@ import numpy as np
 
 from ...column import Column
 from ...column.links.placed import PlacedLink
-from ...response import Histories, LinkHistories
+from ...response import Histories, LinkHistories, LinkMeasures
 from ..shared.stable_step import highest_frequency
 
 
@@ -135,6 +135,27 @@ def with_links(added: LinkStiffness, omega: float, stiffness_damping: float) -> 
         return omega, stiffness_damping
     whole = math.hypot(omega, added.frequency)
     return whole, (stiffness_damping * omega**2 + added.rate) / whole**2
+
+
+def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
+    """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
+    shear = np.hypot(records["fx"][:, lane], records["fy"][:, lane])
+    return np.stack((shear, *(records[name][:, lane] for name in ("ft", "slip", "long"))))
+
+
+def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
+    """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
+    found = []
+    for m, link in enumerate(links):
+        when = int(records["when"][m, lane])
+        shear, pull, far, most = (float(records[name][m, lane]) for name in ("peak", "pull", "far", "most"))
+        found.append(
+            LinkMeasures(
+                link.name, link.kind, link.joint, math.nan if when < 0 else when * step, shear, pull, far, most,
+                link.shear_capacity, link.axial_capacity,
+            )
+        )  # fmt: skip
+    return tuple(found)
 
 
 def link_histories(states: Sequence[dict[str, Any]]) -> LinkHistories | None:

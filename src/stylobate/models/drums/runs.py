@@ -14,12 +14,11 @@ from ...outcome import Outcome
 from ...response import Collapse, LinkMeasures
 from ...response.collapse import what_is_lost
 from ..base import Case, RunOptions
-from ..plane.links import link_measures, link_snapshot
-from ..plane.pose import check_takes_pose
 from ..shared import ledger, quiet
 from ..shared.lanes import longest_piece
+from ..start import check_takes_pose
 from .barriers import lowest_barrier
-from .links import acting
+from .links import acting, link_measures, link_snapshot
 from .pretension import held_at_start, set_free, without_tension
 
 #: Calls of the kernel per run.

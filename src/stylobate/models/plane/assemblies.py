@@ -18,11 +18,11 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
 from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
-from ..drums.links import link_histories, with_links
+from ..drums.links import link_histories, link_measures, with_links
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step, highest_frequency, stable_step
-from .links import acting_between, link_measures, stiffness_between
+from .links import acting_between, stiffness_between
 from .loose import COST_STANDING, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
 
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping
 
 import numpy as np
 
@@ -13,7 +12,6 @@ from ...column.assembly import Assembly
 from ...column.found_geometry import geometry
 from ...column.links.placed import PlacedLink
 from ...kernels.shared.link_records import BOND_TYPE, NUMBERS, OWN, SHARED, link_types
-from ...response import LinkMeasures
 from ..drums.links import LinkStiffness, acting, hold_of, law_fields, slip_at
 from ..shared.stable_step import highest_frequency
 
@@ -71,27 +69,6 @@ def _length(k: np.void, low: int, up: int, x: np.ndarray, z: np.ndarray, c: np.n
         px, pz = k[end + "x"][0], k[end + "z"][0]
         places.append((x[body] + c[body] * px - s[body] * pz, k[end + "y"][0], z[body] + s[body] * px + c[body] * pz))
     return math.dist(*places)
-
-
-def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
-    """Forces, slips and elongations of all links of a lane now, in the order of histories, shape (4, m)."""
-    shear = np.hypot(records["fx"][:, lane], records["fy"][:, lane])
-    return np.stack((shear, *(records[name][:, lane] for name in ("ft", "slip", "long"))))
-
-
-def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
-    """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
-    found = []
-    for m, link in enumerate(links):
-        when = int(records["when"][m, lane])
-        shear, pull, far, most = (float(records[name][m, lane]) for name in ("peak", "pull", "far", "most"))
-        found.append(
-            LinkMeasures(
-                link.name, link.kind, link.joint, math.nan if when < 0 else when * step, shear, pull, far, most,
-                link.shear_capacity, link.axial_capacity,
-            )
-        )  # fmt: skip
-    return tuple(found)
 
 
 def acting_between(assembly: Assembly) -> tuple[PlacedLink, ...]:

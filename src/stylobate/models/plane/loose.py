@@ -14,13 +14,14 @@ from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
 from ...motion import Motion
+from ..drums.links import link_snapshot
 from ..drums.packing import whole_steps
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
 from .block import Records, base_acceleration, clear_watch, feed_motion
 from .blocks import bed_laws, fill_bodies, fill_joints, fill_shapes, topology_of
 from .laws import point_law
-from .links import link_snapshot, links_between
+from .links import links_between
 from .packing import Topology, lane_of
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
@@ -129,7 +130,7 @@ class Loose:
         self.law, self.memory = bed_laws(assembly), np.zeros((n, n, 3))
         real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
-        self.search = (
+        self.search: tuple[Any, ...] = (
             now, hand, shape, corner, np.zeros((n, 4)), np.arange(n), joined, self.law, self.memory, real, whole
         )  # fmt: skip
         self.begin_links()

@@ -3,25 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
-from ...errors import InputError
 from ...kernels.shared.records import LANE
 from ..start import Start
 from .block import Records
-
-
-def check_takes_pose(start: Any, column: Any) -> None:
-    """Refuse a start that is not one for this column."""
-    if not isinstance(start, Start):
-        raise InputError(f"a toss is for a specimen, and {column.name!r} is a column; give a Start.")
-    if column.as_found:
-        raise InputError(
-            f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
-        )
-    column.must_be_without_links("a start from a pose")
 
 
 def placed(
