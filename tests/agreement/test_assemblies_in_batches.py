@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from stylobate.models.assembly.run import AFTER_THE_FALL
 
 import stylobate as st
 from stylobate.models.base import Case
+from stylobate.models.plane.assemblies import AFTER_THE_FALL
 from stylobate.simulate import simulate_assembly, simulate_iter
 
 JOINT = st.Joint(1e8, 5e7, friction_angle=35.0)

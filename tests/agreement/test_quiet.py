@@ -12,8 +12,7 @@ from stylobate.analysis.verdicts import verdict
 from stylobate.constants import g
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
-from stylobate.models.drums.block import DrumBlock
-from stylobate.models.plane.columns import ColumnLanes
+from stylobate.models.drums.runs import LaneRuns
 from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, opening_acceleration, shaking, share_of
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate_iter
@@ -42,7 +41,7 @@ def rows(motions, model, quiet, column=COLUMN, tail=0.0):
 @pytest.mark.parametrize("model", MODELS, ids=["dem2d", "rigid-block", "damped", "dem3d"])
 def test_a_run_in_pieces_has_the_bits_of_one_in_a_piece(model, monkeypatch):
     # A motion that is loud at once and whose column never counts as at rest is stepped as a whole, looked at in between.
-    for block in (ColumnLanes, DrumBlock):
+    for block in (LaneRuns,):
         monkeypatch.setattr(block, "at_rest", lambda *_: False)
     motion = st.Motion(0.01, np.concatenate([shocks(0.5).samples[790:], np.zeros(300)]))
     whole, pieces = (rows([motion, motion.scaled(0.3)], model, quiet) for quiet in (0.0, QUIET))

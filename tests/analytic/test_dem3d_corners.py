@@ -65,7 +65,7 @@ def test_a_prism_shaken_along_its_side_is_the_plane_model(drums, depth, limit):
     model = DistinctElement2D(points=2, time_step=step)
     plane = np.array(
         [
-            np.stack([block.drum[c][1:, 0] for c in "xz"], axis=-1).copy()
+            np.stack([block.records.body[c][1:, 0] for c in "xz"], axis=-1).copy()
             for block in blocks(column, motion, model)
         ]
     )  # fmt: skip

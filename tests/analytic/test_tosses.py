@@ -37,7 +37,7 @@ def flown(body, toss, duration, step=1.5e-6):
     while not block.is_over(0):
         block.advance(1)
         block.net(0)
-        held = float(block.joint["en"][0, 0])
+        held = float(block.lane["en"][0, 0])
         if deepest > 0.0 and held == 0.0:
             break
         deepest = max(deepest, held)

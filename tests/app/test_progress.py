@@ -12,6 +12,6 @@ def test_a_run_says_how_far_it_is():
         st.preset("paper-monolithic"), motion, st.DistinctElement2D(), progress=lambda *one: told.append(one)
     )
     times, wholes = zip(*told)
-    assert list(times) == heard.time[1:].tolist()
+    assert sorted(set(times)) == heard.time.tolist()
     assert set(wholes) == {wholes[0]}
     assert wholes[0] == pytest.approx(times[-1]) == pytest.approx(0.3, abs=1e-3)

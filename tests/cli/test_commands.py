@@ -228,14 +228,14 @@ def test_a_model_is_compared_with_itself_under_other_options(command, tmp_path):
 
 def test_motion_tells_what_a_file_holds(command, tmp_path):
     path = tmp_path / "record.txt"
-    path.write_text("\n".join(f"{0.4 * math.sin(2 * math.pi * i * 0.01):.9f}" for i in range(501)))
+    path.write_text("\n".join(f"{0.4 * math.cos(2 * math.pi * i * 0.01):.9f}" for i in range(501)))
     result = command("motion", path, "--unit", "g", "--dt", "10ms", "--out", tmp_path / "out", "--json")
     assert {"format", "unit", "dt_s", "duration_s", "pga_g", "pgv_m_s"} <= set(result)
     assert result["dt_s"] == 0.01
     assert result["duration_s"] == pytest.approx(5.0)
     assert result["pga_g"]["x"] == pytest.approx(0.4)
-    # The velocity is V (1 − cos 2πt) with V = a/2π.
-    assert result["pgv_m_s"]["x"] == pytest.approx(2 * 0.4 * st.g / (2 * math.pi), rel=1e-3)
+    # The velocity is V sin 2πt with V = a/2π, and the displacement does not drift.
+    assert result["pgv_m_s"]["x"] == pytest.approx(0.4 * st.g / (2 * math.pi), rel=1e-3)
     names = {file.name for file in (tmp_path / "out").glob("[!.]*")}
     assert names == {"motion.json", "motion.csv", "motion.png", "motion.svg", "spectra.png", "spectra.svg"}
     text = command("motion", path, "--unit", "g", "--dt", "10ms")

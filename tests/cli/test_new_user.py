@@ -133,7 +133,7 @@ def test_sentences_on_collapse_do_not_contradict_themselves(capsys, collapsed, s
         for one in collapsed
     ]
     result = CriticalAmplitude(column, motion, "housner", st.g * np.array([0.1, 0.2, 0.3, 0.4]), rows, 1.0)
-    command.describe(result, motion, [])
+    command.describe(result, motion, [], 0.0)
     assert sentence in capsys.readouterr().out
 
 

@@ -251,7 +251,7 @@ class SpaceProgramme:
 
         owner = np.array(self.owner)
         bounded = np.flatnonzero(np.isfinite(capacity) & (capacity > 0.0))
-        left_out = (owner >= 0) & (capacity[owner] == 0.0)
+        left_out = (owner >= 0) & (capacity[owner] == 0.0) if len(capacity) else np.zeros(len(owner), dtype=bool)
         row = np.full(len(self.holders) + 1, -1)
         row[bounded] = np.arange(len(bounded))
         held = np.flatnonzero(row[owner] >= 0)

@@ -227,8 +227,14 @@ class DistinctElement3D(SteppedDrums):
         return _stable_step(column, self)
 
     def block_for(self, kind: tuple, options: RunOptions) -> SpaceBlock:
-        """A block of lanes for columns of a kind: of so many drums, with a section, and so many links which these are."""
-        drums, section, links = (*kind[:2], kind[2] if len(kind) > 2 else 0)
+        """A block of lanes for columns of a kind."""
+        drums, *rest = kind
+        return self.make_block(drums, options, *rest)
+
+    def make_block(
+        self, drums: int, options: RunOptions, section: str = "circular", links: int = 0, which: tuple = ()
+    ) -> SpaceBlock:
+        """A block of lanes for columns of so many drums with a section, and of so many links which these are."""
         kernel, types = self.kernel(), self.record_types(section, links)
         if section == SPECIMEN:
             damping, cost = (self.stiffness_damping, self.mass_damping), self.cost(drums // 32)
