@@ -56,12 +56,15 @@ def _prepare() -> None:
 _prepare()
 
 import numba  # noqa: E402
-from numba.core import caching, cpu, event, options  # noqa: E402
+from numba.core import caching, cpu, event, options, types  # noqa: E402
 from numba.extending import overload  # noqa: E402
 
 numba.config.reload_config()
 # The compiler can be told that the arrays of a loop do not overlap, but numba gives this flag no name of its own.
 cpu.CPUTargetOptions.noalias = options.TargetOptions.Mapping("noalias")
+# A law is compiled for each type of record that it is given, whatever was compiled before: the compiler would take what it
+# has for a record that begins with the same fields, with a warning.
+types.Record.can_convert_to = lambda *_: None
 
 #: Multiply-add contraction, and sums whose sign of zero does not matter; no reordering, so that results keep their bits.
 FAST = {"contract", "nsz", "arcp", "nnan"}
