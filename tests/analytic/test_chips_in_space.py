@@ -42,10 +42,11 @@ def places(column, motion, model):
     """Displacements of the drums' centroids along x, every 32 steps, shape (T, n)."""
     block = model.block_for(model.kind(column), RunOptions(until_end=True))
     block.load(0, Case(column, motion))
-    first, found = block.drum["x"][1:, 0].copy(), []
+    bodies = block.records.body if hasattr(block, "records") else block.drum
+    first, found = bodies["x"][1:, 0].copy(), []
     while not block.is_over(0):
         block.advance(1)
-        found.append(block.drum["x"][1:, 0] - first)
+        found.append(bodies["x"][1:, 0] - first)
     return np.array(found)
 
 
