@@ -17,7 +17,7 @@ Legend::
 
 import numpy as np
 
-from ..jit import kernel, strict
+from ..jit import kernel, strict, strict_of_arrays
 
 #: Vertices that two clipped polygons can have together.
 MOST = 64
@@ -110,7 +110,7 @@ def separation(xa, za, na, xb, zb, nb):
     return best
 
 
-@strict
+@strict_of_arrays
 def depth_square(px, pz, n, tx, tz):
     """∫ depth² ds along the chord of direction (tx, tz), depth the extent of the overlap across it [m³]."""
     s = np.empty(n)

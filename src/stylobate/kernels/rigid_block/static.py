@@ -14,7 +14,7 @@ import math
 
 import numpy as np
 
-from ..jit import kernel
+from ..jit import kernel, kernel_of_arrays
 from ..plane.interface_law import ELASTIC, OPEN, ROCKING, SLIDING, compression, compression_with_strength, shear
 
 GEOMETRY = (
@@ -24,7 +24,7 @@ GEOMETRY = (
 MEMORY = "shear tau chi slip".split()
 
 
-@kernel
+@kernel_of_arrays
 def assemble(q, geometry, memory, nonlinear, soft, force, stiffness, after, report):
     """Add all joints' forces on the blocks, and their tangent in band storage.
 
