@@ -20,7 +20,7 @@ endif
 install: $(STAMP)
 	@:
 
-$(STAMP): pyproject.toml requirements/base.lock
+$(STAMP): pyproject.toml studies/pyproject.toml requirements/base.lock
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
 	    { echo "stylobate needs Python 3.11 or newer: name one with  make install PYTHON=/path/to/python3.11" >&2; exit 1; }
 	@echo "Installing stylobate and its pinned requirements into .venv (about a minute)"
@@ -28,7 +28,7 @@ $(STAMP): pyproject.toml requirements/base.lock
 	@[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
 	@$(PIP) install --no-compile --require-hashes -r requirements/base.lock
 	@$(BIN)/python -m compileall -qq -j 0 "$(CURDIR)/.venv/lib" || true # on all cores, which pip does not use
-	@$(PIP) install --no-deps --no-build-isolation -e .
+	@$(PIP) install --no-deps --no-build-isolation -e . -e studies
 	@echo "$(CURDIR)" > $@
 
 demo: install
@@ -112,4 +112,4 @@ lock:
 
 clean:
 	rm -rf .venv .venv-lock .venv-pythons .venv-peers build dist gallery/*.png docs/_build docs/gallery docs/api/generated .pytest_cache .hypothesis .ruff_cache .import_linter_cache
-	find src tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true
+	find src studies tests benchmarks gallery docs -name __pycache__ -type d -prune -exec rm -rf {} + 2>/dev/null || true

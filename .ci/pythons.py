@@ -46,7 +46,7 @@ def environment(name: str, python: Path, lock: Path) -> Path:
         run([python, "-m", "venv", folder])
         pip = [inside, "-m", "pip", "--disable-pip-version-check", "-qq", "install"]
         run([*pip, "--require-hashes", "-r", lock])
-        run([*pip, "--no-deps", "--no-build-isolation", "-e", ROOT])
+        run([*pip, "--no-deps", "--no-build-isolation", "-e", ROOT, "-e", ROOT / "studies"])
         made.write_text(lock.read_text())
     return inside
 

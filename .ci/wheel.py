@@ -1,4 +1,4 @@
-"""The wheel alone: installed into a bare environment, imported where nothing of POSIX can be, and put to work there."""
+"""The wheel alone, without the studies: installed into a bare environment, imported without POSIX, put to work."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ POSIX = ("fcntl", "resource", "pwd", "grp", "termios", "tty", "pty", "syslog", "
 EXTRAS = ("starlette", "uvicorn")
 
 IMPORT = f"""
-import importlib, pkgutil, sys
+import importlib.util, pkgutil, sys
 for name in {POSIX}:
     sys.modules[name] = None
 import stylobate
@@ -37,6 +37,7 @@ for module in pkgutil.walk_packages(stylobate.__path__, "stylobate."):
 for name in stylobate.__all__:
     getattr(stylobate, name)
 assert not failed, failed
+assert importlib.util.find_spec("stylobate_studies") is None
 """
 
 
@@ -57,6 +58,12 @@ def main() -> int:
         run(python, "-m", "pip", "--disable-pip-version-check", "-qq", "install", "-c", constraints, wheel)
         run(python, "-c", IMPORT)
         run(command, "--help")
+        for name in ("reproduce", "experiments", "bench"):
+            done = subprocess.run(
+                [command, name], capture_output=True, text=True, cwd=folder, env=environment, check=False
+            )
+            assert done.returncode == 2, done
+            assert "stylobate-studies" in done.stderr, done.stderr
         run(command, "columns")
         run(command, "motion", "--samples")
         run(

@@ -5,8 +5,8 @@ import dataclasses
 import numpy as np
 
 import stylobate as st
-from stylobate.paper import cases, literature
-from stylobate.paper.cases import Grids
+from stylobate_studies.paper import cases, literature
+from stylobate_studies.paper.cases import Grids
 
 GRIDS = dataclasses.replace(
     Grids.of(True),
@@ -47,7 +47,7 @@ def play():
     """Make ``stylobate reproduce`` of this process compute the tiny study, and neither draw nor take the time of models."""
     from collections import defaultdict
 
-    from stylobate.paper import figures, pieces
+    from stylobate_studies.paper import figures, pieces
 
     shorten()
     cases.Grids.of = classmethod(lambda cls, quick: GRIDS)

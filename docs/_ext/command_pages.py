@@ -3,10 +3,8 @@
 import inspect
 import re
 
-import typer
-
 from stylobate.bibliography import bibliography
-from stylobate.cli.main import app
+from stylobate.cli.main import commands
 
 #: An option in a sentence.
 OPTION = re.compile(r"(?<!\S)--[a-z-]+")
@@ -14,9 +12,9 @@ OPTION = re.compile(r"(?<!\S)--[a-z-]+")
 
 def texts(out):
     """The command line and the references."""
-    commands = [command(one, name) for name, one in typer.main.get_command(app).commands.items()]
+    described = [command(one, name) for name, one in commands().commands.items()]
     references = "".join(f"{one.text}\n\n" for one in sorted(bibliography().values(), key=lambda one: one.text))
-    return [(out / "commands.md", "\n".join(commands)), (out / "references.md", references)]
+    return [(out / "commands.md", "\n".join(described)), (out / "references.md", references)]
 
 
 def command(one, name):

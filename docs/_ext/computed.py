@@ -31,7 +31,7 @@ def compute(app):
         write(*text)
     stamp = out / "computed"
     if stamp.exists() and stamp.stat().st_mtime > newest(
-        docs.parent / "src", docs.parent / "tests" / "validation", docs / "_ext"
+        docs.parent / "src", docs.parent / "studies", docs.parent / "tests" / "validation", docs / "_ext"
     ):
         return
     log.info("computing the validation cases and the comparison of the models …")

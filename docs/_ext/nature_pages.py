@@ -5,10 +5,10 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from stylobate.errors import InputError
-from stylobate.experiments import study
-from stylobate.experiments.choices import CHOICES
-from stylobate.experiments.granite import again
 from stylobate.plots.player import write_player
+from stylobate_studies.experiments import study
+from stylobate_studies.experiments.choices import CHOICES
+from stylobate_studies.experiments.granite import again
 
 HERE = Path(__file__).parent
 

@@ -2,8 +2,7 @@
 
 A file is a netCDF 4 file that any program reads, and behind it one line of :data:`LINE` bytes that holds the SHA-256 of
 all bytes before it. The digest is checked before the netCDF library sees a byte: what is damaged is refused, and cannot
-hang or crash the process. Files of format 1 had no such line; they are opened by another process first, which is ended
-when it takes too long.
+hang or crash the process.
 """
 
 from __future__ import annotations
@@ -13,8 +12,6 @@ import io
 import json
 import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -28,39 +25,18 @@ if TYPE_CHECKING:
     import pandas
     import xarray
 
-#: Number of the format that is written; this one and format 1 are read.
+#: Number of the format that is written, and read.
 FORMAT = 2
 
 #: Largest file that is read [bytes].
 MOST = 8_000_000_000
 
-#: Longest time that a file without a digest may take to be opened, and a second more for so many bytes [s], [bytes].
-PATIENCE, PACE = 30.0, 10_000_000
-
 _NAME = "stylobate result"
+_NUMBER = re.compile(rb"stylobate result (\d{1,4})")
 _LINE = re.compile(rb"\nstylobate result (\d{4}) sha256 ([0-9a-f]{64})\n")
 
 #: Length of the last line of a file [bytes].
 LINE = len(f"\n{_NAME} {FORMAT:04d} sha256 {'0' * 64}\n")
-
-# What files of format 1 called themselves, and what a file that says nothing holds by the names of its attributes.
-_FORMER = {"stylobate response 1": "response", "stylobate assembly response 1": "response"}
-_UNNAMED = {"seed": "probability", "uplift_acceleration_m_s2": "domain", "note": "study histories"}
-
-#: Opens a file, all of it, from standard input: as this package does, but where it can be stopped.
-_PROBE = """
-import io, sys
-try:
-    import resource
-    resource.setrlimit(resource.RLIMIT_AS, (16 << 30, 16 << 30))
-except (ImportError, OSError, ValueError):
-    pass
-import warnings
-warnings.simplefilter("ignore")
-import xarray
-with xarray.open_dataset(io.BytesIO(sys.stdin.buffer.read()), engine="h5netcdf", decode_times=False) as data:
-    data.load()
-"""
 
 
 class Tabled(Protocol):
@@ -135,13 +111,11 @@ def read(path: str | Path, *kinds: str) -> xarray.Dataset:
     content = read_bytes(path, MOST)
     name, wanted = shown(path), " or ".join(f"a {kind}" for kind in kinds)
     data = _open(content, name)
-    kind = _kind(data.attrs, name)
+    kind = data.attrs.get("kind")
     if kind is None or (kinds and kind not in kinds):
-        holds = f"is a {kind}" if kind else f"has the format {data.attrs.get('format')!r}"
         raise InputError(
-            f"{name} {holds}, not {wanted or 'a result'} of this package; give a file that this package wrote as such."
+            f"{name} is a {kind}, not {wanted or 'a result'} of this package; give a file that this package wrote as such."
         )
-    data.attrs["kind"] = kind
     return data
 
 
@@ -212,16 +186,14 @@ def _open(content: bytes, name: str) -> xarray.Dataset:
 
     line = _LINE.fullmatch(content[-LINE:])
     if line is None:
-        _probe(content, name)
-    else:
-        written, digest = int(line[1]), line[2].decode()
-        content = content[:-LINE]
-        if hashlib.sha256(content).hexdigest() != digest:
-            raise InputError(
-                f"{name} is damaged: it is not what was written (its digest differs); take a copy of it, or run again."
-            )
-        if written != FORMAT:
-            raise _unknown(name, str(written))
+        raise _without_digest(content, name)
+    content = content[:-LINE]
+    if hashlib.sha256(content).hexdigest() != line[2].decode():
+        raise InputError(
+            f"{name} is damaged: it is not what was written (its digest differs); take a copy of it, or run again."
+        )
+    if int(line[1]) != FORMAT:
+        raise _unknown(name, int(line[1]))
     import h5py
 
     try:
@@ -235,48 +207,21 @@ def _open(content: bytes, name: str) -> xarray.Dataset:
     return data
 
 
-def _probe(content: bytes, name: str) -> None:
-    """Refuse what has no digest and is no whole file of format 1."""
+def _without_digest(content: bytes, name: str) -> InputError:
+    """The error for a file that does not end as results do."""
     if content[:8] != b"\x89HDF\r\n\x1a\n":
-        raise InputError(f"{name} cannot be read as netCDF: it does not begin like one; give a file of this package.")
-    if f"{_NAME} {FORMAT}".encode() in content or _cut(content):
-        raise InputError(f"{name} is damaged: its end is missing; take a copy of it, or run again.")
-    patience = PATIENCE + len(content) / PACE
-    try:
-        done = subprocess.run([sys.executable, "-c", _PROBE], input=content, capture_output=True, timeout=patience)
-    except subprocess.TimeoutExpired:
-        raise InputError(
-            f"{name} is damaged: it could not be opened in {patience:.0f} s; take a copy of it, or run again."
-        ) from None
-    if done.returncode:
-        said = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        why = said[-1][:200] if said else f"the library ended with code {done.returncode}"
-        raise InputError(f"{name} cannot be read as netCDF: {why}; take a copy of it, or run again.")
+        return InputError(f"{name} cannot be read as netCDF: it does not begin like one; give a file of this package.")
+    number = _NUMBER.search(content)
+    if number is None:
+        return InputError(f"{name} is no result of this package, or damaged; give a file that this package wrote.")
+    if int(number[1]) != FORMAT:
+        return _unknown(name, int(number[1]))
+    return InputError(f"{name} is damaged: its end is missing; take a copy of it, or run again.")
 
 
-def _cut(content: bytes) -> bool:
-    """Whether an HDF5 file is shorter than it says (its superblock, versions 0 to 3)."""
-    at = {0: 40, 1: 44, 2: 28, 3: 28}.get(content[8] if len(content) > 48 else -1)
-    return at is None or int.from_bytes(content[at : at + 8], "little") > len(content)
-
-
-def _kind(attributes: dict[Any, Any], name: str) -> str | None:
-    """What a file holds; None if it is not of this package."""
-    form = str(attributes.get("format"))
-    if form in _FORMER:
-        return _FORMER[form]
-    if form.startswith(f"{_NAME} "):
-        if form != f"{_NAME} {FORMAT}":
-            raise _unknown(name, form.removeprefix(f"{_NAME} "))
-        return str(attributes.get("kind"))
-    if "format" in attributes:
-        return None
-    return next((kind for key, kind in _UNNAMED.items() if key in attributes), None)
-
-
-def _unknown(name: str, number: str) -> InputError:
+def _unknown(name: str, number: int) -> InputError:
     return InputError(
-        f"{name} is of format {number}; this version of stylobate reads up to {FORMAT}: update it, or run again."
+        f"{name} is of format {number}; this version of stylobate reads {FORMAT}: update it, or run again."
     )
 
 

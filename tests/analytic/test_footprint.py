@@ -5,8 +5,8 @@ import pytest
 from scipy.spatial import ConvexHull
 from scipy.spatial.transform import Rotation
 
-from stylobate.experiments import footprint
-from stylobate.experiments.granite_files import Scan
+from stylobate_studies.experiments import footprint
+from stylobate_studies.experiments.granite_files import Scan
 
 MASS, INERTIA = 350.0, np.diag([20.0, 18.0, 14.0])
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.special import ndtr
 
-from stylobate.experiments import scores
+from stylobate_studies.experiments import scores
 
 
 def test_matthews_of_a_table_by_hand():

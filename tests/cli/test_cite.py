@@ -108,7 +108,7 @@ def test_a_file_without_provenance_is_refused(capsys, tmp_path):
     file.write_text("no netCDF")
     assert "cannot be read as netCDF: it does not begin like one" in said(capsys, file, code=2).err
     xarray.Dataset({"a": ("x", [1.0])}).to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    assert "not a result of this package" in said(capsys, tmp_path / "other.nc", code=2).err
+    assert "is no result of this package" in said(capsys, tmp_path / "other.nc", code=2).err
 
 
 def test_the_citation_file_agrees_with_the_package():

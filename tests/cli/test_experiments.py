@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from stylobate.cli.main import call
-from stylobate.experiments import cube, study
-from stylobate.experiments.choices import CUBE_FRICTION, CUBE_RESTITUTION
-from stylobate.experiments.cube_files import HALF, Recorded
+from stylobate_studies.experiments import cube, study
+from stylobate_studies.experiments.choices import CUBE_FRICTION, CUBE_RESTITUTION
+from stylobate_studies.experiments.cube_files import HALF, Recorded
 
 KEYS = {"tests", "accuracy", "hard_tests", "hard_accuracy", "matthews", "predicted_over_observed", "brier"}
 DT = 0.005
@@ -141,7 +141,7 @@ def test_it_goes_on_from_its_ledger(tmp_path):
     granite(tmp_path)
     found, ledger, seen = study.read(tmp_path), tmp_path / "progress.sqlite", []
     assert found.granite is not None
-    from stylobate.experiments import granite as room
+    from stylobate_studies.experiments import granite as room
 
     some = room.variants(found.granite, 0, False)
     first = room.run(found.granite, some, threads=1, ledger=ledger)

@@ -19,16 +19,16 @@ from stylobate.analysis.domain import Domain
 from stylobate.atomic import output_folder, replacing
 from stylobate.campaign.ledger import finished_runs_in
 from stylobate.cli.main import call
-from stylobate.cli.reproduce import build, describe
 from stylobate.errors import DamagedFileWarning
 from stylobate.own_files import LIST, own_files
-from stylobate.paper import literature, pieces, study
-from stylobate.paper.cases import BEAM
-from stylobate.paper.folder import check_folder, claim
-from stylobate.paper.reading import CHOICES, FAILS, HOLDS
-from stylobate.paper.statements import statements
-from stylobate.paper.study import run_study
 from stylobate.report.page import Picture, Rows, Section, write_page
+from stylobate_studies.commands.reproduce import build, describe
+from stylobate_studies.paper import literature, pieces, study
+from stylobate_studies.paper.cases import BEAM
+from stylobate_studies.paper.folder import check_folder, claim
+from stylobate_studies.paper.reading import CHOICES, FAILS, HOLDS
+from stylobate_studies.paper.statements import statements
+from stylobate_studies.paper.study import run_study
 
 ROOT = Path(__file__).parents[2]
 
@@ -184,7 +184,7 @@ def test_pieces_of_another_version_are_computed_anew_and_what_is_not_ours_stays(
         (data / "edited.csv").write_text("edited by a person")
     for data in claimed(folder):
         assert (data / "old.nc").exists()
-    monkeypatch.setattr("stylobate.paper.folder.source_digest", lambda: "another law")
+    monkeypatch.setattr("stylobate_studies.paper.folder.source_digest", lambda: "another law")
     for data in claimed(folder):
         assert {path.name for path in data.iterdir()} == {"study.json", "mine.nc", ".env-local.sh", "edited.csv"}
 

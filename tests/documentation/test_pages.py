@@ -15,7 +15,11 @@ PAGES = {
     for path in sorted(DOCS.rglob("*.md"))
     if not {"_build", "gallery", "generated"} & set(path.relative_to(DOCS).parts)
 }
-SOURCES = {path: path.read_text(encoding="utf-8") for path in sorted((ROOT / "src").rglob("*.py"))}
+SOURCES = {
+    path: path.read_text(encoding="utf-8")
+    for folder in ("src", "studies")
+    for path in sorted((ROOT / folder).rglob("*.py"))
+}
 
 TAG = re.compile(r"\\tag\{(\w+)\}")
 
@@ -95,12 +99,12 @@ def test_pages_named_in_the_code_exist():
 @pytest.mark.parametrize("page", PAGES)
 def test_files_named_on_the_page_exist(page):
     named = re.findall(r"`((?:\w+/)+\w+\.(?:py|bib))`", without_code(PAGES[page]))
-    roots = (ROOT, ROOT / "src", ROOT / "src" / "stylobate")
+    roots = (ROOT, ROOT / "src", ROOT / "src" / "stylobate", ROOT / "studies" / "src" / "stylobate_studies")
     missing = [one for one in named if not any((root / one).exists() for root in roots)]
     assert [one for one in missing if "my_model" not in one] == []
 
 
-@pytest.mark.parametrize("page", [*PAGES, "../README.md", "../CONTRIBUTING.md"])
+@pytest.mark.parametrize("page", [*PAGES, "../README.md", "../CONTRIBUTING.md", "../studies/README.md"])
 def test_links_lead_somewhere(page):
     path = DOCS / page
     text = without_code(path.read_text(encoding="utf-8"))
@@ -131,12 +135,10 @@ def extension(name: str):
 
 
 def test_every_command_and_option_is_on_the_page():
-    import typer
-
-    from stylobate.cli.main import app
+    from stylobate.cli.main import commands
 
     (_, text), (_, references) = extension("command_pages").texts(Path())
-    for name, command in typer.main.get_command(app).commands.items():
+    for name, command in commands().commands.items():
         section = text.split(f"## {name}\n")[1].split("\n## ")[0]
         for option in command.params:
             if option.param_type_name == "option":

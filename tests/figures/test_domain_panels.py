@@ -11,11 +11,12 @@ import stylobate as st
 from stylobate import plots
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
-from stylobate.analysis.doubt import Doubt
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.analysis.step_sensitivity import StepComparison
 from stylobate.column import preset
 from stylobate.column.imperfections import Imperfection
+from stylobate_studies.paper.doubt import Doubt
+from stylobate_studies.paper.pictures import draw_domain_panels, draw_doubt
 
 F, A = np.linspace(0.5, 3.0, 6), np.linspace(0.1, 0.5, 5) * st.g
 WORDS = {"S": ("rocked", True), "C": ("collapsed", True), "U": ("rocked", False), "F": ("failed", False)}
@@ -52,7 +53,7 @@ def test_doubt_counts_only_what_has_a_verdict_both_times():
 
 
 def test_what_changes_is_marked_and_counted():
-    figure = plots.draw_doubt(doubt(), "title")
+    figure = draw_doubt(doubt(), "title")
     titles = [axes.get_title(loc="left").splitlines() for axes in figure.axes]
     assert titles == [
         ["as computed"],
@@ -66,7 +67,7 @@ def test_what_changes_is_marked_and_counted():
 
 def test_panels_say_how_much_collapses_and_share_their_axes():
     rows = [("One", [("model a", ONE), ("model b", HALVED)]), ("Two", [("model a", HALVED), ("model b", ONE)])]
-    figure = plots.draw_domain_panels(rows, "title")
+    figure = draw_domain_panels(rows, "title")
     titles = [axes.get_title(loc="left").splitlines() for axes in figure.axes]
     assert titles[0] == ["model a", "20 to 27 % collapse"]  # one cell is undecided, one failed
     assert titles[1] == ["model b", "27 % collapse"]
@@ -80,8 +81,8 @@ def test_panels_say_how_much_collapses_and_share_their_axes():
 def test_nothing_is_cut_off(columns):
     rows = [("Column of twelve drums", [("rigid beam with sliding", ONE)] * columns)] * 2
     for figure in (
-        plots.draw_domain_panels(rows, "Which shaking brings the column down?"),
-        plots.draw_doubt(doubt(), "t"),
+        draw_domain_panels(rows, "Which shaking brings the column down?"),
+        draw_doubt(doubt(), "t"),
     ):
         figure.draw_without_rendering()
         for thing in (*figure.axes, *figure.legends):
@@ -93,7 +94,7 @@ def test_nothing_is_cut_off(columns):
 
 
 def test_panel_titles_do_not_run_into_each_other():
-    figure = plots.draw_domain_panels([("Column", [("rigid beam with sliding", ONE)] * 4)], "title")
+    figure = draw_domain_panels([("Column", [("rigid beam with sliding", ONE)] * 4)], "title")
     figure.draw_without_rendering()
     titles = [text for axes in figure.axes for text in axes.findobj(Text) if "% collapse" in text.get_text()]
     assert len(titles) == 4

@@ -131,7 +131,7 @@ def test_files_that_are_no_responses(tmp_path):
         st.Response.load(tmp_path / "text.nc")
     data = one_response().to_xarray()
     data.to_netcdf(tmp_path / "other.nc", engine="h5netcdf")
-    with pytest.raises(st.InputError, match="has the format None"):
+    with pytest.raises(st.InputError, match="is no result of this package"):
         st.Response.load(tmp_path / "other.nc")
     with pytest.raises(st.InputError, match="does not exist"):
         one_response().save(tmp_path / "none" / "response.nc")

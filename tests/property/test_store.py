@@ -1,12 +1,10 @@
-"""Files of results: the former format is read, damaged files are refused in a sentence, a full disk leaves nothing."""
+"""Files of results: damaged files are refused in a sentence, a full disk leaves nothing."""
 
 import errno
 import hashlib
 import io
-import json
 import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,19 +12,10 @@ import pytest
 import stylobate as st
 from stylobate import store
 from stylobate.analysis.domain import Domain
-from stylobate.analysis.probability import CollapseProbability
 from stylobate.atomic import replacing
 from stylobate.column.presets import preset
 from stylobate.errors import InputError, StylobateError
-from stylobate.response import Response, load_response
-
-FORMER = Path(__file__).parent / "format_1"
-
-
-@pytest.fixture(scope="module")
-def facts():
-    """What version 0.1.0 said of what is in its files."""
-    return json.loads((FORMER / "facts.json").read_text())
+from stylobate.response import Response
 
 
 @pytest.fixture(scope="module")
@@ -34,43 +23,17 @@ def response():
     return st.simulate(preset("paper-monolithic"), st.harmonic(1.0, 0.25 * st.g, 1.0), st.HousnerBlock())
 
 
-# What has fallen has no residuals any more, peaks of joints end with the collapse.
-NEW_WORDS = {
-    "residual_top_displacement_m", "residual_joint_slip_m", "residual_slip_per_joint_m", "peak_opening_per_joint_m",
-    "residual_displacement_m", "collapse",
-}  # fmt: skip
+@pytest.fixture(scope="module")
+def domain():
+    return st.collapse_domain(preset("paper-monolithic"), st.HousnerBlock(), (1.0,), (1.0, 3.0), 1.0)
 
 
-@pytest.mark.parametrize("name", ["response", "assembly"])
-def test_responses_of_the_former_format_are_read(name, facts):
-    loaded = load_response(FORMER / f"{name}.nc")
-    said = json.loads(json.dumps(loaded.summary(), default=float))
-    told = facts[name]
-    for key in told.keys() & said.keys() - NEW_WORDS:
-        assert said[key] == told[key], key
-    for key in ("drum_x", "drum_rotation", "x"):
-        if key in told:
-            assert getattr(loaded, key)[-1].tolist() == told[key]
-    if name == "response":
-        assert loaded.mechanism.fallen == (1,)
-        assert loaded.followed
-    assert loaded.collapsed
-
-
-def test_domains_and_probabilities_of_the_former_format_are_read(facts):
-    for kind, name in ((Domain, "domain"), (CollapseProbability, "probability")):
-        said = kind.load(FORMER / f"{name}.nc").summary()
-        assert {key: said[key] for key in ("cells", "collapsed", "runs")} == {
-            key: facts[name][key] for key in ("cells", "collapsed", "runs")
-        }
-
-
-def test_a_kind_for_another_is_refused(response, tmp_path):
+def test_a_kind_for_another_is_refused(response, domain, tmp_path):
     path = response.save(tmp_path / "response.nc")
     with pytest.raises(st.InputError, match="is a response, not a domain"):
         Domain.load(path)
     with pytest.raises(st.InputError, match="is a domain, not a response"):
-        Response.load(FORMER / "domain.nc")
+        Response.load(domain.save(tmp_path / "domain.nc"))
 
 
 @pytest.mark.parametrize("inside", [True, False])
@@ -80,7 +43,7 @@ def test_a_format_of_the_future_is_refused_by_its_number(response, tmp_path, mon
     if not inside:  # without the line behind it
         path.write_bytes(path.read_bytes()[: -store.LINE])
     monkeypatch.undo()
-    with pytest.raises(st.InputError, match=r"is of format 7; this version of stylobate reads up to 2: update"):
+    with pytest.raises(st.InputError, match=r"is of format 7; this version of stylobate reads 2: update"):
         Response.load(path)
 
 
@@ -114,17 +77,14 @@ def test_damaged_files_are_refused_in_a_sentence(response, tmp_path):
             Response.load(path)
 
 
-def test_what_cannot_be_opened_in_time_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(store, "_PROBE", "while True: pass")
-    monkeypatch.setattr(store, "PATIENCE", 0.5)
-    with pytest.raises(st.InputError, match="could not be opened in"):
-        Response.load(FORMER / "response.nc")
+def test_a_file_of_another_program_is_refused_unopened(tmp_path, monkeypatch):
+    import h5py
 
-
-def test_what_crashes_the_library_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(store, "_PROBE", "import os; os.abort()")
-    with pytest.raises(st.InputError, match="the library ended with code"):
-        Response.load(FORMER / "response.nc")
+    with h5py.File(tmp_path / "response.nc", "w") as file:
+        file["x"] = np.zeros(3)
+    monkeypatch.setattr(h5py, "File", None)
+    with pytest.raises(st.InputError, match=r"is no result of this package, or damaged; give a file that"):
+        Response.load(tmp_path / "response.nc")
 
 
 def test_what_lies_in_memory_is_what_is_written(response):

@@ -10,10 +10,10 @@ from experiments import FOLDER, needs_cube, needs_granite
 from oracles.springs import Body, matrix
 
 from stylobate import DistinctElement3D, simulate
-from stylobate.experiments import cube as cubes
-from stylobate.experiments.cube_files import read_tosses
-from stylobate.experiments.granite import motion_of
-from stylobate.experiments.granite_files import read_granite
+from stylobate_studies.experiments import cube as cubes
+from stylobate_studies.experiments.cube_files import read_tosses
+from stylobate_studies.experiments.granite import motion_of
+from stylobate_studies.experiments.granite_files import read_granite
 
 HALF = 0.0524
 

@@ -9,7 +9,7 @@ import pytest
 from stylobate.column import preset
 from stylobate.constants import g
 from stylobate.models.rigid_beam.model import RigidBeam
-from stylobate.paper.cases import (
+from stylobate_studies.paper.cases import (
     AMPLITUDES,
     FREQUENCIES,
     MODELS,
@@ -18,9 +18,9 @@ from stylobate.paper.cases import (
     Grids,
     paper_column,
 )
-from stylobate.paper.reading import FAILS, HOLDS, Statement
-from stylobate.paper.statements import markdown_row
-from stylobate.paper.statics import joint_law, static_statements, static_values
+from stylobate_studies.paper.reading import FAILS, HOLDS, Statement
+from stylobate_studies.paper.statements import markdown_row
+from stylobate_studies.paper.statics import joint_law, static_statements, static_values
 
 TABLE = Path(__file__).parents[2] / "docs" / "paper_statements.md"
 

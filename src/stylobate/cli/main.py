@@ -16,14 +16,12 @@ from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeW
 from ..version import __version__
 from . import (
     animate,
-    bench,
     cite,
     columns,
     compare,
     console,
     critical,
     domain,
-    experiments,
     fragility,
     ida,
     limit,
@@ -31,7 +29,6 @@ from . import (
     motion,
     pushover,
     report,
-    reproduce,
     risk,
     run,
     serve,
@@ -41,6 +38,7 @@ from . import (
     suite,
     survival,
 )
+from .added import STUDIES, added_commands, missing_command
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
 
@@ -82,7 +80,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 for _room in (
     run, critical, domain, pushover, limit, compare, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, materials, animate, report, serve, reproduce, experiments, cite, bench
+    spectrum, columns, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name)(_passing_on(getattr(_room, _name)))
@@ -132,7 +130,10 @@ def call(arguments: Sequence[str]) -> int:
         warnings.simplefilter("ignore", LeftOutWarning)  # commands say it with the motion, under "left out"
         warnings.showwarning = _Warner()
         try:
-            code = _command().main(list(arguments), prog_name="stylobate", standalone_mode=False)
+            program = commands()
+            if arguments and arguments[0] in STUDIES and arguments[0] not in program.commands:
+                raise InputError(missing_command(arguments[0]))
+            code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
         except InputError as error:
             return _complain(str(error), BAD_INPUT)
         except StylobateError as error:
@@ -162,9 +163,14 @@ def call(arguments: Sequence[str]) -> int:
 
 
 @cache
-def _command() -> Any:
+def commands() -> Any:
     """All commands with their options, made once: the page's jobs are many command lines in one process."""
-    return typer.main.get_command(app)
+    program: Any = typer.main.get_command(app)
+    for name, function in added_commands(program.commands).items():
+        room = typer.Typer(add_completion=False, rich_markup_mode=None)
+        room.command(name)(_passing_on(function))
+        program.add_command(typer.main.get_command(room), name)
+    return program
 
 
 @app.callback(invoke_without_command=True)

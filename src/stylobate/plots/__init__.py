@@ -1,11 +1,9 @@
 """Pictures in one style, one file per picture. Every function returns a figure; ``save`` writes it as PNG and SVG."""
 
 from .amplitudes import draw_amplitudes
-from .boulders import draw_boulder_fragility, draw_reliability, draw_verdicts
 from .collapse_over_amplitude import draw_collapse_over_amplitude
 from .directions import draw_directions
 from .domain import draw_boundaries, draw_domain
-from .domain_panels import draw_domain_panels, draw_doubt
 from .elevation import draw_elevation
 from .energy import draw_energy
 from .filmstrip import draw_filmstrip
@@ -17,7 +15,6 @@ from .limit_directions import draw_limit_directions
 from .motion import draw_motion
 from .orbit import draw_orbit
 from .probability import draw_probability
-from .probability_panels import draw_probability_panels
 from .pushover import draw_mechanism, draw_pushover
 from .record_verdicts import draw_record_verdicts
 from .residuals import draw_residuals
@@ -27,19 +24,15 @@ from .spectra import draw_spectra
 from .states import draw_states
 from .style import save
 from .suite import draw_suite
-from .tosses import draw_toss_errors
 from .uplift import draw_uplift
 
 __all__ = [
     "draw_amplitudes",
-    "draw_boulder_fragility",
     "draw_boundaries",
     "draw_collapse_over_amplitude",
     "draw_comparison",
     "draw_directions",
     "draw_domain",
-    "draw_domain_panels",
-    "draw_doubt",
     "draw_efficiency",
     "draw_elevation",
     "draw_energy",
@@ -53,10 +46,8 @@ __all__ = [
     "draw_motion",
     "draw_orbit",
     "draw_probability",
-    "draw_probability_panels",
     "draw_pushover",
     "draw_record_verdicts",
-    "draw_reliability",
     "draw_residuals",
     "draw_risk",
     "draw_rocking_spectrum",
@@ -64,8 +55,6 @@ __all__ = [
     "draw_states",
     "draw_suite",
     "draw_survival",
-    "draw_toss_errors",
     "draw_uplift",
-    "draw_verdicts",
     "save",
 ]

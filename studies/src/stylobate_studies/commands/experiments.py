@@ -1,0 +1,164 @@
+"""``stylobate experiments``: open measurements from beside the project, computed again and scored."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stylobate.cli import options as o
+from stylobate.errors import InputError
+
+if TYPE_CHECKING:
+    from ..experiments.study import Found, Results
+
+#: Scores that are printed.
+SHOWN = ("tests", "accuracy", "hard_tests", "hard_accuracy", "matthews", "predicted_over_observed", "brier")
+
+#: Most realisations.
+MOST = 1000
+
+#: Files that are always the same ones.
+WRITES = (
+    "experiments.json",
+    "granite_tests.csv",
+    "granite_verdicts",
+    "granite_fragility",
+    "cube_tosses.csv",
+    "cube_errors",
+)
+
+
+def experiments(
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Folder that holds granite and cube, or one of the two.")
+    ],
+    realisations: Annotated[
+        str,
+        typer.Option(
+            "--realisations", metavar="N", help="Of what is uncertain about the boulders: a probability each."
+        ),
+    ] = "0",
+    calibration: Annotated[
+        str,
+        typer.Option(
+            "--calibration", metavar="on|off", help="Also choose friction and restitution on a part, test on another."
+        ),
+    ] = "on",
+    films: Annotated[
+        bool, typer.Option("--films", help="Films (GIF) of the ten worst tests beside their strips.")
+    ] = False,
+    threads: o.Threads = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """Compute shaking-table tests of boulders and tosses of a cube, and score the results against what was measured.
+
+    A table per experiment; with --out, all tables, pictures, and strips of the ten worst tests.
+    """
+    from stylobate.cli import console
+
+    from ..experiments import study
+
+    if not realisations.isdecimal() or int(realisations) > MOST:
+        raise InputError(f"--realisations is {realisations!r}; allowed is a whole number from 0 to {MOST}.")
+    if calibration not in ("on", "off"):
+        raise InputError(f"--calibration is {calibration!r}; allowed are on, off.")
+    workers, found = o.the_threads(threads), study.read(folder)
+    with console.folder(out, *WRITES) as place:
+        parts: dict[str, Path | None] = {}
+
+        def ledger(part: str) -> Path | None:
+            parts[part] = console.ledger(place, part)
+            return parts[part]
+
+        results = study.compute(
+            found,
+            realisations=int(realisations),
+            calibrate=calibration == "on",
+            threads=workers,
+            bars=console.progress,
+            ledgers=ledger,
+        )
+        files = [] if place is None else _write(results, found, place, films)
+        console.done_with(*parts.values())
+    if as_json:
+        console.emit(results.summary | {"files": [str(file) for file in files]})
+        return
+    _say(results)
+    for why in found.refused:
+        print(f"not used: {why}")
+    if files:
+        print(f"{len(files)} files in {files[0].parent}")
+
+
+def _write(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
+    from stylobate import plots
+    from stylobate.cli import console
+
+    from ..experiments import pictures
+
+    files = [console.write_table(table, place / f"{name}.csv") for name, table in results.tables.items()]
+    files.append(console.write_json(place / "experiments.json", results.summary))
+    tables, summary = results.tables, results.summary
+    if "granite_tests" in tables:
+        table = tables["granite_tests"]
+        files += plots.save(pictures.draw_verdicts(table), place / "granite_verdicts")
+        drawn = pictures.draw_boulder_fragility(table, tables["granite_half"], summary["granite"])
+        files += plots.save(drawn, place / "granite_fragility")
+        if "granite_reliability" in tables:
+            files += plots.save(pictures.draw_reliability(tables["granite_reliability"]), place / "granite_reliability")
+        files += _worst(results, found, place, films)
+    if "cube_tosses" in tables:
+        files += plots.save(pictures.draw_toss_errors(tables["cube_tosses"]), place / "cube_errors")
+    return files
+
+
+def _worst(results: Results, found: Found, place: Path, films: bool) -> list[Path]:
+    """Strips, and films, of the worst tests as they are computed."""
+    from stylobate import plots
+    from stylobate.plots.animation import write_gif
+
+    from ..experiments.granite import again
+
+    files: list[Path] = []
+    assert found.granite is not None
+    for rank, row in enumerate(results.tables["granite_worst"].itertuples(), 1):
+        one: Any = row
+        response = again(found.granite, one.specimen, one.test)
+        observed, computed = ("toppled" if verdict else "stood" for verdict in (one.observed, one.computed))
+        title = f"{one.specimen}, test {one.test} ({one.record}): {observed}; computed: {computed}"
+        stem = place / f"worst_{rank:02d}_{one.specimen}_{one.test}"
+        files += plots.save(plots.draw_filmstrip(response, title=title), stem)
+        if films:
+            target = stem.with_suffix(".gif")
+            write_gif(response, target, frames_per_second=10.0)
+            files.append(target)
+    return files
+
+
+def _say(results: Results) -> None:
+    import pandas
+
+    from stylobate.cli import console
+
+    summary = results.summary
+    if "granite" in summary:
+        rows = [
+            {"specimen": name} | {key: one[key] for key in SHOWN}
+            for name, one in summary["granite"].items()
+            if isinstance(one, dict)
+        ]
+        print("Boulders on the shaking table, toppled or not:")
+        console.print_table(pandas.DataFrame(rows), digits=3)
+        for one in summary["granite"].get("calibration", ()):
+            print(
+                f"calibrated on {one['calibrated_on']}: friction {one['friction']:g}, restitution {one['restitution']:g}; "
+                f"right on {one.get('tested_on', 'no other')}: {one.get('accuracy', float('nan')):.3f}"
+            )
+    if "cube" in summary:
+        one = summary["cube"]
+        print(f"{one['tosses']} tosses of a cube: {one['rest_face_accuracy']:.1%} rest on the face on which they did.")
+        rows = [{"after": when} | values for when, values in one["after"].items()]
+        console.print_table(pandas.DataFrame(rows), digits=3)

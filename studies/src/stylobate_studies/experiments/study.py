@@ -1,0 +1,192 @@
+"""The whole comparison: what a folder holds, computed and scored, as tables and one object of numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field
+from datetime import date
+from pathlib import Path
+from typing import Any
+
+from stylobate.campaign.runner import Progress
+from stylobate.errors import InputError
+from stylobate.version import __version__
+
+from . import choices as c
+from . import cube, granite
+from .cube_files import Tosses, read_tosses
+from .granite_files import Granite, read_granite
+
+#: What a folder of each experiment must hold.
+MARKS = {"granite": "specimens.json", "cube": "tosses.npz"}
+
+#: Called with a title; gives what reports progress.
+Bars = Callable[[str], AbstractContextManager[Progress | None]]
+
+
+@dataclass
+class Found:
+    """Experiments that a folder holds."""
+
+    granite: Granite | None = None
+    cube: Tosses | None = None
+    refused: list[str] = field(default_factory=list)
+
+
+@dataclass
+class Results:
+    """Tables, and the numbers of the JSON object."""
+
+    summary: dict[str, Any] = field(default_factory=dict)
+    tables: dict[str, Any] = field(default_factory=dict)
+
+
+def read(folder: Path) -> Found:
+    """Read the experiments in a folder, or the one that the folder is.
+
+    Raises
+    ------
+    InputError
+        There is none.
+    """
+    if not folder.is_dir():
+        raise InputError(f"{folder} is no folder; give one that holds granite or cube, such as ../shared/experiments.")
+    places = {}
+    for name, mark in MARKS.items():
+        for place in (folder / name, folder):
+            if (place / mark).is_file() or (place.is_dir() and place.name == name and name not in places):
+                places[name] = place
+                break
+    if not places:
+        raise InputError(
+            f"{folder} holds no experiment: granite/specimens.json or cube/tosses.npz is expected there; see docs/nature.md."
+        )
+    found = Found()
+    if "granite" in places:
+        try:
+            found.granite = read_granite(places["granite"])
+            found.refused += found.granite.refused
+        except InputError as error:
+            found.refused.append(str(error).rstrip("."))
+    if "cube" in places:
+        try:
+            found.cube = read_tosses(places["cube"])
+            found.refused += found.cube.refused
+        except InputError as error:
+            found.refused.append(str(error).rstrip("."))
+    usable = (found.granite and found.granite.tests and found.granite.scans) or (found.cube and found.cube.tosses)
+    if not usable:
+        raise InputError(f"nothing in {folder} can be used: {'; '.join(found.refused[:3]) or 'it holds no test'}.")
+    return found
+
+
+def compute(
+    found: Found,
+    *,
+    realisations: int = 0,
+    calibrate: bool = True,
+    threads: int | None = None,
+    bars: Bars,
+    ledgers: Callable[[str], Path | None],
+) -> Results:
+    """Compute and score everything that was found.
+
+    Parameters
+    ----------
+    found : Found
+    realisations : int
+        Of what is uncertain about the boulders; 0 for none.
+    calibrate : bool
+        Also choose friction and restitution on one part and test them on the other.
+    threads : int, optional
+    bars : callable
+        Progress by title.
+    ledgers : callable
+        Where a part keeps its finished runs.
+    """
+    out = Results()
+    if found.granite and found.granite.tests and found.granite.scans:
+        _granite(found.granite, realisations, calibrate, threads, bars, ledgers, out)
+    if found.cube and found.cube.tosses:
+        _cube(found.cube, calibrate, threads, bars, ledgers, out)
+    out.summary |= {
+        "refused": found.refused,
+        "choices": [one._asdict() for one in c.CHOICES],
+        "realisations": realisations,
+        "date": date.today().isoformat(),
+        "version": __version__,
+    }
+    return out
+
+
+def _granite(
+    tests: Granite, realisations: int, calibrate: bool, threads: int | None, bars: Bars, ledgers: Any, out: Results
+) -> None:
+    import pandas
+
+    found = granite.variants(tests, realisations, calibrate)
+    with bars("boulders") as progress:
+        runs = granite.run(tests, found, threads=threads, progress=progress, ledger=ledgers("granite"))
+    table = granite.tests_table(tests, runs)
+    out.tables["granite_tests"] = table
+    out.tables["granite_half"] = granite.half_table(table)
+    out.tables["granite_worst"] = granite.worst(table)
+    out.tables["granite_variants"] = pandas.DataFrame(
+        [{"variant": v, "kind": one.kind, "specimen": one.name} | one.settings for v, one in enumerate(found)]
+    )
+    observed = {(name, test.number): test.toppled[name] for test in tests.tests for name in test.toppled}
+    right = runs.assign(right=[row.toppled == observed[row.specimen, row.test] for row in runs.itertuples()])
+    by = right.groupby("variant")
+    out.tables["granite_variants"]["accuracy"] = by["right"].mean().to_numpy()
+    out.tables["granite_variants"]["toppled"] = by["toppled"].sum().to_numpy()
+    out.summary["granite"] = granite.summary(tests, table, realisations) | {
+        "tests_read": len(tests.tests),
+        "outcomes_without_motion": tests.without_motion,
+        "runs": len(runs),
+        "failed": int(runs["failed"].sum()),
+    }
+    if calibrate:
+        out.summary["granite"]["calibration"] = granite.calibration(tests, found, runs)
+    if realisations:
+        from .scores import reliability
+
+        out.tables["granite_reliability"] = pandas.DataFrame(
+            [
+                {"specimen": name} | row
+                for name, rows in table.groupby("specimen")
+                for row in reliability(rows["probability"].to_numpy(), rows["observed"].to_numpy(dtype=bool))
+            ]
+        )
+
+
+def _cube(tosses: Tosses, calibrate: bool, threads: int | None, bars: Bars, ledgers: Any, out: Results) -> None:
+    with bars("tosses") as progress:
+        (table,) = cube.run(
+            tosses.tosses,
+            [(c.CUBE_FRICTION, c.CUBE_RESTITUTION)],
+            threads=threads,
+            progress=progress,
+            ledger=ledgers("cube"),
+        )
+    out.tables["cube_tosses"] = table
+    out.summary["cube"] = cube.scores(table) | {"friction": c.CUBE_FRICTION, "restitution": c.CUBE_RESTITUTION}
+    third = tosses.tosses[::3]
+    if not calibrate or len(third) == len(tosses.tosses):
+        return
+    grid = [(mu, e) for mu in c.CUBE_FRICTION_GRID for e in c.CUBE_RESTITUTION_GRID]
+    with bars("tosses, a third of them") as progress:
+        tables = cube.run(third, grid, threads=threads, progress=progress, ledger=ledgers("cube-third"))
+    best = min(range(len(grid)), key=lambda k: cube.badness(tables[k]))
+    rest = [one for number, one in enumerate(tosses.tosses) if number % 3]
+    with bars("tosses, the rest of them") as progress:
+        (tested,) = cube.run(rest, [grid[best]], threads=threads, progress=progress, ledger=ledgers("cube-rest"))
+    names = {one.name for one in rest}
+    out.tables["cube_calibrated"] = tested
+    out.summary["cube"]["calibration"] = {
+        "friction": grid[best][0],
+        "restitution": grid[best][1],
+        "third": cube.scores(tables[best]),
+        "rest": cube.scores(tested),
+        "rest_as_published": cube.scores(table[table["toss"].isin(names)]),
+    }

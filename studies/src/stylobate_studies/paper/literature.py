@@ -1,0 +1,64 @@
+"""Round columns in space as others have tested them: the populations behind what the literature says."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+
+from stylobate.atomic import replacing
+from stylobate.column.imperfections import Imperfection, imperfect_columns
+from stylobate.constants import g
+from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.motion import harmonic
+from stylobate.simulate import simulate_many
+
+from . import cases as c
+from .folder import is_ready
+
+#: Shaking of the populations: frequency [Hz], amplitude [m/s²], duration and time after it [s].
+SHAKING = 1.0, 0.26 * g, 6.0, 5.0
+
+#: Columns of a population, and the half width within which they vary [-].
+NUMBER, WITHIN = 16, 0.001
+
+#: Populations of round columns: (preset, law of contact, what acts across over what acts along).
+ASKED: tuple[tuple[str, str, float], ...] = (
+    (c.MONOLITH, "rim", 0.01),
+    (c.DRUMS, "rim", 0.0),
+    (c.DRUMS, "rim", 0.01),
+    (c.DRUMS, "bed", 0.01),
+)
+
+
+def literature_piece(data: Path) -> dict[str, dict[str, list[float]]]:
+    """Peaks, residuals and verdicts of the populations, by name."""
+    place = data / "literature.json"
+    if not is_ready(place):
+        found = {population_name(*asked): _population(*asked) for asked in ASKED}
+        with replacing(place) as partial:
+            partial.write_text(json.dumps(found), encoding="utf-8")
+    return json.loads(place.read_text(encoding="utf-8"))
+
+
+def population_name(name: str, law: str, across: float) -> str:
+    """A population in words."""
+    what = "monolith" if name == c.MONOLITH else "drums"
+    return f"{what}, {law}" + (f", {across:.0%} across".replace("%", " %") if across else ", nothing across")
+
+
+def _population(name: str, law: str, across: float) -> dict[str, list[float]]:
+    frequency, amplitude, duration, tail = SHAKING
+    columns = imperfect_columns(c.paper_column(name, "circular"), Imperfection.of_size(WITHIN), NUMBER, 0)
+    beside = (frequency, across * amplitude, 0.5 * np.pi) if across else None
+    motion = harmonic(frequency, amplitude, duration, across=beside)
+    rows = simulate_many(list(columns), [motion] * NUMBER, DistinctElement3D(law=law), tail=tail)
+    asked = {
+        "collapsed": "collapsed",
+        "peak": "peak_top_displacement_m",
+        "along": "peak_top_x_m",
+        "across": "peak_top_y_m",
+        "residual": "residual_top_displacement_m",
+    }
+    return {key: [float(value) for value in rows[column]] for key, column in asked.items()}

@@ -1,0 +1,179 @@
+"""Pieces of the study as files: each is computed once, and a study that was stopped goes on with the next.
+
+A piece is written whole when it is finished; until then its finished runs are kept.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import closing
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stylobate import store
+from stylobate.analysis import verdicts as v
+from stylobate.analysis.domain import Domain, collapse_domain, grid_coordinates
+from stylobate.analysis.probability import CollapseProbability
+from stylobate.analysis.replicates import collapse_probability
+from stylobate.atomic import replacing
+from stylobate.campaign.ledger import PROGRESS_FILE, Ledger, discard
+from stylobate.campaign.runner import Progress, full_key
+from stylobate.column import Column, preset
+from stylobate.column.imperfections import Imperfection
+from stylobate.constants import g
+from stylobate.models.base import Model
+from stylobate.motion import harmonic
+from stylobate.simulate import simulate, simulate_many
+from stylobate.version import __version__
+
+from . import cases as c
+from .folder import is_ready
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def domain_piece(
+    folder: Path, column: Column, model: Model, grid: tuple, tail: float, threads: int, progress: Progress | None
+) -> Domain:
+    """A domain; ``grid`` is (frequencies, amplitudes, duration)."""
+    place = folder / "domain.nc"
+    if is_ready(place):
+        discard(folder / PROGRESS_FILE)  # left over if the process was killed after the result was written
+        return Domain.load(place)
+    folder.mkdir(exist_ok=True)
+    found = collapse_domain(column, model, *grid, tail=tail, threads=threads, progress=progress, out=folder)
+    if not found.complete:
+        raise KeyboardInterrupt
+    return found
+
+
+def population_piece(
+    folder: Path, column: Column, model: Model, grid: tuple, replicates: int, tail: float, threads: int,
+    progress: Progress | None, imperfection: Imperfection | None = None,
+) -> CollapseProbability:  # fmt: skip
+    """The same domain for slightly different columns, 1 % in geometry, friction and stiffness by default."""
+    place = folder / "probability.nc"
+    if is_ready(place):
+        discard(folder / PROGRESS_FILE)
+        return CollapseProbability.load(place)
+    folder.mkdir(exist_ok=True)
+    found = collapse_probability(
+        column, model, *grid, replicates=replicates, imperfection=imperfection, tail=tail, threads=threads,
+        progress=progress, out=folder,
+    )  # fmt: skip
+    if not found.complete:
+        raise KeyboardInterrupt
+    return found
+
+
+def histories_piece(
+    data: Path, name: str, label: str, tail: float, threads: int, progress: Progress | None
+) -> xarray.Dataset:
+    """Histories and verdicts of the thirty cases."""
+    import xarray
+
+    place = data / f"{slug('histories', name, label)}.nc"
+    if is_ready(place):
+        discard(place.with_suffix(".sqlite"))
+        return store.read(place, "study histories")
+    column, model = preset(name), c.MODELS[label]
+    end = c.DURATION + tail
+    time = np.linspace(0.0, end, 1 + round(50 * end))
+    cells = list(product(range(len(c.FREQUENCIES)), range(len(c.AMPLITUDES))))
+    shape = (len(c.FREQUENCIES), len(c.AMPLITUDES))
+    curves = {one: np.full((*shape, len(time)), np.nan, dtype=np.float32) for one in ("base", "top", "ground")}
+    facts = {one: np.full(shape, np.nan) for one in ("collapse_time", "peak_top", "peak_base")}
+    flags = np.zeros(shape, dtype=np.int8)
+
+    def run(number: int) -> tuple[int, dict]:
+        i, j = cells[number]
+        motion = harmonic(c.FREQUENCIES[i], c.AMPLITUDES[j], c.DURATION)
+        response = simulate(column, motion, model, tail=tail, output_interval=0.02)
+        h, m = response.histories, response.measures
+        given = {"base": h.base_displacement, "top": h.top_displacement, "ground": h.ground_displacement}
+        drawn = {key: np.interp(time, h.time, values, right=np.nan) for key, values in given.items()}
+        return number, {
+            **{key: base64.b64encode(values.astype("<f4").tobytes()).decode() for key, values in drawn.items()},
+            "collapse_time": float(m.collapse_time),
+            "peak_top": float(m.peak_top_displacement),
+            "peak_base": float(np.abs(h.base_displacement).max()),
+            "verdict": v.VERDICTS.index(v.verdict(m.row())),
+        }
+
+    def keep(number: int, row: dict) -> None:
+        for key, values in curves.items():
+            values[cells[number]] = np.frombuffer(base64.b64decode(row[key]), dtype="<f4")
+        for key, values in facts.items():
+            values[cells[number]] = row[key]
+        flags[cells[number]] = row["verdict"]
+
+    ledger = place.with_suffix(".sqlite")
+    what = {"histories": column.digest, "cells": [c.FREQUENCIES.tolist(), c.AMPLITUDES.tolist(), c.DURATION]}
+    with closing(Ledger(ledger, full_key(model, tail, what), len(cells))) as book:
+        known = dict(book.rows())
+        for number, row in known.items():
+            keep(number, row)
+        todo = [number for number in range(len(cells)) if number not in known]
+        for done, (number, row) in enumerate(_in_threads(run, todo, threads), len(known) + 1):
+            book.record(number, row)
+            keep(number, row)
+            if progress:
+                progress(done, len(cells))
+    dims = ("frequency", "amplitude")
+    variables: dict[str, Any] = {one: ((*dims, "time"), values, {"units": "m"}) for one, values in curves.items()}
+    variables |= {one: (dims, values, {"units": "s" if "time" in one else "m"}) for one, values in facts.items()}
+    variables["verdict"] = (dims, flags, v.FLAGS)
+    coordinates = grid_coordinates(c.FREQUENCIES, c.AMPLITUDES) | {"time": ("time", time, {"units": "s"})}
+    note = "displacements of base and top relative to the ground, and of the ground"
+    attributes = {"column": name, "model": label, "version": __version__, "note": note, "duration_s": c.DURATION}
+    data_set = xarray.Dataset(variables, coordinates, attributes)
+    store.write(data_set, "study histories", place)
+    discard(ledger)
+    return data_set
+
+
+def _in_threads(run: Callable[[int], tuple[int, dict]], todo: list[int], threads: int) -> Iterator[tuple[int, dict]]:
+    """Results as they are finished; the first one alone, which compiles what all of them share."""
+    if not todo:
+        return
+    yield run(todo[0])
+    pool = ThreadPoolExecutor(threads)
+    try:
+        for one in as_completed([pool.submit(run, number) for number in todo[1:]]):
+            yield one.result()
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def cost_piece(data: Path) -> dict[str, float]:
+    """What two seconds of a shaken column of drums cost each model in a batch on one core [s]."""
+    place = data / "cost.json"
+    if not is_ready(place):
+        shaking = [harmonic(1.5, amplitude, 2.0) for amplitude in np.linspace(0.25, 0.3, 16) * g]
+        found = {label: min(_seconds(shaking, c.MODELS[label]) for _ in range(3)) for label in (c.BEAM, c.DEM)}
+        with replacing(place) as partial:
+            partial.write_text(json.dumps(found), encoding="utf-8")
+    return json.loads(place.read_text(encoding="utf-8"))
+
+
+def _seconds(shaking: list, model: Model) -> float:
+    started = time.perf_counter()
+    simulate_many(preset(c.DRUMS), shaking, model, threads=1)
+    return (time.perf_counter() - started) / len(shaking)
+
+
+def slug(*parts: str) -> str:
+    """Name of a file for a piece."""
+    plain = {"ξ": "xi", "β": "beta", "φ": "phi", "α": "alpha", "/": "over"}
+    text = "-".join(parts).lower()
+    for old, new in plain.items():
+        text = text.replace(old, new)
+    return "-".join("".join(c if (c.isalnum() and c.isascii()) or c == "." else " " for c in text).split())

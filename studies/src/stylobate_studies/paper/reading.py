@@ -1,0 +1,169 @@
+"""Numbers out of the results of the study, as its sentences need them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from stylobate.analysis import verdicts as v
+from stylobate.analysis.domain import Domain
+from stylobate.constants import g
+
+from .cases import BEAM, DEM, REFERENCE, VARIANTS
+from .study import PaperResults
+
+HOLDS, CHOICES, FAILS = "holds", "holds under stated choices", "does not hold"
+
+#: What the verdicts mean, for the page and the documentation.
+MEANINGS = {
+    HOLDS: "our value meets the criterion that the row states, with the choices of this study where the paper is silent",
+    CHOICES: "it does so for some value of a parameter that the paper leaves open, for one of the two columns, or by one "
+    "of two tests; the row says which",
+    FAILS: "it does so for none of them",
+}
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One checkable sentence.
+
+    Parameters
+    ----------
+    section : str
+        Where the paper says it.
+    sentence : str
+        What it says, in our words.
+    ours : str
+        What is computed here.
+    verdict : str
+        holds, holds under stated choices, or does not hold.
+    why : str
+    sensitivity : str
+        How far open parameters move it.
+    """
+
+    section: str
+    sentence: str
+    ours: str
+    verdict: str
+    why: str
+    sensitivity: str = ""
+
+
+class Reader:
+    """Values of the results by name."""
+
+    def __init__(self, results: PaperResults) -> None:
+        self.results = results
+
+    def domain(self, name: str, label: str) -> Domain:
+        """The domain of the rectangular column."""
+        return self.results.domains[name, label, "rectangular"]
+
+    def unsafe(self, name: str, label: str) -> float:
+        """Share of the domain's cells that collapse [-]."""
+        return share(self.domain(name, label))
+
+    def variants(self, name: str, label: str) -> dict[str, Domain]:
+        """Domains with one parameter changed, of one model."""
+        chosen = [key for key in self.results.grids.variants if VARIANTS[key][0] == label]
+        return {key: self.results.variants[name, key] for key in chosen}
+
+    def spread(self, name: str, label: str, frequency: float) -> str:
+        """First collapse at a frequency over the open parameters."""
+        found = {key: nearest(domain, frequency) for key, domain in self.variants(name, label).items()}
+        low, high = min(found, key=found.__getitem__), max(found, key=found.__getitem__)
+        return f"at {frequency:g} Hz from {in_g(found[low])} ({low}) to {in_g(found[high])} ({high})"
+
+    def verdict(self, name: str, label: str, frequency: float, amplitude: float) -> str:
+        """Verdict of one of the thirty cases."""
+        one = self.results.histories[name, label].sel(frequency=frequency, amplitude=amplitude * g, method="nearest")
+        return v.VERDICTS[int(one["verdict"])]
+
+    def agreement(self, name: str) -> np.ndarray:
+        """In which of the thirty cases rigid beam and distinct elements agree whether it collapses."""
+        return self._falls(name, BEAM) == self._falls(name, DEM)
+
+    def shaken(self, variant: str) -> tuple[np.ndarray, np.ndarray]:
+        """The monolith's thirty cases up to the end of the shaking, a variant of the rigid beam and distinct elements.
+
+        Whether they agree that it collapses, (cases,), and the ratios of the peak top displacements, beam over DEM, where
+        both rock and neither collapses.
+        """
+        beam, dem = self.results.shaken[variant], self.results.shaken[REFERENCE]
+        falls = [one.verdicts == v.COLLAPSED for one in (beam, dem)]
+        peaks = [one.grid("peak_top_displacement_m") for one in (beam, dem)]
+        both = ~falls[0] & ~falls[1] & (peaks[0] > 0.005) & (peaks[1] > 0.005)
+        return (falls[0] == falls[1]).ravel(), peaks[0][both] / peaks[1][both]
+
+    def _falls(self, name: str, label: str) -> np.ndarray:
+        return self.results.histories[name, label]["verdict"].values == v.VERDICTS.index(v.COLLAPSED)
+
+
+def judged(holds: bool, otherwise: Sequence[bool] = ()) -> str:
+    """The verdict: the criterion itself, or whether anything else that is open meets it."""
+    return HOLDS if holds else CHOICES if any(otherwise) else FAILS
+
+
+def first(domain: Domain, low: float = 0.0, high: float = np.inf) -> np.ndarray:
+    """First collapse [g] at the frequencies in a range; infinite where none collapses."""
+    chosen = (domain.frequencies >= low - 1e-9) & (domain.frequencies <= high + 1e-9)
+    return np.nan_to_num(domain.first_collapse[chosen] / g, nan=np.inf)
+
+
+def nearest(domain: Domain, frequency: float) -> float:
+    """First collapse [g] at the frequency next to the given one."""
+    return float(
+        np.nan_to_num(domain.first_collapse[np.argmin(np.abs(domain.frequencies - frequency))] / g, nan=np.inf)
+    )
+
+
+def rising(domain: Domain) -> float:
+    """Of all pairs of frequencies with different first collapses, the share in which the higher one has the larger [-].
+
+    No collapse is the largest.
+    """
+    values = np.where(np.isfinite(first(domain)), first(domain), 9.0)
+    change = np.sign(values[None, :] - values[:, None])[np.triu_indices(values.size, 1)]
+    return float((change > 0).sum() / max(1, (change != 0).sum()))
+
+
+def share(domain: Domain) -> float:
+    """Share of the cells that collapse [-]."""
+    return domain.counts[v.COLLAPSED] / len(domain.rows)
+
+
+def step(domain: Domain) -> float:
+    """Step of the amplitudes [g]."""
+    return float(np.diff(domain.amplitudes).max() / g)
+
+
+def in_g(value: float) -> str:
+    """An amplitude, or that none collapses."""
+    return f"{value:.3f} g" if np.isfinite(value) else "no collapse"
+
+
+def span(values: Sequence[float] | np.ndarray) -> str:
+    """The range of amplitudes."""
+    low, high = float(np.min(values)), float(np.max(values))
+    return in_g(low) if low == high else f"{in_g(low)} to {in_g(high)}"
+
+
+def percent(value: float) -> str:
+    """A share in per cent."""
+    return f"{100.0 * value:.0f} %"
+
+
+def percents(values: Sequence[float]) -> str:
+    """The range of shares in per cent."""
+    return f"{percent(min(values))} to {percent(max(values))}"
+
+
+def all_but(found: dict[str, bool]) -> str:
+    """In how many variants something is so, and in which it is not."""
+    other = [key for key, value in found.items() if not value]
+    return f"The same in {sum(found.values())} of {len(found)} variants" + (
+        f" (not: {'; '.join(other)})." if other else "."
+    )

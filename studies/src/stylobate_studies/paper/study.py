@@ -1,0 +1,217 @@
+"""The study of Baraldi, Sarhosis and Milani, recomputed: everything that its figures and its sentences need."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from stylobate.analysis.domain import Domain
+from stylobate.analysis.probability import CollapseProbability
+from stylobate.analysis.pushover import PushoverResult, pushover
+from stylobate.analysis.step_sensitivity import StepComparison, halved_step
+from stylobate.campaign.runner import Progress
+from stylobate.column import preset
+from stylobate.column.presets import PRESETS
+from stylobate.constants import g
+from stylobate.models.base import Model
+from stylobate.motion import harmonic
+from stylobate.own_files import own_files
+from stylobate.simulate import thread_count
+
+from . import cases as c
+from .doubt import Doubt
+from .folder import check_folder, claim
+from .literature import literature_piece
+from .pieces import cost_piece, domain_piece, histories_piece, population_piece, slug
+
+if TYPE_CHECKING:
+    import xarray
+
+#: Says (what is being computed, finished, all).
+Report = Callable[[str, int, int], None]
+
+
+@dataclass(eq=False)
+class PaperResults:
+    """Everything that the study has computed.
+
+    Parameters
+    ----------
+    grids : Grids
+    quick : bool
+    domains : dict
+        By (column, model, section), e.g. ("paper-12-drums", "rigid block", "rectangular").
+    histories : dict
+        By (column, model): data sets over frequency, amplitude and time.
+    variants : dict
+        By (column, variant).
+    limits : dict
+        By (column, model): domains of one very low frequency, finely stepped.
+    paths : dict
+        Pushover paths by (column, section).
+    doubts : dict
+        By column: how far verdicts of distinct elements can be relied on.
+    shaken : dict
+        By variant of the rigid beam, and for distinct elements: the monolith's thirty cases up to the end of the shaking.
+    spots : dict
+        By model: slightly different monoliths at 0.66 Hz and 0.2 g.
+    space : dict
+        By (column, population of :data:`stylobate.paper.cases.POPULATIONS`): round columns in the plane and in space.
+    rivals : dict
+        By (column, model, section): plane domains on the grid of ``space``.
+    literature : dict
+        By population of round columns as others have tested them: peaks, residuals and verdicts of each column.
+    cost : dict
+        By model: computing time of two seconds of a column of drums [s].
+    """
+
+    grids: c.Grids
+    quick: bool
+    domains: dict[tuple[str, str, str], Domain] = field(default_factory=dict)
+    histories: dict[tuple[str, str], xarray.Dataset] = field(default_factory=dict)
+    variants: dict[tuple[str, str], Domain] = field(default_factory=dict)
+    limits: dict[tuple[str, str], Domain] = field(default_factory=dict)
+    paths: dict[tuple[str, str], PushoverResult] = field(default_factory=dict)
+    doubts: dict[str, Doubt] = field(default_factory=dict)
+    shaken: dict[str, Domain] = field(default_factory=dict)
+    spots: dict[str, CollapseProbability] = field(default_factory=dict)
+    space: dict[tuple[str, str], CollapseProbability] = field(default_factory=dict)
+    rivals: dict[tuple[str, str, str], Domain] = field(default_factory=dict)
+    literature: dict[str, dict[str, list[float]]] = field(default_factory=dict)
+    cost: dict[str, float] = field(default_factory=dict)
+
+    @property
+    def runs(self) -> int:
+        """Number of time histories behind all of it."""
+        single = [*self.domains.values(), *self.variants.values(), *self.limits.values()]
+        single += [*self.shaken.values(), *self.rivals.values()]
+        single += [one for doubt in self.doubts.values() for one in (doubt.steps.domain, doubt.steps.halved)]
+        many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
+        tested = sum(len(one["peak"]) for one in self.literature.values())
+        cases = tested + sum(one["verdict"].size for one in self.histories.values())
+        return sum(len(one.rows) for one in single) + sum(one.codes.size for one in many) + cases
+
+
+def run_study(
+    folder: Path, quick: bool, threads: int | None = None, report: Report | None = None, grids: c.Grids | None = None
+) -> PaperResults:
+    """Compute what the folder does not hold yet.
+
+    Parameters
+    ----------
+    folder : path
+        Holds the pieces, in ``data``; it must exist.
+    quick : bool
+        The coarse study.
+    threads : int, optional
+        All cores by default.
+    report : callable, optional
+        Called with (what is being computed, finished, all).
+    grids : Grids, optional
+        Other grids than those of ``quick``.
+
+    Raises
+    ------
+    InputError
+        The folder holds a study on other grids, or anything else.
+    KeyboardInterrupt
+        It was stopped; what is finished is kept.
+    """
+    grids = c.Grids.of(quick) if grids is None else grids
+    check_folder(folder)
+    with own_files(folder) as own:
+        claim(own, grids)
+        return _pieces(folder, quick, grids, threads, report)
+
+
+def _pieces(folder: Path, quick: bool, grids: c.Grids, threads: int | None, report: Report | None) -> PaperResults:
+    data = folder / "data"
+    found, count = PaperResults(grids, quick), thread_count(threads)
+
+    def advance(what: str) -> Progress | None:
+        if report is None:
+            return None
+        tell = report
+        tell(what, 0, 0)
+        return lambda done, total: tell(what, done, total)
+
+    for name, label in product(PRESETS, (c.BEAM, c.DEM)):
+        what = f"histories, {name}: {label}"
+        found.histories[name, label] = histories_piece(data, name, label, grids.tail, count, advance(what))
+    for name in PRESETS:
+        for label, section in [(one, "rectangular") for one in c.MODELS] + [
+            (one, "circular") for one in grids.circular
+        ]:
+            grid = (grids.frequencies, grids.amplitudes, c.DURATION)
+            found.domains[name, label, section] = domain_piece(
+                data / slug("domain", name, label, section), c.paper_column(name, section), c.MODELS[label], grid,
+                grids.tail, count, advance(f"domains, {name}: {label}, {section}"),
+            )  # fmt: skip
+        for label in (c.BEAM, c.BLOCKS, c.DEM):
+            grid = (np.array([0.1]), grids.limit_amplitudes, 20.0)
+            found.limits[name, label] = domain_piece(
+                data / slug("limit", name, label), preset(name), c.MODELS[label], grid, 0.0, count,
+                advance(f"low frequency, {name}: {label}"),
+            )  # fmt: skip
+        for variant in grids.variants:
+            _, model, change, duration = c.VARIANTS[variant]
+            column = preset(name).with_joint(**change) if change else preset(name)
+            grid = (grids.variant_frequencies, grids.variant_amplitudes, duration)
+            found.variants[name, variant] = domain_piece(
+                data / slug("variant", name, variant), column, model, grid, grids.tail, count,
+                advance(f"open parameters, {name}: {variant}"),
+            )  # fmt: skip
+        found.doubts[name] = _doubt(data, name, grids, count, advance)
+    for variant in grids.variants:
+        label, model, change, duration = c.VARIANTS[variant]
+        if duration == c.VARIANTS[c.REFERENCE][3] and (label == c.BEAM or variant == c.REFERENCE):
+            column = preset(c.MONOLITH).with_joint(**change) if change else preset(c.MONOLITH)
+            grid = (c.FREQUENCIES, c.AMPLITUDES, c.DURATION)
+            folder_of = data / slug("shaken", variant)
+            found.shaken[variant] = domain_piece(folder_of, column, model, grid, 0.0, count, None)
+    for label in (c.BEAM, c.DEM):
+        grid = (np.array([0.66]), np.array([0.2 * g]), c.DURATION)
+        found.spots[label] = population_piece(
+            data / slug("spot", label), preset(c.MONOLITH), c.MODELS[label], grid, 50, grids.tail, count, None
+        )
+    grid = (grids.space_frequencies, grids.space_amplitudes, c.DURATION)
+    for name in PRESETS:
+        for label, model in c.POPULATIONS.items():
+            found.space[name, label] = population_piece(
+                data / slug("space", name, label), c.paper_column(name, "circular"), model, grid, grids.space_replicates,
+                grids.tail, count, advance(f"round columns, {name}: {label}"), c.SCATTER,
+            )  # fmt: skip
+        for label, section in c.RIVALS:
+            found.rivals[name, label, section] = domain_piece(
+                data / slug("rival", name, label, section), c.paper_column(name, section), c.MODELS[label], grid,
+                grids.tail, count, None,
+            )  # fmt: skip
+    found.literature = literature_piece(data)
+    found.cost = cost_piece(data)
+    for name, section in product(PRESETS, ("rectangular", "circular")):
+        found.paths[name, section] = pushover(c.paper_column(name, section))
+    return found
+
+
+def _doubt(data: Path, name: str, grids: c.Grids, threads: int, advance: Callable[[str], Progress | None]) -> Doubt:
+    column, model = preset(name), c.MODELS[c.DEM]
+    grid = (grids.doubt_frequencies, grids.doubt_amplitudes, c.DURATION)
+    steps: list[tuple[str, Model]] = [
+        ("whole step", model),
+        ("half step", halved_step(model, column, harmonic(grid[0][-1], 1.0, c.DURATION))),
+    ]
+    pair = [
+        domain_piece(data / slug("doubt", name, what), column, one, grid, grids.tail, threads,
+                     advance(f"certainty, {name}: {what}"))
+        for what, one in steps
+    ]  # fmt: skip
+    population = population_piece(
+        data / slug("doubt", name, "population"), column, model, grid, grids.replicates, grids.tail, threads,
+        advance(f"certainty, {name}: {grids.replicates} columns that differ by 1 %"),
+    )  # fmt: skip
+    return Doubt(StepComparison(*pair), population)
