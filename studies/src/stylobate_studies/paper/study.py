@@ -24,6 +24,7 @@ from stylobate.own_files import own_files
 from stylobate.simulate import thread_count
 
 from . import cases as c
+from .ahead import compiled_meanwhile
 from .doubt import Doubt
 from .folder import check_folder, claim
 from .literature import literature_piece
@@ -126,10 +127,13 @@ def run_study(
     check_folder(folder)
     with own_files(folder) as own:
         claim(own, grids)
-        return _pieces(folder, quick, grids, threads, report)
+        with compiled_meanwhile() as wait:
+            return _pieces(folder, quick, grids, threads, report, wait)
 
 
-def _pieces(folder: Path, quick: bool, grids: c.Grids, threads: int | None, report: Report | None) -> PaperResults:
+def _pieces(
+    folder: Path, quick: bool, grids: c.Grids, threads: int | None, report: Report | None, wait: Callable[[], object]
+) -> PaperResults:
     data = folder / "data"
     found, count = PaperResults(grids, quick), thread_count(threads)
 
@@ -180,6 +184,7 @@ def _pieces(folder: Path, quick: bool, grids: c.Grids, threads: int | None, repo
             data / slug("spot", label), preset(c.MONOLITH), c.MODELS[label], grid, 50, grids.tail, count, None
         )
     grid = (grids.space_frequencies, grids.space_amplitudes, c.DURATION)
+    wait()  # for the compiler
     for name in PRESETS:
         for label, model in c.POPULATIONS.items():
             found.space[name, label] = population_piece(
