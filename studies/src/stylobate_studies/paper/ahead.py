@@ -16,7 +16,9 @@ from . import cases as c
 def compile_ahead() -> None:
     """Run the models in space for as short as can be: their compiled code stays on disk."""
     for label in (c.TWIN, c.SPACE):
-        simulate_many(c.paper_column(c.MONOLITH, "circular"), [harmonic(1.0, 0.1, 0.01)], c.POPULATIONS[label], threads=1)
+        simulate_many(
+            c.paper_column(c.MONOLITH, "circular"), [harmonic(1.0, 0.1, 0.01)], c.POPULATIONS[label], threads=1
+        )
 
 
 @contextmanager
