@@ -32,6 +32,10 @@ class LeftOutWarning(OutOfRangeWarning):
     """A component of the motion is one that the model does not take; the message names both."""
 
 
+class PlaneOnlyWarning(LeftOutWarning):
+    """A round column is computed in a plane, and the motion shakes it across as well: verdicts can be too favourable."""
+
+
 def as_typed(value: Any) -> str:
     """A value as a person types it: numbers and texts of numpy, in lists too, without the names of their types."""
     return repr(_plain(value))

@@ -54,8 +54,13 @@ def test_any_curve_is_the_integral(curve):
 
 
 def test_the_ends_of_a_hazard_curve_are_said(curve):
-    short = risk(curve, Hazard(np.array([0.1, 0.2]), np.array([0.1, 0.05]), "m/s", "short"))
-    assert "ends at 0.2 m/s" in short.warnings[0]
+    short = risk(curve, Hazard(np.array([0.1, 1.2]), np.array([0.1, 0.05]), "m/s", "short"))
+    assert "ends at 1.2 m/s" in short.warnings[0]
+    assert short.rate < short.high <= 0.1  # all shaking that the curve has
+    with pytest.raises(
+        InputError, match=r"shorter ends at 0\.2 m/s, once in 20 years, .* give a curve to .* m/s or more"
+    ):
+        risk(curve, Hazard(np.array([0.1, 0.2]), np.array([0.1, 0.05]), "m/s", "shorter"))
     late = risk(curve, Hazard(np.array([1.0, 9.0]), np.array([0.1, 1e-9]), "m/s", "late"))
     assert "begins at 1 m/s" in late.warnings[0]
 

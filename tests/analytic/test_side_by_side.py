@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference
+from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference, reference
 from stylobate.analysis.evidence import Evidence
 from stylobate.analysis.fragility import FEWEST
 from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
@@ -87,7 +87,7 @@ def test_advice_reads_in_one_way(change, conclusion):
     words = {
         STRONGER: "stronger than “as built” against collapse, under",
         WEAKER: "weaker than “as built” against collapse: do not adopt it for safety",
-        NOT_TOLD: "not shown to be stronger than “as built” against collapse: these runs are no ground to adopt it",
+        NOT_TOLD: "not shown to be stronger than “as built” against collapse, nor weaker: these runs are no ground to",
     }
     assert [each for each, said in words.items() if said in found.advice] == [conclusion]
     assert found.sentence.startswith(found.advice)
@@ -96,19 +96,32 @@ def test_advice_reads_in_one_way(change, conclusion):
     assert ("not shown to be weaker or stronger" in as_found.advice) == (conclusion == NOT_TOLD)
 
 
+def test_a_measure_is_compared_with_the_column_as_it_stands_today():
+    labels = ("as built", "as found", "dowels")
+    assert [reference(labels, one) for one in labels[1:]] == ["as built", "as found"]
+    assert reference(("as built", "dowels", "tendon"), "tendon") == "as built"
+    assert reference(("one", "other"), "other") == "one"
+
+
+def test_what_is_undecided_stands_in_the_advice():
+    said = dataclasses.replace(KNOWN, share_low=-0.05, ratio_high=1.1, pairs=27, undecided=13).advice
+    assert said.endswith("; 13 of 40 pairs of runs are undecided, and longer runs may settle them.")
+
+
 def test_changes_are_told_by_size_and_direction():
     known = {"share_best": -0.2, "share_worst": -0.1, "ratio_best": 1.5, "ratio_worst": 1.25, "undecided": 4}
     known |= {"share_low": -0.3, "share_high": -0.04, "ratio": 1.3, "ratio_low": 1.1, "ratio_high": math.inf}
     said = dataclasses.replace(KNOWN, **known, im="pgv").basis
-    assert "median intensity of collapse (pgv) is 25 to 50 % higher, whichever way the undecided end" in said
-    assert "interval over records: at least 10 % higher)" in said
-    assert "share that collapses is 10 to 20 percentage points lower, whichever" in said
-    assert "interval over records: 4 to 30 percentage points lower)" in said
+    both = "(95 % interval over records, undecided runs counted both ways; "
+    assert (
+        f"median intensity of collapse (pgv) is at least 10 % higher {both}25 to 50 % higher in these records)." in said
+    )
+    share = f"4 to 30 percentage points lower {both}10 to 20 percentage points lower in these records)."
+    assert f"The share that collapses is {share}" in said
     assert "Of 44 pairs of runs, 3 collapse with “as built” only and 9 with “dowels” only; 4 are undecided." in said
     across = dataclasses.replace(KNOWN, share_best=0.0, share_worst=0.0, share_low=-0.1, share_high=0.2).basis
-    assert (
-        "is the same (95 % interval over records: 10 percentage points lower to 20 percentage points higher)" in across
-    )
+    spread = "10 percentage points lower to 20 percentage points higher"
+    assert f"is {spread} (95 % interval over records; the same in these records)." in across
     few = dataclasses.replace(KNOWN, records=3).basis
     assert "interval over records" not in few
     none = dataclasses.replace(KNOWN, pairs=0, ratio=math.nan).basis

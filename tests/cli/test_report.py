@@ -206,7 +206,7 @@ def test_states_have_a_page_of_their_own(place, tmp_path):
     (file,) = write_report([found], tmp_path / "r.html")
     page = Page(file.read_text(encoding="utf-8"))
     text = " ".join(page.text.split())
-    advice = "“<i>ties”: not shown to be stronger than “as built” against collapse"
+    advice = "“<i>ties”: not shown to be stronger than “as built” against collapse, nor weaker"
     assert text.index(advice) < text.index("What was found") < text.index("The state “as built”")
     assert "these runs are no ground to adopt it for safety (2 records; 10 at least would tell of others)" in text
     assert "Drums and joints are those of “as built”. What differs: 1 link, there no links." in text

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -16,9 +16,18 @@ STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"
 NO_MEASURE = ("as built", "as found")
 
 
+def reference(labels: Sequence[str], label: str) -> str:
+    """The state that another one is compared with: a measure with the column as it stands today, all else with the first.
+
+    The column as it stands today is the last of the states that are no measure; where there is none, the first of all.
+    """
+    today = [one for one in labels if one in NO_MEASURE]
+    return today[-1] if today and label not in NO_MEASURE else labels[0]
+
+
 @dataclass(frozen=True)
 class Difference:
-    """What a state differs by from the first one, the same records, levels and twins against one another.
+    """What a state differs by from another one, the same records, levels and twins against one another.
 
     Intervals hold what is undecided: their one end is that of the case in which every undecided run ends in favour of this
     state and against the other, their other end that of the opposite.
@@ -107,9 +116,13 @@ class Difference:
             return f"“{self.state}”: weaker {against}{': do not adopt it for safety' if measure else ''}."
         number = f"{self.records} record{'' if self.records == 1 else 's'}"
         few = f" ({number}; {FEWEST} at least would tell of others)" if self.records < FEWEST else ""
+        if self.undecided:
+            several = "is" if self.undecided == 1 else "are"
+            few += f"; {self.undecided} of {self.pairs + self.undecided} pairs of runs {several} undecided, and longer runs"
+            few += " may settle them"
         if measure:
             ground = "these runs are no ground to adopt it for safety"
-            return f"“{self.state}”: not shown to be stronger {against}: {ground}{few}."
+            return f"“{self.state}”: not shown to be stronger {against}, nor weaker: {ground}{few}."
         return f"“{self.state}”: not shown to be weaker or stronger {against}{few}."
 
     def _median(self) -> str:
@@ -117,8 +130,8 @@ class Difference:
             return ""
         low, high = sorted((self.ratio_best - 1.0, self.ratio_worst - 1.0))
         measure = f" ({self.im})" if self.im else ""
-        said = f"The median intensity of {self.limit_state}{measure} is {_span(low, high, _percent)}"
-        return said + self._interval(self.ratio_low - 1.0, self.ratio_high - 1.0, _percent) + "."
+        change = self._change((low, high), (self.ratio_low - 1.0, self.ratio_high - 1.0), _percent)
+        return f"The median intensity of {self.limit_state}{measure} is {change}."
 
     def _pairs(self) -> str:
         number = self.pairs + self.undecided
@@ -135,14 +148,18 @@ class Difference:
         if not self.pairs + self.undecided:
             return ""
         how = "collapses" if self.limit_state == "collapse" else f"exceeds {self.limit_state}"
-        said = f"The share that {how} is {_span(self.share_best, self.share_worst, _points)}"
-        return said + self._interval(self.share_low, self.share_high, _points) + "."
+        change = self._change((self.share_best, self.share_worst), (self.share_low, self.share_high), _points)
+        return f"The share that {how} is {change}."
 
-    def _interval(self, low: float, high: float, words: Callable[[float], str]) -> str:
-        open_ = ", whichever way the undecided end" if self.undecided else ""
-        if self.records < FEWEST or math.isnan(low) or math.isnan(high):
-            return open_
-        return f"{open_} ({100.0 * self.confidence:g} % interval over records: {_span(low, high, words)})"
+    def _change(
+        self, of_these: tuple[float, float], of_others: tuple[float, float], words: Callable[[float], str]
+    ) -> str:
+        """The interval over records, which decides, and what these records alone show."""
+        here = f"{_span(*of_these, words)} in these records"
+        if self.records < FEWEST or math.isnan(of_others[0]) or math.isnan(of_others[1]):
+            return here + (", whichever way the undecided end" if self.undecided else "")
+        both = ", undecided runs counted both ways" if self.undecided else ""
+        return f"{_span(*of_others, words)} ({100.0 * self.confidence:g} % interval over records{both}; {here})"
 
 
 def _size(value: float, unit: str) -> str:

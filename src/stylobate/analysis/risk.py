@@ -209,13 +209,23 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     with np.errstate(divide="ignore"):
         low, high = fragility.limits(math.log(max(rate, 1e-300)), np.log(samples), np.log(plausible))
     last = float(curve(hazard.im[-1:], fragility.log_median, fragility.beta)[0])
+    beyond = float(hazard.rate[-1]) * (1.0 - last)
+    if beyond > rate:
+        enough = math.exp(fragility.log_median + fragility.beta)
+        rare, state = years(1.0 / float(hazard.rate[-1])), fragility.evidence.state
+        raise InputError(
+            f"{hazard.name} ends at {hazard.im[-1]:g} {hazard.unit}, once in {rare}, where the probability of {state} is "
+            f"{last:.2g}: most of the rate comes from stronger shaking, of which it says nothing; give a curve to "
+            f"{enough:.2g} {hazard.unit} or more."
+        )
+    # no rate is above that of all shaking in the curve, and what is beyond its end may add to it
     return Risk(
         fragility,
         hazard,
         rate,
         math.exp(low),
-        math.exp(high),
-        float(hazard.rate[-1]) * (1.0 - last),
+        min(math.exp(min(high, 700.0)) + beyond, float(hazard.rate[0])),
+        beyond,
         float(curve(hazard.im[:1], fragility.log_median, fragility.beta)[0]),
         edges,
         parts,

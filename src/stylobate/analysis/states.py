@@ -19,7 +19,7 @@ from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
-from .difference import Difference
+from .difference import Difference, reference
 from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, bootstrap, fragility
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
@@ -30,6 +30,9 @@ from .studies import StudyResult, run_study
 
 if TYPE_CHECKING:
     import pandas
+
+#: A link that bears this share of its capacity bears all of it, but for rounding.
+AT_CAPACITY = 1.0 - 1e-9
 
 #: Smallest number of states that can be compared.
 FEWEST_STATES = 2
@@ -42,7 +45,7 @@ class StateComparison:
     Parameters
     ----------
     labels : tuple of str
-        The first one is what the others are compared with.
+        Measures are compared with the column as it stands today, see :func:`~stylobate.analysis.difference.reference`.
     columns : tuple of Column
     result : StudyResult
         All runs.
@@ -51,7 +54,7 @@ class StateComparison:
     curves : tuple of Fragility or None
         None where every run exceeds the limit state, or none does.
     differences : tuple of Difference
-        Of every state after the first.
+        Of every state after the first, from the one that it is compared with.
     shares : tuple of Share
         Of every state, of the runs that could be computed for all of them.
     state : str
@@ -69,7 +72,7 @@ class StateComparison:
 
     @property
     def links(self) -> pandas.DataFrame:
-        """One row per link that acts: state, link, runs, in how many it broke, largest force over capacity."""
+        """One row per link that acts: state, link, runs, in how many it broke or bore its capacity, force over capacity."""
         import pandas
 
         rows: list[dict[str, Any]] = []
@@ -90,6 +93,7 @@ class StateComparison:
                         "broken": len(broke),
                         "largest_over_capacity": max(used, default=math.nan),
                         "median_over_capacity": float(np.median(used)) if used else math.nan,
+                        "at_capacity": sum(one >= AT_CAPACITY for one in used),
                     }
                 )
         return pandas.DataFrame(rows)
@@ -151,7 +155,8 @@ def compare_states(
     Parameters
     ----------
     states : mapping of str to Column
-        By label; the first one is what the others are compared with.
+        By label. A measure is compared with the last of "as built" and "as found" that is given, the column as it stands
+        today; where neither is, and for these two, it is the first state that the others are compared with.
     motions : sequence of Motion
         At least ten records for curves; fewer give shares only.
     model : Model
@@ -188,9 +193,10 @@ def compare_states(
     parts: list[Any] = [table[table["state"] == label] for label in labels]
     told = [evidence(one, im, state, label) for one, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
+    compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
     differences = tuple(
-        _with_undecided(told[0], one, curves[0], curve, samples, seed, confidence)
-        for one, curve in zip(told[1:], curves[1:], strict=True)
+        _with_undecided(told[first], one, curves[first], curve, samples, seed, confidence)
+        for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}))
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state)

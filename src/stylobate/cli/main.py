@@ -12,7 +12,7 @@ from typing import Annotated, Any
 
 import typer
 
-from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeWarning, StylobateError
+from ..errors import DamagedFileWarning, InputError, LeftOutWarning, OutOfRangeWarning, PlaneOnlyWarning, StylobateError
 from ..version import __version__
 from . import (
     animate,
@@ -128,6 +128,7 @@ def call(arguments: Sequence[str]) -> int:
         warnings.simplefilter("always", OutOfRangeWarning)
         warnings.simplefilter("always", DamagedFileWarning)
         warnings.simplefilter("ignore", LeftOutWarning)  # commands say it with the motion, under "left out"
+        warnings.simplefilter("always", PlaneOnlyWarning)
         warnings.showwarning = _Warner()
         try:
             program = commands()

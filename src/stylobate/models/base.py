@@ -14,7 +14,7 @@ import numpy as np
 from ..column import Column
 from ..column.assembly import Assembly
 from ..column.specimen import Specimen
-from ..errors import InputError, LeftOutWarning, suggest
+from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
 from .start import Start, Toss
@@ -150,7 +150,15 @@ class Model:
                     f"the component {axis} of {motion.name!r} reaches {peak:.3g} m/s²; allowed is up to "
                     f"{LARGEST_ACCELERATION:g} m/s²: check its unit and its factor."
                 )
-        for one in beyond_axes(motion, self.axes).values():
+        left_out = beyond_axes(motion, self.axes)
+        if "y" in left_out and getattr(column, "section", "") == "circular":
+            warnings.warn(
+                f"{self.name} leaves out what shakes a round column across; in space it can fall under much weaker motions: "
+                "compute it with dem3d before relying on a favourable verdict.",
+                PlaneOnlyWarning,
+                stacklevel=4,
+            )
+        for one in left_out.values():
             warnings.warn(
                 f"left out of {motion.name!r}: {one}; {self.name} takes {' and '.join(self.axes)}.",
                 LeftOutWarning,

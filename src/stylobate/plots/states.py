@@ -53,10 +53,12 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     bars.axvline(0.0, color=GREY, linewidth=0.8)
     for one, place in zip(found.differences, places):
         _draw_difference(bars, one, float(place))
-    bars.set_yticks(places, [plain(one.state) for one in found.differences])
+    several = len({one.against for one in found.differences}) > 1
+    names = [plain(one.state) + (f"\nagainst {plain(one.against)}" if several else "") for one in found.differences]
+    bars.set_yticks(places, names)
     bars.set_ylim(-0.6, len(places) - 0.4)
-    against = plain(found.labels[0])
-    bars.set_xlabel(f"share of runs with {found.state}, less that of\n“{against}” [percentage points], paired")
+    against = "the state it is compared with" if several else f"“{plain(found.differences[0].against)}”"
+    bars.set_xlabel(f"share of runs with {found.state}, less that of\n{against} [percentage points], paired")
     _say_which_side(bars, found)
     if any(one.undecided for one in found.differences):
         bars.plot([], [], color=BLACK, linewidth=4.0, alpha=0.5, label="undecided, both ways")

@@ -26,7 +26,8 @@ def states_items(result: Numbers) -> list[Item]:
     """The paired results, the counts over the same runs, the picture, and what the links bore."""
     s = result.summary
     verb = "collapse" if s["state"] == "collapse" else f"exceed {s['state']}"
-    items: list[Item] = [Points([f"“{one['state']}”. {one['basis']}" for one in s["differences"]])]
+    basis = [f"“{one['state']}” against “{one['against']}”. {one['basis']}" for one in s["differences"]]
+    items: list[Item] = [Points(basis + _at_capacity(s["links"]))]
     shown = verb.replace("collapse", "collapses").replace("exceed ", "exceeds ")
     header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "failed", "median intensity"]
     body = []
@@ -36,9 +37,10 @@ def states_items(result: Numbers) -> list[Item]:
             [*row, _share(one), str(one["failed"]), median_words(one["fragility"]) if one["fragility"] else "no curve"]
         )
     caption = (
-        "The same motions, levels and twins for every state; runs that failed in one of them are left out of all. "
-        "Undecided: the run ended before its verdict was certain; share and median are with none and with all of them "
-        "counted in."
+        "The same motions and levels for every state, and the same slightly different columns where these are drawn; runs "
+        "that failed in one of them are left out of all. Undecided: the run ended before its verdict was certain; share and "
+        "median are with none and with all of them counted in. A pair of runs is undecided where either of them is. A state "
+        "is the stronger the smaller its share and the higher its median intensity."
     )
     items.append(Rows(header, body, caption, numbers=True))
     items += _by_level(result)
@@ -54,6 +56,19 @@ def states_items(result: Numbers) -> list[Item]:
     if s["links"]:
         items.append(_links(s["links"]))
     return items
+
+
+def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
+    """Of each state the link that bore its whole capacity in most runs, and the one that broke in most."""
+    said = []
+    for state in dict.fromkeys(one["state"] for one in links):
+        mine = [one for one in links if one["state"] == state]
+        full, broken = (max(mine, key=lambda one: one.get(key, 0)) for key in ("at_capacity", "broken"))
+        if full.get("at_capacity", 0):
+            words = f"“{state}”: {full['link']} bore its whole capacity in {full['at_capacity']} of {full['runs']} runs"
+            words += f"; {broken['link']} broke in {broken['broken']}" if broken["broken"] else "; no link broke"
+            said.append(f"{words}. A link at its capacity yields or slips: it is to be looked at after the shaking.")
+    return said
 
 
 def _share(one: dict[str, Any]) -> str:
@@ -85,12 +100,18 @@ def _by_level(result: Numbers) -> list[Item]:
 
 
 def _links(links: list[dict[str, Any]]) -> Rows:
-    header = ["state", "link", "runs", "broke in", "largest force over capacity", "median"]
-    keys = ("state", "link", "runs", "broken", "largest_over_capacity", "median_over_capacity")
-    body = [[n.plain(one[key]) for key in keys] for one in links[:MOST]]
+    header = ["state", "link", "runs", "broke in", "at capacity in", "largest force over capacity", "median"]
+    keys = ("state", "link", "runs", "broken", "at_capacity", "largest_over_capacity", "median_over_capacity")
+    body = [[n.plain(one.get(key)) for key in keys] for one in links[:MOST]]
     left_out = f" The first {MOST} of {len(links)}; links.csv holds all." if len(links) > MOST else ""
-    return Rows(header, body, f"What the links bore; 1: at its capacity, it yields or breaks.{left_out}", numbers=True)
+    return Rows(header, body, BORE + left_out, numbers=True)
 
+
+#: What the table of links shows, and what it does not.
+BORE = (
+    "What the links bore; 1: at its capacity, it yields or breaks. Links are computed with the stiffness and the capacity "
+    "given: pull-out, cracks in the stone around them and their anchorage are to be judged apart."
+)
 
 #: Most rows of a table of links.
 MOST = 40
