@@ -98,7 +98,10 @@ def suite(
                 progress=progress,
                 ledger=ledger,
             )
-        swept = len(table[["azimuth_deg", "reversed"]].drop_duplicates()) > 1
+        turned = any(
+            "direction" in motion.metadata for motion in records.motions
+        )  # else azimuths are those of instruments
+        swept = turned and len(table[["azimuth_deg", "reversed"]].drop_duplicates()) > 1
         counts = {name: Counter(rows["verdict"]) for name, rows in table.groupby("column", sort=False)}
         result = {
             "runs": table.astype(object).where(table.notna(), None).to_dict("records"),
