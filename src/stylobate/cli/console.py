@@ -41,6 +41,11 @@ def say(sentence: str, facts: Mapping[str, str], files: list[Path] | None = None
     width = max((len(name) for name in facts), default=0)
     for name, value in facts.items():
         print(f"  {name:<{width}}  {value}")
+    print_files(files)
+
+
+def print_files(files: Sequence[Path] | None) -> None:
+    """Say which files were written, and where; nothing where there are none."""
     if files:
         print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
 
@@ -55,6 +60,13 @@ def as_json(value: Any, indent: int | None = None) -> str:
 def write_json(path: Path, value: Any) -> Path:
     """Write a JSON file, whole or not at all."""
     return write_text(path, as_json(value, indent=2))
+
+
+def write_summary(result: dict[str, Any], files: list[Path], path: Path) -> None:
+    """Write the JSON object of a command, which lists its files, as the last of them."""
+    files.append(path)
+    result["files"] = [str(file) for file in files]
+    write_json(path, result)
 
 
 def asked(folder: Path, command: str, **what: Any) -> Path:

@@ -87,14 +87,6 @@ Pulse = Annotated[
 Synthetic = Annotated[
     str | None, typer.Option("--synthetic", metavar="SPEC", help="Simulated motion, such as greece,6.5Mw,20km,seed=3.")
 ]
-MotionFile = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--motion",
-        metavar="FILE",
-        help="Record of a ground motion, once per file of its components; or sample:NAME (stylobate motion --samples).",
-    ),
-]
 MotionFiles = Annotated[
     list[Path] | None,
     typer.Option(

@@ -104,13 +104,7 @@ def parse_acceleration(text: str) -> float:
 
 def parse_velocity(text: str) -> float:
     """A velocity such as ``0.2m/s`` or ``20cm/s`` in m/s."""
-    match = _QUANTITY.fullmatch(text)
-    size = None if match is None or match.group(1) == "?" else VELOCITY_UNITS.get((match.group(2) or "").lower())
-    if match is None or size is None:
-        raise InputError(
-            f"velocity {text!r} is not understood; write it with its unit, as in '0.2m/s' (m/s, cm/s, mm/s)."
-        )
-    return _number(match.group(1), f"velocity {text!r}") * size
+    return _in_units(text, "velocity", VELOCITY_UNITS, "", "'0.2m/s' (m/s, cm/s, mm/s)")
 
 
 def parse_time(text: str) -> float:
@@ -120,13 +114,7 @@ def parse_time(text: str) -> float:
 
 def parse_pressure(text: str) -> float:
     """A pressure or strength such as ``2MPa`` in Pa; a number alone is in Pa."""
-    match = _QUANTITY.fullmatch(text)
-    size = None if match is None or match.group(1) == "?" else PRESSURE_UNITS.get((match.group(2) or "Pa").lower())
-    if match is None or size is None:
-        raise InputError(
-            f"pressure {text!r} is not understood; write it with its unit, as in '2MPa' (Pa, kPa, MPa, GPa)."
-        )
-    return _number(match.group(1), f"pressure {text!r}") * size
+    return _in_units(text, "pressure", PRESSURE_UNITS, "Pa", "'2MPa' (Pa, kPa, MPa, GPa)")
 
 
 def parse_frequency(text: str) -> float:
@@ -322,6 +310,15 @@ def _measure(text: str, where: str, example: str) -> tuple[str, float]:
     except InputError:
         raise InputError(f"{where}: unit {unit!r} is unknown here; write it as {example!r}.") from None
     return "acceleration", math.nan if number == "?" else _number(number, where) * size
+
+
+def _in_units(text: str, kind: str, units: dict[str, float], usual: str, example: str) -> float:
+    """A quantity in one of some units; ``usual`` is that of a number alone."""
+    match = _QUANTITY.fullmatch(text)
+    size = None if match is None or match.group(1) == "?" else units.get((match.group(2) or usual).lower())
+    if match is None or size is None:
+        raise InputError(f"{kind} {text!r} is not understood; write it with its unit, as in {example}.")
+    return _number(match.group(1), f"{kind} {text!r}") * size
 
 
 def _number(text: str, where: str) -> float:
