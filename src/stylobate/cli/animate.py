@@ -84,8 +84,6 @@ def animate(
 
 
 def _number(option: str, text: str, high: float) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.") from None
-    return check_range(option, value, 0.0, high, open_low=True)
+    from ..motion.specs import parse_number
+
+    return check_range(option, parse_number(option, text, "such as 1"), 0.0, high, open_low=True)

@@ -272,14 +272,6 @@ def input_lines(motion: Motion) -> dict[str, str]:
     return found
 
 
-def number(option: str, text: str) -> float:
-    """A number as typed after an option."""
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.5.") from None
-
-
 def whole(option: str, text: str, example: int) -> int:
     """A whole number as typed after an option."""
     if not text.isdecimal():

@@ -97,6 +97,14 @@ def acceleration_unit(text: str) -> tuple[str, float]:
     return key, ACCELERATION_UNITS[key]
 
 
+def parse_number(option: str, text: str, example: str = "such as 1.5") -> float:
+    """A number without a unit, as typed after an option."""
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(f"{option} is {text!r}; allowed is a number, {example}.") from None
+
+
 def parse_acceleration(text: str) -> float:
     """An acceleration such as ``0.3g``, ``2.9m/s2`` or ``300gal`` in m/s²."""
     return _quantity(text, "acceleration", "0.3g")
