@@ -42,7 +42,6 @@ def animate(
     from ..motion.specs import parse_time
     from ..plots.animation import write_gif, write_mp4
     from ..plots.player import write_player
-    from ..plots.scene import scene_of
     from ..plots.view import OBLIQUE, parse_view
     from ..response import load_response
     from . import console
@@ -80,7 +79,7 @@ def animate(
     if as_json:
         console.emit({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label})
     else:
-        console.say(scene_of(loaded).sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
+        console.say(loaded.sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
 
 
 def _number(option: str, text: str, high: float) -> float:
