@@ -52,10 +52,15 @@ def test_a_package_adds_a_command(installed, capsys):
     [
         ("broken", "stylobate.cli.nowhere:broken", "No module named 'stylobate.cli.nowhere'"),
         ("broken", "stylobate.cli.columns:nothing", "has no attribute 'nothing'"),
+        ("broken", "broken_package:command", "not today"),
         ("run", "stylobate.cli.columns:columns", "there is a command of this name already"),
     ],
 )
-def test_a_command_that_cannot_be_had_is_left_out_with_a_warning(installed, capsys, name, value, why):
+def test_a_command_that_cannot_be_had_is_left_out_with_a_warning(
+    installed, capsys, tmp_path, monkeypatch, name, value, why
+):
+    (tmp_path / "broken_package.py").write_text("raise RuntimeError('not today')")
+    monkeypatch.syspath_prepend(tmp_path)
     installed(**{name: value})
     assert call(["columns"]) == 0
     said = capsys.readouterr().err.splitlines()

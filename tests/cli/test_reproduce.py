@@ -21,11 +21,12 @@ from stylobate.campaign.ledger import finished_runs_in
 from stylobate.cli.main import call
 from stylobate.errors import DamagedFileWarning
 from stylobate.own_files import LIST, own_files
-from stylobate.report.page import Picture, Rows, Section, write_page
+from stylobate.report.page import Picture, Rows, Section
 from stylobate_studies.commands.reproduce import build, describe
 from stylobate_studies.paper import literature, pieces, study
 from stylobate_studies.paper.cases import BEAM
 from stylobate_studies.paper.folder import check_folder, claim
+from stylobate_studies.paper.page import write_page
 from stylobate_studies.paper.reading import CHOICES, FAILS, HOLDS
 from stylobate_studies.paper.statements import statements
 from stylobate_studies.paper.study import run_study

@@ -18,7 +18,7 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.motion import harmonic
 from stylobate.plots.animation import draw_frame, frame_indices, write_gif, write_mp4
 from stylobate.plots.player import write_player
-from stylobate.plots.scene import scale_bar, scene_of
+from stylobate.plots.scene import Scene, scale_bar
 from stylobate.response.poses import rotation_matrices
 from stylobate.simulate import simulate, simulate_assembly
 
@@ -47,7 +47,7 @@ def knocked():
 @pytest.mark.parametrize("name", ["fall", "knocked"])
 def test_the_scene_is_the_response(name, request):
     response = request.getfixturevalue(name)
-    scene = scene_of(response)
+    scene = Scene(response)
     bodies = range(response.column.n) if name == "fall" else (1, 2, 3)
     for index in (0, len(response.time) // 2, len(response.time) - 1):
         for corners, body in zip(scene.outlines(index), bodies, strict=True):
@@ -59,7 +59,7 @@ def test_the_scene_of_a_column_as_found():
     column = Column.tapered(height=2.0, bottom_width=0.4, top_width=0.3, drums=2, density=2000.0, joint=joint)
     found = st.AsFound((st.FoundDrum(2, offset=0.05, chip_left=0.03),), base_tilt=2.0)
     response = simulate(column.replace(as_found=found), harmonic(0.8, 0.2 * g, 1.0), DistinctElement2D())
-    scene = scene_of(response)
+    scene = Scene(response)
     assert scene.slope == pytest.approx(np.tan(np.radians(2.0)))
     for index in (0, len(response.time) // 2):
         for factor in (1.0, 20.0):
@@ -69,7 +69,7 @@ def test_the_scene_of_a_column_as_found():
 
 def test_a_picture_holds_what_moves_and_its_ground(knocked):
     assert set(knocked.fallen) == {"leaning", "upright"}
-    scene = scene_of(knocked)
+    scene = Scene(knocked)
     left, right, bottom, top = scene.view(np.arange(len(knocked.time)))
     for index in range(len(knocked.time)):
         for corners in scene.outlines(index)[:2]:
@@ -86,10 +86,10 @@ def test_a_narrow_column_does_not_fill_the_picture():
     joint = Joint(1e8, 5e7, friction_coefficient=0.7)
     column = Column.tapered(height=6.0, bottom_width=0.6, top_width=0.5, drums=3, density=2000.0, joint=joint)
     response = simulate(column, harmonic(2.0, 0.01 * g, 0.5), DistinctElement2D())
-    left, right, bottom, top = scene_of(response).view(np.array([0]), 1.6)
+    left, right, bottom, top = Scene(response).view(np.array([0]), 1.6)
     assert right - left == pytest.approx(1.6 * (top - bottom))
     assert left == pytest.approx(-right)
-    low, high, _, _ = scene_of(response).view(np.array([0]))
+    low, high, _, _ = Scene(response).view(np.array([0]))
     assert high - low < 1.5
 
 
@@ -119,11 +119,11 @@ def test_pictures_of_an_assembly(knocked):
 def test_outlines_keep_their_shape_and_lie_on_the_ground(fall):
     assert fall.collapsed
     for index in (0, len(fall.time) // 2, len(fall.time) - 1):
-        for corners, drum in zip(scene_of(fall).outlines(index), fall.column.drums, strict=True):
+        for corners, drum in zip(Scene(fall).outlines(index), fall.column.drums, strict=True):
             sides = np.hypot(*(np.roll(corners, -1, axis=0) - corners).T)
             assert sides[0] == pytest.approx(drum.bottom_width)
             assert sides[2] == pytest.approx(drum.top_width)
-    lowest = [corners[:, 1].min() for corners in scene_of(fall).outlines(len(fall.time) - 1)]
+    lowest = [corners[:, 1].min() for corners in Scene(fall).outlines(len(fall.time) - 1)]
     assert max(lowest) < 0.5
     assert min(lowest) > -2e-3
 
@@ -173,7 +173,7 @@ def test_a_film_is_as_long_as_it_took(fall, tmp_path):
 
 def test_a_frame_says_when(fall):
     index = len(fall.time) // 2
-    title = draw_frame(scene_of(fall), index).axes[0].get_title(loc="left")
+    title = draw_frame(Scene(fall), index).axes[0].get_title(loc="left")
     assert f"{fall.time[index]:.2f} s" in title
 
 

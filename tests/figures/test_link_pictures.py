@@ -12,7 +12,7 @@ from stylobate.plots.animation import draw_frame
 from stylobate.plots.filmstrip import draw_filmstrip
 from stylobate.plots.link_marks import link_marks
 from stylobate.plots.player import film_data
-from stylobate.plots.scene import scene_of
+from stylobate.plots.scene import Scene
 from stylobate.simulate import simulate_assembly
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.2)
@@ -30,7 +30,7 @@ def response() -> st.Response:
 
 
 def test_marks_stand_where_the_links_are_and_know_which_are_broken(response) -> None:
-    first, last = (link_marks(scene_of(response), index) for index in (0, len(response.time) - 1))
+    first, last = (link_marks(Scene(response), index) for index in (0, len(response.time) - 1))
     assert len(first) == len(last) == 2  # a layer has no mark
     assert first[0][0] == pytest.approx(np.array([(0.1, 0.5), (0.1, 0.7)]), abs=1e-4)
     assert first[1][0] == pytest.approx(np.array([(0.3, 0.0), (0.3, 1.1)]), abs=1e-4)
@@ -39,7 +39,7 @@ def test_marks_stand_where_the_links_are_and_know_which_are_broken(response) -> 
 
 
 def test_players_are_told_of_them(response) -> None:
-    (dowel, tie) = film_data(scene_of(response), np.array([0, 5]))["links"]
+    (dowel, tie) = film_data(Scene(response), np.array([0, 5]))["links"]
     assert dowel[:3] == [0, [0.1, 0.0, 0.2], 0]  # over the joint's middle by its embedment, on the lower drum
     assert dowel[4] == response.measures.links[0].broken_at
     assert tie == [None, [0.3, 0.0, 0.0], 1, [0.3, 0.0, 0.2], None]
@@ -56,10 +56,10 @@ def test_marks_between_blocks_stay_on_them() -> None:
     )
     pair = Assembly(blocks, JOINT, "pair", links=links)
     found = simulate_assembly(pair, st.harmonic(frequency=2.0, amplitude=1.0, duration=0.05))
-    marks = link_marks(scene_of(found), 0)
+    marks = link_marks(Scene(found), 0)
     assert marks[0][0] == pytest.approx(np.array([(0.8, 0.4), (1.2, 0.4)]), abs=1e-4)
     assert marks[1][0] == pytest.approx(np.array([(0.5, -0.1), (0.5, 0.1)]), abs=1e-4)
-    clamp, dowel = film_data(scene_of(found), np.array([0]))["links"]
+    clamp, dowel = film_data(Scene(found), np.array([0]))["links"]
     assert (clamp[0], clamp[2], dowel[0]) == (0, 1, None)
 
 
@@ -69,5 +69,5 @@ def test_strips_and_frames_draw_them(response) -> None:
     assert len(panels) > 1
     styles = {line.get_linestyle() for line in panels[-1].lines if line.get_gid() == "link"}
     assert styles == {"-", ":"}
-    frame = draw_frame(scene_of(response), 0)
+    frame = draw_frame(Scene(response), 0)
     assert sum(line.get_gid() == "link" for line in frame.axes[0].lines) == 2

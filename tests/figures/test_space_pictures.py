@@ -21,7 +21,7 @@ from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.plots.animation import draw_frame, film_of, write_gif
 from stylobate.plots.player import write_player
 from stylobate.plots.residuals import round_factor
-from stylobate.plots.scene import scene_of
+from stylobate.plots.scene import Scene
 from stylobate.plots.solids import FLUTE, MARK, STONE, Solid, painted, painting_order, surface_of
 from stylobate.plots.uplift import rim_radius, rim_uplift
 from stylobate.plots.view import ALONG_X, ALONG_Y, OBLIQUE, View, parse_view
@@ -314,7 +314,7 @@ def test_a_base_out_of_level_is_drawn_as_it_leans(tmp_path):
     """Towards 90° it rises: seen against x the ground rises to the right, its plate with it, and the column leans back."""
     column = round_column(2).replace(as_found=st.AsFound((), 5.0, 90.0))
     response = st.simulate(column, st.Motion(0.02, np.zeros(3)), st.DistinctElement3D())
-    beside, along = (scene_of(response, view) for view in (ALONG_Y, ALONG_X))
+    beside, along = (Scene(response, view) for view in (ALONG_Y, ALONG_X))
     assert beside.slope == pytest.approx(np.tan(np.radians(5.0)))
     assert along.slope == pytest.approx(0.0, abs=1e-12)
     rise = np.ptp(beside.plate[:, 2]) / np.ptp(beside.plate[:, 1])

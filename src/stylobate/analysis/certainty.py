@@ -175,7 +175,7 @@ class Population:
             "replicates": len(self.rows),
             "certainty": {
                 "sentence": self.sentence,
-                **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+                **{one: counts[one] for one in v.MADE},
                 "confidence": self.confidence,
                 "scatter": dataclasses.asdict(self.scatter),
                 "left_out": list(self.left_out),

@@ -128,10 +128,7 @@ class Domain:
         counts = self.counts
         return {
             "cells": len(self.rows),
-            "collapsed": counts[v.COLLAPSED],
-            "stands": counts[v.STANDS],
-            "undecided": counts[v.UNDECIDED],
-            "failed": counts[v.FAILED],
+            **{one: counts[one] for one in v.MADE},
             "not_run": counts[v.NOT_RUN],
             "runs": len(self.rows) - counts[v.NOT_RUN],
             "uplift_g": self.column.uplift_acceleration / g,

@@ -93,7 +93,7 @@ def ida(
     about : mapping, optional
         By name of a record, ``magnitude`` and ``distance_km``.
     tail, whole, threads
-        As for :func:`stylobate.suite_table`.
+        As in :func:`stylobate.critical_amplitude`.
     progress : callable, optional
         Called with (finished, most that there will be).
     ledger : path, optional

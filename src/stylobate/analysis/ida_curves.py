@@ -198,7 +198,7 @@ class Ida:
             "records": int(runs["record"].nunique()),
             "curves": len(table),
             "runs": len(self.runs),
-            **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+            **{one: counts[one] for one in v.MADE},
             "resurrections": int(table["resurrections"].sum()),
             "curves_with_resurrections": int((table["resurrections"] > 0).sum()),
             **quantiles,

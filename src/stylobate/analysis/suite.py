@@ -87,17 +87,8 @@ def suite_table(
     model : Model
     replicates, scatter, seed
         Twins of every column under every record, as in :func:`stylobate.certainty`; none by default.
-    tail : float
-        Time to go on after each motion [s].
-    whole : bool
-        Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
-        shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
-    threads : int, optional
-        All cores by default.
-    progress : callable, optional
-        Called with (finished, all).
-    ledger : path, optional
-        File that keeps finished runs: a call that was stopped goes on from there. It stays for the caller to remove.
+    tail, whole, threads, progress, ledger
+        As in :func:`stylobate.critical_amplitude`.
 
     Returns
     -------

@@ -24,6 +24,9 @@ from ..response.rows import Rows
 STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN = "stands", "collapsed", "undecided", "failed", "not run"
 VERDICTS = (STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN)
 
+#: Verdicts of runs that were made.
+MADE = (COLLAPSED, STANDS, UNDECIDED, FAILED)
+
 #: What a labelled array says of itself that holds verdicts as their places in VERDICTS.
 FLAGS = {
     "long_name": "verdict of the run",

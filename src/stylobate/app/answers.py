@@ -66,6 +66,10 @@ def refused(error: InputError, field: str | None) -> Response:
     return _about(error, 422, field)
 
 
+class Missing(Exception):
+    """What was asked for by its name is not here."""
+
+
 def missing(what: str) -> Response:
     """The answer about what is not here."""
     return Answer({"error": f"there is no such {what}; reload the page."}, 404)
@@ -99,7 +103,7 @@ async def _on_disk(request: Request, error: Exception) -> Response:
 
 
 async def _on_missing(request: Request, error: Exception) -> Response:
-    return missing("page")
+    return missing(str(error) if isinstance(error, Missing) else "page")
 
 
 async def _on_other_method(request: Request, error: Exception) -> Response:
@@ -118,6 +122,7 @@ HANDLERS: dict[Any, Any] = {
     InputError: _on_input,
     StylobateError: _on_failure,
     OSError: _on_disk,
+    Missing: _on_missing,
     404: _on_missing,
     405: _on_other_method,
 }

@@ -23,7 +23,7 @@ from ..column.files import write_column
 from ..column.toml import checked
 from ..errors import InputError
 from . import columns
-from .answers import Answer, as_json, json_object, missing, refused
+from .answers import Answer, Missing, as_json, json_object, missing, refused
 from .asked import ASSEMBLY, COLUMN, FRAGILITY, RESULT, STUDY, JobAsked, commands, report_of, study
 from .assemblies import assembly_of
 from .cells import new_cells
@@ -121,14 +121,11 @@ class JobAnswers:
 
     async def one(self, request: Request) -> Response:
         """One job."""
-        job = self._job(request)
-        return missing("job") if job is None else Answer(self._shown(job, True))
+        return Answer(self._shown(self._job(request), True))
 
     async def act(self, request: Request) -> Response:
         """Cancel a job, or do it again."""
         job = self._job(request)
-        if job is None:
-            return missing("job")
         if request.path_params["act"] == "report":
             return Answer(self._shown(await run_in_threadpool(self._report, job)), 201)
         act = {"cancel": self.workshop.cancel, "again": self.workshop.again}.get(request.path_params["act"])
@@ -153,37 +150,28 @@ class JobAnswers:
     async def remove(self, request: Request) -> Response:
         """Cancel and forget a job."""
         job = self._job(request)
-        if job is None:
-            return missing("job")
         await run_in_threadpool(self.workshop.remove, job)
         return Answer({})
 
     async def film(self, request: Request) -> Response:
         """The film of a run."""
-        job = self._job(request)
-        path = None if job is None else job.folder / "film.json"
-        return (
-            missing("film") if path is None or not path.is_file() else FileResponse(path, media_type="application/json")
-        )
+        path = self._job(request, "film").folder / "film.json"
+        return FileResponse(path, media_type="application/json") if path.is_file() else missing("film")
 
     async def cells(self, request: Request) -> Response:
         """All finished cells of a domain."""
         job = self._job(request)
-        if job is None:
-            return missing("job")
         return Answer({"cells": await run_in_threadpool(new_cells, job.folder, set())})
 
     async def curves(self, request: Request) -> Response:
         """What can be drawn of an analysis."""
         job = self._job(request)
-        if job is None:
-            return missing("job")
         return Answer(await run_in_threadpool(curves, job.folder))
 
     async def file(self, request: Request) -> Response:
         """A file of a job, to be taken away: one of those that its list names."""
-        job, name = self._job(request), request.path_params["name"]
-        if job is None or name not in job.files():
+        job, name = self._job(request, "file"), request.path_params["name"]
+        if name not in job.files():
             return missing("file")
         ending = name.rpartition(".")[2]
         headers = {"content-security-policy": "sandbox; default-src 'none'; style-src 'unsafe-inline'; img-src data:"}
@@ -201,16 +189,12 @@ class JobAnswers:
     async def lines(self, request: Request) -> Response:
         """What to type to do a job again without the page."""
         job = self._job(request)
-        if job is None:
-            return missing("job")
         headers = {"content-disposition": f'attachment; filename="{LINES}"'}
         return Response(job.lines(), media_type="text/plain; charset=utf-8", headers=headers)
 
     async def archive(self, request: Request) -> Response:
         """All files of a job in one, with its command lines: what another machine needs to do it again."""
         job = self._job(request)
-        if job is None:
-            return missing("job")
         async with self._packing:
             packed = await run_in_threadpool(_packed, job)
         headers = {"content-disposition": f'attachment; filename="stylobate-{job.kind}-{job.id}.zip"'}
@@ -260,8 +244,12 @@ class JobAnswers:
         finally:
             self.listeners.discard(rung)
 
-    def _job(self, request: Request) -> Job | None:
-        return self.workshop.jobs.get(request.path_params["id"])
+    def _job(self, request: Request, what: str = "job") -> Job:
+        """The job that a request is about; ``what`` of it, for the answer where there is none."""
+        job = self.workshop.jobs.get(request.path_params["id"])
+        if job is None:
+            raise Missing(what)
+        return job
 
     def _shown(self, job: Job, whole: bool = False) -> dict[str, Any]:
         return job.to_dict(whole) | {"place": self.workshop.place(job)}

@@ -25,9 +25,9 @@ def added_commands(taken: Collection[str]) -> dict[str, Callable[..., None]]:
     for entry in entry_points(group=GROUP):
         try:
             if entry.name in taken or entry.name in found:
-                raise AttributeError("there is a command of this name already")
+                raise ValueError("there is a command of this name already")
             found[entry.name] = entry.load()
-        except (ImportError, AttributeError) as error:
+        except Exception as error:  # of somebody else's package, which may raise anything
             print(f"stylobate: warning: the command {_named(entry)} is left out: {error}.", file=sys.stderr)
     return found
 

@@ -42,7 +42,6 @@ def animate(
     from ..motion.specs import parse_time
     from ..plots.animation import write_gif, write_mp4
     from ..plots.player import write_player
-    from ..plots.scene import scene_of
     from ..plots.view import OBLIQUE, parse_view
     from ..response import load_response
     from . import console
@@ -80,12 +79,10 @@ def animate(
     if as_json:
         console.emit({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label})
     else:
-        console.say(scene_of(loaded).sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
+        console.say(loaded.sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
 
 
 def _number(option: str, text: str, high: float) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.") from None
-    return check_range(option, value, 0.0, high, open_low=True)
+    from ..motion.specs import parse_number
+
+    return check_range(option, parse_number(option, text, "such as 1"), 0.0, high, open_low=True)

@@ -46,8 +46,7 @@ def columns(
         return
     for one in chosen:
         console.say(one.name, _facts(one))
-    if files:
-        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+    console.print_files(files)
 
 
 def properties(column: Column) -> dict:

@@ -170,8 +170,7 @@ def compare(
         for name, text in said.items():
             print(f"{name}: {text}")
         (console.print_table if over_domain else console.print_side_by_side)(table)
-        if files:
-            print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+        console.print_files(files)
 
 
 def _chosen(label: str, labels: list[str], settings: list[str] | None) -> Model:

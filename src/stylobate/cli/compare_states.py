@@ -79,10 +79,8 @@ def run(
                 console.write_table(found.links, folder / "links.csv"),
                 *plots.save(plots.draw_states(found), folder / "states"),
                 console.asked(folder, "compare", **what, **population),
-                folder / "states.json",
             ]
-            summary["files"] = [str(one) for one in files]
-            console.write_json(files[-1], summary)
+            console.write_summary(summary, files, folder / "states.json")
     if as_json:
         console.emit(summary)
         return

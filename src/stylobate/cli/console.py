@@ -41,6 +41,11 @@ def say(sentence: str, facts: Mapping[str, str], files: list[Path] | None = None
     width = max((len(name) for name in facts), default=0)
     for name, value in facts.items():
         print(f"  {name:<{width}}  {value}")
+    print_files(files)
+
+
+def print_files(files: Sequence[Path] | None) -> None:
+    """Say which files were written, and where; nothing where there are none."""
     if files:
         print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
 
@@ -55,6 +60,13 @@ def as_json(value: Any, indent: int | None = None) -> str:
 def write_json(path: Path, value: Any) -> Path:
     """Write a JSON file, whole or not at all."""
     return write_text(path, as_json(value, indent=2))
+
+
+def write_summary(result: dict[str, Any], files: list[Path], path: Path) -> None:
+    """Write the JSON object of a command, which lists its files, as the last of them."""
+    files.append(path)
+    result["files"] = [str(file) for file in files]
+    write_json(path, result)
 
 
 def asked(folder: Path, command: str, **what: Any) -> Path:
@@ -257,42 +269,6 @@ def progress(title: str) -> Iterator[Callable[[float, float], None]]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(title, total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
-
-
-@contextmanager
-def stages() -> Iterator[Callable[[str, int, int], None]]:
-    """For work in many pieces, named "kind: piece": a bar with the remaining time of the piece on standard error, or a line
-    per kind if that is no terminal.
-    """
-    if sys.stderr.isatty():
-        from rich.console import Console
-        from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
-
-        columns = (
-            TimeRemainingColumn(),
-            BarColumn(bar_width=20),
-            MofNCompleteColumn(),
-            TextColumn("{task.description}"),
-        )
-        with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-            task = bar.add_task("")
-
-            def advance(what: str, done: int, total: int) -> None:
-                if bar.tasks[0].description != what:
-                    bar.reset(task, description=what)  # its speed is another one
-                bar.update(task, completed=done, total=total or None)
-
-            yield advance
-        return
-    seen: list[str] = []
-
-    def line(what: str, _: int, __: int) -> None:
-        kind = what.split(":")[0]
-        if [kind] != seen:
-            seen[:] = [kind]
-            print(f"{kind} ...", file=sys.stderr, flush=True)
-
-    yield line
 
 
 def length(value: float) -> str:

@@ -169,8 +169,7 @@ def over_suite(
     if result.worst is not None and len(result.results) > 1:
         print(f"Most harm: {result.worst.motion.name}, from {result.worst.critical_factor:.3g} times the record on.")
     console.print_refused(suite.refused)
-    if files:
-        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+    console.print_files(files)
 
 
 def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -86,29 +86,17 @@ def domain(
     with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain", "asked-domain.json") as folder:
         ledger, half = console.ledger(folder), console.ledger(folder, "half-step")
         with console.progress("cells") as progress:
-            result = collapse_domain(
-                study.column,
-                study.model,
-                study.frequencies,
-                study.amplitudes,
-                study.duration,
-                tail=study.tail,
-                threads=count,
-                progress=progress,
-                ledger=ledger,
-            )
+            result = collapse_domain(*_grid(study), tail=study.tail, threads=count, progress=progress, ledger=ledger)
         if not result.complete:
             raise Stopped(len(result.rows) - result.counts["not run"], len(result.rows), ledger)
         summary = result.summary()
         if half_step:
             from ..analysis.step_sensitivity import compare_steps
 
-            grid = (study.frequencies, study.amplitudes, study.duration)
             with console.progress("cells, half step") as progress:
                 pair = compare_steps(
-                    study.column, study.model, *grid, domain=result, tail=study.tail, threads=count, progress=progress,
-                    ledger=half,
-                )  # fmt: skip
+                    *_grid(study), domain=result, tail=study.tail, threads=count, progress=progress, ledger=half
+                )
             summary["half_step"] = pair.summary()
         files = [] if folder is None else write(result, folder, summary)
         if folder is not None:
@@ -155,16 +143,7 @@ def run_probability(study: Study, population: dict, threads: int, out: Path | No
     ) as folder:
         with console.progress("runs") as progress:
             result = collapse_probability(
-                study.column,
-                study.model,
-                study.frequencies,
-                study.amplitudes,
-                study.duration,
-                **population,
-                tail=study.tail,
-                threads=threads,
-                progress=progress,
-                out=folder,
+                *_grid(study), **population, tail=study.tail, threads=threads, progress=progress, out=folder
             )
         summary = result.summary()
         if not result.complete:
@@ -303,6 +282,11 @@ def _study(
         parse_time(duration or "10s"),
         parse_time(tail or "0s"),
     )
+
+
+def _grid(study: Study) -> tuple[Any, ...]:
+    """Column, model, frequencies, amplitudes and duration, as the analyses of a grid take them."""
+    return study.column, study.model, study.frequencies, study.amplitudes, study.duration
 
 
 def _needed(option: str, value: str | None, example: str) -> str:

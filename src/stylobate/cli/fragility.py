@@ -76,17 +76,14 @@ def fragility(
                 console.write_table(pandas.DataFrame(rows), folder / "fragility.csv"),
                 *plots.save(plots.draw_fragility(found), folder / "fragility"),
                 console.asked(folder, "fragility", sources=[str(one) for one in sources], state=state, im=im),
-                folder / "fragility.json",
             ]
-            result["files"] = [str(file) for file in files]
-            console.write_json(files[-1], result)
+            console.write_summary(result, files, folder / "fragility.json")
     if as_json:
         console.emit(result)
         return
     for one in found:
         describe(one)
-    if files:
-        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+    console.print_files(files)
 
 
 def curves(

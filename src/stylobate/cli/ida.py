@@ -118,9 +118,7 @@ def ida(
             taken = [how.taken(motion) for motion in records.motions]
             what = {"structures": [stone], "models": [how], "motions": taken}
             files.append(console.asked(folder, "ida", **what, im=measure.name, edp=edp, tail_s=after))
-            files.append(folder / "ida.json")
-            result["files"] = [str(file) for file in files]
-            console.write_json(files[-1], result)
+            console.write_summary(result, files, folder / "ida.json")
             console.done_with(ledger)
     if as_json:
         console.emit(result)

@@ -94,10 +94,7 @@ app.add_typer(_studies, name="study")
 
 def main() -> None:
     """Run the command line and end the process."""
-    for stream in (
-        sys.stdout,
-        sys.stderr,
-    ):  # file names need not be text; terminals may lack characters
+    for stream in (sys.stdout, sys.stderr):  # file names need not be text; terminals may lack characters
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")
     signals.listen()

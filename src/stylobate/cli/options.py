@@ -87,14 +87,6 @@ Pulse = Annotated[
 Synthetic = Annotated[
     str | None, typer.Option("--synthetic", metavar="SPEC", help="Simulated motion, such as greece,6.5Mw,20km,seed=3.")
 ]
-MotionFile = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--motion",
-        metavar="FILE",
-        help="Record of a ground motion, once per file of its components; or sample:NAME (stylobate motion --samples).",
-    ),
-]
 MotionFiles = Annotated[
     list[Path] | None,
     typer.Option(
@@ -278,14 +270,6 @@ def input_lines(motion: Motion) -> dict[str, str]:
     if done:
         found["processing"] = "; ".join(done)
     return found
-
-
-def number(option: str, text: str) -> float:
-    """A number as typed after an option."""
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.5.") from None
 
 
 def whole(option: str, text: str, example: int) -> int:

@@ -162,13 +162,10 @@ def mechanism_rows(mechanism) -> list[dict]:
 
 
 def number(option: str, text: str) -> float:
-    """A number as typed after an option."""
-    from ..errors import InputError
+    """A number in SI units as typed after an option."""
+    from ..motion.specs import parse_number
 
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"{option} is {text!r}; allowed is a number, in SI units, such as 0.5.") from None
+    return parse_number(option, text, "in SI units, such as 0.5")
 
 
 def the_loads(pattern: str | None, tilt: str, compressive_strength: str | None) -> dict:

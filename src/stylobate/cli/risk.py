@@ -57,10 +57,8 @@ def risk(
                 console.write_table(pandas.DataFrame(result["deaggregation"]), folder / "risk.csv"),
                 *plots.save(plots.draw_risk(found), folder / "risk"),
                 console.asked(folder, "risk", sources=[str(source)], hazards=[str(hazard)], state=state),
-                folder / "risk.json",
             ]
-            result["files"] = [str(file) for file in files]
-            console.write_json(files[-1], result)
+            console.write_summary(result, files, folder / "risk.json")
     if as_json:
         console.emit(result)
         return

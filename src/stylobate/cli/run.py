@@ -253,9 +253,7 @@ def conclude(
             if population is not None:
                 files += write_population(population, motion, model, response, folder, drawn.median)
             files += [console.asked(folder, "run", structures=[stone], models=[model], motions=[taken])]
-            files.append(folder / "run.json")
-            summary["files"] = [str(file) for file in files]
-            console.write_json(files[-1], summary)
+            console.write_summary(summary, files, folder / "run.json")
     if not quiet:
         describe(response, taken, files, population)
     return summary

@@ -62,6 +62,7 @@ def spectrum(
     Peaks of linear oscillators over their period, or of Housner's blocks over their size p and slenderness α.
     """
     from ..models.rocking.model import HousnerBlock
+    from ..motion.specs import parse_number
     from . import console
 
     if kind not in ("response", "rocking"):
@@ -75,13 +76,13 @@ def spectrum(
         blocks = {
             "frequency_parameters": _values("--p", sizes, geometric=True),
             "slendernesses": _values("--alpha", slendernesses),
-            "restitution": None if restitution is None else o.number("--restitution", restitution),
+            "restitution": None if restitution is None else parse_number("--restitution", restitution),
             "tail": o.the_tail(tail or "0s"),
             "threads": count,
         }
         compute = partial(rocking, motion, blocks)
     else:
-        share = 0.05 if damping is None else o.number("--damping", damping)
+        share = 0.05 if damping is None else parse_number("--damping", damping)
         compute = partial(response, motion, _values("--periods", periods, geometric=True), share)
     with console.folder(out, "spectrum.csv", "spectrum.json", "spectrum") as folder:
         result, said, written = compute(folder)
@@ -167,12 +168,14 @@ def _values(option: str, text: str | None, *, geometric: bool = False) -> np.nda
     """Numbers as typed: first:last:number, evenly spaced, or in equal ratios."""
     import numpy as np
 
+    from ..motion.specs import parse_number
+
     if text is None:
         return None
     parts = text.split(":")
     if len(parts) != 3 or not parts[2].isdecimal() or not 1 <= int(parts[2]) <= 1000:
         raise InputError(f"{option} is {text!r}; write first:last:number with a number from 1 to 1000.")
-    low, high, count = o.number(option, parts[0]), o.number(option, parts[1]), int(parts[2])
+    low, high, count = parse_number(option, parts[0]), parse_number(option, parts[1]), int(parts[2])
     if not 0.0 < low <= high < np.inf or (count > 1 and low == high):
         raise InputError(f"{option} is {text!r}; both ends must be positive and the first below the last.")
     return np.geomspace(low, high, count) if geometric else np.linspace(low, high, count)

@@ -47,9 +47,8 @@ def run(
         files.append(write_table(result.table, folder / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
         what = {"structures": study.columns, "models": study.models, "motions": study.motions}
         files.append(console.asked(folder, "study", **what, tail_s=study.tail))
-        files.append(folder / "study.json")
-        summary = result.summary() | {"refused": refused, "files": [str(one) for one in files]}
-        console.write_json(files[-1], summary)
+        summary = result.summary() | {"refused": refused}
+        console.write_summary(summary, files, folder / "study.json")
     if as_json:
         console.emit(summary)
         return

@@ -142,5 +142,4 @@ def suite(
         share = table["stepped_s"].sum() / table["duration_s"].sum()
         print(f"stepped: {100 * share:.0f} % of the records, without what is quiet (--whole steps all)")
     console.print_refused(records.refused)
-    if files:
-        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+    console.print_files(files)

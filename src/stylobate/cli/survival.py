@@ -62,10 +62,8 @@ def survival(
                     state=state,
                     age_y=years,
                 ),
-                folder / "survival.json",
             ]
-            result["files"] = [str(file) for file in files]
-            console.write_json(files[-1], result)
+            console.write_summary(result, files, folder / "survival.json")
     if as_json:
         console.emit(result)
         return
@@ -77,5 +75,4 @@ def survival(
         )
     for text in result["warnings"]:
         print(text)
-    if files:
-        print(f"{len(files)} files in {files[0].parent}: {', '.join(file.name for file in files)}")
+    console.print_files(files)

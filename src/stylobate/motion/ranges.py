@@ -15,14 +15,7 @@ MAX_VALUES = 100_000
 
 def frequency_range(text: str) -> np.ndarray:
     """Frequencies as typed, ``0.33:4:24`` (first, last, number) or ``0.5,1,2`` [Hz]."""
-
-    def parse(part: str) -> float:
-        try:
-            return float(part)
-        except ValueError:
-            return parse_frequency(part)
-
-    return values_of("frequencies", text, parse, "0.33:4:24")
+    return values_of("frequencies", text, _plain_or(parse_frequency), "0.33:4:24")
 
 
 def amplitude_range(text: str) -> np.ndarray:
@@ -32,14 +25,19 @@ def amplitude_range(text: str) -> np.ndarray:
 
 def azimuth_range(text: str) -> np.ndarray:
     """Azimuths as typed, ``0:330:12`` (first, last, number) or ``0,30deg,60deg`` [degrees]."""
+    return values_of("azimuths", text, _plain_or(parse_angle), "0:330:12")
 
-    def parse(part: str) -> float:
+
+def _plain_or(parse: Callable[[str], float]) -> Callable[[str], float]:
+    """Reads a number alone, or else a quantity with its unit."""
+
+    def either(part: str) -> float:
         try:
             return float(part)
         except ValueError:
-            return parse_angle(part)
+            return parse(part)
 
-    return values_of("azimuths", text, parse, "0:330:12")
+    return either
 
 
 def values_of(name: str, text: str, parse: Callable[[str], float], example: str) -> np.ndarray:

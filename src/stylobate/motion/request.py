@@ -17,7 +17,15 @@ from .motion import Motion
 from .orientation import keep_axes, rotated, turned
 from .ranges import azimuth_range
 from .readers import Suite, read_motion, read_suite
-from .specs import parse_acceleration, parse_angle, parse_harmonic, parse_pulse, parse_synthetic, parse_time
+from .specs import (
+    parse_acceleration,
+    parse_angle,
+    parse_harmonic,
+    parse_number,
+    parse_pulse,
+    parse_synthetic,
+    parse_time,
+)
 
 #: What may be asked for of the horizontal components of a record besides one of them by name.
 COMPONENTS = ("all", "strongest")
@@ -148,7 +156,7 @@ class MotionRequest:
             dt=None if dt is None else parse_time(dt),
             azimuths=turns if azimuth is None else (_angle("--azimuth", azimuth),),
             condition=tuple(condition or ()),
-            scale=None if scale is None else _number("--scale", scale),
+            scale=None if scale is None else parse_number("--scale", scale),
             pga=None if pga is None else parse_acceleration(pga),
             vertical=vertical == "on",
             **{key: value for key, value in texts.items() if value is not None},
@@ -321,13 +329,6 @@ def _reversed(motion: Motion, record: str) -> Motion:
         metadata={**motion.metadata, "direction": {**_direction(motion, record), "reversed": True}},
         processing=(*motion.processing, "horizontal components reversed"),
     )
-
-
-def _number(option: str, text: str) -> float:
-    try:
-        return float(text)
-    except ValueError:
-        raise InputError(f"{option} is {text!r}; allowed is a number, such as 1.5.") from None
 
 
 def _angle(option: str, text: str) -> float:

@@ -97,6 +97,14 @@ def acceleration_unit(text: str) -> tuple[str, float]:
     return key, ACCELERATION_UNITS[key]
 
 
+def parse_number(option: str, text: str, example: str = "such as 1.5") -> float:
+    """A number without a unit, as typed after an option."""
+    try:
+        return float(text)
+    except ValueError:
+        raise InputError(f"{option} is {text!r}; allowed is a number, {example}.") from None
+
+
 def parse_acceleration(text: str) -> float:
     """An acceleration such as ``0.3g``, ``2.9m/s2`` or ``300gal`` in m/s²."""
     return _quantity(text, "acceleration", "0.3g")
@@ -104,13 +112,7 @@ def parse_acceleration(text: str) -> float:
 
 def parse_velocity(text: str) -> float:
     """A velocity such as ``0.2m/s`` or ``20cm/s`` in m/s."""
-    match = _QUANTITY.fullmatch(text)
-    size = None if match is None or match.group(1) == "?" else VELOCITY_UNITS.get((match.group(2) or "").lower())
-    if match is None or size is None:
-        raise InputError(
-            f"velocity {text!r} is not understood; write it with its unit, as in '0.2m/s' (m/s, cm/s, mm/s)."
-        )
-    return _number(match.group(1), f"velocity {text!r}") * size
+    return _in_units(text, "velocity", VELOCITY_UNITS, "", "'0.2m/s' (m/s, cm/s, mm/s)")
 
 
 def parse_time(text: str) -> float:
@@ -120,13 +122,7 @@ def parse_time(text: str) -> float:
 
 def parse_pressure(text: str) -> float:
     """A pressure or strength such as ``2MPa`` in Pa; a number alone is in Pa."""
-    match = _QUANTITY.fullmatch(text)
-    size = None if match is None or match.group(1) == "?" else PRESSURE_UNITS.get((match.group(2) or "Pa").lower())
-    if match is None or size is None:
-        raise InputError(
-            f"pressure {text!r} is not understood; write it with its unit, as in '2MPa' (Pa, kPa, MPa, GPa)."
-        )
-    return _number(match.group(1), f"pressure {text!r}") * size
+    return _in_units(text, "pressure", PRESSURE_UNITS, "Pa", "'2MPa' (Pa, kPa, MPa, GPa)")
 
 
 def parse_frequency(text: str) -> float:
@@ -322,6 +318,15 @@ def _measure(text: str, where: str, example: str) -> tuple[str, float]:
     except InputError:
         raise InputError(f"{where}: unit {unit!r} is unknown here; write it as {example!r}.") from None
     return "acceleration", math.nan if number == "?" else _number(number, where) * size
+
+
+def _in_units(text: str, kind: str, units: dict[str, float], usual: str, example: str) -> float:
+    """A quantity in one of some units; ``usual`` is that of a number alone."""
+    match = _QUANTITY.fullmatch(text)
+    size = None if match is None or match.group(1) == "?" else units.get((match.group(2) or usual).lower())
+    if match is None or size is None:
+        raise InputError(f"{kind} {text!r} is not understood; write it with its unit, as in {example}.")
+    return _number(match.group(1), f"{kind} {text!r}") * size
 
 
 def _number(text: str, where: str) -> float:

@@ -13,7 +13,7 @@ from ..atomic import replacing
 from ..errors import InputError, check_range
 from ..response import Response
 from .link_marks import draw_links
-from .scene import Scene, draw_bodies, scale_bar, scene_of, seen
+from .scene import Scene, draw_bodies, scale_bar, seen
 from .solid_frame import draw_solids, paint
 from .style import BLACK, BLUE, GREY, RED, plain, styled
 from .view import OBLIQUE, View
@@ -133,7 +133,7 @@ def _words(scene: Scene, index: int) -> str:
 
 def film_of(response: Response, seen_from: View) -> Scene:
     """What a film shows: bodies in space from somewhere, others along y."""
-    return scene_of(response, seen_from if response.dims == "xyz" else None)
+    return Scene(response, seen_from if response.dims == "xyz" else None)
 
 
 def write_gif(

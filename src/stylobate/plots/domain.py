@@ -82,16 +82,34 @@ def draw_cells(axes: Axes, frequencies: np.ndarray, amplitudes: np.ndarray, verd
     x, y = edges_of(frequencies), edges_of(amplitudes / g)
     handles = []
     for one, fill in FILL.items():
-        cells = [
-            [(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])]
-            for i, j in np.argwhere(verdicts == one)
-        ]
-        if not cells:
-            continue
-        axes.add_collection(PolyCollection(cells, antialiaseds=False, zorder=1, rasterized=len(cells) > 20_000, **fill))
-        frame = {"edgecolor": "#999999", "linewidth": 0.5}
-        handles.append(Patch(label=f"{one} ({len(cells)})", **(frame | fill if "hatch" in fill else fill | frame)))
+        if number := fill_cells(axes, x, y, verdicts == one, fill):
+            handles.append(Patch(label=f"{one} ({number})", **framed(fill)))
     return handles
+
+
+def fill_cells(axes: Axes, x: np.ndarray, y: np.ndarray, where: np.ndarray, fill: dict[str, Any]) -> int:
+    """Fill some cells of a grid; returns how many.
+
+    Parameters
+    ----------
+    axes : Axes
+    x, y : array
+        Edges of the cells, shapes (F + 1,) and (A + 1,).
+    where : array of bool
+        Which cells, shape (F, A).
+    fill : dict
+        How they look.
+    """
+    cells = [[(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])] for i, j in np.argwhere(where)]
+    if cells:
+        axes.add_collection(PolyCollection(cells, antialiaseds=False, zorder=1, rasterized=len(cells) > 20_000, **fill))
+    return len(cells)
+
+
+def framed(fill: dict[str, Any]) -> dict[str, Any]:
+    """The look of cells in a legend: with a frame, where they are not hatched."""
+    frame = {"edgecolor": "#999999", "linewidth": 0.5}
+    return frame | fill if "hatch" in fill else fill | frame
 
 
 def draw_boundary(axes: Axes, domain: Domain, line: dict, label: str, marker: str | None = None) -> Line2D | None:

@@ -6,7 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
 from ..response import ENERGY_TERMS, Response
-from .scene import describe, seen
+from ..response.words import title_of
+from .scene import seen
 from .style import CYCLE, GREY, WIDTH, in_lines, page, styled, zero_line
 
 
@@ -42,7 +43,7 @@ def draw_energy(
     upper.legend(loc="upper left", ncols=3)
     bottom, top = upper.get_ylim()
     upper.set_ylim(bottom, top + 0.25 * (top - bottom))
-    upper.set_title(in_lines(title or describe(response)))
+    upper.set_title(in_lines(title or title_of(response)))
     zero_line(lower)
     word, largest = "input", float(np.nanmax(np.abs(energy["input"])))
     if response.followed:  # what falls releases more than what shook it put in

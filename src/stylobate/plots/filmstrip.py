@@ -12,8 +12,9 @@ from matplotlib.figure import Figure, SubFigure
 from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, telling_states
+from ..response.words import title_of
 from .link_marks import draw_links
-from .scene import Scene, describe, draw_bodies, scene_of
+from .scene import Scene, draw_bodies
 from .style import WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y
 
@@ -52,7 +53,7 @@ def draw_filmstrip(
         To draw in; a new one by default.
     """
     space = response.dims == "xyz"
-    scenes = [scene_of(response, view) for view in ((ALONG_X, ALONG_Y) if space else (None,))]
+    scenes = [Scene(response, view) for view in ((ALONG_X, ALONG_Y) if space else (None,))]
     scene = scenes[0]
     frames = telling_states(response) if instants is None else _frames_at(response.time, instants)
     factor = _magnification(scenes) if magnification is None else magnification
@@ -71,7 +72,7 @@ def draw_filmstrip(
         along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
         axes.set_title(f"{scene.time[index]:.2f} s\n{along}{far} {unit}", fontsize=8.5, loc="center")
     said = "" if factor == 1.0 else f" (displacements × {factor:g})"
-    figure.suptitle(in_lines((title or describe(response)) + said), x=0.01, ha="left", fontsize=10.0)
+    figure.suptitle(in_lines((title or title_of(response)) + said), x=0.01, ha="left", fontsize=10.0)
     return figure
 
 

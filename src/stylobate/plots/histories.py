@@ -12,7 +12,8 @@ from matplotlib.figure import Figure, SubFigure
 from ..constants import g
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
-from .scene import describe, seen
+from ..response.words import title_of
+from .scene import seen
 from .style import BLACK, BLUE, CYCLE, GREY, RED, WIDTH, in_lines, page, styled, zero_line
 
 #: Blocks of an assembly that are drawn by name.
@@ -61,7 +62,7 @@ def draw_histories(
         _mark_collapse(upper, [(response, BLACK)])
         _focus(upper, [response], (begin, end))
     uppers[0].legend(loc="upper left", ncols=2)
-    uppers[0].set_title(in_lines(title or describe(response)))
+    uppers[0].set_title(in_lines(title or title_of(response)))
     _draw_ground(lower, response, (begin, end))
     figure.align_ylabels()
     return figure
@@ -98,7 +99,7 @@ def _draw_blocks(
             axes.axvline(first, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
     said = f"; in grey the other {others} blocks" if others > 0 else ""
     panels[1].set_title(f"relative to the ground{said}", loc="right", fontsize=8.0)
-    panels[0].set_title(in_lines(title or describe(response)))
+    panels[0].set_title(in_lines(title or title_of(response)))
     _draw_ground(panels[2], response, window)
     figure.align_ylabels()
     return figure

@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..response import Response
-from .scene import describe, seen
+from ..response.words import title_of
+from .scene import seen
 from .style import BLACK, BROWN, GREY, SAND, WIDTH, in_lines, only_panel, styled
 
 
@@ -70,5 +71,5 @@ def draw_joints(
     axes.set_yticks(range(1, n + 1, every))
     axes.set_xlabel("time [s]")
     axes.set_ylabel("joint, from the base\n(opening, each to its peak)")
-    axes.set_title(in_lines(title or describe(response)))
+    axes.set_title(in_lines(title or title_of(response)))
     return figure

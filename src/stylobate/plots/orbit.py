@@ -12,8 +12,8 @@ from matplotlib.patches import Ellipse, Patch, Rectangle
 
 from ..response import Response
 from ..response.shapes import CircularFrustum
+from ..response.words import title_of
 from .panels import until_collapse
-from .scene import describe
 from .style import BLACK, BLUE, BROWN, RED, SAND, only_panel, styled
 
 #: Width and height of the picture [inch]: a column of a journal.
@@ -70,7 +70,7 @@ def draw_orbit(
     axes.set_aspect("equal")
     axes.set_xlabel(f"top, along x [{unit}]")
     axes.set_ylabel(f"top, along y [{unit}]")
-    words = textwrap.fill(title or describe(response), 52)
+    words = textwrap.fill(title or title_of(response), 52)
     if ax is not None:
         axes.legend(handles, labels, loc="best", handletextpad=0.4)
         axes.set_title(words, fontsize=9.0)

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
@@ -16,6 +15,7 @@ from ..analysis import verdicts as v
 from ..analysis.domain import cell_edges
 from ..analysis.probability import CollapseProbability
 from ..constants import g
+from .domain import fill_cells, framed
 from .style import BLACK, BLUE, HALO, RED, SAND, WIDTH, page, styled
 
 #: Classes of the share that collapses: upper end, label, and a fill that darkens evenly, in grey as well.
@@ -110,15 +110,8 @@ def draw_shares(axes: Axes, result: CollapseProbability) -> list[Patch]:
     handles = []
     for k, (_, label, color) in [*enumerate(CLASSES), (-1, (0.0, "no verdict", ""))]:
         fill: dict[str, Any] = {"facecolor": color, "edgecolor": "none"} if k >= 0 else _UNKNOWN
-        cells = [
-            [(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])]
-            for i, j in np.argwhere(class_of == k)
-        ]
-        if cells:
-            axes.add_collection(PolyCollection(cells, antialiaseds=False, zorder=1, **fill))
-        if cells or k >= 0:
-            frame: dict[str, Any] = {"edgecolor": "#999999", "linewidth": 0.5}
-            handles.append(Patch(label=label, **(frame | fill if k < 0 else fill | frame)))
+        if fill_cells(axes, x, y, class_of == k, fill) or k >= 0:
+            handles.append(Patch(label=label, **framed(fill)))
     return handles
 
 

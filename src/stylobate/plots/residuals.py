@@ -10,8 +10,8 @@ from matplotlib.figure import Figure, SubFigure
 
 from ..response import Response
 from ..response.shapes import Shape
+from ..response.words import title_of
 from .panels import most, panels_for, say, until_collapse
-from .scene import describe
 from .style import BLUE, BROWN, GREY, SAND, styled
 from .uplift import face_outline, rim_radius
 
@@ -55,7 +55,7 @@ def draw_residuals(response: Response, title: str | None = None, *, figure: Figu
         axes.set_title(words, fontsize=7.0, loc="center", pad=1.0)
     when = "At the end" if math.isnan(response.collapse_time) else "Where collapse became certain"
     drawn = "as they are" if far == turned == 1.0 else f"offsets × {far:g}, twists × {turned:g}"
-    words = f"{when} ({drawn}; x to the right, y up): {describe(response)}"
+    words = f"{when} ({drawn}; x to the right, y up): {title_of(response)}"
     say(figure, title or words, len(twist) - len(shown))
     return figure
 

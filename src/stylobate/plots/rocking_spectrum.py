@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Patch
@@ -15,7 +14,7 @@ from matplotlib.ticker import FixedLocator, NullLocator
 
 from ..analysis.rocking_spectrum import RockingSpectrum
 from ..constants import g
-from .domain import edges_of
+from .domain import edges_of, fill_cells
 from .style import BLACK, WIDTH, page, styled
 
 #: Light to dark in colour and in grey, and lighter than the blocks that fell.
@@ -54,13 +53,10 @@ def draw_rocking_spectrum(
     handles = []
     groups = {"closed": spectrum.closed, "overturned": fallen, "undecided": ~spectrum.decided}
     for name, chosen in groups.items():
-        cells = [
-            [(x[i], y[j]), (x[i + 1], y[j]), (x[i + 1], y[j + 1]), (x[i], y[j + 1])] for i, j in np.argwhere(chosen)
-        ]
-        if cells:
+        if number := int(chosen.sum()):
             if name != "closed":
-                axes.add_collection(PolyCollection(cells, antialiaseds=False, **_FILL[name]))
-            handles.append(Patch(label=f"{name} ({len(cells)})", **_FILL[name]))
+                fill_cells(axes, x, y, chosen, _FILL[name])
+            handles.append(Patch(label=f"{name} ({number})", **_FILL[name]))
     axes.set_xscale("log")
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(y[0], y[-1])

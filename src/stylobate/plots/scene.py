@@ -17,7 +17,6 @@ from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.poses import exaggerated, rotation_matrices
 from ..response.shapes import hull
-from ..response.words import title_of
 from .solids import Solid, Surface, surface_of
 from .style import BLACK, BROWN, GREY, SAND
 from .view import View
@@ -190,16 +189,6 @@ class Scene:
 
     def _moving(self, index: int) -> list[np.ndarray]:
         return [shape for shape, fixed in zip(self.outlines(index), self.fixed, strict=True) if not fixed]
-
-
-def scene_of(response: Response, seen_from: View | None = None) -> Scene:
-    """The scene of a response; one in space may be seen from anywhere."""
-    return Scene(response, seen_from)
-
-
-def describe(response: Response) -> str:
-    """What stood, motion, model and outcome in one line."""
-    return title_of(response)
 
 
 def seen(time: np.ndarray, window: tuple[float, float] | None) -> tuple[float, float]:

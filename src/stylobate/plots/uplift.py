@@ -10,8 +10,8 @@ from matplotlib.figure import Figure, SubFigure
 from ..response import Response
 from ..response.poses import rotation_matrices
 from ..response.shapes import CircularFrustum, Shape, hull
+from ..response.words import title_of
 from .panels import most, panels_for, say, until_collapse
-from .scene import describe
 from .style import BROWN, GREY, SAND, styled
 
 #: Directions around a rim.
@@ -110,5 +110,5 @@ def draw_uplift(response: Response, title: str | None = None, *, figure: Figure 
         toward = math.degrees(azimuth[int(peaks[i].argmax())])
         said = f"{largest:.3g} mm, {toward:.0f}°" if largest > 5e-3 else "closed"
         axes.set_title(f"joint {i + 1}\n{said}", fontsize=7.0, loc="center", pad=4.0)
-    say(figure, title or f"Largest uplift by direction: {describe(response)}", len(peaks) - len(shown))
+    say(figure, title or f"Largest uplift by direction: {title_of(response)}", len(peaks) - len(shown))
     return figure

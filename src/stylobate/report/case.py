@@ -16,6 +16,8 @@ from .others import sections_of
 from .pdf import print_pdf
 from .runs import run_sections, several_sections
 
+TEMPLATE = Path(__file__).with_name("case.html")
+
 #: What each kind of result is called.
 TITLES = {
     "run": "run in time",
@@ -84,7 +86,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) 
     kinds = ", ".join(dict.fromkeys(TITLES[one.kind.value] for one in found))
     lead = [f"{kinds[:1].upper()}{kinds[1:]}. Written on {date.today().isoformat()} by stylobate {__version__}."]
     values = {"version": __version__, "day": date.today().isoformat(), "lead": page.kinds(lead), "cases": cases}
-    files = [page.write_html(target, "case.html", title=title or f"Report: {names}", **values)]
+    files = [page.write_html(target, TEMPLATE, title=title or f"Report: {names}", **values)]
     if pdf:
         files.append(print_pdf(target, target.with_suffix(".pdf")))
     return files

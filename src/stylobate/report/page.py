@@ -137,25 +137,9 @@ _KINDS = {
 }
 
 
-def write_page(path: Path, title: str, lead: Sequence[Item], sections: Sequence[Section]) -> Path:
-    """Write the page, whole or not at all.
-
-    Parameters
-    ----------
-    path : path
-        The HTML file.
-    title : str
-    lead : sequence of Item
-        At the top.
-    sections : sequence of Section
-    """
-    parts = [part(one) for one in sections]
-    return write_html(path, "page.html", title=title, lead=kinds(lead), sections=parts)
-
-
-def write_html(path: Path, template: str, **values: Any) -> Path:
-    """Render a template of this room and write the page, whole or not at all."""
-    text = _pages().get_template(template).render(**values)
+def write_html(path: Path, template: Path, **values: Any) -> Path:
+    """Render a template, which may include those of this room, and write the page, whole or not at all."""
+    text = _pages(template.parent).get_template(template.name).render(**values)
     with replacing(path) as partial_file:
         # what is no text (bytes of a file's name) is shown as such
         partial_file.write_bytes(text.encode("utf-8", "backslashreplace"))
@@ -172,11 +156,11 @@ def kinds(items: Sequence[Item]) -> list[dict[str, Any]]:
     return [{"kind": _KINDS[type(one)], "value": one} for one in items]
 
 
-def _pages() -> Environment:
+def _pages(folder: Path) -> Environment:
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
     pages = Environment(
-        loader=FileSystemLoader(Path(__file__).parent),
+        loader=FileSystemLoader([folder, Path(__file__).parent]),
         autoescape=True,
         undefined=StrictUndefined,
         keep_trailing_newline=True,

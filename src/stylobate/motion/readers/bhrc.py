@@ -9,7 +9,7 @@ from .checks import CUT, check_length, check_step, printed, warn_of_missing
 from .numbers import number_in, read_numbers
 from .record import Component, oriented
 from .source import Source
-from .volume1 import channel_end, length, points, unit
+from .volume1 import channel_end, channels, header_ends, length, points, unit
 
 TEXT_LINES, HEADER_LINES = 13, 27
 #: Line of the reals, from the first line of the channel, that begins with the samples per second.
@@ -26,14 +26,7 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> tuple[list[Component], dict]:
     """All components and what the headers say."""
     lines, file = source.lines, source.name
-    components = []
-    start = 0
-    while start < len(lines):
-        if not lines[start].strip():
-            start += 1
-            continue
-        component, start = _component(lines, start, file)
-        components.append(component)
+    components = channels(lines, lambda start: _component(lines, start, file))
     warn_of_missing(len(components), 3, file)
     number = re.search(r":\s*([^/\s]+)", lines[0])
     return components, {
@@ -51,9 +44,7 @@ def _component(lines: list[str], start: int, file: str) -> tuple[Component, int]
     text = lines[start : start + TEXT_LINES]
     data = start + HEADER_LINES
     if data >= len(lines):
-        raise InputError(
-            f"{file}, line {start + 1}: the channel that begins here ends within its header; fetch it again."
-        )
+        raise header_ends(file, start)
     count = points(text, file, start)
     total = length(text)
     if total is None or printed(total)[0] <= 0.0:

@@ -17,6 +17,7 @@ from .checks import CUT, check_ended, check_length, check_peak, check_peak_time,
 from .numbers import NUMBER, fortran_width, read_numbers
 from .record import Component, check_count, check_direction, direction, oriented
 from .source import Source
+from .volume1 import channels
 
 _HEADER = re.compile(
     r"^\s*(?P<count>\d+)\s+(?P<kind>integer|real)-header values follow on\s+(?P<lines>\d+)", re.IGNORECASE
@@ -51,15 +52,8 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> tuple[list[Component], dict]:
     """Components and metadata of all channels in the file."""
     lines, file = source.lines, source.name
-    components, stages = [], []
-    start = 0
-    while start < len(lines):
-        if not lines[start].strip():
-            start += 1
-            continue
-        component, stage, start = _channel(lines, start, file)
-        components.append(component)
-        stages.append(stage)
+    found = channels(lines, lambda start: _channel(lines, start, file))
+    components, stages = [one for one, _ in found], [stage for _, stage in found]
     first = components[0].metadata
     keep = ("station", "station_name", "network", "event", "start_time")
     return components, {
@@ -69,8 +63,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     } | {key: first[key] for key in keep if key in first}
 
 
-def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, int]:
-    """One channel; returns it, its stage and the index of the line after it."""
+def _channel(lines: list[str], start: int, file: str) -> tuple[tuple[Component, str], int]:
+    """One channel and its stage; the index of the line after it."""
     at, integers = _numbers(lines, start, "integer", file)
     text = [line for line in lines[start:at] if not _HEADER.match(line)]
     text = text[: next((i for i, line in enumerate(lines[start:at]) if _HEADER.match(line)), len(text))]
@@ -105,7 +99,7 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
     _check(component, text, reals, stage, file, start)
     component = oriented(component)
     check_direction(component, float(integers[53]), file, start + 1)
-    return component, stage, end + 1
+    return (component, stage), end + 1
 
 
 def _check(component: Component, text: list[str], reals: np.ndarray, stage: str, file: str, start: int) -> None:

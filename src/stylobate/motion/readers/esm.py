@@ -13,7 +13,7 @@ import numpy as np
 from ...errors import InputError
 from ..specs import acceleration_unit
 from .checks import CUT, check_length, check_peak, check_peak_time, check_step
-from .keyed import is_numeric
+from .keyed import is_numeric, number_after
 from .numbers import number_in, read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
@@ -62,11 +62,11 @@ def read(source: Source) -> tuple[list[Component], dict]:
     if kind and ("ACCELERATION" not in kind.upper() or "SPECTRUM" in kind.upper()):
         raise InputError(f"{file}, line {line}: data_type is {kind}; give the file of accelerations.")
     unit, size = _unit(found["unit"], file)
-    count = check_count(_number(found["count"], "NDATA", file), file, found["count"][1])
+    count = check_count(number_after(*found["count"], "NDATA", file), file, found["count"][1])
     if found["step"][0]:
-        dt = check_step(_number(found["step"], "SAMPLING_INTERVAL", file), file, found["step"][1])
+        dt = check_step(number_after(*found["step"], "SAMPLING_INTERVAL", file), file, found["step"][1])
     else:
-        rate = _number(found["rate"], "SAMPLING RATE", file)
+        rate = number_after(*found["rate"], "SAMPLING RATE", file)
         dt = check_step(1.0 / rate if rate > 0.0 else None, file, found["rate"][1])
     values = _values(lines, start, count, file)
     label = _TO_EAST.get(found["label"][0].upper(), found["label"][0])
@@ -117,15 +117,6 @@ def _unit(stated: tuple[str, int], file: str) -> tuple[str, float]:
     if not value:
         raise InputError(f"{file}: the header states no UNITS; add them, as in UNITS: cm/s^2.")
     return acceleration_unit(re.split(r"[,;&]", value)[0].strip().replace("/s*s", "/s2").replace("(s*s)", "s2"))
-
-
-def _number(stated: tuple[str, int], key: str, file: str) -> float:
-    value, line = stated
-    number = number_in(value)
-    if number is None:
-        where = f"line {line}" if line else "header"
-        raise InputError(f"{file}, {where}: expected a number after {key!r}, found {value!r}; fetch it again.")
-    return number
 
 
 def _first_word(value: str) -> str | None:

@@ -35,8 +35,19 @@ def number_of(header: dict[str, tuple[str, int]], key: str, file: str) -> tuple[
         The key is missing, or holds no number.
     """
     value, line = next((entry for name, entry in header.items() if name.startswith(key)), ("", 0))
+    return number_after(value, line, key.upper(), file), line
+
+
+def number_after(value: str, line: int, key: str, file: str) -> float:
+    """The number that a value begins with.
+
+    Raises
+    ------
+    InputError
+        It begins with none.
+    """
     number = number_in(value)
     if number is None:
         where = f"line {line}" if line else "header"
-        raise InputError(f"{file}, {where}: expected a number after {key.upper()!r}, found {value!r}; fetch it again.")
-    return number, line
+        raise InputError(f"{file}, {where}: expected a number after {key!r}, found {value!r}; fetch it again.")
+    return number

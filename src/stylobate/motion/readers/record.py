@@ -188,30 +188,28 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
     raise InputError(f"{name} has no component {wanted!r}; it holds {labels}: give a number, a label or an axis.")
 
 
+def _doubt(text: str) -> None:
+    warnings.warn(text, OutOfRangeWarning, stacklevel=5)
+
+
 def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None:
     peaks = {axis: float(np.abs(array).max(initial=0.0)) / g for axis, array in values.items()}
     for axis, peak in peaks.items():
         if peak > LARGEST_PEAK:
-            warnings.warn(
-                f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit.",
-                OutOfRangeWarning,
-                stacklevel=4,
+            _doubt(
+                f"{name}: the peak of component {axis} is {peak:.3g} g, more than was ever recorded; check the unit."
             )
     if 0.0 < max(peaks.values()) < SMALLEST_PEAK:
-        warnings.warn(
+        _doubt(
             f"{name}: the peak is {max(peaks.values()):.3g} g, which shakes no column; check the unit, and whether these "
-            "are accelerations.",
-            OutOfRangeWarning,
-            stacklevel=4,
+            "are accelerations."
         )
     for axis, array in values.items():
         fastest = float(np.abs(integrate(array, step)).max())
         if fastest > LARGEST_VELOCITY and peaks[axis] <= LARGEST_PEAK:
-            warnings.warn(
+            _doubt(
                 f"{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
-                "unit and the step, or take off the drift of the baseline (--condition baseline).",
-                OutOfRangeWarning,
-                stacklevel=4,
+                "unit and the step, or take off the drift of the baseline (--condition baseline)."
             )
 
 
@@ -220,12 +218,10 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         peak = float(np.abs(array).max(initial=0.0))
         mean = float(array.mean()) if array.size else 0.0
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
-            warnings.warn(
+            _doubt(
                 f"{name}: the mean of component {axis} is {mean / g:.3g} g, {abs(mean) / peak:.0%} of its peak, as "
                 "when an instrument's offset was left in; take it off with stylobate.motion.demean (--condition "
-                "demean) unless it is meant.",
-                OutOfRangeWarning,
-                stacklevel=4,
+                "demean) unless it is meant."
             )
 
 

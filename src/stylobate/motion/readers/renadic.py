@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import re
 
-from ...errors import InputError
 from .checks import warn_of_missing
 from .record import Component, oriented
 from .source import Source
-from .volume1 import channel_end, check_stated_peak, length, pairs, points, unit
+from .volume1 import channel_end, channels, check_stated_peak, header_ends, length, pairs, points, unit
 
 TEXT_LINES, HEADER_LINES = 13, 27
 _CHANNELS = re.compile(r"\(\s*(?P<count>\d+)\s+chns\b", re.IGNORECASE)
@@ -22,28 +21,7 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> tuple[list[Component], dict]:
     """All channels and what the headers say."""
     lines, file = source.lines, source.name
-    components = []
-    start = 0
-    while start < len(lines):
-        if not lines[start].strip():
-            start += 1
-            continue
-        text = lines[start : start + TEXT_LINES]
-        data = start + HEADER_LINES
-        if data >= len(lines):
-            raise InputError(
-                f"{file}, line {start + 1}: the channel that begins here ends within its header; fetch it again."
-            )
-        count = points(text, file, start)
-        end = channel_end(lines, data, file)
-        component = pairs(lines, data, end, count, file, width=7, total=length(text))
-        component.metadata["unit"], size = unit(text, "g/10", file, start)
-        component.values = component.values * size
-        check_stated_peak(component, text, file, start)
-        component.label = re.sub(r"^\W*(comp\w*|chan\w*|canal)\W*(\d+\W+)?", "", text[6].strip(), flags=re.IGNORECASE)
-        component.label = component.label.split()[0] if component.label.split() else ""
-        components.append(oriented(component))
-        start = end + 1
+    components = channels(lines, lambda start: _channel(lines, start, file))
     stated = next((int(found["count"]) for line in lines[:TEXT_LINES] if (found := _CHANNELS.search(line))), None)
     warn_of_missing(len(components), None if stated is None else min(stated, 3), file)
     name = lines[5].upper().split("S/N")[0].strip() or None
@@ -56,3 +34,20 @@ def read(source: Source) -> tuple[list[Component], dict]:
         "event": lines[1].strip() or None,
         "start_time": lines[3].strip() or None,
     }
+
+
+def _channel(lines: list[str], start: int, file: str) -> tuple[Component, int]:
+    """One channel; the index of the line after it."""
+    text = lines[start : start + TEXT_LINES]
+    data = start + HEADER_LINES
+    if data >= len(lines):
+        raise header_ends(file, start)
+    count = points(text, file, start)
+    end = channel_end(lines, data, file)
+    component = pairs(lines, data, end, count, file, width=7, total=length(text))
+    component.metadata["unit"], size = unit(text, "g/10", file, start)
+    component.values = component.values * size
+    check_stated_peak(component, text, file, start)
+    component.label = re.sub(r"^\W*(comp\w*|chan\w*|canal)\W*(\d+\W+)?", "", text[6].strip(), flags=re.IGNORECASE)
+    component.label = component.label.split()[0] if component.label.split() else ""
+    return oriented(component), end + 1

@@ -81,10 +81,9 @@ def _channels(header: dict[str, tuple[str, int]], key: str) -> list[str]:
 
 def _list(header: dict[str, tuple[str, int]], key: str, file: str) -> list[str]:
     """Values of the channels, between slashes."""
-    value, line = next((entry for name, entry in header.items() if name.startswith(key)), ("", 0))
-    parts = [part.strip() for part in value.split("/")]
-    parts = [part for part in parts if part]
+    parts = _channels(header, key)
     if not parts:
+        line = header_line(header, key)
         raise InputError(
             f"{file}, line {line}: expected the channels' values of {key.upper()!r}; fetch the file again."
         )

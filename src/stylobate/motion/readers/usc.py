@@ -9,7 +9,7 @@ from ...errors import InputError
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
-from .volume1 import END, channel_end, pairs, unit
+from .volume1 import END, channel_end, channels, pairs, unit
 
 TEXT_LINES = 13
 #: Of a number among the samples [characters].
@@ -25,27 +25,21 @@ def recognises(source: Source) -> bool:
 def read(source: Source) -> tuple[list[Component], dict]:
     """All channels and what the headers say."""
     lines, file = source.lines, source.name
-    components = []
-    start = 0
-    station = None
-    while start < len(lines):
-        if not lines[start].strip():
-            start += 1
-            continue
-        component, station, start = _channel(lines, start, file)
-        components.append(component)
+    found = channels(lines, lambda start: _channel(lines, start, file))
+    components = [one for one, _ in found]
     return components, {
         "format": "USC V1",
         "stage": "uncorrected",
         "unit": components[0].metadata["unit"],
-        "station": station,
+        "station": found[-1][1],
         "station_name": re.split(r"\s{2,}", lines[5].strip())[0] or None,
         "network": "LA",
         "event": re.split(r"\s{2,}", lines[1].strip())[0] or None,
     }
 
 
-def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, int]:
+def _channel(lines: list[str], start: int, file: str) -> tuple[tuple[Component, str], int]:
+    """One channel and its station; the index of the line after it."""
     first = start + TEXT_LINES
     reals_at = first
     while reals_at < len(lines) and lines[reals_at].strip() and "." not in lines[reals_at]:
@@ -74,4 +68,4 @@ def _channel(lines: list[str], start: int, file: str) -> tuple[Component, str, i
     code = int(integers[26])
     component.label = _CODES.get(code, f"{code} deg" if 0 <= code <= 360 else f"code {code}")
     marked = end < len(lines) and END.match(lines[end]) is not None
-    return oriented(component), f"{int(integers[8])}", end + marked
+    return (oriented(component), f"{int(integers[8])}"), end + marked

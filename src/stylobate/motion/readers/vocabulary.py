@@ -9,10 +9,8 @@ from functools import cache
 from ...errors import InputError
 from ..specs import TIME_UNITS, VELOCITY_UNITS, acceleration_unit
 
-#: Languages of the words, by their codes.
-LANGUAGES = ("en", "de", "fr", "it", "el", "es", "tr")
-
-#: Meanings of words: a time, a quantity, or a direction by the label that readers of networks give it.
+#: Meanings of words, by the codes of their languages: a time, a quantity, or a direction by the label that readers of
+#: networks give it.
 _WORDS = {
     "en": {
         "time": "time",

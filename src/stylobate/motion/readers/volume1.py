@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 import numpy as np
 
@@ -13,6 +14,8 @@ from .checks import CUT, check_ended, check_peak, check_peak_time, printed
 from .numbers import NUMBER, read_numbers
 from .record import Component, check_count
 from .steps import step_of
+
+Channel = TypeVar("Channel")
 
 _POINTS = re.compile(
     r"(?:no\.?|num\w*)\s*(?:of)?\s*(?:points|data|samples)[^\w+-]*(?P<count>\d+)(?![\w.])", re.IGNORECASE
@@ -27,6 +30,30 @@ _PEAK = re.compile(
 
 #: A line between two channels.
 END = re.compile(r"^\s*(/&|-&|\*?\s*-*\s*end of|\*{3,}|-{5,})", re.IGNORECASE)
+
+
+def channels(lines: Sequence[str], read: Callable[[int], tuple[Channel, int]]) -> list[Channel]:
+    """All channels of a file, one behind the other with nothing but empty lines between them.
+
+    Parameters
+    ----------
+    lines : sequence of str
+    read : callable
+        Given the index of the line on which a channel begins, gives the channel and the index of the line after it.
+    """
+    found, at = [], 0
+    while at < len(lines):
+        if lines[at].strip():
+            channel, at = read(at)
+            found.append(channel)
+        else:
+            at += 1
+    return found
+
+
+def header_ends(file: str, start: int) -> InputError:
+    """The error for a file that ends before the samples of a channel begin."""
+    return InputError(f"{file}, line {start + 1}: the channel that begins here ends within its header; fetch it again.")
 
 
 def points(text: Sequence[str], file: str, first: int) -> int:

@@ -58,13 +58,14 @@ def build(folder: Path, quick: bool, threads: int, grids: Grids | None = None) -
     from ..paper.page import NAMES, case_rows, domain_rows, doubt_rows, write_paper_page
     from ..paper.statements import statements, statements_markdown
     from ..paper.study import run_study
+    from .stages import stages
 
     check_folder(folder)
     started = time.perf_counter()
     kept = f"interrupted; what is finished is kept in {folder}: the same command goes on from there."
     with console.folder(folder), signals.keeping(kept):
         try:
-            with console.stages() as report:
+            with stages() as report:
                 results = run_study(folder, quick, threads, report, grids)
                 report("drawing", 0, 0)
                 rows = statements(results)

@@ -11,7 +11,7 @@ import numpy as np
 
 from stylobate.analysis import verdicts as v
 from stylobate.constants import g
-from stylobate.report.page import Picture, Points, Rows, Section, write_page
+from stylobate.report.page import Item, Picture, Points, Rows, Section, kinds, part, write_html
 from stylobate.version import __version__
 
 from .cases import AMPLITUDES, BEAM, DEM, DRUMS, DURATION, FREQUENCIES, MONOLITH, Grids
@@ -261,3 +261,19 @@ def case_rows(results: PaperResults) -> list[dict]:
                 }
             )
     return rows
+
+
+def write_page(path: Path, title: str, lead: Sequence[Item], sections: Sequence[Section]) -> Path:
+    """Write the page, whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        The HTML file.
+    title : str
+    lead : sequence of Item
+        At the top.
+    sections : sequence of Section
+    """
+    parts = [part(one) for one in sections]
+    return write_html(path, Path(__file__).with_name("page.html"), title=title, lead=kinds(lead), sections=parts)

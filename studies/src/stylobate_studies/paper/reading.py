@@ -10,6 +10,7 @@ import numpy as np
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
 from stylobate.constants import g
+from stylobate.report.numbers import percent
 
 from .cases import BEAM, DEM, REFERENCE, VARIANTS
 from .study import PaperResults
@@ -149,11 +150,6 @@ def span(values: Sequence[float] | np.ndarray) -> str:
     """The range of amplitudes."""
     low, high = float(np.min(values)), float(np.max(values))
     return in_g(low) if low == high else f"{in_g(low)} to {in_g(high)}"
-
-
-def percent(value: float) -> str:
-    """A share in per cent."""
-    return f"{100.0 * value:.0f} %"
 
 
 def percents(values: Sequence[float]) -> str:
