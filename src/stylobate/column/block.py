@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import InputError, OutOfRangeWarning, check_range
 from .drum import DENSITIES, LENGTHS
 from .joint import Joint
+from .shapes import Prism
 
 MAX_VERTICES = 24
 
@@ -129,6 +130,31 @@ class Block:
         return (0.0, 0.0) if self.fixed else self.properties[2:]
 
     @property
+    def shape(self) -> Prism:
+        """The polygon from its origin, in its thickness."""
+        return Prism(self.corners - self.origin, self.depth)
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where its origin stands [m]."""
+        return self.origin
+
+    @property
+    def angle(self) -> float:
+        """Of its axes as drawn [rad]."""
+        return 0.0
+
+    @property
+    def mass(self) -> float:
+        """[kg]"""
+        return self.properties[0]
+
+    @property
+    def inertia(self) -> float:
+        """About the centroid [kg m²]."""
+        return self.properties[1]
+
+    @property
     def size(self) -> float:
         """Larger side of the box around the block [m]."""
         return float(np.ptp(self.corners, axis=0).max())
@@ -139,6 +165,12 @@ class Block:
         side = np.roll(self.corners, -1, axis=0) - self.corners
         inward = np.stack((-side[:, 1], side[:, 0]), axis=1) / np.hypot(side[:, 0], side[:, 1])[:, None]
         return float(((self.corners[None] - self.corners[:, None]) @ inward[:, :, None]).max(axis=1).min())
+
+
+def ground_block(level: float) -> Block:
+    """The ground of a level [m], a half-plane, as a fixed block without ends."""
+    far = FAR_AWAY
+    return Block(((-far, level - far), (far, level - far), (far, level), (-far, level)), 0.0, "ground", fixed=True)
 
 
 class FaceJoint(NamedTuple):

@@ -15,10 +15,10 @@ from ..column.as_found import SIDES, FoundDrum
 from ..column.assembly import FAR_AWAY, Assembly
 from ..column.found_in_space import base_axes, space_geometry
 from ..column.links.placed import strokes
+from ..column.shapes import hull
 from ..constants import DEGREE
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
-from ..response.shapes import hull
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, panel, styled
 
 #: Height of the picture of a column, and most of an assembly's [inch].

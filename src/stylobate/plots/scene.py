@@ -11,12 +11,12 @@ from matplotlib.axes import Axes
 
 from ..column import Column
 from ..column.found_in_space import base_axes
+from ..column.shapes import hull
 from ..constants import g
 from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.poses import exaggerated, rotation_matrices
-from ..response.shapes import hull
 from ..response.words import title_of
 from .solids import Solid, Surface, surface_of
 from .style import BLACK, BROWN, GREY, SAND
