@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import warnings
 from dataclasses import asdict, dataclass
@@ -14,6 +15,7 @@ from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
 from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
 from .column import GRAVITIES
+from .faces import FacePair, face_between
 from .joint import Joint, without_unsaid
 from .links.in_assembly import in_numbers, place_between
 from .links.link import Link, Numbers
@@ -61,6 +63,7 @@ class Assembly(Structure):
 
     kind: ClassVar[str] = "assembly"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
+    computed_by: ClassVar[str] = "dem2d (DistinctElement2D)"
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
 
@@ -153,6 +156,21 @@ class Assembly(Structure):
         return self._contacts[0]
 
     @cached_property
+    def face_pairs(self) -> tuple[FacePair, ...]:
+        """The joints, each as wide as the thinner of its bodies is deep; a fixed one is as deep as the other."""
+        return tuple(self._faces(joint) for joint in self.joints)
+
+    def _faces(self, joint: FaceJoint) -> FacePair:
+        lower, upper = self.bodies[joint.lower], self.bodies[joint.upper]
+        # the lower body's face runs against its own direction, the upper one's along: both left to right, normal upward
+        right, left = lower.side(joint.lower_face)
+        below = face_between(left, right, lower.origin, upper=True)
+        left, right = upper.side(joint.upper_face)
+        above = face_between(left, right, upper.origin, upper=False)
+        area = min(block.depth for block in (lower, upper) if not block.fixed)
+        return FacePair(joint.lower, joint.upper, below, above, joint.law, area, 1.0)
+
+    @cached_property
     def _contacts(self) -> tuple[tuple[FaceJoint, ...], set[int]]:
         """Pairs of faces that touch, and all bodies that touch another one."""
         bodies = self.bodies
@@ -184,4 +202,6 @@ class Assembly(Structure):
         """Everything that defines the assembly, as plain values in SI units."""
         plain = asdict(self, dict_factory=without_unsaid)
         plain.pop("links")
-        return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
+        return json.loads(json.dumps(plain)) | (
+            {"links": [link.to_dict() for link in self.links]} if self.links else {}
+        )

@@ -129,6 +129,10 @@ class Block:
         """Point of the block that its poses refer to [m]: its centroid; (0, 0) of a fixed block."""
         return (0.0, 0.0) if self.fixed else self.properties[2:]
 
+    def side(self, number: int) -> tuple[np.ndarray, np.ndarray]:
+        """Ends of the side that starts at a vertex, in the order of the vertices [m], shape (2,) each."""
+        return self.corners[number], self.corners[(number + 1) % len(self.corners)]
+
     @property
     def shape(self) -> Prism:
         """The polygon from its origin, in its thickness."""

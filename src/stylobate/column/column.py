@@ -324,7 +324,7 @@ class Column(Stack, Structure):
         """Static horizontal acceleration at which the first joint opens [m/s²]."""
         return float(self.joint_uplift_accelerations.min())
 
-    @property
+    @cached_property
     def moving_acceleration(self) -> float:
         """Smallest static horizontal acceleration, in any direction, that opens a joint or makes it slide [m/s²]."""
         least = self.uplift_acceleration

@@ -201,6 +201,9 @@ class ConvexSolid:
 #: What every shape gives to those who draw it: ``outline``, seen along y, and ``mesh()``, its surface.
 Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid
 
+#: Shapes of drums.
+DRUMS = (CircularFrustum, RectangularFrustum, Chipped)
+
 
 def shape_of(drum: Drum, found: FoundDrum) -> Shape:
     """The shape of a drum, as it was found."""

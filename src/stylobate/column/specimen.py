@@ -60,6 +60,7 @@ class Specimen(Structure):
 
     kind: ClassVar[str] = "specimen"
     joints_are: ClassVar[str] = "contact with the base"
+    computed_by: ClassVar[str] = "dem3d (DistinctElement3D)"
 
     mass: float
     inertia: Any

@@ -16,6 +16,7 @@ import numpy as np
 
 from ..errors import InputError
 from .as_found import AS_BUILT, AsFound
+from .faces import FacePair
 from .links.link import Link
 from .links.placed import PlacedLink
 from .shapes import Shape, hull
@@ -100,13 +101,15 @@ class Structure:
     """Base of what stands. A kind gives its bodies and links, and what of the following it has.
 
     Class attributes: ``kind``, its word in sentences and the name of its entry in files; ``counted`` what one and several of
-    its bodies are called; ``joints_are``, what the joints of its responses are; ``first``, the first of ``bodies`` whose
+    its bodies are called; ``joints_are``, what the joints of its responses are; ``computed_by``, who computes it where not
+    all models do; ``first``, the first of ``bodies`` whose
     poses a run records; ``relative``, whether a model in the plane records them from where the bodies stand.
     """
 
     kind: ClassVar[str] = "structure"
     counted: ClassVar[tuple[str, str]] = ("body", "bodies")
     joints_are: ClassVar[str] = ""
+    computed_by: ClassVar[str] = ""
     first: ClassVar[int] = 1
     relative: ClassVar[bool] = True
 
@@ -129,6 +132,11 @@ class Structure:
         return tuple(body.shape for body in self.bodies[self.first :])
 
     @cached_property
+    def face_pairs(self) -> tuple[FacePair, ...]:
+        """The joints between its bodies, in their order."""
+        return ()
+
+    @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, at their places, in their order."""
         return ()
@@ -137,6 +145,11 @@ class Structure:
     def stack(self) -> Any:
         """The column that it is, drums and joints from the base up; None where it is no single stack of drums."""
         return None
+
+    @property
+    def described(self) -> str:
+        """What it is in a sentence, such as ``an assembly``."""
+        return f"{'an' if self.kind[0] in 'aeiou' else 'a'} {self.kind}"
 
     # -- what it measures; None where it has no such thing -------------------------------------------------------------
 
@@ -156,6 +169,11 @@ class Structure:
         return None
 
     @property
+    def widths(self) -> dict[str, float | None]:
+        """Widths that limit states are stated in, by their names in tables [m]."""
+        return {"base_width_m": self.base_width, "joint_width_m": self.joint_width}
+
+    @property
     def slenderness(self) -> float | None:
         """α: angle at the base corner between the vertical and the line to the centroid [rad]."""
         return None
@@ -165,7 +183,7 @@ class Structure:
         """Static horizontal acceleration at which the first joint opens [m/s²]."""
         return None
 
-    @property
+    @cached_property
     def moving_acceleration(self) -> float | None:
         """Smallest static horizontal acceleration, in any direction, that opens a joint or makes it slide [m/s²]."""
         return None
@@ -187,6 +205,16 @@ class Structure:
         return False
 
     # -- what asks for less ------------------------------------------------------------------------------------------
+
+    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
+        """Refuse bodies whose shapes ``what`` does not know.
+
+        Raises
+        ------
+        InputError
+        """
+        if not all(isinstance(shape, shapes) for shape in self.shapes):
+            raise InputError(f"{what} computes columns, and {self.name!r} is {self.described}: use {self.computed_by}.")
 
     def must_be_as_built(self, what: str) -> None:
         """Refuse offsets, tilts or chips where ``what`` knows none.

@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..column import Column
 from ..column.found_in_space import base_axes
 from ..column.shapes import hull
 from ..constants import g
@@ -85,8 +84,7 @@ class Scene:
     @cached_property
     def base(self) -> np.ndarray:
         """Axes of the base as columns, z upward [-], shape (3, 3): a base out of level leans."""
-        column = self.response.structure
-        return base_axes(column) if isinstance(column, Column) else np.eye(3)
+        return base_axes(self.response.structure)
 
     @property
     def upright(self) -> np.ndarray:
