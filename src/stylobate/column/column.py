@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -17,8 +18,9 @@ from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, as_typed, check_range
 from .as_found import AS_BUILT, AsFound
-from .block import ground_block
+from .block import FAR_AWAY, ground_block
 from .drum import Drum
+from .faces import Face, FacePair
 from .found_geometry import check_as_found, geometry, uplift_accelerations
 from .found_in_space import base_axes, smallest_uplift, space_geometry
 from .joint import Joint, without_unsaid
@@ -156,6 +158,20 @@ class Column(Stack, Structure):
             place, angle = (float(at.centroid[i, 0]), float(at.centroid[i, 1])), float(at.lean[i] + at.tilt[i])
             pose = None if space is None else (turn @ space.centroid[i], turn @ space.axes[i])
             found.append(Standing(f"drum {i + 1}", shape, drum.mass, drum.inertia, place, angle, slope, pose))
+        return tuple(found)
+
+    @cached_property
+    def face_pairs(self) -> tuple[FacePair, ...]:
+        """Each joint between the upper face of the drum below, or the base, and what its chips leave of the lower one."""
+        at, found, below = geometry(self), [], Face((1.0, 0.0), 0.0, FAR_AWAY, FAR_AWAY)
+        for i, (drum, law) in enumerate(zip(self.drums, self.joint_laws, strict=True)):
+            one, foot, tilt = self.as_found.of(i + 1), float(at.foot[i]), float(at.tilt[i])
+            half, high = 0.5 * drum.bottom_width, drum.centroid_height * math.cos(tilt)
+            above = Face((1.0, 0.0), high, half - one.chip_left + foot, half - one.chip_right - foot)
+            area, width = float(self.joint_areas[i]), float(self.joint_widths[i])
+            found.append(FacePair(i, i + 1, below, above, law, area, width))
+            half = 0.5 * drum.top_width
+            below = Face((math.cos(tilt), math.sin(tilt)), drum.height - drum.centroid_height, half, half)
         return tuple(found)
 
     @cached_property

@@ -11,7 +11,7 @@ from .joint import Joint
 
 
 class Face(NamedTuple):
-    """A face in the axes of its body.
+    """A face, in axes along the lower face of its body if that is a drum, in those in which it is drawn if it is a block.
 
     ``direction`` (cosine and sine) runs to the right with the joint's normal upward, ``height`` is from the body's centroid
     along that normal, without its sign; ``left`` and ``right`` are how far the ends are from the centroid's foot [m].
