@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -161,17 +160,29 @@ class Column(Stack, Structure):
         return tuple(found)
 
     @cached_property
-    def face_pairs(self) -> tuple[FacePair, ...]:
-        """Each joint between the upper face of the drum below, or the base, and what its chips leave of the lower one."""
-        at, found, below = geometry(self), [], Face((1.0, 0.0), 0.0, FAR_AWAY, FAR_AWAY)
-        for i, (drum, law) in enumerate(zip(self.drums, self.joint_laws, strict=True)):
-            one, foot, tilt = self.as_found.of(i + 1), float(at.foot[i]), float(at.tilt[i])
-            half, high = 0.5 * drum.bottom_width, drum.centroid_height * math.cos(tilt)
-            above = Face((1.0, 0.0), high, half - one.chip_left + foot, half - one.chip_right - foot)
-            area, width = float(self.joint_areas[i]), float(self.joint_widths[i])
-            found.append(FacePair(i, i + 1, below, above, law, area, width))
+    def _turns(self) -> tuple[list[float], list[float]]:
+        """Cosine and sine of the inclination of each drum's upper face to its lower one."""
+        tilt = np.array([self.as_found.of(i).tilt * DEGREE for i in range(1, self.n + 1)])
+        return np.cos(tilt).tolist(), np.sin(tilt).tolist()
+
+    @cached_property
+    def upper_faces(self) -> tuple[Face, ...]:
+        """Upper face of the base and of each drum, which may be inclined to its lower one."""
+        found = [Face((1.0, 0.0), 0.0, FAR_AWAY, FAR_AWAY)]
+        for drum, *turn in zip(self.drums, *self._turns, strict=True):
             half = 0.5 * drum.top_width
-            below = Face((math.cos(tilt), math.sin(tilt)), drum.height - drum.centroid_height, half, half)
+            found.append(Face((turn[0], turn[1]), drum.height - drum.centroid_height, half, half))
+        return tuple(found)
+
+    @cached_property
+    def face_pairs(self) -> tuple[FacePair, ...]:
+        """Each joint, between the upper face of what is below and what chips leave of the lower face of the drum."""
+        found = []
+        pressed = zip(self.joint_laws, self.joint_areas.tolist(), self.joint_widths.tolist(), strict=True)
+        for i, (drum, cosine, sine, how) in enumerate(zip(self.drums, *self._turns, pressed)):
+            one, half, high = self.as_found.of(i + 1), 0.5 * drum.bottom_width, drum.centroid_height
+            ends = half - one.chip_left - high * sine, half - one.chip_right + high * sine
+            found.append(FacePair(i, i + 1, self.upper_faces[i], Face((1.0, 0.0), high * cosine, *ends), *how))
         return tuple(found)
 
     @cached_property

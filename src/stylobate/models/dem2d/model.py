@@ -32,10 +32,9 @@ from ..plane.loose import Contacts
 from ..plane.packing import (
     Packed,
     Topology,
-    body_fields,
     damping,
     drum_fields,
-    face_fields,
+    joint_fields,
     lane_fields,
     one_lane,
     top_face,
@@ -234,24 +233,18 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
     if model.start == "settle":
         state, shear = _settled(column, model)
         drums |= state
-    joint = face_fields(drums) | {
-        "kn": kn * area / width,
-        "ks": ks * area / width,
-        "co": np.array([joint.cohesion for joint in column.joints]) * area / width,
-        "mu": column.friction,
-        "fs": shear,
-    }
+    joint = joint_fields(column, kn, ks) | {"fs": shear}
     lane = lane_fields(column) | {"xi": xi, "sh": share}
     lane["damp"] = damping(model.damped, model.stiffness_damping, model.mass_damping)
     types = point_law(model.points, model.damped, 1, bool(column.links)).types
     records = {
-        "body": one_lane(types["body"], column.n + 1, body_fields(drums)),
+        "body": one_lane(types["body"], column.n + 1, drums),
         "joint": one_lane(types["joint"], column.n, joint),
         "lane": one_lane(types["lane"], 1, lane),
         "link": links_at_rest(column, drums),
     }
     toes = point_toes(column, kn, float(share[-1]))
-    return Packed(records, bonds(column), model.step_for(column), toes, top_face(drums))
+    return Packed(records, bonds(column), model.step_for(column), toes, top_face(column))
 
 
 #: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.
