@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .column import Column
-from .column.specimen import Specimen
+from .column.structure import Structure
 from .errors import InputError, check_range
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.shared.quiet import expected_length
@@ -25,12 +24,13 @@ from .version import __version__
 if TYPE_CHECKING:
     import pandas
 
+    from .column import Column
     from .column.assembly import Assembly
     from .models.start import Start, Toss
 
 
 def simulate(
-    column: Column | Specimen,
+    column: Structure,
     motion: Motion,
     model: Model,
     *,
@@ -47,7 +47,8 @@ def simulate(
 
     Parameters
     ----------
-    column : Column or Specimen
+    column : Column, Specimen or Assembly
+        An assembly always goes on to the end of the run, whatever falls.
     motion : Motion
     model : Model
         e.g. ``DistinctElement2D()``.
@@ -80,15 +81,16 @@ def simulate(
     InputError
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
+    cut = quiet if column.moving_acceleration is not None else 0.0  # nobody knows what is quiet for anything else
     options = dataclasses.replace(
-        _options(tail, output_interval, until_end, until_rest, quiet),
+        _options(tail, output_interval, until_end, until_rest, cut),
         start=start,
         twins=tuple(twins),
         progress=progress,
     )
-    if len(options.twins) > model.carries:
+    if len(options.twins) > model.carried(column):
         raise InputError(
-            f"{len(options.twins)} twins are given; {model.name} carries up to {model.carries}: use simulate_many."
+            f"{len(options.twins)} twins are given; {model.name} carries up to {model.carried(column)}: use simulate_many."
         )
     if start is not None and not model.takes_start:
         raise InputError(
@@ -105,8 +107,7 @@ def simulate(
     started = time.perf_counter()
     response = model.run(column, model.taken(motion), options)
     wall = time.perf_counter() - started
-    kind = "specimen" if isinstance(column, Specimen) else "column"
-    provenance = {kind: column.to_dict(), f"{kind}_digest": column.digest}
+    provenance = {column.kind: column.to_dict(), f"{column.kind}_digest": column.digest}
     provenance |= _provenance(model, motion, options, response.followed)
     return response.with_provenance(provenance, wall)
 
@@ -139,18 +140,8 @@ def simulate_assembly(
     """
     from .models.dem2d.model import DistinctElement2D
 
-    model = DistinctElement2D() if model is None else model
-    if not isinstance(model, DistinctElement2D):
-        raise InputError(
-            f"model {model.name} is for columns; an assembly is computed by {DistinctElement2D.name}: ask for that."
-        )
-    options = dataclasses.replace(_options(tail, output_interval, True, until_rest), progress=progress)
-    _tell_wait([Case(assembly, motion)], model, options)
-    started = time.perf_counter()
-    response = model.run_assembly(assembly, model.taken(motion), options)
-    wall = time.perf_counter() - started
-    provenance = {"assembly_digest": assembly.digest} | _provenance(model, motion, options, bed=True)
-    return response.with_provenance(provenance, wall)
+    options = {"tail": tail, "output_interval": output_interval, "until_rest": until_rest, "progress": progress}
+    return simulate(assembly, motion, DistinctElement2D() if model is None else model, **options)
 
 
 def simulate_iter(
@@ -192,7 +183,7 @@ def check_cases(
 
 
 def simulate_many(
-    column: Column | Specimen | Sequence[Column | Specimen],
+    column: Structure | Sequence[Structure],
     motions: Sequence[Motion],
     model: Model,
     *,
@@ -204,7 +195,7 @@ def simulate_many(
 
     Parameters
     ----------
-    column : Column, Specimen or sequence of them
+    column : Column, Specimen, Assembly or sequence of them
         One for all motions, or one for each motion.
     motions : sequence of Motion
     model : Model
@@ -218,7 +209,7 @@ def simulate_many(
     pandas.DataFrame
         One row per run in the order given, columns named as the JSON keys of ``stylobate run``.
     """
-    columns = [column] * len(motions) if isinstance(column, (Column, Specimen)) else list(column)
+    columns = [column] * len(motions) if isinstance(column, Structure) else list(column)
     if len(columns) != len(motions):
         raise InputError(
             f"{len(columns)} columns are given for {len(motions)} motions; give one column, or one for each motion."
@@ -273,12 +264,11 @@ def _tell_wait(cases: Sequence[Case], model: Model, options: RunOptions, threads
         step, cost = model.expected_step(column, motion)
         length = expected_length(case, options) if model.carries else motion.duration + options.tail
         each.append(cost * length / step)
-    in_lanes = isinstance(cases[0].column, (Column, Specimen))
-    together = 1 + model.carries if in_lanes else 1
-    wait = max(max(each), float(np.mean(each)) * len(cases) / (together * threads))
+    first = cases[0].column
+    wait = max(max(each), float(np.mean(each)) * len(cases) / ((1 + model.carried(first)) * threads))
     if wait > TOLD_WAIT:
         runs = "this run takes" if len(cases) == 1 else f"{len(cases)} runs take"
-        falls = "" if in_lanes or not options.until_end else ", and longer once something falls"
+        falls = "" if first.moving_acceleration is not None else ", and longer once something falls"
         logging.getLogger("stylobate").info(
             "%s about %s where nothing else runs on this machine%s.", runs, duration(wait), falls
         )

@@ -13,7 +13,7 @@ from stylobate.constants import g
 from stylobate.errors import OutOfRangeWarning
 from stylobate.models.base import Case
 from stylobate.models.drums.runs import LaneRuns
-from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, opening_acceleration, shaking, share_of
+from stylobate.models.shared.quiet import BEFORE, LOOK, QUIET, level, shaking, share_of
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate_iter
 
@@ -84,11 +84,11 @@ def test_the_level_counts_every_component_and_sliding():
     assert level(flat.replace(ay=4.0 / 3.0 * a), COLUMN)[1] == pytest.approx(5.0 / opens)
     assert level(flat.replace(az=a, factor=-2.0), COLUMN)[1] == pytest.approx(6.0 / opens + 6.0 / 9.81)
     slippery = COLUMN.with_joint(friction_coefficient=0.05)
-    assert opening_acceleration(slippery) == pytest.approx(0.05 * 9.81)
+    assert slippery.moving_acceleration == pytest.approx(0.05 * 9.81)
     slab = st.Column.tapered(
         height=4.0, bottom_width=0.8, top_width=0.8, drums=1, density=2600.0, joint=SOFT, depth=0.2
     )
-    assert opening_acceleration(slab) == pytest.approx(0.25 * slab.uplift_acceleration)
+    assert slab.moving_acceleration == pytest.approx(0.25 * slab.uplift_acceleration)
 
 
 def test_stretches_of_a_record():
@@ -121,7 +121,7 @@ def test_on_a_joint_without_friction_all_shaking_is_loud():
     """A layer of no friction slides under any push: the quiet there is where nothing shakes at all, and runs go on."""
     slippery = COLUMN.replace(links=[st.Layer(joint=1, friction_coefficient=0.0, shear_stiffness=1e6)])
     motion = shocks(0.001, 0.002)
-    assert opening_acceleration(slippery) == 0.0
+    assert slippery.moving_acceleration == 0.0
     reached = level(motion, slippery)
     assert set(np.unique(reached)) == {0.0, np.inf}
     assert (np.isinf(reached) == (motion.samples != 0.0)).all()

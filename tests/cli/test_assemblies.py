@@ -234,8 +234,11 @@ def test_nothing_that_can_move(refused, portal):
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (["--model", "housner", "--harmonic", "1Hz,0.1g,1s"], ["model housner is for columns", "dem2d"]),
-        (["--model", "rigid-block", "--harmonic", "1Hz,0.1g,1s"], ["model rigid-block is for columns"]),
+        (
+            ["--model", "housner", "--harmonic", "1Hz,0.1g,1s"],
+            ["housner computes columns", "is an assembly: use dem2d"],
+        ),
+        (["--model", "rigid-block", "--harmonic", "1Hz,0.1g,1s"], ["rigid-block computes columns", "is an assembly"]),
         ([*SHAKEN, "--set", "block_modulus=1e10"], ["block_modulus is 1e+10 Pa", "rigid"]),
         ([*SHAKEN, "--set", "time_step=0.1"], ["time_step is 0.1 s", "'portal'"]),
         ([*MODEL], ["no motion is given"]),

@@ -15,6 +15,7 @@ import stylobate as st
 from stylobate import plots
 from stylobate.cli.main import call
 from stylobate.column import Column, Joint
+from stylobate.column.shapes import CircularFrustum, RectangularFrustum
 from stylobate.constants import g
 from stylobate.errors import InputError
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -26,7 +27,6 @@ from stylobate.plots.solids import FLUTE, MARK, STONE, Solid, painted, painting_
 from stylobate.plots.uplift import rim_radius, rim_uplift
 from stylobate.plots.view import ALONG_X, ALONG_Y, OBLIQUE, View, parse_view
 from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices
-from stylobate.response.shapes import CircularFrustum, RectangularFrustum
 from stylobate.simulate import simulate
 
 

@@ -9,9 +9,9 @@ import pytest
 
 import stylobate as st
 from stylobate.column.presets import preset
+from stylobate.column.shapes import Chipped, CircularFrustum, ConvexSolid, Prism, RectangularFrustum
 from stylobate.response import Collapse, Histories, Measures, Response, SpaceMeasures, Touch
 from stylobate.response.poses import SpacePoses, exaggerated, quaternions, rotation_matrices
-from stylobate.response.shapes import Chipped, CircularFrustum, ConvexSolid, Prism, RectangularFrustum
 
 CORNERS = np.array([[-0.5, -0.4], [0.6, -0.4], [0.2, 0.8], [-0.4, 0.5]])
 CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)

@@ -215,7 +215,7 @@ def _table(
             factor = (one.levels[k] / one.value) ** (1.0 / measure.power)
             scaled = {key: value * factor ** powers.get(key, 0) for key, value in fact.items()}
             who = {"record": one.motion.name, "realisation": one.number, "column": column.name, "model": model.name}
-            widths = {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
+            widths = column.widths
             found: dict[str, Any] = {"verdict": v.verdict(one.rows[k]), **one.rows[k]}
             rows.append(
                 {**who, "im_name": measure.name, "level": one.levels[k], "factor": factor, **widths, **scaled, **found}

@@ -14,12 +14,11 @@ from ..campaign.cases import Study
 from ..campaign.engine import run_cases
 from ..campaign.plan import RUNS_FILE, Plan
 from ..campaign.runner import Progress
-from ..column.assembly import Assembly
 from ..errors import InputError
 from ..models.shared.quiet import share_of
 from ..response import Response
 from ..response.rows import Rows
-from ..simulate import simulate, simulate_assembly
+from ..simulate import simulate
 from . import verdicts as v
 from .directions import harm
 
@@ -135,8 +134,6 @@ def run_study(
 def histories_of(study: Study, number: int) -> Response:
     """A case of a study once more, with its histories."""
     column, motion = study.case(number)
-    if isinstance(column, Assembly):
-        return simulate_assembly(column, motion, study.model_of(number), tail=study.tail)
     return simulate(column, motion, study.model_of(number), tail=study.tail, quiet=share_of([motion], study.whole))
 
 

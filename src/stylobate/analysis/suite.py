@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..campaign.cases import RELATIVE
+from ..campaign.cases import RELATIVE, must_be_alike
 from ..campaign.runner import Progress, Stopped, run_campaign
 from ..campaign.twins import the_twins
-from ..column import Column
-from ..column.assembly import Assembly
 from ..column.scatter import Scatter
+from ..column.structure import Structure
 from ..errors import InputError
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
@@ -49,7 +48,7 @@ INTENSITIES = {
 }
 
 
-def must_be_told(against: str, columns: Sequence[Column | Assembly]) -> None:
+def must_be_told(against: str, columns: Sequence[Structure]) -> None:
     """Refuse a measure of records that there is not, or not of assemblies.
 
     Raises
@@ -57,14 +56,14 @@ def must_be_told(against: str, columns: Sequence[Column | Assembly]) -> None:
     InputError
         The message names those that there are.
     """
-    blocks = any(isinstance(one, Assembly) for one in columns)
-    known = [name for name in INTENSITIES if not (blocks and name in RELATIVE)]
+    related = all(one.slenderness is not None for one in columns)
+    known = [name for name in INTENSITIES if related or name not in RELATIVE]
     if against not in known:
         raise InputError(f"--against is {against!r}; allowed is {', '.join(known)}.")
 
 
 def suite_table(
-    columns: Column | Assembly | Sequence[Column] | Sequence[Assembly],
+    columns: Structure | Sequence[Structure],
     motions: Sequence[Motion],
     model: Model,
     *,
@@ -107,10 +106,8 @@ def suite_table(
     """
     import pandas
 
-    stands: list[Any] = [columns] if isinstance(columns, Column | Assembly) else list(columns)
-    if len({isinstance(one, Assembly) for one in stands}) > 1:
-        names = ", ".join(one.name for one in stands)
-        raise InputError(f"the suite holds columns and assemblies ({names}); give each kind a suite of its own.")
+    stands: list[Any] = [columns] if isinstance(columns, Structure) else list(columns)
+    must_be_alike(stands, "suite")
     records = [_record(motion) for motion in motions]
     rows: list[dict[str, Any]] = []
     for column in stands:
@@ -132,8 +129,8 @@ def suite_table(
     for i, (case, row, line) in enumerate(zip(cases[:own], found.rows, rows, strict=False)):
         if row is not None:
             line |= row | {"verdict": verdict(row), "model": model.name}
-            if not isinstance(case.column, Assembly):
-                line["peak_top_over_base_width"] = row["peak_top_displacement_m"] / case.column.base_width
+            if (width := case.column.base_width) is not None:
+                line["peak_top_over_base_width"] = row["peak_top_displacement_m"] / width
         if drawn:
             some = drawn[i // len(motions)]
             of_twins = [one for one in found.rows[own + i * replicates : own + (i + 1) * replicates] if one is not None]
@@ -141,12 +138,11 @@ def suite_table(
     return pandas.DataFrame(rows)
 
 
-def _of_column(column: Column | Assembly, motion: Motion, record: dict[str, Any]) -> dict[str, Any]:
+def _of_column(column: Structure, motion: Motion, record: dict[str, Any]) -> dict[str, Any]:
     """Measures of a record, with widths of the column and those that relate it to them; an assembly has none."""
-    if isinstance(column, Assembly):
+    if column.slenderness is None:
         return record
-    widths = {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
-    return widths | record | rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
+    return column.widths | record | rocking_measures(motion, math.tan(column.slenderness), column.frequency_parameter)
 
 
 def _record(motion: Motion) -> dict[str, Any]:

@@ -14,12 +14,12 @@ from ..column.files import tables_of
 from ..column.found_in_space import base_axes, space_geometry
 from ..column.links.placed import strokes
 from ..column.presets import PRESETS, preset
+from ..column.shapes import hull
 from ..column.tables import made_of
 from ..constants import g
 from ..errors import InputError
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
-from ..response.shapes import hull
 from .words import warned
 
 #: What messages about a column call it at first; on the page that goes without saying.

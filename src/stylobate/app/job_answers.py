@@ -17,9 +17,8 @@ from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
 from starlette.responses import FileResponse, Response, StreamingResponse
 
-from ..column import Column
-from ..column.assembly import Assembly
 from ..column.files import write_column
+from ..column.structure import Structure
 from ..column.toml import checked
 from ..errors import InputError
 from . import columns
@@ -107,10 +106,10 @@ class JobAnswers:
         lines = commands(asked, names)
 
         def prepare(folder: Path) -> None:
-            if isinstance(stone, Column):
-                write_column(stone, folder / COLUMN)
+            if asked.assembly is None:
+                write_column(stone.stack, folder / COLUMN)
             else:
-                (folder / ASSEMBLY).write_text(str(asked.assembly), encoding="utf-8")
+                (folder / ASSEMBLY).write_text(asked.assembly, encoding="utf-8")
             self.records.copy(wanted, folder / RECORDS)
             if tables is not None:
                 (folder / STUDY).write_text(tomli_w.dumps(tables), encoding="utf-8")
@@ -255,7 +254,7 @@ class JobAnswers:
         return job.to_dict(whole) | {"place": self.workshop.place(job)}
 
 
-def _structure(asked: JobAsked) -> Column | Assembly:
+def _structure(asked: JobAsked) -> Structure:
     """What stands: a column, or an assembly, of which runs alone are made here."""
     if asked.assembly is not None:
         if asked.kind != "run":

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
-from ..column.assembly import Assembly
 from ..column.scatter import Scatter, usual_scatter
+from ..column.structure import Structure
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
@@ -93,13 +93,10 @@ class Study:
         names = [column.name for column in self.columns]
         if len(set(names)) < len(names):
             raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
-        assemblies = [isinstance(column, Assembly) for column in self.columns]
-        if any(assemblies) and not all(assemblies):
-            raise InputError(
-                f"the study holds columns and assemblies ({', '.join(names)}); give each kind a study of its own."
-            )
-        if any(assemblies) and self.realisations:
-            raise InputError(f"{names[0]!r} is an assembly, and only columns have realisations; leave [scatter] out.")
+        must_be_alike(self.columns, "study")
+        if self.realisations and self.columns[0].stack is None:
+            described = self.columns[0].described
+            raise InputError(f"{names[0]!r} is {described}, and only columns have realisations; leave [scatter] out.")
         if self.keep not in KEEP:
             raise InputError(f"keep is {self.keep!r}; allowed is {' or '.join(KEEP)}.")
         check_range("tail", self.tail, 0.0, 1e4, unit="s")
@@ -188,7 +185,7 @@ class Study:
             scatter = usual[self.columns[0].name] if same else usual
         return {
             "models": [{"model": model.name, "parameters": model.parameters()} for model in self.models],
-            "columns": [{"column": column.name, **_widths(column)} for column in self.columns],
+            "columns": [{"column": column.name, **column.widths} for column in self.columns],
             "motions": [one(motion) for motion in self.motions],
             "intensities": self._intensities(),
             "powers": told_powers(),
@@ -205,10 +202,10 @@ class Study:
 
     def _intensities(self) -> dict[str, list[list[float | None]]]:
         """Measures of each motion for each column, by their names in the table, shape (motions, columns) each."""
-        blocks = [isinstance(column, Assembly) for column in self.columns]
+        angles = [column.slenderness for column in self.columns]
         relations = [
-            (1.0 if many else math.tan(column.slenderness), column.frequency_parameter)
-            for column, many in zip(self.columns, blocks, strict=True)
+            (1.0 if angle is None else math.tan(angle), column.frequency_parameter)
+            for column, angle in zip(self.columns, angles, strict=True)
         ]
         seen: dict[tuple, list[dict[str, float]]] = {}
         for motion in self.motions:
@@ -216,7 +213,7 @@ class Study:
                 seen[samples_of(motion)] = told(motion.replace(factor=1.0), relations)
         found = {}
         for name, power in told_powers().items():
-            if all(blocks) and name in RELATIVE:  # an assembly has no slenderness
+            if name in RELATIVE and all(angle is None for angle in angles):
                 continue
             sizes = [abs(motion.factor) ** power for motion in self.motions]
             each = [[one.get(name) for one in seen[samples_of(motion)]] for motion in self.motions]
@@ -240,8 +237,13 @@ class Study:
         return found
 
 
-def _widths(column: Any) -> dict[str, float | None]:
-    """Widths that limit states are stated in [m]; an assembly has none."""
-    if isinstance(column, Assembly):
-        return {"base_width_m": None, "joint_width_m": None}
-    return {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
+def must_be_alike(structures: Sequence[Structure], what: str) -> None:
+    """Refuse a study or suite of several kinds of structures: they are measured by different things.
+
+    Raises
+    ------
+    InputError
+    """
+    if len({one.slenderness is None for one in structures}) > 1:
+        names = ", ".join(one.name for one in structures)
+        raise InputError(f"the {what} holds columns and assemblies ({names}); give each kind a {what} of its own.")

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..column import Column
 from ..column.scatter import Scatter, scattered_columns, usual_scatter
+from ..column.structure import Structure
 from ..errors import InputError, as_typed
 from ..models.base import Model
 
@@ -31,17 +32,18 @@ class Twins(NamedTuple):
         return {"replicates": len(self.columns), "scatter": dataclasses.asdict(self.scatter), "seed": self.seed}
 
 
-def the_twins(column: Column, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:
+def the_twins(column: Structure, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:
     """Twins of a column that the model can take."""
-    if not isinstance(column, Column):
+    stack = column.stack
+    if stack is None:
         raise InputError(f"{column.name!r} is no column, and only columns have twins; leave --replicates out.")
     for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
             raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
-    asked = usual_scatter(column) if scatter is None else scatter
+    asked = usual_scatter(stack) if scatter is None else scatter
     if not asked.given:
         raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")
     left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
     size = dataclasses.replace(asked, offset=0.0) if left_out else asked
     space = "y" in model.axes and not getattr(model, "planar", False)
-    return Twins(scattered_columns(column, size, replicates, seed, space=space), size, seed, left_out)
+    return Twins(scattered_columns(stack, size, replicates, seed, space=space), size, seed, left_out)

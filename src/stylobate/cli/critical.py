@@ -191,14 +191,13 @@ def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
 
 def describe(result: CriticalAmplitude, taken: Motion, files: list[Path], tail: float) -> None:
     """Print the answer for people."""
-    from ..column import Column
     from ..constants import g
     from ..response.words import longer_tail
     from . import console
 
     counts = result.counts
     low, high = result.amplitudes[0] / g, result.amplitudes[-1] / g
-    kind = "column" if isinstance(result.column, Column) else "assembly"
+    kind = result.column.kind
     if result.critical is None:
         sentence = f"No amplitude from {low:g} to {high:g} g collapses the {kind}."
     else:

@@ -12,6 +12,7 @@ from ..errors import InputError
 if TYPE_CHECKING:
     from ..column import Column
     from ..column.scatter import Scatter
+    from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
     from ..motion.request import MotionRequest
@@ -165,7 +166,7 @@ def the_column(name: str, project: str | None = None) -> Column:
     return _in_plane(load_column(name), project)
 
 
-def the_structure(name: str, project: str | None = None) -> Any:
+def the_structure(name: str, project: str | None = None) -> Structure:
     """As :func:`the_column`, or the assembly of a file."""
     from ..column.assembly_files import load_structure
 
@@ -173,19 +174,19 @@ def the_structure(name: str, project: str | None = None) -> Any:
 
 
 def _in_plane(structure: Any, project: str | None) -> Any:
-    from ..column import Column
     from ..column.projection import projected
     from ..motion.specs import parse_angle
 
     if project is None:
         return structure
-    if not isinstance(structure, Column):
-        raise InputError(f"--project is for columns, and {structure.name!r} is an assembly, which lies in a plane.")
+    if structure.stack is None:
+        what = f"{structure.name!r} is {structure.described}, which lies in a plane"
+        raise InputError(f"--project is for columns, and {what}.")
     try:
         azimuth = parse_angle(project)
     except InputError:
         raise InputError(f"--project is {project!r}; write it with its unit, such as 30deg.") from None
-    return projected(structure, azimuth)
+    return projected(structure.stack, azimuth)
 
 
 def the_model(name: str, settings: list[str] | None) -> Model:

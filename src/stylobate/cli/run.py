@@ -15,8 +15,7 @@ from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.certainty import Population
-    from ..column import Column
-    from ..column.assembly import Assembly
+    from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
     from ..response import Response
@@ -131,21 +130,18 @@ def directions(summaries: Sequence[dict], name: str, model: str, out: Path | Non
 
 
 def the_twins(
-    stone: Column | Assembly, model: Model, asked: dict[str, Any] | None, to_the_ground: bool
+    stone: Structure, model: Model, asked: dict[str, Any] | None, to_the_ground: bool
 ) -> dict[str, Any] | None:
     """The columns that are computed beside this one: as asked for, or as many as cost nothing; None without any."""
     from ..campaign.twins import the_twins
-    from ..column import Column
     from ..errors import InputError
 
     if asked is not None:
         if asked["replicates"] == 0:
             return None
-        if not isinstance(stone, Column):
-            raise InputError(f"{stone.name!r} is no column, and only columns have twins; leave --replicates out.")
         the_twins(stone, model, **asked)
         return asked
-    if not isinstance(stone, Column) or not model.carries or to_the_ground:
+    if not model.carried(stone) or to_the_ground:
         return None
     free = {"replicates": model.carries, "scatter": None, "seed": 0}
     try:
@@ -156,7 +152,7 @@ def the_twins(
 
 
 def run_one(
-    stone: Column | Assembly,
+    stone: Structure,
     motion: Motion,
     model: Model,
     twins: dict[str, Any] | None,
@@ -164,24 +160,20 @@ def run_one(
     whole: bool = True,
     **following: Any,
 ) -> tuple[Response, Population | None]:
-    """One run, and what became of columns like it; that of an assembly always goes on to its end."""
+    """One run, and what became of columns like it."""
     from ..analysis.certainty import certainty
-    from ..column import Column
     from ..models.shared.quiet import share_of
-    from ..simulate import simulate, simulate_assembly
+    from ..simulate import simulate
 
-    if not isinstance(stone, Column):
-        following.pop("until_end", None)
-        return simulate_assembly(stone, motion, model, **following), None
     following["quiet"] = share_of([motion], whole)
     if twins is None:
         return simulate(stone, motion, model, **following), None
-    found = certainty(stone, motion, model, threads=threads, **twins, **following)
+    found = certainty(stone.stack, motion, model, threads=threads, **twins, **following)
     return found.response, found.population
 
 
 def each_record(
-    stone: Column | Assembly,
+    stone: Structure,
     motions: Sequence[Motion],
     model: Model,
     follow: Callable[..., tuple[Response, Population | None]],
@@ -223,7 +215,7 @@ def each_record(
 
 def conclude(
     follow: Callable[..., tuple[Response, Population | None]],
-    stone: Column | Assembly,
+    stone: Structure,
     motion: Motion,
     model: Model,
     out: Path | None,
@@ -232,12 +224,11 @@ def conclude(
 ) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..analysis.directions import direction_of
-    from ..column import Column
     from ..motion.writing import write_csv
     from ..results.asked import asked_file
     from . import console
 
-    pictures = ["histories", "filmstrip", *(["joints"] if isinstance(stone, Column) else []), "energy", "motion"]
+    pictures = ["histories", "filmstrip", "joints", "energy", "motion"]
     pictures += SPACE_PICTURES if model.axes == "xyz" else []
     names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "median", asked_file("run"))
     with console.folder(out, *names, *pictures) as folder:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import warnings
 from dataclasses import asdict, dataclass
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, check_range
-from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, separation, smallest_turn, touching_faces
+from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
 from .column import GRAVITIES
+from .faces import FacePair, face_between
 from .joint import Joint, without_unsaid
 from .links.in_assembly import in_numbers, place_between
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
+from .structure import Structure
 
 MAX_BLOCKS = 400
 
@@ -30,7 +32,7 @@ OVERLAPPING = 1e-7
 
 
 @dataclass(frozen=True)
-class Assembly:
+class Assembly(Structure):
     """Blocks, the law of their contacts, and the ground.
 
     Parameters
@@ -58,6 +60,12 @@ class Assembly:
     OutOfRangeWarning
         A block touches nothing: it will fall.
     """
+
+    kind: ClassVar[str] = "assembly"
+    joints_are: ClassVar[str] = "joint, in the assembly's order"
+    computed_by: ClassVar[str] = "dem2d (DistinctElement2D)"
+    first: ClassVar[int] = 0
+    relative: ClassVar[bool] = False
 
     blocks: tuple[Block, ...]
     joint: Joint
@@ -135,9 +143,7 @@ class Assembly:
         """The ground, if there is one, and the blocks."""
         if self.ground is None:
             return self.blocks
-        far, top = FAR_AWAY, self.ground
-        box = ((-far, top - far), (far, top - far), (far, top), (-far, top))
-        return (Block(box, 0.0, "ground", fixed=True), *self.blocks)
+        return (ground_block(self.ground), *self.blocks)
 
     @property
     def n(self) -> int:
@@ -148,6 +154,21 @@ class Assembly:
     def joints(self) -> tuple[FaceJoint, ...]:
         """Pairs of faces that touch."""
         return self._contacts[0]
+
+    @cached_property
+    def face_pairs(self) -> tuple[FacePair, ...]:
+        """The joints, each as wide as the thinner of its bodies is deep; a fixed one is as deep as the other."""
+        return tuple(self._faces(joint) for joint in self.joints)
+
+    def _faces(self, joint: FaceJoint) -> FacePair:
+        lower, upper = self.bodies[joint.lower], self.bodies[joint.upper]
+        # the lower body's face runs against its own direction, the upper one's along: both left to right, normal upward
+        right, left = lower.side(joint.lower_face)
+        below = face_between(left, right, lower.origin, upper=True)
+        left, right = upper.side(joint.upper_face)
+        above = face_between(left, right, upper.origin, upper=False)
+        area = min(block.depth for block in (lower, upper) if not block.fixed)
+        return FacePair(joint.lower, joint.upper, below, above, joint.law, area, 1.0)
 
     @cached_property
     def _contacts(self) -> tuple[tuple[FaceJoint, ...], set[int]]:
@@ -181,15 +202,6 @@ class Assembly:
         """Everything that defines the assembly, as plain values in SI units."""
         plain = asdict(self, dict_factory=without_unsaid)
         plain.pop("links")
-        return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
-
-    @property
-    def frequency_parameter(self) -> float:
-        """p = √(3g/4R) [1/s], R half the diagonal of the box around all blocks that move: the slowest that could rock."""
-        corners = np.concatenate([block.corners for block in self.blocks if not block.fixed])
-        return math.sqrt(0.75 * self.gravity / (0.5 * math.hypot(*np.ptp(corners, axis=0))))
-
-    @property
-    def digest(self) -> str:
-        """SHA-256 of :meth:`to_dict`."""
-        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
+        return json.loads(json.dumps(plain)) | (
+            {"links": [link.to_dict() for link in self.links]} if self.links else {}
+        )

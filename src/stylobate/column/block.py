@@ -13,6 +13,7 @@ import numpy as np
 from ..errors import InputError, OutOfRangeWarning, check_range
 from .drum import DENSITIES, LENGTHS
 from .joint import Joint
+from .shapes import Prism
 
 MAX_VERTICES = 24
 
@@ -128,6 +129,35 @@ class Block:
         """Point of the block that its poses refer to [m]: its centroid; (0, 0) of a fixed block."""
         return (0.0, 0.0) if self.fixed else self.properties[2:]
 
+    def side(self, number: int) -> tuple[np.ndarray, np.ndarray]:
+        """Ends of the side that starts at a vertex, in the order of the vertices [m], shape (2,) each."""
+        return self.corners[number], self.corners[(number + 1) % len(self.corners)]
+
+    @property
+    def shape(self) -> Prism:
+        """The polygon from its origin, in its thickness."""
+        return Prism(self.corners - self.origin, self.depth)
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """Where its origin stands [m]."""
+        return self.origin
+
+    @property
+    def angle(self) -> float:
+        """Of its axes as drawn [rad]."""
+        return 0.0
+
+    @property
+    def mass(self) -> float:
+        """[kg]"""
+        return self.properties[0]
+
+    @property
+    def inertia(self) -> float:
+        """About the centroid [kg m²]."""
+        return self.properties[1]
+
     @property
     def size(self) -> float:
         """Larger side of the box around the block [m]."""
@@ -139,6 +169,12 @@ class Block:
         side = np.roll(self.corners, -1, axis=0) - self.corners
         inward = np.stack((-side[:, 1], side[:, 0]), axis=1) / np.hypot(side[:, 0], side[:, 1])[:, None]
         return float(((self.corners[None] - self.corners[:, None]) @ inward[:, :, None]).max(axis=1).min())
+
+
+def ground_block(level: float) -> Block:
+    """The ground of a level [m], a half-plane, as a fixed block without ends."""
+    far = FAR_AWAY
+    return Block(((-far, level - far), (far, level - far), (far, level), (-far, level)), 0.0, "ground", fixed=True)
 
 
 class FaceJoint(NamedTuple):

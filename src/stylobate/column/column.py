@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import json
 import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
+from typing import ClassVar, Self
 
 import numpy as np
 
+from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, OutOfRangeWarning, as_typed, check_range
 from .as_found import AS_BUILT, AsFound
+from .block import FAR_AWAY, ground_block
 from .drum import Drum
-from .found_geometry import check_as_found, uplift_accelerations
-from .found_in_space import smallest_uplift
+from .faces import Face, FacePair
+from .found_geometry import check_as_found, geometry, uplift_accelerations
+from .found_in_space import base_axes, smallest_uplift, space_geometry
 from .joint import Joint, without_unsaid
 from .links.in_column import place_in_column
 from .links.link import Link
@@ -27,7 +29,9 @@ from .links.loads import pulls_in_plane
 from .links.placed import PlacedLink
 from .materials import material
 from .plausible import shape_doubts
+from .shapes import Shape, shape_of
 from .stack import Stack
+from .structure import Body, Standing, Structure
 
 MAX_DRUMS = 200
 
@@ -36,7 +40,7 @@ GRAVITIES = (1e-2, 100.0)
 
 
 @dataclass(frozen=True)
-class Column(Stack):
+class Column(Stack, Structure):
     """Drums from the bottom up, and the joint under each of them.
 
     Drum i = 0 … n−1 stands on joint i; joint 0 is the one with the base (the design numbers them from 1).
@@ -69,6 +73,10 @@ class Column(Stack):
     OutOfRangeWarning
         A drum that widens upward and is no capital, or a column that does: allowed, but said.
     """
+
+    kind: ClassVar[str] = "column"
+    counted: ClassVar[tuple[str, str]] = ("drum", "drums")
+    joints_are: ClassVar[str] = "joint under the drum of that number"
 
     drums: tuple[Drum, ...]
     joints: tuple[Joint, ...]
@@ -127,15 +135,60 @@ class Column(Stack):
                     f"face is that much wider than the other; make the ring wider."
                 )
 
+    # -- as a structure ------------------------------------------------------------------------------------------------
+
+    @property
+    def stack(self) -> Self:
+        """The column itself."""
+        return self
+
+    @cached_property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Shapes of the drums, with what their chips leave."""
+        return tuple(shape_of(drum, self.as_found.of(i)) for i, drum in enumerate(self.drums, 1))
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The base and the drums as they stand."""
+        at, slope = geometry(self), self.as_found.base_tilt * DEGREE
+        space, turn = None if self.as_found.in_plane else space_geometry(self), base_axes(self)
+        found: list[Body] = [ground_block(0.0)]
+        for i, (drum, shape) in enumerate(zip(self.drums, self.shapes, strict=True)):
+            place, angle = (float(at.centroid[i, 0]), float(at.centroid[i, 1])), float(at.lean[i] + at.tilt[i])
+            pose = None if space is None else (turn @ space.centroid[i], turn @ space.axes[i])
+            found.append(Standing(f"drum {i + 1}", shape, drum.mass, drum.inertia, place, angle, slope, pose))
+        return tuple(found)
+
+    @cached_property
+    def _turns(self) -> tuple[list[float], list[float]]:
+        """Cosine and sine of the inclination of each drum's upper face to its lower one."""
+        tilt = np.array([self.as_found.of(i).tilt * DEGREE for i in range(1, self.n + 1)])
+        return np.cos(tilt).tolist(), np.sin(tilt).tolist()
+
+    @cached_property
+    def upper_faces(self) -> tuple[Face, ...]:
+        """Upper face of the base and of each drum, which may be inclined to its lower one."""
+        found = [Face((1.0, 0.0), 0.0, FAR_AWAY, FAR_AWAY)]
+        for drum, *turn in zip(self.drums, *self._turns, strict=True):
+            half = 0.5 * drum.top_width
+            found.append(Face((turn[0], turn[1]), drum.height - drum.centroid_height, half, half))
+        return tuple(found)
+
+    @cached_property
+    def face_pairs(self) -> tuple[FacePair, ...]:
+        """Each joint, between the upper face of what is below and what chips leave of the lower face of the drum."""
+        found = []
+        pressed = zip(self.joint_laws, self.joint_areas.tolist(), self.joint_widths.tolist(), strict=True)
+        for i, (drum, cosine, sine, how) in enumerate(zip(self.drums, *self._turns, pressed)):
+            one, half, high = self.as_found.of(i + 1), 0.5 * drum.bottom_width, drum.centroid_height
+            ends = half - one.chip_left - high * sine, half - one.chip_right + high * sine
+            found.append(FacePair(i, i + 1, self.upper_faces[i], Face((1.0, 0.0), high * cosine, *ends), *how))
+        return tuple(found)
+
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, at their places in the column as built, in their order."""
         return place_in_column(self, self.links, self.name) if self.links else ()
-
-    @property
-    def pretensioned(self) -> bool:
-        """Whether some link pulls before anything moves."""
-        return any(link.pretension > 0.0 for link in self.placed_links)
 
     @cached_property
     def joint_laws(self) -> tuple[Joint, ...]:
@@ -155,19 +208,6 @@ class Column(Stack):
     def on_rings(self) -> bool:
         """Whether some joint carries on a ring."""
         return any(joint.ring_width is not None for joint in self.joints)
-
-    def must_carry_on_whole_faces(self, what: str) -> None:
-        """Refuse a column on rings where ``what`` knows none.
-
-        Raises
-        ------
-        InputError
-        """
-        if self.on_rings:
-            raise InputError(
-                f"{what} knows no rings, and a joint of {self.name!r} has a ring_width; use dem3d with law=bed, or leave it "
-                "out."
-            )
 
     # -- made from -----------------------------------------------------------------------------------------------
 
@@ -285,33 +325,6 @@ class Column(Stack):
         """The paper's idealisation: every drum a prism of its mean width."""
         return self.replace(drums=tuple(drum.as_prism() for drum in self.drums))
 
-    def must_be_as_built(self, what: str) -> None:
-        """Refuse a column with offsets, tilts or chips where ``what`` knows none.
-
-        Raises
-        ------
-        InputError
-            The column is not as built.
-        """
-        if self.as_found:
-            raise InputError(
-                f"{what} takes columns as built, and {self.name!r} has offsets, tilts or chips as found; "
-                "use the model dem2d or dem3d, or leave [as_found] out."
-            )
-
-    def must_be_without_links(self, what: str) -> None:
-        """Refuse a column with links where ``what`` knows none.
-
-        Raises
-        ------
-        InputError
-        """
-        if self.links:
-            raise InputError(
-                f"{what} knows no links, and {self.name!r} has a {self.links[0].kind}; use dem2d or dem3d, or leave "
-                "[[link]] out."
-            )
-
     # -- what opens it -------------------------------------------------------------------------------------------
 
     @cached_property
@@ -338,6 +351,20 @@ class Column(Stack):
         """Static horizontal acceleration at which the first joint opens [m/s²]."""
         return float(self.joint_uplift_accelerations.min())
 
+    @cached_property
+    def moving_acceleration(self) -> float:
+        """Smallest static horizontal acceleration, in any direction, that opens a joint or makes it slide [m/s²]."""
+        least = self.uplift_acceleration
+        if self.section == "rectangular":  # across its depth
+            least *= min(
+                1.0,
+                *(
+                    min(drum.depth, drum.top_depth or drum.depth) / max(drum.bottom_width, drum.top_width)
+                    for drum in self.drums
+                ),
+            )
+        return min(least, self.gravity * float(self.friction.min()))
+
     # -- provenance ----------------------------------------------------------------------------------------------
 
     def to_dict(self) -> dict:
@@ -356,8 +383,3 @@ class Column(Stack):
     def __hash__(self) -> int:
         """As of its values; many runs ask for the numbers of one column again and again."""
         return self._hash
-
-    @cached_property
-    def digest(self) -> str:
-        """SHA-256 of :meth:`to_dict`."""
-        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()

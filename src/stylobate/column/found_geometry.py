@@ -11,12 +11,10 @@ from ..constants import DEGREE
 from ..errors import InputError
 from .found_in_space import inside_overlap, space_geometry, space_load
 from .links.loads import pull_on_part
+from .shapes import CHIP_SLOPE
 
 if TYPE_CHECKING:
     from .column import Column
-
-#: Height of a chip as a share of its width: a spall runs steeper than 45°.
-CHIP_SLOPE = 1.5
 
 
 class Geometry(NamedTuple):

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from .links.loads import pull_on_part
+from .structure import Structure
 
 if TYPE_CHECKING:
     from .column import Column
@@ -113,7 +114,7 @@ def _segment(radius: float, height: float) -> float:
     return radius * radius * (angle - math.sin(angle) * math.cos(angle))
 
 
-def base_axes(column: Column) -> np.ndarray:
+def base_axes(column: Structure) -> np.ndarray:
     """Axes of the base as columns, in those of the motion [-], shape (3, 3): it rises towards its azimuth."""
     azimuth = column.as_found.base_azimuth * DEGREE
     return rotation(np.array([math.sin(azimuth), -math.cos(azimuth), 0.0]), column.as_found.base_tilt * DEGREE)

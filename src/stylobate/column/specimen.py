@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_range
+from .block import ground_block
 from .joint import Joint
+from .shapes import ConvexSolid
+from .structure import Body, Standing, Structure
 
 #: Farthest that a body is turned to lie on a face that carries it [degrees].
 FARTHEST_TURN = 10.0
@@ -27,7 +28,7 @@ MOST_VERTICES = 5000
 
 
 @dataclass(frozen=True, eq=False)
-class Specimen:
+class Specimen(Structure):
     """A rigid convex body at rest on the base: a boulder, a statue's block, a test specimen.
 
     It is laid on the face that needs the smallest turn from the axes given, and starts there in equilibrium.
@@ -56,6 +57,10 @@ class Specimen:
     InputError
         A mass or an inertia that no body has, vertices that bound no volume, or a centroid that is not above the footprint.
     """
+
+    kind: ClassVar[str] = "specimen"
+    joints_are: ClassVar[str] = "contact with the base"
+    computed_by: ClassVar[str] = "dem3d (DistinctElement3D)"
 
     mass: float
     inertia: Any
@@ -88,6 +93,14 @@ class Specimen:
         return 1
 
     @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The base and the body, at rest on it."""
+        height, turn = self.resting.height, self.resting.rotation
+        inertia, pose = float((turn @ self.inertia @ turn.T)[1, 1]), (np.array([0.0, 0.0, height]), turn)
+        shape = ConvexSolid(self.vertices)
+        return ground_block(0.0), Standing(self.name, shape, self.mass, inertia, (0.0, height), in_space=pose)
+
+    @cached_property
     def resting(self) -> Resting:
         """How the body lies on the base."""
         return _resting(self.vertices)
@@ -111,11 +124,6 @@ class Specimen:
     def from_dict(cls, data: dict) -> Specimen:
         """The specimen that :meth:`to_dict` has written."""
         return cls(**{**data, "joint": Joint(**data["joint"])})
-
-    @property
-    def digest(self) -> str:
-        """SHA-256 of :meth:`to_dict`."""
-        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
 
 
 @dataclass(frozen=True, eq=False)

@@ -129,6 +129,11 @@ class Stack:
         return float(self.joint_widths[0])
 
     @property
+    def joint_width(self) -> float:
+        """Smallest width of a joint [m]."""
+        return float(self.joint_widths.min())
+
+    @property
     def radius(self) -> float:
         """R: distance from the base corner to the centroid of the whole column [m]."""
         return math.hypot(0.5 * self.base_width, self.centroid_height)

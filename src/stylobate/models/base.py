@@ -11,9 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from ..column import Column
-from ..column.assembly import Assembly
-from ..column.specimen import Specimen
+from ..column.shapes import DRUMS
 from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
@@ -27,7 +25,7 @@ LONGEST_RUN, MOST_STATES = 3600.0, 5e7
 
 
 class Case(NamedTuple):
-    """One run of a batch: of a column, or of a specimen where the model takes one."""
+    """One run of a batch: what stands, and what shakes it."""
 
     column: Any
     motion: Motion
@@ -99,9 +97,8 @@ class Model:
     ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
     everything lies still, ``takes_start`` whether it can start from a pose,
-    ``takes_specimens`` whether it computes single bodies of any shape; ``takes_rings`` whether joints may carry on rings;
-    ``takes_links`` whether columns may have links; ``takes_assemblies`` whether it computes many runs of sets of blocks;
-    ``carries`` how many columns alike it can take along in a single run at next to no cost.
+    ``computes`` the shapes of bodies that it knows; ``takes_rings`` whether joints may carry on rings; ``takes_links``
+    whether there may be links; ``carries`` how many columns alike it can take along in a single run at next to no cost.
     """
 
     name: ClassVar[str] = ""
@@ -110,28 +107,18 @@ class Model:
     assumptions: ClassVar[tuple[str, ...]] = ()
     limits: ClassVar[tuple[str, ...]] = ()
     axes: ClassVar[str] = "xz"
+    computes: ClassVar[tuple[type, ...]] = DRUMS
     takes_as_found: ClassVar[bool] = False
     follows_to_rest: ClassVar[bool] = False
     takes_start: ClassVar[bool] = False
-    takes_specimens: ClassVar[bool] = False
     takes_rings: ClassVar[bool] = False
     takes_links: ClassVar[bool] = False
-    takes_assemblies: ClassVar[bool] = False
     carries: ClassVar[int] = 0
 
     def check(self, column: Any, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
-        if isinstance(column, Assembly):
-            if not self.takes_assemblies:
-                raise InputError(
-                    f"{self.name} computes columns, and {column.name!r} is an assembly: use dem2d (DistinctElement2D)."
-                )
-        elif isinstance(column, Specimen):
-            if not self.takes_specimens:
-                raise InputError(
-                    f"{self.name} computes columns, and {column.name!r} is a specimen: use dem3d (DistinctElement3D)."
-                )
-        elif not self.takes_as_found:
+        column.must_consist_of(self.computes, self.name)
+        if not self.takes_as_found:
             column.must_be_as_built(self.name)
         elif "y" not in self.axes and not column.as_found.in_plane:
             raise InputError(
@@ -139,9 +126,9 @@ class Model:
                 "(an azimuth other than 0 and 180, or a turn); use dem3d, project it onto a plane (--project AZIMUTH), or "
                 "leave these out."
             )
-        if isinstance(column, Column) and not self.takes_rings:
+        if not self.takes_rings:
             column.must_carry_on_whole_faces(self.name)
-        if isinstance(column, Column) and not self.takes_links:
+        if not self.takes_links:
             column.must_be_without_links(self.name)
         for axis, values in motion.components.items():
             peak = float(np.abs(values).max())
@@ -151,7 +138,7 @@ class Model:
                     f"{LARGEST_ACCELERATION:g} m/s²: check its unit and its factor."
                 )
         left_out = beyond_axes(motion, self.axes)
-        if "y" in left_out and getattr(column, "section", "") == "circular":
+        if "y" in left_out and column.section == "circular":
             warnings.warn(
                 f"{self.name} leaves out what shakes a round column across; in space it can fall under much weaker motions: "
                 "compute it with dem3d before relying on a favourable verdict.",
@@ -169,6 +156,11 @@ class Model:
         """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
         return keep_axes(motion, self.axes)
 
+    def carried(self, column: Any) -> int:
+        """How many of its kind are taken along in a run of what stands."""
+        del column
+        return self.carries
+
     def paced(self, column: Any) -> Model:
         """The model that computes columns like this one beside it: in its time step, where that is the model's to choose."""
         return self
@@ -179,8 +171,6 @@ class Model:
 
     def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
         """Refuse a run that would not end, and histories that no memory holds, with the estimate (InputError)."""
-        if isinstance(column, Assembly):  # its step is known once its contacts are: each run asks for itself
-            return
         length = motion.duration + options.tail
         step, cost = self.expected_step(column, motion)
         refuse_endless(f"{column.name!r} under {motion.name!r}", length, step, cost)

@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 
 from ..analysis import verdicts as v
 from ..analysis.critical import CriticalAmplitude
-from ..column.assembly import Assembly
 from ..constants import g
 from .style import BLACK, BLUE, GREY, RED, WIDTH, legend_below, panel, styled
 
@@ -35,13 +34,13 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
         To draw in; those of a new figure by default.
     """
     amplitudes, verdicts = result.amplitudes / g, np.array(result.verdicts)
-    if isinstance(result.column, Assembly):  # it has neither a top nor a base width
+    if (width := result.column.base_width) is None:  # nor is there one top
         peaks, label = (
             result.rows.floats("peak_displacement_m"),
             "peak displacement of a block [m]\n(collapse: at the top)",
         )
     else:
-        peaks = result.rows.floats("peak_top_displacement_m") / result.column.base_width
+        peaks = result.rows.floats("peak_top_displacement_m") / width
         label = "peak top displacement\n/ base width (collapse: at the top)"
     finite = peaks[np.isfinite(peaks) & (verdicts != v.COLLAPSED)]
     ceiling = 1.25 * max(float(finite.max()) if finite.size else 0.0, 0.1)
@@ -55,8 +54,8 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
     if result.critical is not None:
         at = result.critical / g
         axes.axvline(at, color=RED, linewidth=0.8, label=f"first collapse, {at:.4g} g")
-    if not isinstance(result.column, Assembly):
-        uplift = result.column.uplift_acceleration / g
+    if (opens := result.column.uplift_acceleration) is not None:
+        uplift = opens / g
         axes.axvline(uplift, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.0, label=f"static uplift, {uplift:.3f} g")
     axes.set_ylim(0.0, 1.1 * ceiling)
     axes.set_xlabel("amplitude of acceleration [g]")

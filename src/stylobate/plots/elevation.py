@@ -11,14 +11,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..column import Column
-from ..column.as_found import SIDES, FoundDrum
-from ..column.assembly import FAR_AWAY, Assembly
-from ..column.found_in_space import base_axes, space_geometry
+from ..column.as_found import AS_BUILT, SIDES, FoundDrum
+from ..column.block import FAR_AWAY
+from ..column.found_in_space import base_axes
 from ..column.links.placed import strokes
+from ..column.structure import Structure
 from ..constants import DEGREE
-from ..response.bodies import bodies_of
-from ..response.poses import PlanePoses
-from ..response.shapes import hull
 from .style import BLACK, BLUE, BROWN, GREY, RED, SAND, WIDTH, panel, styled
 
 #: Height of the picture of a column, and most of an assembly's [inch].
@@ -35,8 +33,8 @@ WORDS = 7.5
 
 
 @styled
-def draw_elevation(structure: Column | Assembly, title: str | None = None, *, ax: Axes | None = None) -> Figure:
-    """A column or an assembly as it stands before the motion, seen along y, in true proportion, with its dimensions in m.
+def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes | None = None) -> Figure:
+    """What stands, before the motion, seen along y, in true proportion, with its dimensions in m.
 
     Of a column: heights of drums and of all, widths (diameters, with ⌀) of both faces of each drum, numbers of drums and
     joints, joints whose friction differs, links in blue. What is as found is red: the drums that are not where they were
@@ -44,36 +42,36 @@ def draw_elevation(structure: Column | Assembly, title: str | None = None, *, ax
 
     Parameters
     ----------
-    structure : Column or Assembly
+    structure : Column, Assembly or Specimen
     title : str, optional
         None by default.
     ax : Axes, optional
         To draw in; those of a new figure by default.
     """
-    if isinstance(structure, Assembly):
-        return _assembly(structure, title, ax)
-    outlines = outlines_of(structure)
-    built = outlines_of(structure.replace(as_found=type(structure.as_found)())) if structure.as_found else outlines
+    outlines, column = outlines_of(structure), structure.stack
+    if column is None:
+        return _blocks(structure, outlines, title, ax)
+    built = outlines_of(column.replace(as_found=AS_BUILT)) if column.as_found else outlines
     figure, axes = panel(ax, (WIDTH, TALL))
     corners = np.concatenate([*outlines, *built])
     low, high = corners.min(axis=0), corners.max(axis=0)
     sheet = _Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
-    slope = _slope(structure)
+    slope = _slope(column)
     axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
-    marked = {one.drum for one in structure.as_found.drums if _said(one)}
+    marked = {one.drum for one in column.as_found.drums if _said(one)}
     for i, shape in enumerate(outlines):
         red = i + 1 in marked
         axes.fill(*shape.T, facecolor="#f7e3df" if red else SAND, edgecolor=RED if red else BROWN, linewidth=0.9)
-    if structure.as_found:
+    if column.as_found:
         for shape in built:
             axes.fill(*shape.T, facecolor="none", edgecolor=GREY, linewidth=0.6, linestyle=(0, (3, 2)))
-    _links(axes, sheet, structure)
-    _heights(axes, sheet, structure, low[0])
-    _words_beside(axes, sheet, structure, outlines, high[0])
-    _width(axes, sheet, structure.drums[0].bottom_width, _bottom(outlines[0]), -26.0, structure.section)
-    _width(axes, sheet, structure.drums[-1].top_width, _top(outlines[-1]), 12.0, structure.section)
+    _links(axes, sheet, column)
+    _heights(axes, sheet, column, low[0])
+    _words_beside(axes, sheet, column, outlines, high[0])
+    _width(axes, sheet, column.drums[0].bottom_width, _bottom(outlines[0]), -26.0, column.section)
+    _width(axes, sheet, column.drums[-1].top_width, _top(outlines[-1]), 12.0, column.section)
     if slope:
-        found = structure.as_found
+        found = column.as_found
         side = "the right" if slope > 0.0 else "the left"
         to = side if found.base_azimuth in (0.0, 180.0) else f"{found.base_azimuth:g}°"
         words = f"base rises by {abs(found.base_tilt):g}° to {to}"
@@ -83,23 +81,9 @@ def draw_elevation(structure: Column | Assembly, title: str | None = None, *, ax
     return figure
 
 
-def outlines_of(structure: Column | Assembly) -> list[np.ndarray]:
+def outlines_of(structure: Structure) -> list[np.ndarray]:
     """Outlines of all bodies as they stand before the motion, seen along y [m], each of shape (k, 2)."""
-    if isinstance(structure, Assembly):
-        return [block.corners for block in structure.bodies]
-    bodies = bodies_of(structure)
-    if not structure.as_found.in_plane:
-        at, turn = space_geometry(structure), base_axes(structure)
-        return [
-            hull((shape.mesh().vertices @ (turn @ at.axes[i]).T + turn @ at.centroid[i])[:, [0, 2]])
-            for i, shape in enumerate(bodies.shapes)
-        ]
-    still = np.zeros((1, structure.n))
-    found = []
-    for shape, (x, z, angle) in zip(bodies.shapes, bodies.reference.plane(PlanePoses(still, still, still))[0]):
-        c, s = math.cos(angle), math.sin(angle)
-        found.append(shape.outline @ np.array([[c, s], [-s, c]]) + (x, z))
-    return found
+    return [body.corners for body in structure.bodies[structure.first :]]
 
 
 @dataclass(frozen=True)
@@ -254,9 +238,8 @@ def _slope(column: Column) -> float:
     return math.atan2(-float(normal[0]), float(normal[2]))
 
 
-def _assembly(structure: Assembly, title: str | None, ax: Axes | None) -> Figure:
+def _blocks(structure: Structure, shapes: list[np.ndarray], title: str | None, ax: Axes | None) -> Figure:
     """Blocks by name, with width and height of all that can move."""
-    shapes = outlines_of(structure)
     near = [shape for shape in shapes if np.ptp(shape, axis=0).max() <= FAR_AWAY]
     corners = np.concatenate(near)
     low, high = corners.min(axis=0), corners.max(axis=0)
@@ -267,7 +250,7 @@ def _assembly(structure: Assembly, title: str | None, ax: Axes | None) -> Figure
     if structure.ground is not None:
         axes.axhline(structure.ground, color=BLACK, linewidth=1.4)
     many = len(shapes) > NAMED
-    for k, (block, shape) in enumerate(zip(structure.bodies, shapes), 1):
+    for k, (block, shape) in enumerate(zip(structure.bodies[structure.first :], shapes), 1):
         if np.ptp(shape, axis=0).max() > FAR_AWAY:
             continue
         face, edge = ("#dcdcdc", GREY) if block.fixed else (SAND, BROWN)

@@ -8,8 +8,6 @@ from typing import NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..column import Column
-from ..column.assembly import Assembly
 from ..column.links.placed import Stroke, strokes
 from ..response.poses import exaggerated, rotation_matrices
 from .scene import Scene
@@ -30,14 +28,11 @@ class Mark(NamedTuple):
 def marks_of(scene: Scene) -> list[Mark]:
     """Marks of every link but layers."""
     structure = scene.response.structure
-    if not isinstance(structure, Column | Assembly):
-        return []
     broken = {one.name: one.broken_at for one in scene.response.measures.links if one.broken}
 
     def body(number: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
-        if isinstance(structure, Assembly):
-            return number, place
-        return (number - 1, place) if number else (None, scene.base @ place)
+        recorded = number - structure.first
+        return (recorded, place) if recorded >= 0 else (None, scene.base @ place)
 
     def mark(one: Stroke) -> Mark:
         return Mark(body(*one.lower[:2]), body(*one.upper[:2]), broken.get(one.link.name, math.inf))

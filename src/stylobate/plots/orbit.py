@@ -10,8 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.patches import Ellipse, Patch, Rectangle
 
+from ..column.shapes import CircularFrustum
 from ..response import Response
-from ..response.shapes import CircularFrustum
 from ..response.words import title_of
 from .panels import until_collapse
 from .style import BLACK, BLUE, BROWN, RED, SAND, only_panel, styled

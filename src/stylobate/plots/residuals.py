@@ -8,8 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
+from ..column.shapes import Shape
 from ..response import Response
-from ..response.shapes import Shape
 from ..response.words import title_of
 from .panels import most, panels_for, say, until_collapse
 from .style import BLUE, BROWN, GREY, SAND, styled

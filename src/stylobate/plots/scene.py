@@ -9,14 +9,13 @@ from functools import cached_property
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..column import Column
 from ..column.found_in_space import base_axes
+from ..column.shapes import hull
 from ..constants import g
 from ..errors import InputError
 from ..response import Response
 from ..response.instants import ASIDE, size_of, way_of
 from ..response.poses import exaggerated, rotation_matrices
-from ..response.shapes import hull
 from .solids import Solid, Surface, surface_of
 from .style import BLACK, BROWN, GREY, SAND
 from .view import View
@@ -84,8 +83,7 @@ class Scene:
     @cached_property
     def base(self) -> np.ndarray:
         """Axes of the base as columns, z upward [-], shape (3, 3): a base out of level leans."""
-        column = self.response.structure
-        return base_axes(column) if isinstance(column, Column) else np.eye(3)
+        return base_axes(self.response.structure)
 
     @property
     def upright(self) -> np.ndarray:

@@ -11,7 +11,7 @@ from functools import cached_property
 
 import numpy as np
 
-from ..response.shapes import Chipped, CircularFrustum, Mesh, Shape, hull
+from ..column.shapes import Chipped, CircularFrustum, Mesh, Shape, hull
 from .view import View
 
 #: Flutes around a round drum, as on a Doric shaft.

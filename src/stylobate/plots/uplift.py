@@ -7,9 +7,9 @@ import math
 import numpy as np
 from matplotlib.figure import Figure, SubFigure
 
+from ..column.shapes import CircularFrustum, Shape, hull
 from ..response import Response
 from ..response.poses import rotation_matrices
-from ..response.shapes import CircularFrustum, Shape, hull
 from ..response.words import title_of
 from .panels import most, panels_for, say, until_collapse
 from .style import BROWN, GREY, SAND, styled

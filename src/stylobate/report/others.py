@@ -40,7 +40,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         Of the same column in the same report: its motion is the demand in the capacity spectrum check of a pushover.
     """
     asked = result.asked
-    columns = [one for one in result.structures if isinstance(one, Column)]
+    columns = [one.stack for one in result.structures if one.stack is not None]
     if result.kind is Kind.STATES:
         parts = _states(result, columns, told)
     else:
@@ -107,7 +107,7 @@ def _scope(kind: Kind) -> str:
 def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     first, above = s.get("first_collapse_g", s.get("critical_g")), s.get("all_collapse_above_g")
-    kind = "assembly" if result.structures and not isinstance(result.structures[0], Column) else "column"
+    kind = result.structures[0].kind if result.structures else "column"
     if first is None:
         sentence = f"No amplitude that was tried collapses the {kind}; larger ones were not tried."
     else:

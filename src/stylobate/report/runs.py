@@ -9,7 +9,6 @@ from typing import Any
 from .. import plots
 from ..analysis.directions import harm
 from ..bibliography import cite_run
-from ..column import Column
 from ..constants import g
 from ..outcome import Outcome
 from ..response import Response
@@ -41,7 +40,7 @@ def run_sections(run: RunResult, told: set[str]) -> list[Section]:
         Digests of structures and names of models that the report has shown already; what is shown now is added.
     """
     r, summary = run.response, run.summary
-    column = r.structure if isinstance(r.structure, Column) else None
+    column = r.structure.stack
     asked = run.asked.motions[0] if run.asked is not None and run.asked.motions else None
     parts = [Section("Verdict", [_verdict(run), *warnings_of(run, _doubts(run))]), asked_section(run, _asked(r))]
     parts.append(once(structure_section(r.structure), r.structure.digest, told))
@@ -78,7 +77,7 @@ def verdict_look(response: Response, doubted: bool = False) -> str:
 def _verdict(run: RunResult) -> Note:
     r = run.response
     texts = [" ".join([r.sentence, *_how_far(r)])]
-    if isinstance(r.structure, Column):
+    if r.structure.stack is not None:
         if r.outcome is not Outcome.FAILED:
             texts.append(certainty_sentence(run.summary))
     else:
@@ -95,17 +94,18 @@ def _how_far(r: Response) -> list[str]:
     m = r.measures
     if m.collapsed:
         return [f"The collapse was certain {m.collapse_time:.2f} s after the start."]
-    if r.outcome is Outcome.FAILED or not isinstance(r.structure, Column):
+    width, angle = r.structure.base_width, r.structure.slenderness
+    if r.outcome is Outcome.FAILED or width is None or angle is None:
         return []
-    share = m.peak_top_displacement / r.structure.base_width
+    share = m.peak_top_displacement / width
     said = (
         f"Its top moved by up to {n.length(m.peak_top_displacement)}, {share:.2f} of the width of the base, and "
         f"{'rests' if r.decided else 'was at the end'} {n.length(m.residual_top_displacement)} from where it stood."
     )
-    plain = r.structure.n == 1 and not (r.structure.as_found or r.structure.links) and r.dims != "xyz"
+    plain = len(r.structure.shapes) == 1 and not (r.structure.as_found or r.structure.links) and r.dims != "xyz"
     if plain and math.isfinite(m.peak_rotation):
         said += (
-            f" It turned by up to {m.peak_rotation / r.structure.slenderness:.2f} of the slenderness α, at which it is "
+            f" It turned by up to {m.peak_rotation / angle:.2f} of the slenderness α, at which it is "
             "balanced on its edge."
         )
     return [said]
@@ -200,8 +200,8 @@ def _measures(r: Response) -> list[tuple[str, str]]:
     if m.collapsed:
         pairs.append(("collapse certain at", f"{m.collapse_time:.2f} s"))
     if not math.isnan(m.peak_top_displacement):
-        base = r.structure.base_width if isinstance(r.structure, Column) else math.nan
-        share = "" if math.isnan(base) else f" ({m.peak_top_displacement / base:.2f} base widths)"
+        base = r.structure.base_width
+        share = "" if base is None else f" ({m.peak_top_displacement / base:.2f} base widths)"
         pairs.append((f"peak displacement of the top{until}", n.length(m.peak_top_displacement) + share))
     if m.blocks is not None:
         pairs.append((f"peak displacement of a block{until}", n.length(m.blocks.peak_displacement)))
@@ -271,7 +271,7 @@ def _versions(run: RunResult) -> dict[str, Any]:
         "stylobate": p.get("version"),
         "Python": p.get("python"),
         "machine": p.get("machine"),
-        "digest of what stood": p.get("column_digest") or p.get("assembly_digest") or known.get("digest of what stood"),
+        "digest of what stood": p.get(f"{run.response.structure.kind}_digest") or known.get("digest of what stood"),
         "digest of the motion": p.get("motion_digest"),
         "states recorded every": f"{float(p.get('output_interval_s', math.nan)):g} s",
     }

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..column import Column
 from ..column.as_found import FoundDrum
-from ..column.assembly import FAR_AWAY, Assembly
+from ..column.block import FAR_AWAY
 from ..column.found_in_space import weakest_uplift
 from ..column.plausible import unit_doubts
-from ..column.specimen import Specimen
+from ..column.structure import Structure
 from ..constants import g
 from ..plots import draw_elevation
 from . import numbers as n
@@ -18,13 +20,10 @@ from .pictures import picture
 MOST = 60
 
 
-def structure_section(structure: Column | Assembly | Specimen) -> Section:
+def structure_section(structure: Structure) -> Section:
     """The section on what stands."""
-    if isinstance(structure, Column):
-        return Section("The column", _column(structure))
-    if isinstance(structure, Assembly):
-        return Section("The assembly", _assembly(structure))
-    return Section("The body", [Facts([("name", structure.name), ("mass", f"{structure.mass:.4g} kg")])])
+    column = structure.stack
+    return Section(f"The {structure.kind}", _blocks(structure) if column is None else _column(column))
 
 
 def state_section(column: Column, label: str, first: Column, against: str) -> Section:
@@ -195,35 +194,33 @@ def _as_found(column: Column) -> Rows:
 _TOLD = ("kind", "between", "at", "to", "name")
 
 
-def _assembly(assembly: Assembly) -> list[Item]:
-    caption = f"Elevation of {assembly.name}, with the size of all of it in m; supports that are held are grey."
-    caption += " Blue: links." if assembly.links else ""
-    moving = [one for one in assembly.bodies if not one.fixed]
+def _blocks(structure: Structure) -> list[Item]:
+    caption = f"Elevation of {structure.name}, with the size of all of it in m; supports that are held are grey."
+    caption += " Blue: links." if structure.links else ""
+    bodies = structure.bodies[structure.first :]
+    near = [one for one in bodies if np.ptp(one.corners, axis=0).max() <= FAR_AWAY]
+    held = sum(one.fixed for one in near)
     facts = [
-        (
-            "blocks",
-            f"{len(moving)} that can move"
-            + (f", {held} held" if (held := sum(one.fixed for one in assembly.blocks)) else ""),
-        ),
-        ("joints", str(len(assembly.joints))),
-        ("ground", "none" if assembly.ground is None else f"level at z = {assembly.ground:g} m"),
+        ("blocks", f"{sum(not one.fixed for one in bodies)} that can move" + (f", {held} held" if held else "")),
+        ("joints", str(len(structure.face_pairs))),
+        ("ground", "none" if structure.ground is None else f"level at z = {structure.ground:g} m"),
     ]
     body = []
-    for one in [one for one in assembly.bodies if one.size <= FAR_AWAY][:MOST]:
-        size = one.corners.max(axis=0) - one.corners.min(axis=0)
-        kind = "held" if one.fixed else f"{one.properties[0]:.0f}"
-        body.append([one.name, f"{size[0]:.3f}", f"{size[1]:.3f}", f"{one.depth:.3f}", kind])
+    for one in near[:MOST]:
+        size, depth = np.ptp(one.corners, axis=0), np.ptp(one.shape.mesh().vertices[:, 1])
+        kind = "held" if one.fixed else f"{one.mass:.0f}"
+        body.append([one.name, f"{size[0]:.3f}", f"{size[1]:.3f}", f"{depth:.3f}", kind])
     rows = Rows(
         ["block", "width [m]", "height [m]", "depth [m]", "mass [kg]"], body, "Blocks, from edge to edge.", numbers=True
     )
     laws = [
         [
-            f"{assembly.bodies[joint.lower].name} – {assembly.bodies[joint.upper].name}",
+            f"{structure.bodies[joint.lower].name} – {structure.bodies[joint.upper].name}",
             f"{joint.law.tan_phi:.3f}",
             f"{joint.law.normal_stiffness:.3g}",
             f"{joint.law.shear_stiffness:.3g}",
         ]
-        for joint in assembly.joints[:MOST]
+        for joint in structure.face_pairs[:MOST]
     ]
     joints = Rows(
         ["joint", "μ [–]", "k_n [N/m³]", "k_s [N/m³]"],
@@ -231,11 +228,11 @@ def _assembly(assembly: Assembly) -> list[Item]:
         "Joints. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per area.",
         numbers=True,
     )
-    found: list[Item] = [picture(draw_elevation(assembly), caption), Facts(facts), rows, joints]
-    return [*found, _links_between_blocks(assembly)] if assembly.links else found
+    found: list[Item] = [picture(draw_elevation(structure), caption), Facts(facts), rows, *([joints] if laws else [])]
+    return [*found, _links_between_blocks(structure)] if structure.links else found
 
 
-def _links_between_blocks(assembly: Assembly) -> Rows:
+def _links_between_blocks(assembly: Structure) -> Rows:
     body = []
     for link, placed in zip(assembly.links, assembly.placed_links, strict=True):
         given = link.to_dict()

@@ -15,11 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import store
-from ..column import Column
-from ..column.assembly import Assembly
-from ..column.assembly_files import assembly_from_dict
-from ..column.files import column_from_dict
-from ..column.specimen import Specimen
+from ..column.kinds import FROM_DICT
+from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome
 from .assembly_measures import recorded_blocks
@@ -34,14 +31,6 @@ from .recorded import Recorded
 
 if TYPE_CHECKING:
     import xarray
-
-#: What can have stood, by the name of its entry, and what its joints are.
-KINDS = {"column": Column, "assembly": Assembly, "specimen": Specimen}
-JOINTS = {
-    "column": "joint under the drum of that number",
-    "assembly": "joint, in the assembly's order",
-    "specimen": "contact with the base",
-}
 
 #: Terms of the energy ledger have this before their names.
 ENERGY = "energy_"
@@ -126,15 +115,13 @@ def to_dataset(response: Recorded, *, derived: bool = True) -> xarray.Dataset:
         facts["stepped"] = list(m.stepped)
     if m.links:
         facts["links"] = [link.row() for link in m.links]
-    kind = next(name for name, one in KINDS.items() if isinstance(response.structure, one))
-    labelled[kind] = ((), store.as_json(response.structure.to_dict()))
+    labelled[response.structure.kind] = ((), store.as_json(response.structure.to_dict()))
     labelled |= {"facts": ((), store.as_json(facts)), "provenance": ((), store.as_json(response.provenance))}
     numbers = np.arange(1, len(bodies.names) + 1)
     joints = np.arange(1, h.opening.shape[1] + 1)
-    said = JOINTS[kind]
     coordinates: dict[str, Any] = {
         "time": ("time", h.time, {"units": "s", "long_name": "time"}),
-        "joint": ("joint", joints, {"long_name": said}),
+        "joint": ("joint", joints, {"long_name": response.structure.joints_are}),
     }
     if of == "body":
         coordinates["body"] = (
@@ -207,13 +194,8 @@ def _recorded(response: Recorded, of: str) -> list[tuple[str, tuple[str, ...], n
 
 
 def _from_dataset(data: xarray.Dataset) -> Recorded:
-    structure: Column | Assembly | Specimen
-    if "column" in data:
-        structure = column_from_dict(store.from_json(data, "column"))
-    elif "specimen" in data:
-        structure = Specimen.from_dict(store.from_json(data, "specimen"))
-    else:
-        structure = assembly_from_dict(store.from_json(data, "assembly"))
+    kind = next(name for name in FROM_DICT if name in data)
+    structure = FROM_DICT[kind](store.from_json(data, kind))
     provenance = store.from_json(data, "provenance")
     if "facts" not in data:
         return _of_format_1(data, structure, provenance)
@@ -241,15 +223,15 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
     )
 
 
-def _of_format_1(data: xarray.Dataset, structure: Column | Assembly | Specimen, provenance: dict[str, Any]) -> Recorded:
+def _of_format_1(data: xarray.Dataset, structure: Structure, provenance: dict[str, Any]) -> Recorded:
     """Files of the first format: a mechanism is in the provenance, an assembly's joints and measures are found anew."""
     energy, wall = _energy(data), float(data.attrs["wall_s"])
-    if isinstance(structure, Assembly):
+    if "at_rest" in data.attrs:
         x, z, rotation, acceleration, displacement = (
             data[name].to_numpy() for name in ("x", "z", "rotation", "ground_acceleration", "ground_displacement")
         )
         response = recorded_blocks(
-            structure, data["time"].to_numpy(), x, z, rotation, energy, acceleration, displacement,
+            structure.must_be("assembly"), data["time"].to_numpy(), x, z, rotation, energy, acceleration, displacement,
             at_rest=bool(data.attrs["at_rest"]),
             failed=bool(data.attrs["failed"]),
             in_equilibrium=provenance.get("in_equilibrium_as_drawn"),
@@ -277,13 +259,13 @@ def _of_format_1(data: xarray.Dataset, structure: Column | Assembly | Specimen, 
     )
 
 
-def _histories(data: xarray.Dataset, structure: Column | Assembly | Specimen) -> Histories:
+def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
     def get(name: str) -> np.ndarray:
         return data[name].to_numpy()
 
     steps, energy = len(data["time"]), _energy(data)
     links = LinkHistories(*(get(f"link_{name}") for name in LINKS)) if "link_shear" in data else None
-    bodies = len(structure.bodies) if isinstance(structure, Assembly) else structure.n
+    bodies = len(structure.shapes)
     joint = {"joint_opening": get("joint_opening"), "joint_slip": get("joint_slip")}
     if "body_orientation" in data:
         names = ("body_position", "body_orientation", "joint_twist")
@@ -306,7 +288,7 @@ def _histories(data: xarray.Dataset, structure: Column | Assembly | Specimen) ->
         ground[name] = get(name)
         if f"{name}_z" in data:
             ground[name] = np.stack((ground[name], np.zeros(steps), get(f"{name}_z")), axis=1)
-    if isinstance(structure, Column):
+    if structure.relative:
         body = {name: get(name) for name in ("drum_x", "drum_z", "drum_rotation")}
         ends = {name: get(name) for name in ("base_displacement", "top_displacement")}
         found = Histories.of_drums(get("time"), **body, **joint, **ends, **ground, energy=energy)

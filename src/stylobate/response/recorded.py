@@ -12,13 +12,13 @@ import numpy as np
 
 from ..column import Column
 from ..column.assembly import Assembly
-from ..column.specimen import Specimen
+from ..column.shapes import hull
+from ..column.structure import Structure
 from .bodies import Bodies, bodies_of
 from .histories import Histories
 from .measures import Measures
 from .mechanism import Mechanism
 from .poses import PlanePoses, SpacePoses, exaggerated, rotation_matrices
-from .shapes import hull
 from .views import Views
 
 
@@ -26,7 +26,7 @@ from .views import Views
 class Recorded(Views):
     """One run as data; everything relative to the moving base. The fields are those of :class:`stylobate.Response`."""
 
-    structure: Column | Assembly | Specimen
+    structure: Structure
     histories: Histories
     measures: Measures
     model: str
@@ -39,16 +39,12 @@ class Recorded(Views):
     @property
     def column(self) -> Column:
         """The column that stood."""
-        if isinstance(self.structure, Column):
-            return self.structure
-        raise AttributeError(f"{self.structure.name!r} is no column; what stood is the attribute structure.")
+        return self.structure.must_be("column")
 
     @property
     def assembly(self) -> Assembly:
         """The assembly that stood."""
-        if isinstance(self.structure, Assembly):
-            return self.structure
-        raise AttributeError(f"{self.structure.name!r} is no assembly; what stood is the attribute structure.")
+        return self.structure.must_be("assembly")
 
     # -- bodies --------------------------------------------------------------------------------------------------
 

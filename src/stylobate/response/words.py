@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..column import Column
 from ..outcome import Outcome
 from .links import sentence_of as sentence_of_links
 
@@ -57,7 +56,7 @@ def _undecided(response: Recorded) -> str:
     Of a column whose links pulled from the start, what they and the joints that they press hold counts against it.
     """
     longer = longer_tail(float(response.provenance.get("tail_s", 0.0)))
-    if isinstance(response.structure, Column) and response.structure.pretensioned:
+    if response.structure.pretensioned:
         return (
             f"The verdict may still change: at the end it is not at rest (go on with {longer}), or it is, and what its "
             "pretension holds could overturn it if it came free, which no tail decides."
@@ -69,7 +68,7 @@ def describe(response: Recorded) -> str:
     """One paragraph: what stood, what was run, what happened, and the measures."""
     m, structure = response.measures, response.structure
     n = len(response.bodies.names)
-    size = f"{n} {'drum' if n == 1 else 'drums'}" if isinstance(structure, Column) else f"{n} bodies"
+    size = f"{n} {structure.counted[n > 1]}"
     motion = response.provenance.get("motion", "a motion")
     end = float(response.time[-1]) if len(response.time) else 0.0
     until = " before the fall" if m.collapsed else ""

@@ -9,10 +9,8 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-from ..column import Column
-from ..column.assembly import Assembly
-from ..column.assembly_files import assembly_from_dict
-from ..column.files import column_from_dict
+from ..column.kinds import FROM_DICT
+from ..column.structure import Structure
 from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
@@ -38,7 +36,7 @@ class Asked:
     command : tuple of str
         Its words as typed, without the name of the program; empty where it was not called on a command line.
     structures : tuple of dict
-        Columns and assemblies, each under ``column`` or ``assembly`` as plain values, with its ``digest``.
+        Each under its kind, ``column`` or ``assembly``, as plain values, with its ``digest``.
     models : tuple of dict
         ``name`` and ``parameters``.
     motions : tuple of dict
@@ -67,7 +65,7 @@ class Asked:
         cls,
         command: Sequence[str] = (),
         *,
-        structures: Sequence[Column | Assembly] = (),
+        structures: Sequence[Structure] = (),
         models: Sequence[Model] = (),
         motions: Sequence[Motion] = (),
         warnings: Sequence[str] = (),
@@ -76,7 +74,7 @@ class Asked:
         """What is asked now, with the objects that it is asked for; motions as the models take them."""
         return cls(
             tuple(command),
-            tuple(_structure(one) for one in structures),
+            tuple({one.kind: one.to_dict(), "digest": one.digest} for one in structures),
             tuple({"name": one.name, "parameters": one.parameters()} for one in models),
             tuple(_motion(one) for one in motions),
             options,
@@ -116,19 +114,9 @@ class Asked:
             raise InputError(f"{shown(path)} is not what stylobate wrote ({error}); run again.") from None
 
     @property
-    def columns(self) -> list[Column]:
-        """The columns that stood."""
-        return [column_from_dict(one["column"]) for one in self.structures if "column" in one]
-
-    @property
-    def assemblies(self) -> list[Assembly]:
-        """The assemblies that stood."""
-        return [assembly_from_dict(one["assembly"]) for one in self.structures if "assembly" in one]
-
-
-def _structure(one: Column | Assembly) -> dict[str, Any]:
-    kind = "column" if isinstance(one, Column) else "assembly"
-    return {kind: one.to_dict(), "digest": one.digest}
+    def stood(self) -> list[Structure]:
+        """What stood, made again."""
+        return [make(one[kind]) for one in self.structures for kind, make in FROM_DICT.items() if kind in one]
 
 
 def _motion(one: Motion) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from ..analysis.domain import Domain
 from ..analysis.probability import CollapseProbability
 from ..analysis.studies import StudyResult
 from ..column import Column
-from ..column.assembly import Assembly
+from ..column.structure import Structure
 from ..motion import Motion
 from ..response import Response
 from .asked import Asked
@@ -83,9 +83,9 @@ class Result:
     summary: dict[str, Any]
 
     @property
-    def structures(self) -> Sequence[Column | Assembly]:
-        """Columns and assemblies that it is about, as far as the folder tells."""
-        return [] if self.asked is None else [*self.asked.columns, *self.asked.assemblies]
+    def structures(self) -> Sequence[Structure]:
+        """What it is about, as far as the folder tells."""
+        return [] if self.asked is None else self.asked.stood
 
     @property
     def name(self) -> str:
@@ -117,7 +117,7 @@ class RunResult(Result):
     replicates: pandas.DataFrame | None = None
 
     @property
-    def structures(self) -> Sequence[Any]:
+    def structures(self) -> Sequence[Structure]:
         """What stood."""
         return [self.response.structure]
 
@@ -129,7 +129,7 @@ class SeveralRuns(Result):
     runs: tuple[RunResult, ...] = ()
 
     @property
-    def structures(self) -> Sequence[Any]:
+    def structures(self) -> Sequence[Structure]:
         """What stood."""
         return [self.runs[0].response.structure]
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from ...column import Column
 from ...column.assembly import Assembly
+from ...column.shapes import DRUMS, Prism
+from ...column.structure import Structure
 from ...errors import InputError, as_typed, check_range
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import LANES
@@ -30,10 +32,9 @@ from ..plane.loose import Contacts
 from ..plane.packing import (
     Packed,
     Topology,
-    body_fields,
     damping,
     drum_fields,
-    face_fields,
+    joint_fields,
     lane_fields,
     one_lane,
     top_face,
@@ -101,8 +102,8 @@ class DistinctElement2D(SteppedDrums):
         "Drums do not crack, chip or wear.",
         "The cost of a run grows with the square root of the joint's stiffness over the drum's mass.",
     )
+    computes: ClassVar[tuple[type, ...]] = (*DRUMS, Prism)
     takes_as_found: ClassVar[bool] = True
-    takes_assemblies: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
     takes_links: ClassVar[bool] = True
@@ -149,8 +150,14 @@ class DistinctElement2D(SteppedDrums):
         """Largest stable time step of the closed column [s]."""
         return _stable_step(column, self)
 
-    def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories; what comes loose is followed to the ground if asked for."""
+    def run(self, column: Any, motion: Motion, options: RunOptions) -> Response:
+        """One run with histories; a column that falls is followed to the ground if asked for, an assembly always."""
+        if column.stack is None:
+            if options.start is not None:
+                raise InputError(
+                    f"a start from a pose is for columns, and {column.name!r} is {column.described}; leave start out."
+                )
+            return self.run_assembly(column, motion, replace(options, until_end=True))
         if options.until_end or options.until_rest:
             from ..plane.collapse import follow
 
@@ -173,7 +180,7 @@ class DistinctElement2D(SteppedDrums):
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs of columns in lanes, or of assemblies one by one in threads; never of both in one batch."""
-        if len(cases) and isinstance(cases[0].column, Assembly):
+        if len(cases) and cases[0].column.stack is None:
             return measures_of_assemblies(self.run_assembly, cases, options, threads)
         return super().run_many(cases, options, threads)
 
@@ -189,11 +196,20 @@ class DistinctElement2D(SteppedDrums):
         """
         return run_assembly(assembly, motion, self.assembly_numbers(), options, recorded=recorded)
 
-    def expected_step(self, column: Column | Assembly, motion: Motion) -> tuple[float, float]:
+    def expected_step(self, column: Structure, motion: Motion) -> tuple[float, float]:
         """Time step and its cost [s]; of an assembly as long as it stands."""
-        if not isinstance(column, Assembly):
-            return super().expected_step(column, motion)
-        return expected_step(column, motion, self.assembly_numbers())
+        if column.stack is not None:
+            return super().expected_step(column.stack, motion)
+        return expected_step(column.must_be("assembly"), motion, self.assembly_numbers())
+
+    def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
+        """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
+        if column.stack is not None:
+            super().check_length(column, motion, options)
+
+    def carried(self, column: Any) -> int:
+        """How many are taken along: of columns only, what may come loose is alone in its lane."""
+        return 0 if column.stack is None else self.carries
 
     def assembly_numbers(self) -> AssemblyNumbers:
         """What assemblies are computed with."""
@@ -217,24 +233,18 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
     if model.start == "settle":
         state, shear = _settled(column, model)
         drums |= state
-    joint = face_fields(drums) | {
-        "kn": kn * area / width,
-        "ks": ks * area / width,
-        "co": np.array([joint.cohesion for joint in column.joints]) * area / width,
-        "mu": column.friction,
-        "fs": shear,
-    }
+    joint = joint_fields(column, kn, ks) | {"fs": shear}
     lane = lane_fields(column) | {"xi": xi, "sh": share}
     lane["damp"] = damping(model.damped, model.stiffness_damping, model.mass_damping)
     types = point_law(model.points, model.damped, 1, bool(column.links)).types
     records = {
-        "body": one_lane(types["body"], column.n + 1, body_fields(drums)),
+        "body": one_lane(types["body"], column.n + 1, drums),
         "joint": one_lane(types["joint"], column.n, joint),
         "lane": one_lane(types["lane"], 1, lane),
         "link": links_at_rest(column, drums),
     }
     toes = point_toes(column, kn, float(share[-1]))
-    return Packed(records, bonds(column), model.step_for(column), toes, top_face(drums))
+    return Packed(records, bonds(column), model.step_for(column), toes, top_face(column))
 
 
 #: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.

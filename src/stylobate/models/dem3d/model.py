@@ -12,12 +12,13 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import shares_left
+from ...column.shapes import DRUMS, ConvexSolid
 from ...column.specimen import Specimen
 from ...errors import InputError, check_range
 from ...kernels.dem3d.records import types
 from ...motion import Motion
 from ...response import Histories, Response
-from ..base import Model, RunOptions
+from ..base import RunOptions
 from ..drums.joints import joint_stiffnesses
 from ..drums.links import kind_of, link_stiffness, with_beds_alone, with_links
 from ..drums.packing import PackedColumn
@@ -108,7 +109,7 @@ class DistinctElement3D(SteppedDrums):
     )
     axes: ClassVar[str] = "xyz"
     takes_start: ClassVar[bool] = True
-    takes_specimens: ClassVar[bool] = True
+    computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid)
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
     takes_links: ClassVar[bool] = True
@@ -159,50 +160,53 @@ class DistinctElement3D(SteppedDrums):
         }
         return replace(response, provenance=response.provenance | chosen)
 
-    def check(self, column: Column | Specimen, motion: Motion) -> None:
+    def check(self, column: Any, motion: Motion) -> None:
         """Refuse joints too soft, what is found that space does not know, and a step unstable or too long for the motion."""
-        if self.rolling_resistance and (isinstance(column, Specimen) or column.section != "circular"):
+        if self.rolling_resistance and column.section != "circular":
             raise InputError(
                 f"rolling_resistance = {self.rolling_resistance:g} is for round drums, and {column.name!r} has corners; "
                 "leave it out."
             )
-        if not isinstance(column, Specimen):
-            super().check(column, motion)
-            if self.law != "bed":
-                column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
-            twice = next((one.drum for one in column.as_found.drums if one.chip_left and one.chip_right), None)
-            if twice is not None and chipped(column):
-                raise InputError(
-                    f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "
-                    "chip of a round drum: leave the smaller one out, or use dem2d in its plane."
-                )
-            if self.law == "bed" and chipped(column):
-                raise InputError(
-                    f"dem3d with law=bed knows no chips of round drums, and a drum of {column.name!r} has one; use law=rim, "
-                    "or leave the chip out."
-                )
-            if self.planar and not column.as_found.in_plane:
-                raise InputError(
-                    f"planar = True holds the motion in the plane of x and z, and {column.name!r} is found out of it; "
-                    "leave one of the two out."
-                )
-            return
+        super().check(column, motion)
+        (self._check_stack if column.stack is not None else self._check_body)(column, motion)
+
+    def _check_stack(self, column: Column, motion: Motion) -> None:
+        del motion
+        if self.law != "bed":
+            column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
+        twice = next((one.drum for one in column.as_found.drums if one.chip_left and one.chip_right), None)
+        if twice is not None and chipped(column):
+            raise InputError(
+                f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "
+                "chip of a round drum: leave the smaller one out, or use dem2d in its plane."
+            )
+        if self.law == "bed" and chipped(column):
+            raise InputError(
+                f"dem3d with law=bed knows no chips of round drums, and a drum of {column.name!r} has one; use law=rim, "
+                "or leave the chip out."
+            )
+        if self.planar and not column.as_found.in_plane:
+            raise InputError(
+                f"planar = True holds the motion in the plane of x and z, and {column.name!r} is found out of it; "
+                "leave one of the two out."
+            )
+
+    def _check_body(self, body: Specimen, motion: Motion) -> None:
         if self.planar:
-            raise InputError(f"planar is on, and a specimen such as {column.name!r} moves in space; leave it off.")
+            raise InputError(f"planar is on, and a specimen such as {body.name!r} moves in space; leave it off.")
         if self.restitution is not None:
             raise InputError(
-                f"restitution is given, and that of a specimen such as {column.name!r} depends on the side it falls to; "
+                f"restitution is given, and that of a specimen such as {body.name!r} depends on the side it falls to; "
                 "give it to the specimen (restitution of a vertex), or give stiffness_damping."
             )
-        Model.check(self, column, motion)
-        chosen_step(self.stable_step(column), self.step_factor, self.time_step, f"{column.name!r}")
+        chosen_step(self.stable_step(body), self.step_factor, self.time_step, f"{body.name!r}")
         check_step_resolves(self.time_step, motion)
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kind(self, column: Column | Specimen) -> tuple:
+    def kind(self, column: Any) -> tuple:
         """Columns of one kind share blocks of lanes: number of drums, section and links; specimens with as many rows."""
-        if isinstance(column, Specimen):
+        if column.stack is None:
             return rows_for(column), SPECIMEN
         section = RING if column.on_rings else CHIPPED if chipped(column) else column.section
         return (column.n, section, *kind_of(column))
@@ -220,9 +224,9 @@ class DistinctElement3D(SteppedDrums):
         """A column as the kernel wants it."""
         return _pack(column, self)
 
-    def stable_step(self, column: Column | Specimen) -> float:
+    def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
-        if isinstance(column, Specimen):
+        if column.stack is None:
             return stable_step(top_frequency(column), self.stiffness_damping)
         return _stable_step(column, self)
 

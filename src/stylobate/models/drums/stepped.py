@@ -8,7 +8,6 @@ from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar
 
 from ...column import Column
-from ...column.assembly import Assembly
 from ...errors import check_range
 from ...motion import Motion
 from ...outcome import Outcome
@@ -90,9 +89,9 @@ class SteppedDrums(Model):
     # -- shared --------------------------------------------------------------------------------------------------
 
     def check(self, column: Column, motion: Motion) -> None:
-        """Refuse joints too soft, and a step that is unstable or passes over the motion."""
+        """Refuse joints of a stack that are too soft, and a step that is unstable or passes over the motion."""
         super().check(column, motion)
-        if isinstance(column, Assembly):
+        if column.stack is None:
             return
         check_sinking(column)
         self.step_for(column)

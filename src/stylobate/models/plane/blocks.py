@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ...column.assembly import Assembly, Block, smallest_turn
+from ...column.assembly import Assembly, smallest_turn
 from ...column.joint import Joint
 from .links import acting_between
-from .packing import Topology
+from .packing import Topology, joint_fields
 
 #: Relative rotation from which a joint's faces are a bed like all others [rad].
 LAST_ROTATION = math.radians(50.0)
@@ -45,38 +45,18 @@ def fill_shapes(records: Any, assembly: Assembly) -> np.ndarray:
     return np.concatenate(corners)
 
 
-def fill_joints(records: Any, hands: Any, assembly: Assembly, depths: np.ndarray) -> None:
-    """Fill records of one lane of all joints, and how each hands over; ``depths`` are those of the bodies [m]."""
-    for e, h, (lower, upper, low_face, up_face, law) in zip(records, hands, assembly.joints, strict=True):
-        _fill_joint(e, h, assembly.bodies, lower, upper, low_face, up_face, law, min(depths[lower], depths[upper]))
-
-
-def _fill_joint(
-    e: Any, h: Any, bodies: tuple[Block, ...], lower: int, upper: int, low_face: int, up_face: int, law: Joint,
-    depth: float,
-) -> None:  # fmt: skip
-    # the lower body's face runs against its own direction, the upper one's along: both left to right, normal upward
-    right, left = bodies[lower].corners[low_face], np.roll(bodies[lower].corners, -1, axis=0)[low_face]
-    t = (right - left) / math.hypot(*(right - left))
-    foot = left - bodies[lower].origin
-    e["lc"], e["ls"] = t
-    e["ht"] = float(foot[1] * t[0] - foot[0] * t[1])
-    e["wl"] = -float(foot @ t)
-    e["wr"] = math.hypot(*(right - left)) - e["wl"]
-    left, right = bodies[upper].corners[up_face], np.roll(bodies[upper].corners, -1, axis=0)[up_face]
-    t = (right - left) / math.hypot(*(right - left))
-    foot = left - bodies[upper].origin
-    e["uc"], e["us"] = t
-    e["hb"] = -float(foot[1] * t[0] - foot[0] * t[1])
-    e["bl"] = -float(foot @ t)
-    e["br"] = math.hypot(*(right - left)) - e["bl"]
-    e["kn"], e["ks"], e["co"] = law.normal_stiffness * depth, law.shear_stiffness * depth, law.cohesion * depth
-    e["mu"] = law.tan_phi
-    # the next faces come down on each other where the joint has turned as far as the outlines do at its ends
-    last = min(LAST_ROTATION, 0.9 * smallest_turn(bodies[lower].corners, low_face, bodies[upper].corners, up_face))
-    h["live"], h["weight"] = 1, 1.0
-    h["from_c"], h["to_c"] = math.cos(0.7 * last), math.cos(last)
-    h["width"] = min(e["wl"][0] + e["wr"][0], e["bl"][0] + e["br"][0])
+def fill_joints(records: Any, hands: Any, assembly: Assembly) -> None:
+    """Fill records of one lane of all joints, and how each hands over."""
+    pairs, bodies = assembly.face_pairs, assembly.bodies
+    kn, ks = (np.array([getattr(one.law, name) for one in pairs]) for name in ("normal_stiffness", "shear_stiffness"))
+    for name, values in joint_fields(assembly, kn, ks).items():
+        records[name][:, 0] = values
+    for h, pair, (lower, upper, below, above, _) in zip(hands, pairs, assembly.joints, strict=True):
+        # the next faces come down on each other where the joint has turned as far as the outlines do at its ends
+        last = min(LAST_ROTATION, 0.9 * smallest_turn(bodies[lower].corners, below, bodies[upper].corners, above))
+        h["live"], h["weight"] = 1, 1.0
+        h["from_c"], h["to_c"] = math.cos(0.7 * last), math.cos(last)
+        h["width"] = min(pair.below.width, pair.above.width)
 
 
 def bed_laws(assembly: Assembly) -> np.ndarray:

@@ -45,21 +45,12 @@ def found_start(
             gaps[j], force = _closure(stiffness[j] * length * share, places, load.normal, load.place)
             shear[j] = -load.shear * force / load.normal
         at, turned = _settled(column, as_built, gaps)
-    foot, tilt = as_built.foot, as_built.tilt
-    half = np.array([0.5 * drum.bottom_width for drum in column.drums])
-    chips = np.array([(one.chip_left, one.chip_right) for one in map(column.as_found.of, range(1, column.n + 1))])
-    centroid = np.array([drum.centroid_height for drum in column.drums])
     angle = at.lean + turned
     drum = {
         "x": (0.0, at.centroid[:, 0]),
         "z": (0.0, at.centroid[:, 1]),
         "c": (1.0, np.cos(angle)),
         "s": (0.0, np.sin(angle)),
-        "hb": (0.0, centroid * np.cos(tilt)),
-        "bl": (0.0, half - chips[:, 0] + foot),
-        "br": (0.0, half - chips[:, 1] - foot),
-        "fc": (1.0, np.cos(tilt)),
-        "fs": (0.0, np.sin(tilt)),
     }
     return {name: np.concatenate(([base], values)) for name, (base, values) in drum.items()}, shear
 

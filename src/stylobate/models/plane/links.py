@@ -42,17 +42,17 @@ def links_at_rest(column: Column, drums: Mapping[str, np.ndarray]) -> np.ndarray
         records[name][:, 0] = laws["m" + name]
     for m, link in enumerate(links):
         low, up, k = link.lower, link.upper, records[m]
-        k["tc"], k["ts"], k["on"], k["when"], k["ft"] = drums["fc"][low], drums["fs"][low], 1.0, -1, link.pretension
+        (k["tc"], k["ts"]), k["on"], k["when"], k["ft"] = column.upper_faces[low].direction, 1.0, -1, link.pretension
         k["whole"] = hold_of(column, link)
         if link.straight:
             for end, body, place in zip("ab", (low, up), link.arms, strict=True):
                 # places are given along the upper face
-                cf, sf = drums["fc"][body], drums["fs"][body]
+                cf, sf = column.upper_faces[body].direction
                 k[end + "x"], k[end + "z"] = cf * place[0] - sf * place[2], sf * place[0] + cf * place[2]
                 k[end + "y"] = place[1]
             start = _length(k, low, up, x, z, c, s)
         else:
-            k["bx"], k["bz"] = link.high[0] - foot[up - 1], -drums["hb"][up]
+            k["bx"], k["bz"] = link.high[0] - foot[up - 1], -column.face_pairs[up - 1].above.height
             tc, ts = c[low] * k["tc"] - s[low] * k["ts"], s[low] * k["tc"] + c[low] * k["ts"]
             ax = x[up] + c[up] * k["bx"] - s[up] * k["bz"] - x[low]
             az = z[up] + s[up] * k["bx"] + c[up] * k["bz"] - z[low]

@@ -113,7 +113,7 @@ class Loose:
         now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
         fill_bodies(records.body, assembly)
         corner = fill_shapes(shape, assembly)
-        fill_joints(records.joint, hand, assembly, shape["depth"])
+        fill_joints(records.joint, hand, assembly)
         joined = np.full((n, n), -1, dtype=np.int64)
         for j, (lower, upper) in enumerate(topology.joints):
             joined[lower, upper] = j

@@ -11,11 +11,9 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_geometry import gravity_vector
+from ...column.structure import Structure
 from ..drums.joints import contact_points
 from ..drums.links import acting, kind_of
-
-#: Half width of the base, wide enough to be a half-plane [m].
-BASE_HALF_WIDTH = 1.0e4
 
 
 @dataclass(frozen=True)
@@ -86,20 +84,16 @@ def one_lane(dtype: np.dtype, rows: int, fields: Mapping[str, Any]) -> np.ndarra
     return records
 
 
-def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
-    """Numbers of the drums, the base first: upright, at rest, each joint closed by ``closure`` [m], shape (n,).
+#: Fields of a body that a run begins with.
+OF_BODY = ("x", "z", "th", "c", "s", "vx", "vz", "w", "m", "i", "im", "ii")
 
-    Besides fields of ``body``: ``hb`` and ``ht``, centroid to the lower and to the upper face [m]; ``bl`` and ``br``, from
-    the centroid's foot on the lower face to that face's left and right end, ``t``, half width of the upper face [m];
-    ``fc`` and ``fs``, cosine and sine of the upper face's inclination to the lower one.
-    """
-    centroid = np.array([drum.centroid_height for drum in column.drums])
+
+def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
+    """Fields of the bodies, the base first: upright, at rest, each joint closed by ``closure`` [m], shape (n,)."""
     n = column.n + 1
 
-    def on_base(values: np.ndarray | list[float], base: float = 0.0) -> np.ndarray:
-        return np.concatenate(([base], values))
-
-    half = on_base([drum.bottom_width / 2 for drum in column.drums])
+    def on_base(values: np.ndarray) -> np.ndarray:
+        return np.concatenate(([0.0], values))
 
     at_rest = {name: np.zeros(n) for name in ("x", "th", "s", "vx", "vz", "w")}
     return at_rest | {
@@ -109,32 +103,33 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
         "i": on_base(column.inertias),
         "im": on_base(1.0 / column.masses),
         "ii": on_base(1.0 / column.inertias),
-        "hb": on_base(centroid),
-        "ht": on_base(column.heights - centroid),
-        "bl": half,
-        "br": half,
-        "fc": np.ones(n),
-        "fs": np.zeros(n),
-        "t": on_base([drum.top_width / 2 for drum in column.drums], BASE_HALF_WIDTH),
     }
 
 
-#: Fields of ``body`` among the numbers of the drums.
-OF_BODY = ("x", "z", "th", "c", "s", "vx", "vz", "w", "m", "i", "im", "ii")
+def face_fields(structure: Structure) -> dict[str, np.ndarray]:
+    """Fields that say where the faces of the joints are, each of shape (joints,)."""
+    pairs = structure.face_pairs
+    names = (("lc", "ls", "ht", "wl", "wr"), ("uc", "us", "hb", "bl", "br"))
+    faces = ([one.below for one in pairs], [one.above for one in pairs])
+    return {
+        name: values
+        for of, some in zip(names, faces, strict=True)
+        for name, values in zip(
+            of, np.array([(*one.direction, *one[1:]) for one in some]).reshape(-1, 5).T, strict=True
+        )
+    }
 
 
-def body_fields(drums: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Fields of the bodies from the numbers of the drums."""
-    return {name: drums[name] for name in OF_BODY}
-
-
-def face_fields(drums: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Fields that say where the faces of the joints are, from the numbers of the drums, each of shape (n,)."""
-    lower = {"ht": "ht", "wl": "t", "wr": "t", "lc": "fc", "ls": "fs"}
-    upper = {"hb": "hb", "bl": "bl", "br": "br"}
-    n = len(drums["x"]) - 1
-    faces = {name: drums[of][:-1] for name, of in lower.items()} | {name: drums[of][1:] for name, of in upper.items()}
-    return faces | {"uc": np.ones(n), "us": np.zeros(n)}
+def joint_fields(structure: Structure, kn: np.ndarray, ks: np.ndarray) -> dict[str, np.ndarray]:
+    """Faces and law of joints of contact points, from their normal and shear stiffness per area [N/m³], shape (joints,)."""
+    pairs = structure.face_pairs
+    area, width = (np.array([getattr(one, name) for one in pairs]) for name in ("area", "width"))
+    return face_fields(structure) | {
+        "kn": kn * area / width,
+        "ks": ks * area / width,
+        "co": np.array([one.law.cohesion for one in pairs]) * area / width,
+        "mu": np.array([one.law.tan_phi for one in pairs]),
+    }
 
 
 def lane_fields(column: Column) -> dict[str, Any]:
@@ -148,9 +143,10 @@ def damping(damped: bool, stiffness_damping: float, mass_damping: float) -> np.n
     return np.array([stiffness_damping, mass_damping, 0.0]) if damped else np.zeros(1)
 
 
-def top_face(drums: Mapping[str, np.ndarray]) -> dict[str, float]:
+def top_face(column: Column) -> dict[str, float]:
     """The topmost face, as ``watch`` wants it."""
-    return {"th": float(drums["ht"][-1]), "tc": float(drums["fc"][-1]), "ts": float(drums["fs"][-1])}
+    top = column.upper_faces[-1]
+    return {"th": top.height, "tc": top.direction[0], "ts": top.direction[1]}
 
 
 def lane_of(gravity: float, contacts: Any) -> dict[str, Any]:

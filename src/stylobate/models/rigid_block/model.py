@@ -22,7 +22,6 @@ from ..plane.links import bonds, links_at_rest
 from ..plane.packing import (
     Packed,
     Topology,
-    body_fields,
     damping,
     drum_fields,
     face_fields,
@@ -143,7 +142,7 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
     kn, km, ks = joint_stiffness(column)
     strength = model.compressive_strength
     drums = drum_fields(column, column.joint_weights / kn)
-    joint = face_fields(drums) | {
+    joint = face_fields(column) | {
         "kn": kn,
         "km": km,
         "ks": ks,
@@ -155,12 +154,12 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
     lane = lane_fields(column) | {"damp": damping(model.damped, model.stiffness_damping, model.mass_damping)}
     types = interface_law(strength is not None, model.damped, 1, bool(column.links)).types
     records = {
-        "body": one_lane(types["body"], n + 1, body_fields(drums)),
+        "body": one_lane(types["body"], n + 1, drums),
         "joint": one_lane(types["joint"], n, joint),
         "lane": one_lane(types["lane"], 1, lane),
         "link": links_at_rest(column, drums),
     }
-    return Packed(records, bonds(column), model.step_for(column), _toes(column, strength), top_face(drums))
+    return Packed(records, bonds(column), model.step_for(column), _toes(column, strength), top_face(column))
 
 
 def _toes(column: Column, strength: float | None) -> np.ndarray:

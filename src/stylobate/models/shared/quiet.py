@@ -36,20 +36,6 @@ GAP = 3.0
 AT_REST = 5e-3
 
 
-def opening_acceleration(column: Column) -> float:
-    """Smallest static horizontal acceleration that opens a joint or makes it slide, in any direction [m/s²]: a_0."""
-    least = column.uplift_acceleration
-    if column.section == "rectangular":  # across its depth
-        least *= min(
-            1.0,
-            *(
-                min(drum.depth, drum.top_depth or drum.depth) / max(drum.bottom_width, drum.top_width)
-                for drum in column.drums
-            ),
-        )
-    return min(least, column.gravity * float(column.friction.min()))
-
-
 def level(motion: Motion, column: Column) -> np.ndarray:
     """Share of what opens a joint that a motion reaches at each sample [-], shape (steps,).
 
@@ -58,7 +44,7 @@ def level(motion: Motion, column: Column) -> np.ndarray:
     if motion.factor == 0.0:
         return np.zeros(motion.steps)
     flat = np.abs(motion.samples) if motion.y_samples is None else np.hypot(motion.samples, motion.y_samples)
-    opens = opening_acceleration(column)
+    opens = column.moving_acceleration
     found = flat / opens if opens > 0.0 else np.where(flat > 0.0, math.inf, 0.0)
     if motion.z_samples is not None:
         found += np.abs(motion.z_samples) / column.gravity
@@ -86,7 +72,8 @@ def share_of(motions: Sequence[Motion], whole: bool) -> float:
 
 def is_cut(case: Case, options: RunOptions) -> bool:
     """Whether the quiet of a case is left out: what starts from a pose moves at once, what falls is followed to the end."""
-    return options.quiet > 0.0 and not options.until_end and options.start is None and isinstance(case.column, Column)
+    cut = options.quiet > 0.0 and not options.until_end and options.start is None
+    return cut and case.column.moving_acceleration is not None
 
 
 def expected_length(case: Case, options: RunOptions) -> float:

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
+
+from ..constants import DEGREE
+from .as_found import FoundDrum
+from .drum import Drum
+
+#: Height of a chip as a share of its width: a spall runs steeper than 45°.
+CHIP_SLOPE = 1.5
 
 #: Decimals of a metre to which corners of a cut body are the same.
 SAME = 10
@@ -192,6 +200,39 @@ class ConvexSolid:
 
 #: What every shape gives to those who draw it: ``outline``, seen along y, and ``mesh()``, its surface.
 Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid
+
+#: Shapes of drums.
+DRUMS = (CircularFrustum, RectangularFrustum, Chipped)
+
+
+def shape_of(drum: Drum, found: FoundDrum) -> Shape:
+    """The shape of a drum, as it was found."""
+    high = drum.centroid_height
+    if drum.circular:
+        whole = CircularFrustum(drum.bottom_width, drum.top_width, drum.height, high)
+    else:
+        sides = (drum.bottom_width, drum.depth), (drum.top_width, drum.upper_depth)
+        whole = RectangularFrustum(*sides, drum.height, high)
+    return Chipped(whole, chips_of(drum, found)) if found.chipped else whole
+
+
+def chips_of(drum: Drum, one: FoundDrum) -> np.ndarray:
+    """Planes that cut the chips off a drum: outward normals, and distances from its centroid [m], shape (k, 4)."""
+    planes = []
+    for chip, azimuth, low, high in zip(
+        one.chips,
+        np.array([180.0, 0.0, 270.0, 90.0]) + one.chip_azimuth,
+        (drum.bottom_width, drum.bottom_width, drum.depth, drum.depth),
+        (drum.top_width, drum.top_width, drum.upper_depth, drum.upper_depth),
+        strict=True,
+    ):
+        if chip:
+            share = min(CHIP_SLOPE * chip / drum.height, 0.5)
+            along, up = chip + 0.5 * share * (high - low), share * drum.height
+            size, angle = math.hypot(along, up), azimuth * DEGREE
+            normal = np.array([up * math.cos(angle), up * math.sin(angle), -along]) / size
+            planes.append((*normal, (up * (0.5 * low - chip) + along * drum.centroid_height) / size))
+    return np.array(planes)
 
 
 def hull(points: np.ndarray) -> np.ndarray:

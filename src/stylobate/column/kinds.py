@@ -1,0 +1,20 @@
+"""Kinds of structures by their word: how each is made again from the plain values that it has given."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from .assembly import Assembly
+from .assembly_files import assembly_from_dict
+from .column import Column
+from .files import column_from_dict
+from .specimen import Specimen
+from .structure import Structure
+
+#: What makes a structure of what its ``to_dict`` gives, by its kind.
+FROM_DICT: dict[str, Callable[[Any], Structure]] = {
+    Column.kind: column_from_dict,
+    Assembly.kind: assembly_from_dict,
+    Specimen.kind: Specimen.from_dict,
+}

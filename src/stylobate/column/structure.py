@@ -1,0 +1,280 @@
+"""What can stand and be shaken: bodies on a ground, the faces at which they are joined, and links between them.
+
+Columns, assemblies and specimens are ways to write one down; whoever computes, draws or keeps one asks the structure.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, ClassVar, Protocol
+
+import numpy as np
+
+from ..errors import InputError
+from .as_found import AS_BUILT, AsFound
+from .faces import FacePair
+from .links.link import Link
+from .links.placed import PlacedLink
+from .shapes import Shape, hull
+
+
+class Body(Protocol):
+    """A rigid body as it stands, in axes along and normal to the base, from the middle of what it stands on.
+
+    ``shape`` is in its own axes, from its centroid, which stands at ``place`` (x, z) [m]; ``angle`` is the inclination of
+    these axes to the base, counter-clockwise [rad]. ``mass`` [kg], ``inertia`` about the centroid in the plane [kg m²].
+    What is ``fixed`` moves with the ground: it has neither, and its origin is that of space. ``corners`` is its outline seen
+    along y, horizontally and upward [m], shape (k, 2).
+    """
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def shape(self) -> Shape: ...
+    @property
+    def mass(self) -> float: ...
+    @property
+    def inertia(self) -> float: ...
+    @property
+    def place(self) -> tuple[float, float]: ...
+    @property
+    def angle(self) -> float: ...
+    @property
+    def fixed(self) -> bool: ...
+    @cached_property
+    def corners(self) -> np.ndarray: ...
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """A body that can move; see :class:`Body`.
+
+    Parameters
+    ----------
+    name : str
+    shape : Shape
+    mass, inertia : float
+        [kg], [kg m²]
+    place : (float, float)
+        [m]
+    angle : float
+        [rad]
+    slope : float
+        Of the base in the plane, counter-clockwise [rad].
+    in_space : (array, array), optional
+        Centroid [m] and axes as columns, in axes of which z is upward, of a body that leans out of the plane.
+    """
+
+    name: str
+    shape: Shape
+    mass: float
+    inertia: float
+    place: tuple[float, float]
+    angle: float = 0.0
+    slope: float = 0.0
+    in_space: tuple[np.ndarray, np.ndarray] | None = None
+
+    @property
+    def fixed(self) -> bool:
+        """Whether it moves with the ground: no."""
+        return False
+
+    @cached_property
+    def corners(self) -> np.ndarray:
+        """Outline as it stands, seen along y [m], shape (k, 2)."""
+        if self.in_space is not None:
+            centroid, axes = self.in_space
+            return hull((self.shape.mesh().vertices @ axes.T + centroid)[:, [0, 2]])
+        return self.shape.outline @ _turn(self.slope + self.angle) + np.array(self.place) @ _turn(self.slope)
+
+
+def _turn(angle: float) -> np.ndarray:
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c, s], [-s, c]])
+
+
+class Structure:
+    """Base of what stands. A kind gives its bodies and links, and what of the following it has.
+
+    Class attributes: ``kind``, its word in sentences and the name of its entry in files; ``counted`` what one and several of
+    its bodies are called; ``joints_are``, what the joints of its responses are; ``computed_by``, who computes it where not
+    all models do; ``first``, the first of ``bodies`` whose
+    poses a run records; ``relative``, whether a model in the plane records them from where the bodies stand.
+    """
+
+    kind: ClassVar[str] = "structure"
+    counted: ClassVar[tuple[str, str]] = ("body", "bodies")
+    joints_are: ClassVar[str] = ""
+    computed_by: ClassVar[str] = ""
+    first: ClassVar[int] = 1
+    relative: ClassVar[bool] = True
+
+    name: str
+    gravity: float
+    ground: float | None = 0.0
+    as_found: AsFound = AS_BUILT
+    links: tuple[Link, ...] = ()
+
+    # -- what it consists of -------------------------------------------------------------------------------------------
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """All bodies in the numbers of joints and links, what moves with the ground too."""
+        raise NotImplementedError
+
+    @cached_property
+    def shapes(self) -> tuple[Shape, ...]:
+        """Shapes of the bodies that a run records."""
+        return tuple(body.shape for body in self.bodies[self.first :])
+
+    @cached_property
+    def face_pairs(self) -> tuple[FacePair, ...]:
+        """The joints between its bodies, in their order."""
+        return ()
+
+    @cached_property
+    def placed_links(self) -> tuple[PlacedLink, ...]:
+        """All links in numbers, at their places, in their order."""
+        return ()
+
+    @property
+    def stack(self) -> Any:
+        """The column that it is, drums and joints from the base up; None where it is no single stack of drums."""
+        return None
+
+    @property
+    def described(self) -> str:
+        """What it is in a sentence, such as ``an assembly``."""
+        return f"{'an' if self.kind[0] in 'aeiou' else 'a'} {self.kind}"
+
+    # -- what it measures; None where it has no such thing -------------------------------------------------------------
+
+    @property
+    def section(self) -> str | None:
+        """``circular`` or ``rectangular``, of drums."""
+        return None
+
+    @property
+    def base_width(self) -> float | None:
+        """Width of the one joint with the base [m]."""
+        return None
+
+    @property
+    def joint_width(self) -> float | None:
+        """Smallest width of its joints [m]."""
+        return None
+
+    @property
+    def widths(self) -> dict[str, float | None]:
+        """Widths that limit states are stated in, by their names in tables [m]."""
+        return {"base_width_m": self.base_width, "joint_width_m": self.joint_width}
+
+    @property
+    def slenderness(self) -> float | None:
+        """α: angle at the base corner between the vertical and the line to the centroid [rad]."""
+        return None
+
+    @property
+    def uplift_acceleration(self) -> float | None:
+        """Static horizontal acceleration at which the first joint opens [m/s²]."""
+        return None
+
+    @cached_property
+    def moving_acceleration(self) -> float | None:
+        """Smallest static horizontal acceleration, in any direction, that opens a joint or makes it slide [m/s²]."""
+        return None
+
+    @property
+    def frequency_parameter(self) -> float:
+        """p = √(3g/4R) [1/s], R half the diagonal of the box around all bodies that move: the slowest that could rock."""
+        corners = np.concatenate([body.corners for body in self.bodies if not body.fixed])
+        return math.sqrt(0.75 * self.gravity / (0.5 * math.hypot(*np.ptp(corners, axis=0))))
+
+    @property
+    def pretensioned(self) -> bool:
+        """Whether some link pulls before anything moves."""
+        return any(link.pretension > 0.0 for link in self.placed_links)
+
+    @property
+    def on_rings(self) -> bool:
+        """Whether some joint carries on a ring."""
+        return False
+
+    # -- what asks for less ------------------------------------------------------------------------------------------
+
+    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
+        """Refuse bodies whose shapes ``what`` does not know.
+
+        Raises
+        ------
+        InputError
+        """
+        if not all(isinstance(shape, shapes) for shape in self.shapes):
+            raise InputError(f"{what} computes columns, and {self.name!r} is {self.described}: use {self.computed_by}.")
+
+    def must_be_as_built(self, what: str) -> None:
+        """Refuse offsets, tilts or chips where ``what`` knows none.
+
+        Raises
+        ------
+        InputError
+            It is not as built.
+        """
+        if self.as_found:
+            raise InputError(
+                f"{what} takes columns as built, and {self.name!r} has offsets, tilts or chips as found; "
+                "use the model dem2d or dem3d, or leave [as_found] out."
+            )
+
+    def must_be_without_links(self, what: str) -> None:
+        """Refuse links where ``what`` knows none.
+
+        Raises
+        ------
+        InputError
+        """
+        if self.links:
+            raise InputError(
+                f"{what} knows no links, and {self.name!r} has a {self.links[0].kind}; use dem2d or dem3d, or leave "
+                "[[link]] out."
+            )
+
+    def must_carry_on_whole_faces(self, what: str) -> None:
+        """Refuse joints on rings where ``what`` knows none.
+
+        Raises
+        ------
+        InputError
+        """
+        if self.on_rings:
+            raise InputError(
+                f"{what} knows no rings, and a joint of {self.name!r} has a ring_width; use dem3d with law=bed, or leave it "
+                "out."
+            )
+
+    def must_be(self, kind: str) -> Any:
+        """The structure itself; for those who read what only this kind has.
+
+        Raises
+        ------
+        AttributeError
+            It is of another kind.
+        """
+        if self.kind != kind:
+            raise AttributeError(f"{self.name!r} is no {kind}; what stood is the attribute structure.")
+        return self
+
+    # -- provenance ----------------------------------------------------------------------------------------------------
+
+    def to_dict(self) -> dict:
+        """Everything that defines it, as plain values in SI units."""
+        raise NotImplementedError
+
+    @cached_property
+    def digest(self) -> str:
+        """SHA-256 of :meth:`to_dict`."""
+        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()

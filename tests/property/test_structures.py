@@ -1,0 +1,151 @@
+"""What stands is a structure, asked for what it is made of; nobody tells columns, assemblies and specimens apart."""
+
+import ast
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.column.as_blocks import of_column
+from stylobate.column.as_found import AsFound, FoundDrum
+from stylobate.column.found_geometry import geometry
+from stylobate.column.kinds import FROM_DICT
+from stylobate.column.presets import preset
+from stylobate.column.structure import Structure
+
+SOURCES = Path(st.__file__).parent
+KINDS = {"Column", "Assembly", "Specimen"}
+CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+LEANING = AsFound(drums=(FoundDrum(drum=2, offset=0.02), FoundDrum(drum=3, tilt=0.5)), base_tilt=0.2)
+
+
+def standing():
+    column = preset("paper-12-drums")
+    found = column.replace(as_found=LEANING)
+    return {
+        "column": column,
+        "as found": found,
+        "blocks": of_column(column),
+        "found blocks": of_column(found),
+        "specimen": st.Specimen(100.0, [20.0, 20.0, 20.0], CUBE, name="cube"),
+    }
+
+
+STANDING = standing()
+
+
+def names_of(node):
+    """Last parts of all names in an expression."""
+    for one in ast.walk(node):
+        if isinstance(one, ast.Name | ast.Attribute):
+            yield one.id if isinstance(one, ast.Name) else one.attr
+
+
+def told_apart(tree):
+    """Lines in which a kind of structure is asked for: by its class, or by the word for it."""
+    asserted = {
+        id(one) for assertion in ast.walk(tree) if isinstance(assertion, ast.Assert) for one in ast.walk(assertion)
+    }
+    for node in ast.walk(tree):
+        if id(node) in asserted:  # it decides nothing
+            continue
+        if isinstance(node, ast.Call) and "isinstance" in names_of(node.func) and KINDS & set(names_of(node.args[1])):
+            yield node.lineno
+        if isinstance(node, ast.MatchClass) and KINDS & set(names_of(node.cls)):
+            yield node.lineno
+        if isinstance(node, ast.Compare):
+            sides = (node.left, *node.comparators)
+            words = {one.value for one in sides if isinstance(one, ast.Constant)} & {word.lower() for word in KINDS}
+            asks = any(isinstance(one, ast.Attribute) and one.attr == "kind" for one in sides)
+            typed = any(isinstance(one, ast.Call) and "type" in names_of(one.func) for one in sides)
+            if (words and asks) or (typed and any(KINDS & set(names_of(one)) for one in sides)):
+                yield node.lineno
+
+
+@pytest.mark.parametrize("source", ["isinstance(x, Column)", "isinstance(x.y, (int, a.Assembly))", "x.kind == 'column'",
+                                    "type(x) is Specimen", "match x:\n    case Column():\n        pass"])  # fmt: skip
+def test_what_tells_kinds_apart_is_seen(source):
+    assert list(told_apart(ast.parse(source)))
+
+
+def test_nobody_below_tells_kinds_of_structures_apart():
+    """Engines, statics, pictures and stores take a structure; only the room of structures knows which kinds there are."""
+    files = [path for path in SOURCES.rglob("*.py") if path.relative_to(SOURCES).parts[0] != "column"]
+    assert len(files) > 300
+    lines = [(path, line) for path in files for line in told_apart(ast.parse(path.read_text("utf-8")))]
+    assert [f"{path.relative_to(SOURCES)}:{line}" for path, line in lines] == []
+
+
+@pytest.mark.parametrize("name", STANDING)
+def test_a_structure_is_made_again_from_its_plain_values(name):
+    one = STANDING[name]
+    assert isinstance(one, Structure)
+    again = FROM_DICT[one.kind](one.to_dict())
+    assert again.digest == one.digest
+    assert again.described in ("a column", "an assembly", "a specimen")
+
+
+@pytest.mark.parametrize("name", STANDING)
+def test_bodies_stand_where_their_outlines_are(name):
+    """The centroid of the outline of a prism is where the body stands; every body that moves has a mass and an inertia."""
+    one = STANDING[name]
+    for body in one.bodies:
+        assert body.fixed == (body.mass == 0.0 or body.name == "ground")
+        if not body.fixed:
+            assert body.mass > 0.0
+            assert body.inertia > 0.0
+            low, high = body.corners.min(axis=0), body.corners.max(axis=0)
+            assert (low < body.place).all()
+            assert (body.place < high).all()
+    assert len(one.shapes) == len(one.bodies) - one.first
+
+
+@pytest.mark.parametrize(("column", "blocks"), [("column", "blocks"), ("as found", "found blocks")])
+def test_a_column_and_its_drums_as_blocks_are_the_same_structure(column, blocks):
+    """Mass, inertia, place, outline and faces; blocks are drawn in the axes of the base. To rounding: the sums differ."""
+    column, blocks = STANDING[column], STANDING[blocks]
+    assert len(column.bodies) == len(blocks.bodies)
+    for drum, block in zip(column.bodies[1:], blocks.bodies[1:], strict=True):
+        assert (drum.mass, drum.inertia) == (block.mass, block.inertia)
+        np.testing.assert_allclose(drum.place, block.place, atol=1e-12)
+    if not column.as_found:
+        for drum, block in zip(column.bodies[1:], blocks.bodies[1:], strict=True):
+            np.testing.assert_allclose(drum.corners, block.corners, atol=1e-12)
+    assert len(column.face_pairs) == len(blocks.face_pairs)
+    lean = [0.0, *geometry(column).lean]  # a drum's faces are in axes along its lower one
+    for one, other in zip(column.face_pairs, blocks.face_pairs, strict=True):
+        assert one[:2] == other[:2]
+        assert one.law == other.law
+        for body, mine, its in ((one.upper, one.above, other.above), (one.lower, one.below, other.below)):
+            assert mine.height == pytest.approx(its.height, abs=1e-12)
+            assert math.atan2(*its.direction[::-1]) == pytest.approx(
+                lean[body] + math.atan2(*mine.direction[::-1]), abs=1e-12
+            )
+            if body:  # the base has no ends
+                assert (mine.left, mine.right) == pytest.approx((its.left, its.right), abs=1e-12)
+
+
+def test_what_a_structure_has_not_is_none():
+    for name in ("blocks", "specimen"):
+        one = STANDING[name]
+        assert (
+            one.stack is one.base_width is one.slenderness is one.uplift_acceleration is one.moving_acceleration is None
+        )
+        assert set(one.widths.values()) == {None}
+    column = STANDING["column"]
+    assert column.stack is column
+    assert column.widths == {"base_width_m": column.base_width, "joint_width_m": float(column.joint_widths.min())}
+
+
+def test_what_a_model_does_not_know_is_refused():
+    still = st.Motion(0.01, np.zeros(11))
+    with pytest.raises(st.InputError, match="'cube' is a specimen: use dem3d"):
+        st.simulate(STANDING["specimen"], still, st.DistinctElement2D())
+    with pytest.raises(st.InputError, match="is an assembly: use dem2d"):
+        st.simulate(STANDING["blocks"], still, st.DistinctElement3D())
+    with pytest.raises(st.InputError, match=r"a start from a pose is for columns, and .* is an assembly"):
+        st.simulate(STANDING["blocks"], still, st.DistinctElement2D(), start=st.Start(tilt=0.01))
+    with pytest.raises(st.InputError, match="dem2d carries up to 0"):
+        st.simulate(STANDING["blocks"], still, st.DistinctElement2D(), twins=(STANDING["column"],))
