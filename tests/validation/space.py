@@ -37,13 +37,13 @@ def cylinder(diameter: float, height: float, stiffness: float = 5e10, friction: 
 
 def released(column: Column, start: Start, duration: float, every: int = 1, **options) -> tuple[np.ndarray, np.ndarray]:
     """Free motion of a column from a pose: times, and the axes of its lowest drum as columns of matrices, (T, 3, 3)."""
-    block = DistinctElement3D(**options).make_block(column.n, RunOptions(start=start, until_end=True))
+    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(start=start, until_end=True))
     block.load(0, Case(column, Motion(duration, np.zeros(2))))
-    times, axes = [0.0], [block.axes(0)[0]]
+    times, axes = [0.0], [block.records.axes(0)[0]]
     while not block.is_over(0):
         block.advance(every)
         times.append(block.time(0))
-        axes.append(block.axes(0)[0])
+        axes.append(block.records.axes(0)[0])
     return np.array(times), np.array(axes)
 
 
@@ -92,7 +92,7 @@ def rolling(column: Column, tilt: float, precession: float, spin: float, duratio
 
 def block_of(column: Column, duration: float = 1.0, **options):
     """A block with the column at rest in every lane, for tests that set or read states themselves."""
-    block = DistinctElement3D(**options).make_block(column.n, RunOptions(until_end=True))
+    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(until_end=True))
     for lane in range(block.lanes):
         block.load(lane, Case(column, Motion(duration, np.zeros(2))))
     return block
@@ -102,10 +102,10 @@ def put_axes(block, drum: int, lane: int, matrix: np.ndarray) -> None:
     """Set the axes of a drum (0 is the base) to the columns of a matrix."""
     for a, axis in enumerate("ijk"):
         for c, name in enumerate("xyz"):
-            block.drum[axis + name][drum, lane] = matrix[c, a]
+            block.records.body[axis + name][drum, lane] = matrix[c, a]
 
 
 def put(block, drum: int, lane: int, names: str, vector) -> None:
     """Set a vector of a drum, e.g. ``put(block, 1, 0, "vx vy vz", (1.0, 0.0, 0.0))``."""
     for name, value in zip(names.split(), vector, strict=True):
-        block.drum[name][drum, lane] = value
+        block.records.body[name][drum, lane] = value

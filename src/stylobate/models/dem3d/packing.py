@@ -1,16 +1,77 @@
-"""A column as the kernels in space want it: fields of drums, joints and lanes."""
+"""What stands as the kernels in space want it: one lane of their records; a column's fields of drums, joints and lane."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import space_geometry, upward
+from ...column.found_in_space import base_axes, space_geometry, upward
 from ...kernels.dem3d.records import ALPHA, BETA, CHIPS, RINGS
+from ...kernels.run_codes import RUNNING
+from .arrays import Records
+from .links import SpaceLinks
+
+
+@dataclass(frozen=True)
+class Packed:
+    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
+
+    Parameters
+    ----------
+    lane : dict of str to array
+        All numbers of a lane, see :meth:`Records.taken`.
+    step : float
+        Time step [s].
+    widths : array
+        Widths that openings and slips are measured by [m], shape (n,).
+    barrier : float
+        Lowest energy that overturns it [J].
+    stand : array
+        Its numbers for the verdict: of a column in ``kernels/dem3d/standing.py``, of a body least heights by tilt [m].
+    links : SpaceLinks, optional
+    axes : array, optional
+        Axes that histories tell, in those of the records; of a body, shape (3, 3).
+    """
+
+    lane: dict[str, np.ndarray]
+    step: float
+    widths: np.ndarray
+    barrier: float
+    stand: np.ndarray
+    links: SpaceLinks | None = None
+    axes: np.ndarray | None = None
+
+
+def start_watch(records: Records, top: np.ndarray) -> None:
+    """Let the first lane be looked at from the start: nothing has happened; ``top`` is where the top stands [m]."""
+    fields = dict.fromkeys(("when", "which", "wide"), -1.0)
+    records.fill(0, watch=fields | {"status": RUNNING, "sx": top[0], "sy": top[1]})
+
+
+def pack_column(
+    records: Records,
+    column: Column,
+    fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]],
+    links: SpaceLinks | None,
+    top: Callable[[Records, int], np.ndarray],
+) -> dict[str, np.ndarray]:
+    """Numbers of a lane with a column, from the fields of its drums, joints and lane; ``records`` are empty ones.
+
+    Slips and twists count from where the joints are, turns from where the axes are.
+    """
+    body, joint, lane = fields
+    records.fill(0, body=body | {"a" + c: body["k" + c] for c in "xyz"}, joint=joint, lane=lane)
+    _, slip, twist = records.joints(0)
+    records.fill(0, joint={"ox": slip[:, 0], "oy": slip[:, 1], "ot": twist, "tw": twist})
+    records.fill(0, feed={"r": base_axes(column).T.ravel()}, link={} if links is None else links.link)
+    start_watch(records, top(records, 0))
+    return records.taken(0)
+
 
 #: Radius of the base, wide enough to be a half-space [m].
 BASE_RADIUS = 1.0e3

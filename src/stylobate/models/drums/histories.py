@@ -7,16 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ...column import Column
 from ...motion import Motion
 from ...response import Histories
 from ..shared import ledger
 from ..shared.ground import ground_histories
-from .barriers import lowest_barrier
 from .links import with_link_histories
 
 
-def ledger_imbalance(change: np.ndarray, work: float, start: float, column: Column) -> float:
+def ledger_imbalance(change: np.ndarray, work: float, start: float, barrier: float) -> float:
     """Energy imbalance of a run of drums [-].
 
     Parameters
@@ -25,10 +23,11 @@ def ledger_imbalance(change: np.ndarray, work: float, start: float, column: Colu
         The ledger, shape (6,) [J].
     work, start : float
         Largest input work so far, and the elastic energy at rest [J].
-    column : Column
+    barrier : float
+        Lowest energy that overturns what stands there [J].
     """
     missing, free = ledger.unaccounted(change), ledger.released(change)
-    return ledger.imbalance(missing, work=work, start=start, barrier=lowest_barrier(column), released=free)
+    return ledger.imbalance(missing, work=work, start=start, barrier=barrier, released=free)
 
 
 def histories(motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:

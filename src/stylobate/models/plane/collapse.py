@@ -262,7 +262,9 @@ class _ColumnRun:
         """Measures of the run; peaks end with a collapse, as in the lanes."""
         watch, engine, column = self.block.watch[0], self.engine, self.column
         change = last["energy"] - self.start
-        imbalance = ledger_imbalance(change, float(watch["wmax"][0]), self.block.begun(0, change), column)
+        imbalance = ledger_imbalance(
+            change, float(watch["wmax"][0]), self.block.begun(0, change), self.block.barrier(column)
+        )
         failed = engine.failed or bool(ledger.out_of_balance(imbalance))
         slip, widths = last["slip"], column.joint_widths
         outcome = classify(
@@ -271,7 +273,7 @@ class _ColumnRun:
         when = int(watch["when"][0])
         return Measures(
             outcome=outcome,
-            decided=self.collapsed or (not failed and self.block.stays(0, slip, change)),
+            decided=self.collapsed or (not failed and self.block.stays(0, self.block.mechanical(0, change))),
             collapse_time=float(when * engine.dt) if when >= 0 else math.nan,
             peak_top_displacement=self.block.peak(0, "top"),
             residual_top_displacement=float(found.top_displacement[-1]),
