@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from validation.space import flat_barrier
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
 from stylobate.constants import g
@@ -12,7 +13,6 @@ from stylobate.kernels.run_codes import RUNNING
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.dem3d.verdict import flat_barrier
 from stylobate.models.start import Start
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate_many

@@ -5,14 +5,13 @@ import math
 
 import numpy as np
 import pytest
-from validation.space import round_column
+from validation.space import flat_barrier, round_column
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.dem3d.verdict import flat_barrier
 from stylobate.models.plane.standing import flat_barrier as in_the_plane
 from stylobate.models.start import Start
 from stylobate.motion import Motion

@@ -234,3 +234,19 @@ def test_a_body_whose_weight_is_next_to_an_edge_lies_where_it_is_stable():
     assert np.ptp(seen.tilt) < 1e-9
     assert 1e-5 < seen.tilt[0, 0] < math.atan(1e-3)
     assert np.ptp(seen.body_position, axis=0).max() < 1e-9
+
+
+def test_a_lane_that_is_used_again_starts_as_a_new_one():
+    """While others move on beside it, whose vertices are near or not."""
+    model, motion = st.DistinctElement3D(), st.harmonic(3.0, 6.0, 0.5)
+    block = model.block_for(model.kind(box()), RunOptions())
+    for lane in range(2):
+        block.load(lane, Case(box(), motion))
+    first, started = block.records.taken(0), block.start[0].copy()
+    block.advance(3)
+    assert (block.records.taken(0)["body"] != first["body"]).any()
+    block.load(0, Case(box(), motion))
+    again = block.records.taken(0)
+    assert (block.start[0] == started).all()
+    assert all((again[name] == first[name]).all() for name in ("joint", "feed", "watch"))
+    assert (block.start[0] == block.start[1]).all()

@@ -9,8 +9,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from stylobate.column import Column, Drum, Joint
+from stylobate.kernels.dem3d.standing import lowest_barrier
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.dem3d.verdict import numbers_for
 from stylobate.models.start import Start
 from stylobate.motion import Motion
 
@@ -96,6 +98,13 @@ def block_of(column: Column, duration: float = 1.0, **options):
     for lane in range(block.lanes):
         block.load(lane, Case(column, Motion(duration, np.zeros(2))))
     return block
+
+
+def flat_barrier(column: Column, slip, turns=None, toes=None, walks: bool = False) -> float:
+    """Lowest barrier of a column put down flat with these slips [m] and turns of its bodies [rad], in [J]."""
+    stand = numbers_for(column, np.zeros(column.n) if toes is None else toes)
+    turns = np.zeros(column.n + 1) if turns is None else turns
+    return float(lowest_barrier(stand, slip, turns, column.section != "circular", column.gravity, walks))
 
 
 def put_axes(block, drum: int, lane: int, matrix: np.ndarray) -> None:

@@ -16,7 +16,6 @@ from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
 from ..drums.packing import whole_steps
 from ..drums.runs import CALLS_PER_RUN, LaneRuns
-from ..shared.ground import value_at
 from ..shared.lanes import in_rows
 from .arrays import Records
 from .packing import Packed
@@ -75,6 +74,7 @@ class SpaceBlock(LaneRuns):
     ) -> None:
         super().__init__(pack, (records.lane, records.feed, records.watch, records.link), options, cost)
         self.records, self.bodies, self.planar = records, bodies, planar
+        self.packed: dict[int, Packed] = {}
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
@@ -82,6 +82,7 @@ class SpaceBlock(LaneRuns):
         """Start a case in a lane."""
         self.cases[lane] = case
         packed, motion, records = self.pack(case.column), case.motion, self.records
+        self.packed[lane] = packed
         records.put(lane, packed.lane)
         dt, chunks = whole_steps(motion, self.options.tail, packed.step)
         steps = chunks * self.chunk
@@ -165,14 +166,15 @@ class SpaceBlock(LaneRuns):
 
     def ground_acceleration(self, lane: int) -> np.ndarray:
         """Acceleration of the base in its own axes now [m/s²], shape (3,)."""
-        case = self.cases[lane]
+        from ...kernels.ground import BEFORE, sample_one
+
+        case, feed, a = self.cases[lane], self.feed[0], np.zeros(3)
         assert case is not None
-        motion = case.motion
-        place, a = self.time(lane) / motion.dt, np.zeros(3)
-        for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):
-            if samples is not None:
-                a[c] = value_at(samples, place) * motion.factor
-        return self.feed["r"][0, :, lane].reshape(3, 3) @ a
+        place, last = self.time(lane) / case.motion.dt, int(feed["last"][lane])
+        for c, name in enumerate("xyz"):
+            if address := int(feed[name][lane]):
+                a[c] = sample_one(address, last, place, BEFORE) * case.motion.factor
+        return feed["r"][:, lane].reshape(3, 3) @ a
 
     def energies(self, lane: int) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
@@ -189,7 +191,7 @@ class SpaceBlock(LaneRuns):
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
         column = self.column(lane)
-        axes, own = self.records.axes(lane), self.pack(column).axes
+        axes, own = self.records.axes(lane), self.packed[lane].axes
         opening, slip, twist = self.records.joints(lane)
         return {
             "time": self.time(lane),
@@ -218,18 +220,17 @@ class SpaceBlock(LaneRuns):
         )
         return self.measures(lane, slips, float(np.hypot(*self.top(lane))), lean, space)
 
-    def widths(self, column: Any) -> np.ndarray:
+    def widths(self, lane: int) -> np.ndarray:
         """Widths that openings and slips are measured by [m], shape (n,)."""
-        return self.pack(column).widths
+        return self.packed[lane].widths
 
-    def barrier(self, column: Any) -> float:
+    def barrier(self, lane: int) -> float:
         """Lowest energy that overturns what stands in a lane [J]."""
-        return self.pack(column).barrier
+        return self.packed[lane].barrier
 
     def stays(self, lane: int, energy: float) -> bool:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
-        column = self.column(lane)
-        return self.bodies.stays(self.pack(column), self.records, lane, column, energy)
+        return self.bodies.stays(self.packed[lane], self.records, lane, self.column(lane), energy)
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane, with its direction in plan."""

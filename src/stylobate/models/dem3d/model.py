@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -16,7 +15,7 @@ from ...column.specimen import Specimen
 from ...errors import InputError, check_range
 from ...kernels.dem3d.records import types
 from ...motion import Motion
-from ...response import Histories, Response
+from ...response import Response
 from ..base import Model, RunOptions
 from ..drums.barriers import lowest_barrier
 from ..drums.joints import joint_stiffnesses
@@ -28,7 +27,6 @@ from ..shared.toes import bed_toes, point_toes, rim_toes
 from .arrays import Records
 from .block import SpaceBlock
 from .found_start import found_start
-from .histories import histories
 from .links import space_links
 from .packing import Packed, chipped, damping_rows, drum_fields, joint_fields, lane_fields, pack_column
 from .restitution import damping_for
@@ -248,10 +246,6 @@ class DistinctElement3D(SteppedDrums):
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
         return 4.5 * super().cost(drums)
-
-    def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
-        """Histories from the snapshots of a run."""
-        return histories(motion, states)
 
 
 @lru_cache(maxsize=256)

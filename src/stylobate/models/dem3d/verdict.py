@@ -31,7 +31,9 @@ def stands_for_good(
     stand : array
         See :func:`numbers_for`.
     walks : bool
-        See :func:`flat_barrier`.
+        A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
+        (``kernels/dem3d/standing.py``). Walking without slip costs nothing, so that no bound by energy is a proof; the
+        margin is measured, see the theory page.
     """
     from ...kernels.dem3d.standing import centroids_inside, stands, turns_of
 
@@ -56,7 +58,10 @@ def _height_as_found(column: Column) -> float:
 
 
 def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:
-    """Numbers of a column for the law, see ``kernels/dem3d/standing.py``; ``toes`` as for :func:`flat_barrier`."""
+    """Numbers of a column for the law, see ``kernels/dem3d/standing.py``.
+
+    ``toes`` is what each joint gives with its load on its edge (:mod:`stylobate.models.shared.toes`) [J], shape (n,).
+    """
     from ...kernels.dem3d.standing import STAND_TYPE
 
     stand: Any = np.zeros(column.n, STAND_TYPE)
@@ -70,43 +75,8 @@ def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:
     return stand
 
 
-def flat_barrier(
-    column: Column,
-    slip: np.ndarray,
-    turns: np.ndarray | None = None,
-    toes: np.ndarray | None = None,
-    walks: bool = False,
-) -> float:
-    """Lowest energy that overturns, or slides and lifts, some part of the column with its drums put down flat [J].
-
-    A part overturns about the nearest edge of the overlap of its two faces, at a distance b from under its centroid:
-    m g (√(H² + b²) − H); where some joint above is so slippery that it slides first, see Eq. (V1). 0 if a centroid is
-    not above its overlap.
-
-    Parameters
-    ----------
-    column : Column
-    slip : array
-        Offset of each drum along the joint under it [m], shape (n, 2).
-    turns : array, optional
-        Azimuth of each body's first axis, the base's first [rad], shape (n + 1,).
-    toes : array, optional
-        What each joint gives with its load on its edge (:mod:`stylobate.models.shared.toes`) [J], shape (n,); rigid joints
-        without.
-    walks : bool
-        A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
-        (``kernels/dem3d/standing.py``). Walking without slip costs nothing, so that no bound by energy is a proof; the
-        margin is measured, see the theory page.
-    """
-    from ...kernels.dem3d.standing import lowest_barrier
-
-    stand = numbers_for(column, np.zeros(column.n) if toes is None else toes)
-    turns = np.zeros(column.n + 1) if turns is None else turns
-    return float(lowest_barrier(stand, slip, turns, column.section != "circular", column.gravity, walks))
-
-
 def found_barrier(column: Column, flat: SpaceGeometry, stand: np.ndarray, walks: bool = False) -> float:
-    """As :func:`flat_barrier` for a column as found, with its drums put down flat where they are; a lower bound [J].
+    """As ``lowest_barrier`` of the law for a column as found, its drums put down flat where they are; a lower bound [J].
 
     On a joint that slopes by γ the nearest edge is b cos γ away across gravity, and may lie b sin γ lower; friction is what
     the slope leaves of it.

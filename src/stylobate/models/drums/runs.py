@@ -93,13 +93,13 @@ class LaneRuns:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
         raise NotImplementedError
 
-    def widths(self, column: Any) -> np.ndarray:
+    def widths(self, lane: int) -> np.ndarray:
         """Widths that openings and slips are measured by [m], shape (n,)."""
-        return column.joint_widths
+        return self.column(lane).joint_widths
 
-    def barrier(self, column: Any) -> float:
+    def barrier(self, lane: int) -> float:
         """Lowest energy that overturns what stands in a lane [J]."""
-        return lowest_barrier(column)
+        return lowest_barrier(self.column(lane))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
@@ -182,12 +182,11 @@ class LaneRuns:
 
     def at_rest(self, lane: int) -> bool:
         """Whether a lane's column has next to no energy above that at its start."""
-        column = self.column(lane)
         change = self.energies(lane) - self.start[lane]
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
-            free = set_free(column, self.link["ft"][:, lane], float(self.pressed[lane]))
-        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.barrier(column)
+            free = set_free(self.column(lane), self.link["ft"][:, lane], float(self.pressed[lane]))
+        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.barrier(lane)
 
     # -- what it tells -------------------------------------------------------------------------------------------
 
@@ -231,7 +230,13 @@ class LaneRuns:
         return float(watch["k" + name if watch["when"][lane] >= 0 else name][lane])
 
     def measures(
-        self, lane: int, slips: np.ndarray, top: float, rotation: float, space: SpaceMeasures | None = None
+        self,
+        lane: int,
+        slips: np.ndarray,
+        top: float,
+        rotation: float,
+        space: SpaceMeasures | None = None,
+        since: np.ndarray | None = None,
     ) -> Measures:
         """Measures of a lane whose run is over.
 
@@ -245,14 +250,16 @@ class LaneRuns:
         rotation : float
             Largest rotation of a body [rad].
         space : SpaceMeasures, optional
+        since : array, optional
+            Change of the ledger since the start [J], shape (6,); that of the lane if left out.
         """
-        column, watch = self.column(lane), self.watch[0]
+        watch = self.watch[0]
         status, when = watch["status"][lane], int(watch["when"][lane])
         step, dt = int(self.feed["step"][0, lane]), float(self.dt[lane])
-        change = self.energies(lane) - self.start[lane]
-        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), self.barrier(column))
+        change = self.energies(lane) - self.start[lane] if since is None else since
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), self.barrier(lane))
         failed = status == FAILED or bool(ledger.out_of_balance(imbalance))
-        widths = self.widths(column)
+        widths = self.widths(lane)
         outcome = classify(
             status == COLLAPSED, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max())
         )
