@@ -66,7 +66,7 @@ def test_no_declared_collapse_recovers(drums, section):
             joint=column.joints[0],
             depth=0.8,
         )
-    block = MODEL.make_block(drums, RunOptions(until_end=True, tail=4.0), section)
+    block = MODEL.block_for((drums, section), RunOptions(until_end=True, tail=4.0))
     for lane in range(block.lanes):
         block.load(lane, Case(column, shaking(0.4 * lane, 0.25 + 0.04 * lane)))
     left, declared, down = set(range(block.lanes)), 0, 0
@@ -76,7 +76,9 @@ def test_no_declared_collapse_recovers(drums, section):
             left.discard(lane)
             if block.watch["when"][0, lane] >= 0:
                 declared += 1
-                upright = block.drum["kz"][1:, lane].min() > 0.2 and block.drum["z"][1:, lane].min() > 0.0
+                upright = (
+                    block.records.body["kz"][1:, lane].min() > 0.2 and block.records.body["z"][1:, lane].min() > 0.0
+                )
                 parted = block.watch["parted"][0, lane] == 1
                 down += not upright or parted
     assert declared >= 5

@@ -13,7 +13,6 @@ from stylobate.column.files import write_column
 from stylobate.column.found_geometry import uplift_accelerations
 from stylobate.column.found_in_space import space_geometry, space_load
 from stylobate.models.base import Case, RunOptions
-from stylobate.models.dem3d.arrays import state_of
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.motion import Motion
 
@@ -60,10 +59,10 @@ def test_a_found_column_stands_still_from_the_start(model):
     column = found(tilt=1.5, azimuth=200.0)
     block = block_of(column, **model)
     assert block.residual_acceleration(0) < 2e-6
-    before = {name: block.drum[name][1:, 0].copy() for name in "xyz"}
+    before = {name: block.records.body[name][1:, 0].copy() for name in "xyz"}
     block.advance(200)
     for name, values in before.items():
-        assert block.drum[name][1:, 0] == pytest.approx(values, abs=1e-10)
+        assert block.records.body[name][1:, 0] == pytest.approx(values, abs=1e-10)
 
 
 def test_square_drums_turned_and_offset_stand_still_too():
@@ -77,9 +76,8 @@ def test_the_eccentric_closure_of_an_offset_column_carries_its_load_where_static
     """An offset in the plane: normal force and moment of each joint are those of the plane's statics."""
     column = COLUMN.replace(as_found=st.AsFound((st.FoundDrum(2, offset=0.1),)))
     block = block_of(column)
-    now = block.copies(0)
-    block.kernel.forces(state_of(now))
-    load = now["load"]
+    block.records.net(0)
+    load = block.records.load
     mass = column.masses
     for j in range(3):
         weight = mass[j:].sum() * column.gravity

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from validation.space import flat_barrier
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
 from stylobate.constants import g
@@ -12,7 +13,6 @@ from stylobate.kernels.run_codes import RUNNING
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.dem3d.verdict import flat_barrier
 from stylobate.models.start import Start
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate_many
@@ -44,7 +44,7 @@ def blocks(column, motion, model=None, every=1, start=None):
 def path(column, motion, model=None, **options):
     """Places of all centroids over time, shape (T, n, 3)."""
     found = [
-        np.stack([block.drum[c][1:, 0] for c in "xyz"], axis=-1).copy()
+        np.stack([block.records.body[c][1:, 0] for c in "xyz"], axis=-1).copy()
         for block in blocks(column, motion, model, **options)
     ]
     return np.array(found)
@@ -120,7 +120,7 @@ def test_a_square_pushed_along_its_diagonal_stays_in_that_plane_and_starts_to_li
         ramp = np.minimum(t, 1.0) * share * g * SIDE / 5.0
         push = Motion(1e-3, ramp * math.cos(azimuth), ay=ramp * math.sin(azimuth))
         *_, last = blocks(prism(), push, DistinctElement3D(step_factor=0.8, mass_damping=2.0), every=20)
-        return 1.0 - float(last.drum["kz"][1, 0]) > 1e-4
+        return 1.0 - float(last.records.body["kz"][1, 0]) > 1e-4
 
     assert leans(1.1, 0.0)
     assert not leans(0.9, 0.0)
@@ -134,7 +134,7 @@ def sliding(ax, ay, duration, dt=1e-3):
     t = np.arange(round(duration / dt) + 1) * dt
     model = DistinctElement3D(stiffness_damping=1e-4)
     found = [
-        (block.time(0), *block.since_start(0)[0][0]) for block in blocks(column, Motion(dt, ax(t), ay=ay(t)), model)
+        (block.time(0), *block.records.joints(0)[1][0]) for block in blocks(column, Motion(dt, ax(t), ay=ay(t)), model)
     ]
     return np.array(found)
 
@@ -157,20 +157,20 @@ def free(column, omega, duration, step):
     model = DistinctElement3D(time_step=step)
     block = model.block_for(model.kind(column), RunOptions(until_end=True))
     block.load(0, Case(column, Motion(duration, np.zeros(2))))
-    block.joint["kn"][:] = block.joint["ks"][:] = 0.0
+    block.records.joint["kn"][:] = block.records.joint["ks"][:] = 0.0
     block.lane["g"][:] = 0.0
-    drum = block.drum
+    drum = block.records.body
     drum["z"][1, 0] = 10.0
     moments = np.array([column.drums[0].cross_inertia, column.drums[0].inertia, column.drums[0].axial_inertia])
     for c, name in enumerate("xyz"):
         drum["l" + name][1, 0], drum["w" + name][1, 0] = moments[c] * omega[c], omega[c]
-    kinetic, axes, times = [], [block.axes(0)[0]], [0.0]
+    kinetic, axes, times = [], [block.records.axes(0)[0]], [0.0]
     while block.feed["step"][0, 0] < block.steps[0]:
         # a body that turns over in the air has not collapsed
         block.watch["status"][0, 0], block.lane["dt"][0, 0] = RUNNING, block.dt[0]
         block.advance(1)
         times.append(block.time(0))
-        axes.append(block.axes(0)[0])
+        axes.append(block.records.axes(0)[0])
         momentum = np.array([drum["l" + c][1, 0] for c in "xyz"]) @ axes[-1]
         kinetic.append(0.5 * float((momentum**2 / moments).sum()))
     return np.array(times), np.array(axes), np.array(kinetic), moments
@@ -262,7 +262,12 @@ def test_release_about_a_corner_and_about_an_edge():
         times, leans = [], []
         for block in blocks(column, Motion(1.5 * exact, np.zeros(2)), start=Start(0.05, azimuth)):
             times.append(block.time(0))
-            leans.append(float(block.drum["kx"][1, 0] * math.cos(azimuth) + block.drum["ky"][1, 0] * math.sin(azimuth)))
+            leans.append(
+                float(
+                    block.records.body["kx"][1, 0] * math.cos(azimuth)
+                    + block.records.body["ky"][1, 0] * math.sin(azimuth)
+                )
+            )
         i = int(np.argmax(np.array(leans) < 0.0))
         found = times[i - 1] + (times[i] - times[i - 1]) * leans[i - 1] / (leans[i - 1] - leans[i])
         assert found == pytest.approx(exact, rel=1e-3)
@@ -329,7 +334,7 @@ def test_a_turned_drum_on_another_stands_and_carries_its_weight_straight():
     column = prism(2)
     for block in blocks(column, Motion(0.5, np.zeros(2))):
         if block.time(0) == 0.0:
-            drum, c = block.drum, math.cos(0.25 * math.pi)
+            drum, c = block.records.body, math.cos(0.25 * math.pi)
             for name, value in (("ix", c), ("iy", c), ("jx", -c), ("jy", c)):
                 drum[name][2, 0] = value
     assert not block.is_over(0) or block.collect(0).outcome != "collapsed"

@@ -14,7 +14,6 @@ from stylobate.errors import InputError
 from stylobate.kernels.dem3d.bed import settle_ring
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
-from stylobate.models.dem3d.arrays import state_of
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.shared.toes import disc_on_bed
 from stylobate.models.start import Start
@@ -100,15 +99,15 @@ def test_static_uplift_of_a_column_on_a_ring():
         turn = rotation(np.array([-math.sin(azimuth), math.cos(azimuth), 0.0]), math.atan(slope))
         for a, axis in enumerate("ijk"):
             for c, name in enumerate("xyz"):
-                block.drum[axis + name][1, 0] = turn[c, a]
-        foot = turn @ np.array([0.0, 0.0, block.drum["fz"][1, 0]])
+                block.records.body[axis + name][1, 0] = turn[c, a]
+        foot = turn @ np.array([0.0, 0.0, block.records.body["fz"][1, 0]])
         for c, name in enumerate("xyz"):
-            block.drum[name][1, 0] = -foot[c] - (depth if c == 2 else 0.0)
-        now = block.copies(0)
-        block.kernel.forces(state_of(now))
-        assert now["load"]["f"][0, 2, 0] == pytest.approx(column.mass * g, rel=2e-3)
+            block.records.body[name][1, 0] = -foot[c] - (depth if c == 2 else 0.0)
+        block.records.net(0)
+        load = block.records.load
+        assert load["f"][0, 2, 0] == pytest.approx(column.mass * g, rel=2e-3)
         towards = np.array([math.cos(azimuth), math.sin(azimuth)])
-        about = now["load"]["lo"][0, :2, 0] @ (-towards[1], towards[0])
+        about = load["lo"][0, :2, 0] @ (-towards[1], towards[0])
         assert about == pytest.approx(column.mass * g * arm, rel=2e-3)
 
 
@@ -125,7 +124,7 @@ def test_a_column_on_rings_keeps_its_energy_and_the_share_that_it_touches_with()
     assert measures.outcome.name != "FAILED"
     assert measures.peak_joint_opening > 1e-4
     assert abs(measures.energy_imbalance) < 5e-3
-    assert np.abs(block.drum["y"][1:, 0]).max() < 1e-9
+    assert np.abs(block.records.body["y"][1:, 0]).max() < 1e-9
 
 
 def test_rings_go_through_a_file_and_leave_digests_alone(tmp_path):
@@ -182,7 +181,7 @@ def test_no_step_adds_to_rolling(spin):
     block = model.block_for(model.kind(column), RunOptions(start=start, until_end=True))
     block.load(0, Case(column, Motion(0.5, np.zeros(2))))
     block.advance(1)
-    found = sum(block.drum[f"w{c}"][1, 0] * block.drum[f"k{c}"][1, 0] for c in "xyz")
+    found = sum(block.records.body[f"w{c}"][1, 0] * block.records.body[f"k{c}"][1, 0] for c in "xyz")
     assert abs(found) < 0.5 * spin
 
 

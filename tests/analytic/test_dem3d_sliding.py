@@ -22,11 +22,11 @@ def test_first_decompression_is_at_half_the_radius_over_the_height():
     closure = column.mass * g / (5e10 * column.joint_areas[0])
     tilt = math.asin(closure / (0.5 * column.base_width))
     put_axes(block, 1, 0, rotation(np.array([0.0, 1.0, 0.0]), tilt))
-    axis = block.drum["kx"][1, 0], 0.0, block.drum["kz"][1, 0]
+    axis = block.records.body["kx"][1, 0], 0.0, block.records.body["kz"][1, 0]
     put(block, 1, 0, "x y z", column.centroid_height * np.array(axis) - (0.0, 0.0, closure))
-    block.kernel.forces(block.state)
-    load = block.arrays["load"]
-    reach = -load["up"][0, 1, 0] / load["f"][0, 2, 0] + block.drum["x"][1, 0]
+    block.records.kernel.forces(block.records.state)
+    load = block.records.load
+    reach = -load["up"][0, 1, 0] / load["f"][0, 2, 0] + block.records.body["x"][1, 0]
     assert reach / column.centroid_height == pytest.approx(0.109347, rel=2e-5)
 
 
@@ -38,4 +38,4 @@ def test_without_pivot_friction_a_disc_spins_for_ever():
     put(block, 1, 0, "lz wz", (FLAT.drums[0].axial_inertia * 3.0, 3.0))
     while not block.is_over(0):
         block.advance()
-    assert block.drum["wz"][1, 0] == pytest.approx(3.0, rel=1e-9)
+    assert block.records.body["wz"][1, 0] == pytest.approx(3.0, rel=1e-9)

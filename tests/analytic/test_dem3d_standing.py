@@ -5,14 +5,13 @@ import math
 
 import numpy as np
 import pytest
-from validation.space import round_column
+from validation.space import flat_barrier, round_column
 
 from stylobate.column import AsFound, Column, Drum, FoundDrum, Joint
 from stylobate.errors import InputError
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
-from stylobate.models.dem3d.verdict import flat_barrier
 from stylobate.models.plane.standing import flat_barrier as in_the_plane
 from stylobate.models.start import Start
 from stylobate.motion import Motion
@@ -45,11 +44,11 @@ def test_soft_joints_overturn_with_less_energy(column, law):
     alpha = math.atan(0.5 * column.drums[0].bottom_width / column.drums[0].centroid_height)
     energies = []
     for tilt in np.linspace(0.9, 1.0, 11) * alpha:
-        block = model.make_block(1, RunOptions(start=Start(float(tilt))), column.section)
+        block = model.block_for(model.kind(column), RunOptions(start=Start(float(tilt))))
         block.load(0, Case(column, Motion(1.0, np.zeros(2))))
         energies.append(block.rest[0])
     rigid = flat_barrier(column, np.zeros((1, 2)))
-    taken = flat_barrier(column, np.zeros((1, 2)), toes=model.pack(column).toes)
+    taken = flat_barrier(column, np.zeros((1, 2)), toes=model.pack(column).stand["toe"])
     assert taken <= max(energies) < rigid
     assert taken > 0.98 * max(energies)
 
@@ -106,13 +105,13 @@ def test_a_column_that_leans_has_not_slipped(column, azimuth):
 def test_slip_of_a_joint_between_unequal_drums():
     """A drum that stands flat has the offset of its middles, whatever its twist; so does one that leans about it."""
     column = round_column(2)
-    block = DistinctElement3D().make_block(2, RunOptions())
+    block = DistinctElement3D().block_for((2, "circular"), RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     c, s = math.cos(0.7), math.sin(0.7)
     for name, value in {"ix": c, "iy": s, "jx": -s, "jy": c}.items():
-        block.drum[name][2, 0] = value
-    block.drum["x"][2, 0], block.drum["y"][2, 0] = 0.03, -0.02
-    _, slip, twist = block.joints(0)
+        block.records.body[name][2, 0] = value
+    block.records.body["x"][2, 0], block.records.body["y"][2, 0] = 0.03, -0.02
+    _, slip, twist = block.records.joints(0)
     np.testing.assert_allclose(slip, [(0.0, 0.0), (0.03, -0.02)], atol=1e-12)
     assert twist[1] == pytest.approx(0.7, abs=1e-12)
 
@@ -136,12 +135,12 @@ def test_a_plate_that_has_sunk_below_its_middle_is_not_lying():
     """Its joint closes by 12 mm, 0.4 of its 30 mm; the base's surface is above its centroid once it is pressed further."""
     column = on_a_plate(0.03, 3.98e6)
     pressed = Motion(0.01, np.zeros(21), az=0.3 * 9.81 * np.sin(np.arange(21) * 0.2))
-    block = DistinctElement3D().make_block(2, RunOptions())
+    block = DistinctElement3D().block_for((2, "circular"), RunOptions())
     block.load(0, Case(column, pressed))
-    lowest = float(block.drum["z"][1, 0])
+    lowest = float(block.records.body["z"][1, 0])
     while not block.is_over(0):
         block.advance(1)
-        lowest = min(lowest, float(block.drum["z"][1, 0]))
+        lowest = min(lowest, float(block.records.body["z"][1, 0]))
     assert lowest < -1e-3
     assert block.collect(0).outcome is not Outcome.COLLAPSED
 
@@ -156,13 +155,13 @@ def test_twists_count_full_turns():
     column = Column.of_drums(
         [Drum(0.5, 1.0, 1.0, 1600.0, section="circular")], Joint(5e8, 2.5e8, friction_coefficient=0.7)
     )
-    block = DistinctElement3D(pivot_friction=0.0).make_block(1, RunOptions())
+    block = DistinctElement3D(pivot_friction=0.0).block_for((1, "circular"), RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     for name, value in {"lz": column.drums[0].axial_inertia * 9.0, "wz": 9.0}.items():
-        block.drum[name][1, 0] = value
+        block.records.body[name][1, 0] = value
     while not block.is_over(0):
         block.advance()
-    assert block.since_start(0)[1] == pytest.approx([9.0], abs=1e-6)
+    assert block.records.joints(0)[2] == pytest.approx([9.0], abs=1e-6)
     measures = block.collect(0)
     assert measures.space.peak_twist == pytest.approx(9.0, abs=1e-6)
     assert measures.space.residual_twist_per_joint == pytest.approx((9.0,), abs=1e-6)

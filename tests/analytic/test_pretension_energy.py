@@ -26,7 +26,7 @@ def loaded(model, links=(), drums=1, joint=JOINT):
 
 def links_of(block):
     """Records of the links of a block, in the plane or in space."""
-    return block.records.link if hasattr(block, "records") else block.link
+    return block.records.link
 
 
 def core(**more):
@@ -76,14 +76,11 @@ def test_a_dowel_out_of_its_hole_is_not_bent(model):
     dowel = st.Dowel(joint=1, shear_stiffness=1e6, embedment=0.05, ultimate_slip=0.02)
     for lift, out in ((0.06, 1.0), (0.0, 0.0)):
         block = loaded(model, [dowel])
-        plane = hasattr(block, "records")
-        body = block.records.body if plane else block.drum
+        body = block.records.body
         body["z"][1, 0] += lift
         body["x"][1, 0] += 0.03
-        if plane:
-            block.records.law.gather(block.records.state)
-        else:
-            block.kernel.forces(block.state)
+        forces = block.records.kernel.forces if model.axes == "xyz" else block.records.law.gather
+        forces(block.records.state)
         one = links_of(block)
         assert (one["out"][0, 0], one["on"][0, 0]) == (out, out)
         assert one["fx"][0, 0] == 0.0
@@ -95,9 +92,8 @@ def test_dowels_within_their_slack_count_with_what_they_can_hold(model):
     dowel = st.Dowel(joint=1, shear_stiffness=1e6, shear_capacity=1e4, embedment=0.05, clearance=0.1)
     block = loaded(model, [dowel], joint=st.Joint(1e11, 5e10, friction_coefficient=0.7))
     block.advance(1)
-    plane = hasattr(block, "records")
-    assert (block.records.bond if plane else block.arrays["bond"])["near"][0] == 0
-    hold = (block.records.hold if plane else block.arrays["hold"])["moment"][0]
+    assert block.records.bond["near"][0] == 0
+    hold = block.records.hold["moment"][0]
     assert hold.max() == pytest.approx(1e4 * 0.05)
 
 

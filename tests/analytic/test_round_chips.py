@@ -84,15 +84,15 @@ def test_the_law_is_that_of_points_round_the_rim():
     column = column.replace(as_found=st.AsFound((st.FoundDrum(2, chip_right=0.1),)))
     block = block_of(column)
     block.load(0, Case(column, Motion(0.1, np.zeros(2))))
-    for records in (block.drum, block.joint, block.lane):
+    for records in (block.records.body, block.records.joint, block.lane):
         for name in records.dtype.names:
             records[name][...] = records[name][..., :1]
     block.lane["dt"] = 0.0
     for name in "st":
-        block.joint[name][...] = 0.0
-    ru = float(block.drum["rb"][2, 0])
-    ht = float(block.drum["ht"][1, 0])
-    kn = float(block.joint["kn"][1, 0])
+        block.records.joint[name][...] = 0.0
+    ru = float(block.records.body["rb"][2, 0])
+    ht = float(block.records.body["ht"][1, 0])
+    kn = float(block.records.joint["kn"][1, 0])
     poses = []
     for lane in range(block.lanes):
         rl, chip = ru * rng.uniform(0.9, 1.4), ru * rng.choice((1e-3, 0.1, 0.5, 1.2))
@@ -103,23 +103,26 @@ def test_the_law_is_that_of_points_round_the_rim():
         )
         c = np.array([slip * math.cos(over), slip * math.sin(over), rng.uniform(-0.5, 0.7) * ru * tilt - 1e-6])
         poses.append((rl, chip, c, axes[:, 2], axes[:, 0]))
-        block.drum["rt"][1, lane] = rl
+        block.records.body["rt"][1, lane] = rl
         angle = math.acos(1.0 - chip / ru)
-        block.joint["chip"][1, :, lane] = 1.0, 0.0, 0.0, angle, math.cos(angle), math.sin(angle)
-        lower = np.array([block.drum[name][1, lane] for name in "xyz"])
+        block.records.joint["chip"][1, :, lane] = 1.0, 0.0, 0.0, angle, math.cos(angle), math.sin(angle)
+        lower = np.array([block.records.body[name][1, lane] for name in "xyz"])
         for a, axis in enumerate("ijk"):
             for b, name in enumerate("xyz"):
-                block.drum[axis + name][1, lane], block.drum[axis + name][2, lane] = float(a == b), axes[b, a]
-        foot = axes @ [block.drum[name][2, lane] for name in ("fx", "fy", "fz")]
+                block.records.body[axis + name][1, lane], block.records.body[axis + name][2, lane] = (
+                    float(a == b),
+                    axes[b, a],
+                )
+        foot = axes @ [block.records.body[name][2, lane] for name in ("fx", "fy", "fz")]
         for b, name in enumerate("xyz"):
-            block.drum[name][2, lane] = lower[b] + ht * (b == 2) + c[b] - foot[b]
-    block.kernel.forces(block.state)
+            block.records.body[name][2, lane] = lower[b] + ht * (b == 2) + c[b] - foot[b]
+    block.records.kernel.forces(block.records.state)
     loaded = 0
     for lane, (rl, chip, c, n, e) in enumerate(poses):
         force, moment = by_quadrature(ru, rl, chip, c, n, e)
-        held = block.arrays["load"]["f"][1, :, lane] / kn
+        held = block.records.load["f"][1, :, lane] / kn
         # the moment on the lower drum, about its centroid: from the middle of its upper face
-        turned = -block.arrays["load"]["lo"][1, :, lane] / kn - np.cross((0.0, 0.0, ht), held)
+        turned = -block.records.load["lo"][1, :, lane] / kn - np.cross((0.0, 0.0, ht), held)
         scale = max(np.linalg.norm(force), 1e-9)
         assert np.abs(held - force).max() < 1e-3 * scale, lane
         assert np.abs(turned - moment).max() < 1e-3 * scale * ru, lane
@@ -184,7 +187,7 @@ def places(column, motion):
     found = []
     while not block.is_over(0):
         block.advance(1)
-        found.append(np.array([block.drum[name][1:, 0] for name in "xyz"]))
+        found.append(np.array([block.records.body[name][1:, 0] for name in "xyz"]))
     return np.array(found)
 
 
@@ -228,7 +231,7 @@ def stiffness(column):
     """Normal stiffness of the closed lowest joint: closure, and two rotations about the middle of its face, shape (3, 3)."""
     block = block_of(column)
     block.load(0, Case(column, Motion(0.1, np.zeros(2))))
-    for records in (block.drum, block.joint, block.lane):
+    for records in (block.records.body, block.records.joint, block.lane):
         for name in records.dtype.names:
             records[name][...] = records[name][..., :1]
     block.lane["dt"] = 0.0
@@ -236,16 +239,16 @@ def stiffness(column):
     for lane, (down, x, y) in enumerate(((0.0, 0.0, 0.0), (1e-7, 0.0, 0.0), (0.0, turn, 0.0), (0.0, 0.0, turn))):
         axes = rotation(np.array([1.0, 0.0, 0.0]), x) @ rotation(np.array([0.0, 1.0, 0.0]), y)
         for b, name in enumerate("xyz"):
-            block.drum[name][1, lane] = high * axes[b, 2] - (depth + down) * (b == 2)
+            block.records.body[name][1, lane] = high * axes[b, 2] - (depth + down) * (b == 2)
             for a, axis in enumerate("ijk"):
-                block.drum[axis + name][1, lane] = axes[b, a]
-    block.kernel.forces(block.state)
+                block.records.body[axis + name][1, lane] = axes[b, a]
+    block.records.kernel.forces(block.records.state)
     held = np.array(
         [
             (
-                block.arrays["load"]["f"][0, 2, lane],
-                block.arrays["load"]["lo"][0, 0, lane],
-                block.arrays["load"]["lo"][0, 1, lane],
+                block.records.load["f"][0, 2, lane],
+                block.records.load["lo"][0, 0, lane],
+                block.records.load["lo"][0, 1, lane],
             )
             for lane in range(4)
         ]
@@ -277,8 +280,8 @@ def test_a_drum_that_only_tips_over_its_chord_has_not_slipped():
         edge = pivot if way == 0.0 else np.array([0.3, 0.4, 0.0])
         place = edge + axes @ (np.array([0.0, 0.0, column.centroid_height]) - edge)
         for b, name in enumerate("xyz"):
-            block.drum[name][1, 0] = place[b]
+            block.records.body[name][1, 0] = place[b]
             for a, axis in enumerate("ijk"):
-                block.drum[axis + name][1, 0] = axes[b, a]
-        _, slip, _ = block.joints(0)
+                block.records.body[axis + name][1, 0] = axes[b, a]
+        _, slip, _ = block.records.joints(0)
         assert np.abs(slip[0]).max() < 1e-6

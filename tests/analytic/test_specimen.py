@@ -40,10 +40,10 @@ def boulder(seed=3, points=60):
 def path(structure, motion, model):
     block = model.block_for(model.kind(structure), RunOptions(until_end=True))
     block.load(0, Case(structure, motion))
-    found = [np.array([block.drum[c][1, 0] for c in "xyz"])]
+    found = [np.array([block.records.body[c][1, 0] for c in "xyz"])]
     while not block.is_over(0):
         block.advance(1)
-        found.append(np.array([block.drum[c][1, 0] for c in "xyz"]))
+        found.append(np.array([block.records.body[c][1, 0] for c in "xyz"]))
     return np.array(found), block
 
 
@@ -151,7 +151,7 @@ def test_free_fall_turns_as_a_free_body():
     body = boulder()
     block = model.block_for(model.kind(body), RunOptions(until_end=True))
     block.load(0, Case(body, st.Motion(1.0, np.zeros(2))))
-    drum = block.drum
+    drum = block.records.body
     drum["z"][1, 0] = 100.0
     drum["lx"][1, 0], drum["ly"][1, 0], drum["lz"][1, 0] = 3.0, 40.0, 2.0
     first = block.energies(0)
@@ -212,14 +212,14 @@ def test_a_body_that_leans_has_not_slipped():
     block.load(0, Case(box(), st.Motion(1.0, np.zeros(2))))
     c, s, edge = math.cos(0.1), math.sin(0.1), np.array([0.5 * SIDE, 0.0, 0.0])
     turn = np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-    place = edge + turn @ (np.array([block.drum[name][1, 0] for name in "xyz"]) - edge)
-    axes = turn @ block.axes(0)[0]
+    place = edge + turn @ (np.array([block.records.body[name][1, 0] for name in "xyz"]) - edge)
+    axes = turn @ block.records.axes(0)[0]
     for i, name in enumerate("xyz"):
-        block.drum[name][1, 0] = place[i]
+        block.records.body[name][1, 0] = place[i]
         for a, axis in enumerate("ijk"):
-            block.drum[axis + name][1, 0] = axes[i, a]
-    assert abs(block.foot(0)[0]) > 1e-3
-    opening, slip, twist = block.joints(0)
+            block.records.body[axis + name][1, 0] = axes[i, a]
+    assert abs(block.bodies.foot(block.records, 0, box())[0]) > 1e-3
+    opening, slip, twist = block.records.joints(0)
     assert np.abs(slip).max() < 1e-6  # the edge had sunk by some micrometres
     assert opening[0] == pytest.approx(SIDE * s, rel=1e-4)
     assert twist == pytest.approx(0.0, abs=1e-12)
@@ -234,3 +234,19 @@ def test_a_body_whose_weight_is_next_to_an_edge_lies_where_it_is_stable():
     assert np.ptp(seen.tilt) < 1e-9
     assert 1e-5 < seen.tilt[0, 0] < math.atan(1e-3)
     assert np.ptp(seen.body_position, axis=0).max() < 1e-9
+
+
+def test_a_lane_that_is_used_again_starts_as_a_new_one():
+    """While others move on beside it, whose vertices are near or not."""
+    model, motion = st.DistinctElement3D(), st.harmonic(3.0, 6.0, 0.5)
+    block = model.block_for(model.kind(box()), RunOptions())
+    for lane in range(2):
+        block.load(lane, Case(box(), motion))
+    first, started = block.records.taken(0), block.start[0].copy()
+    block.advance(3)
+    assert (block.records.taken(0)["body"] != first["body"]).any()
+    block.load(0, Case(box(), motion))
+    again = block.records.taken(0)
+    assert (block.start[0] == started).all()
+    assert all((again[name] == first[name]).all() for name in ("joint", "feed", "watch"))
+    assert (block.start[0] == block.start[1]).all()

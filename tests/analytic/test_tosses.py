@@ -36,12 +36,12 @@ def flown(body, toss, duration, step=1.5e-6):
     deepest = 0.0
     while not block.is_over(0):
         block.advance(1)
-        block.net(0)
+        block.records.net(0)
         held = float(block.lane["en"][0, 0])
         if deepest > 0.0 and held == 0.0:
             break
         deepest = max(deepest, held)
-    drum = block.drum
+    drum = block.records.body
     velocity, momentum = (np.array([drum[one + c][1, 0] for c in "xyz"]) for one in "vl")
     return velocity, momentum, deepest, float(block.lane["visc"][0, 0])
 

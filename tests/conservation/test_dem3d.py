@@ -40,12 +40,12 @@ def unequal() -> Column:
 
 def places(column, motion, **options):
     """Centroids of all drums every 32 steps, shape (T, 3, n), and the times."""
-    block = DistinctElement3D(**options).make_block(column.n, RunOptions(until_end=True))
+    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(until_end=True))
     block.load(0, Case(column, motion))
     found = []
     while not block.is_over(0):
         block.advance(1)
-        found.append(np.array([block.drum[c][1:, 0] for c in "xyz"]))
+        found.append(np.array([block.records.body[c][1:, 0] for c in "xyz"]))
     return np.array(found), np.arange(1, len(found) + 1) * block.chunk * block.dt[0]
 
 

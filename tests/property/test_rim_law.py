@@ -84,16 +84,16 @@ def test_force_and_moment_of_random_poses(ratio, slip, towards, tilt, depth, bas
     put(block, 1, 0, "x y z", place)
     put(block, 2, 0, "x y z", face + frame @ c + upper.centroid_height * (frame @ own)[:, 2])
     block.lane["dt"][0, 0] = 0.0
-    block.kernel.forces(block.state)
+    block.records.kernel.forces(block.records.state)
     force, moment = summed(ru, rl, c, own[:, 2], 5e10)
     force, moment = frame @ force, frame @ moment
-    found = block.arrays["load"]["f"][1, :, 0]
+    found = block.records.load["f"][1, :, 0]
     size = max(np.linalg.norm(force), 1e-9 * 5e10)
     np.testing.assert_allclose(found, force, rtol=0, atol=3e-4 * size)
     about_lower = np.cross(face - place, force) + moment
     about_upper = moment - np.cross(frame @ c + upper.centroid_height * (frame @ own)[:, 2], force)
-    np.testing.assert_allclose(-block.arrays["load"]["lo"][1, :, 0], about_lower, rtol=0, atol=5e-4 * size)
-    np.testing.assert_allclose(block.arrays["load"]["up"][1, :, 0], about_upper, rtol=0, atol=5e-4 * size)
+    np.testing.assert_allclose(-block.records.load["lo"][1, :, 0], about_lower, rtol=0, atol=5e-4 * size)
+    np.testing.assert_allclose(block.records.load["up"][1, :, 0], about_upper, rtol=0, atol=5e-4 * size)
 
 
 def test_faces_that_have_parted_carry_nothing():
@@ -102,9 +102,9 @@ def test_faces_that_have_parted_carry_nothing():
     for slip in (0.9, 0.95, 3.0):
         put(block, 2, 0, "x", (slip,))
         put(block, 2, 0, "z", (1.0,))
-        block.kernel.forces(block.state)
-        assert np.abs(block.arrays["load"]["f"][1, :, 0]).max() < 1e-6
-        assert np.isfinite(block.arrays["load"]["up"][1, :, 0]).all()
+        block.records.kernel.forces(block.records.state)
+        assert np.abs(block.records.load["f"][1, :, 0]).max() < 1e-6
+        assert np.isfinite(block.records.load["up"][1, :, 0]).all()
 
 
 def test_closed_joint_has_its_area_and_twice_its_second_moment():
@@ -115,16 +115,16 @@ def test_closed_joint_has_its_area_and_twice_its_second_moment():
         block = block_of(column)
         block.lane["dt"][:] = 0.0
         weight = column.joint_weights[1]
-        z = block.drum["z"][2, 0]
+        z = block.records.body["z"][2, 0]
         for lane in range(block.lanes):
             azimuth = lane * 0.7
             turn = rotation(np.array([math.cos(azimuth), math.sin(azimuth), 0.0]), 1e-7)
             put_axes(block, 2, lane, turn)
             arm = column.drums[1].centroid_height
             put(block, 2, lane, "x y z", arm * (turn[:, 2] - (0, 0, 1)) + (slip, 0.0, z))
-        block.kernel.forces(block.state)
-        np.testing.assert_allclose(block.arrays["load"]["f"][1, 2], weight, rtol=1e-4)
-        bending = [block.arrays["load"]["up"][1, c] for c in (0, 1)]
+        block.records.kernel.forces(block.records.state)
+        np.testing.assert_allclose(block.records.load["f"][1, 2], weight, rtol=1e-4)
+        bending = [block.records.load["up"][1, c] for c in (0, 1)]
         azimuth = 0.7 * np.arange(block.lanes)
         along = bending[0] * np.cos(azimuth) + bending[1] * np.sin(azimuth)
         np.testing.assert_allclose(along, -2.0 * 5e10 * second * 1e-7, rtol=2e-3)

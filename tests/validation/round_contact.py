@@ -45,14 +45,14 @@ def resistance(column, tilts, law):
             for lane, turn in enumerate(turns):
                 put_axes(block, 1, lane, turn)
                 put(block, 1, lane, "x y z", height * turn[:, 2] - (0.0, 0.0, depth))
-            block.kernel.forces(block.state)
-            carried = block.arrays["load"]["f"][0, 2]
+            block.records.kernel.forces(block.records.state)
+            carried = block.records.load["f"][0, 2]
             low, high = (depth, high) if carried.mean() < weight else (low, depth)
-        moment = block.arrays["load"]["up"][0, :, :] / carried
+        moment = block.records.load["up"][0, :, :] / carried
         # the force acts at P: moment about the centroid = (P − G) × N z
-        px, py = -moment[1] + block.drum["x"][1], moment[0] + block.drum["y"][1]
-        reach = (px - block.drum["x"][1]) * h[0] + (py - block.drum["y"][1]) * h[1]
-        best = np.maximum(best, reach / block.drum["z"][1])
+        px, py = -moment[1] + block.records.body["x"][1], moment[0] + block.records.body["y"][1]
+        reach = (px - block.records.body["x"][1]) * h[0] + (py - block.records.body["y"][1]) * h[1]
+        best = np.maximum(best, reach / block.records.body["z"][1])
     return best
 
 
@@ -106,7 +106,7 @@ def slid(ax, ay, duration, dt=1e-4, column=LOW):
     now, still, last = np.zeros(2), np.zeros(2), 0.0
     while not block.is_over(0):
         block.advance(1)
-        now = block.since_start(0)[0][0]
+        now = block.records.joints(0)[1][0]
         if np.hypot(*(now - still)) > 2e-6:
             still, last = now, block.time(0)
     return now, last
@@ -146,8 +146,8 @@ def stopped(speed, spin):
     time = 0.0
     while not block.is_over(0):
         block.advance(1)
-        time = block.time(0) if block.drum["wz"][1, 0] > 0.01 * spin else time
-    slip, twist = block.since_start(0)
+        time = block.time(0) if block.records.body["wz"][1, 0] > 0.01 * spin else time
+    _, slip, twist = block.records.joints(0)
     return time / 0.99, float(np.hypot(*slip[0])), float(twist[0])
 
 
@@ -217,7 +217,7 @@ def torque_free_motion():
     column = round_column()
     a, c = column.drums[0].inertia, column.drums[0].axial_inertia
     block = block_of(column, 2.0, time_step=1e-4)
-    block.joint["kn"][:] = block.joint["ks"][:] = 0.0
+    block.records.joint["kn"][:] = block.records.joint["ks"][:] = 0.0
     momentum = np.array([a * 0.3, 0.0, c * 2.0])
     put(block, 1, 0, "lx ly lz", momentum)
     put(block, 1, 0, "wx wy wz", (0.3, 0.0, 2.0))
@@ -228,6 +228,6 @@ def torque_free_motion():
         t, size = block.time(0), float(np.linalg.norm(momentum))
         own = rotation(np.array([0.0, 0.0, 1.0]), t * (1.0 / c - 1.0 / a) * momentum[2])
         exact = rotation(momentum / size, t * size / a) @ own
-        worst = max(worst, float(np.abs(block.axes(0)[0] - exact).max()))
-    assert np.array_equal([block.drum["l" + n][1, 0] for n in "xyz"], momentum)
+        worst = max(worst, float(np.abs(block.records.axes(0)[0] - exact).max()))
+    assert np.array_equal([block.records.body["l" + n][1, 0] for n in "xyz"], momentum)
     return worst

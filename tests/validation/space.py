@@ -9,8 +9,10 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from stylobate.column import Column, Drum, Joint
+from stylobate.kernels.dem3d.standing import lowest_barrier
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.dem3d.verdict import numbers_for
 from stylobate.models.start import Start
 from stylobate.motion import Motion
 
@@ -37,13 +39,13 @@ def cylinder(diameter: float, height: float, stiffness: float = 5e10, friction: 
 
 def released(column: Column, start: Start, duration: float, every: int = 1, **options) -> tuple[np.ndarray, np.ndarray]:
     """Free motion of a column from a pose: times, and the axes of its lowest drum as columns of matrices, (T, 3, 3)."""
-    block = DistinctElement3D(**options).make_block(column.n, RunOptions(start=start, until_end=True))
+    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(start=start, until_end=True))
     block.load(0, Case(column, Motion(duration, np.zeros(2))))
-    times, axes = [0.0], [block.axes(0)[0]]
+    times, axes = [0.0], [block.records.axes(0)[0]]
     while not block.is_over(0):
         block.advance(every)
         times.append(block.time(0))
-        axes.append(block.axes(0)[0])
+        axes.append(block.records.axes(0)[0])
     return np.array(times), np.array(axes)
 
 
@@ -92,20 +94,27 @@ def rolling(column: Column, tilt: float, precession: float, spin: float, duratio
 
 def block_of(column: Column, duration: float = 1.0, **options):
     """A block with the column at rest in every lane, for tests that set or read states themselves."""
-    block = DistinctElement3D(**options).make_block(column.n, RunOptions(until_end=True))
+    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(until_end=True))
     for lane in range(block.lanes):
         block.load(lane, Case(column, Motion(duration, np.zeros(2))))
     return block
+
+
+def flat_barrier(column: Column, slip, turns=None, toes=None, walks: bool = False) -> float:
+    """Lowest barrier of a column put down flat with these slips [m] and turns of its bodies [rad], in [J]."""
+    stand = numbers_for(column, np.zeros(column.n) if toes is None else toes)
+    turns = np.zeros(column.n + 1) if turns is None else turns
+    return float(lowest_barrier(stand, slip, turns, column.section != "circular", column.gravity, walks))
 
 
 def put_axes(block, drum: int, lane: int, matrix: np.ndarray) -> None:
     """Set the axes of a drum (0 is the base) to the columns of a matrix."""
     for a, axis in enumerate("ijk"):
         for c, name in enumerate("xyz"):
-            block.drum[axis + name][drum, lane] = matrix[c, a]
+            block.records.body[axis + name][drum, lane] = matrix[c, a]
 
 
 def put(block, drum: int, lane: int, names: str, vector) -> None:
     """Set a vector of a drum, e.g. ``put(block, 1, 0, "vx vy vz", (1.0, 0.0, 0.0))``."""
     for name, value in zip(names.split(), vector, strict=True):
-        block.drum[name][drum, lane] = value
+        block.records.body[name][drum, lane] = value

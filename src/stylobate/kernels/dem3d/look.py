@@ -4,6 +4,7 @@ import math
 
 from ..jit import kernel, law, long_law, strict
 from ..run_codes import FAILED, RUNNING, SUPPORT_MARGIN
+from ..shared.overturning import going_and_lost
 from .pose import cross, faces, in_body, in_space, lean
 from .support import (
     end_of_chipped,
@@ -14,6 +15,7 @@ from .support import (
     middle_of_discs,
     opening_of_corners,
 )
+from .touching import slip_where_closest
 
 #: A lane whose positions are larger has failed [m].
 FAR = 1.0e6
@@ -186,8 +188,8 @@ def leaving(u, v, e, o, w, l, a, b, margin, moment):
     tilt = math.sqrt(max(1.0 - u.kz[l] * u.kz[l], 0.0))
     gyro = (ru * up + ru * ru) * axial * about / max(tilt, UPRIGHT)
     held = moment * each
-    lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + gyro + held)
-    return parted, (out > 0.0) & (outward > 0.0), lost, dx, dy
+    going, lost = going_and_lost(out, outward, out * down, against * up + gyro + held)
+    return parted, going, lost, dx, dy
 
 
 @long_law
@@ -251,8 +253,13 @@ def look_at_column(body, joint, lane, feed, watch, hold):
 
 
 @strict
-def joint_state(body, joint, l, opening, slip, twist):
-    """Opening [m], slip in the axes of the drum below [m] and twist with its full turns [rad] of every joint of a lane."""
+def column_state(body, joint, watch, l, opening, slip, twist):
+    """Opening of every joint of a lane [m], and since the start its slip where it is closest, in the axes of the drum below
+    [m], and its twist with its full turns [rad]."""
     for j in range(joint.shape[0]):
-        opening[j], slip[j, 0], slip[j, 1], twist[j] = joint_numbers(body[j + 1], body[j], l)
-        twist[j] = whole_turns(twist[j], joint[j].tw[l])
+        u, v, e = body[j + 1], body[j], joint[j]
+        opening[j], _, _, turn = joint_numbers(u, v, l)
+        turn = whole_turns(turn, e.tw[l])
+        x, y = slip_where_closest(u, v, e, l, turn)
+        slip[j, 0], slip[j, 1] = x - e.ox[l], y - e.oy[l]
+        twist[j] = turn - e.ot[l]

@@ -27,12 +27,12 @@ from ..shared.records import (
 from . import vertices
 from .joints import joint_forces
 from .links import add_links, look_at_all, look_for_slack
-from .look import check_finite, joint_state, look_at_column
+from .look import check_finite, column_state, look_at_column
 from .move import gather_all, kinetic_and_gravitational, move_all, stored_in_faces
 from .records import rows
 
 #: The models read these here.
-__all__ = ["advance", "forces", "joint_state", "ledger"]
+__all__ = ["advance", "energies", "forces", "gather", "joint_state"]
 
 
 @chosen
@@ -71,6 +71,13 @@ def look_at_bodies(body, joint, lane, feed, watch, hold):
     """Peaks and certain collapses of a column, or of one body."""
     looks = vertices.look_at_body if rows(joint, "rest") else look_at_column
     return lambda body, joint, lane, feed, watch, hold: looks(body, joint, lane, feed, watch, hold)
+
+
+@chosen
+def state_of_joints(body, joint, watch, l, opening, slip, twist):
+    """Opening, slip and twist of the joints of a column, or of the foot of one body."""
+    state = vertices.body_state if rows(joint, "rest") else column_state
+    return lambda body, joint, watch, l, opening, slip, twist: state(body, joint, watch, l, opening, slip, twist)
 
 
 @chosen
@@ -167,6 +174,22 @@ def ledger(state, k, dt, l, out):
     out[4] = o.shear[l] - held
     out[5] = o.visc[l]
     ledger_of_links(state[LINK], state[BOND], l, out)
+
+
+@strict
+def energies(state, base, dt, l, out):
+    """The ledger of one lane at t_n, of a state whose memory this brings there; ``base`` is the base's acceleration then."""
+    state[LANE][0].dt[l] = dt
+    gather(state)
+    for c in range(3):
+        state[GROUND][0].a[c, l] = base[c]  # filled anew before the next step
+    ledger(state, 0, dt, l, out)
+
+
+@strict
+def joint_state(state, l, opening, slip, twist):
+    """Opening of every joint of a lane [m], its slip [m] and twist [rad] since the start; shapes (n,), (n, 2), (n,)."""
+    state_of_joints(state[BODY], state[JOINT], state[WATCH], l, opening, slip, twist)
 
 
 @kernel

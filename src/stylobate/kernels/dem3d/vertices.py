@@ -17,10 +17,10 @@ the base as a whole::
 
 import math
 
-from ..jit import apart, kernel, law, long_law
+from ..jit import apart, kernel, law, long_law, strict
 from ..run_codes import CHUNK, RUNNING
 from .corner import touch
-from .look import straighten, whole_turns
+from .look import keep_peaks, straighten, whole_turns
 from .pose import cross, in_space
 from .records import BETA
 
@@ -128,6 +128,16 @@ def mark_near(body, joint, lane, watch):
     o.count[0] = count
 
 
+@law
+def twist_of(u, v, last, l):
+    """Turn about the vertical from how the body stood, near the one at the last look [rad]; ``v`` keeps how it stood."""
+    more = u.iy[l] * v.ix[l] + u.jy[l] * v.jx[l] + u.ky[l] * v.kx[l]
+    less = u.ix[l] * v.iy[l] + u.jx[l] * v.jy[l] + u.kx[l] * v.ky[l]
+    even = u.ix[l] * v.ix[l] + u.jx[l] * v.jx[l] + u.kx[l] * v.kx[l]
+    even += u.iy[l] * v.iy[l] + u.jy[l] * v.jy[l] + u.ky[l] * v.ky[l]
+    return whole_turns(math.atan2(more - less, even), last)
+
+
 @long_law
 def look_at_lane(u, v, joint, o, w, step, l):
     """Peaks of a lane, and whether its body has toppled."""
@@ -136,12 +146,7 @@ def look_at_lane(u, v, joint, o, w, step, l):
     if w.when[l] < 0:
         hx, hy, up = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
         w.turn[l] = max(w.turn[l], 1.0 - up)
-        # turn about the vertical from how it stood; the axes of the base's record keep that
-        more = u.iy[l] * v.ix[l] + u.jy[l] * v.jx[l] + u.ky[l] * v.kx[l]
-        less = u.ix[l] * v.iy[l] + u.jx[l] * v.jy[l] + u.kx[l] * v.ky[l]
-        even = u.ix[l] * v.ix[l] + u.jx[l] * v.jx[l] + u.kx[l] * v.kx[l]
-        even += u.iy[l] * v.iy[l] + u.jy[l] * v.jy[l] + u.ky[l] * v.ky[l]
-        w.tw[l] = whole_turns(math.atan2(more - less, even), w.tw[l])
+        w.tw[l] = twist_of(u, v, w.tw[l], l)
         w.spin[l] = max(w.spin[l], abs(w.tw[l]))
         tx, ty = u.x[l] + u.ht[l] * hx - w.sx[l], u.y[l] + u.ht[l] * hy - w.sy[l]
         w.topx[l] = max(w.topx[l], abs(tx))
@@ -153,6 +158,8 @@ def look_at_lane(u, v, joint, o, w, step, l):
                 break
             _, _, rz = in_space(u, l, p.x[l], p.y[l], p.z[l])
             w.open[l] = max(w.open[l], u.z[l] + rz)
+        w.lean[l] = w.turn[l]
+        keep_peaks(w, l)
         if up < TOPPLED:
             size = max(math.sqrt(hx * hx + hy * hy), 1e-300)
             w.when[l] = step
@@ -166,3 +173,28 @@ def look_at_body(body, joint, lane, feed, watch, hold):
     for l in range(watch[0].status.shape[0]):
         if watch[0].status[l] == RUNNING:
             look_at_lane(body[1], body[0], joint, lane[0], watch[0], feed[0].step[l], l)
+
+
+@strict
+def body_state(body, joint, watch, l, opening, slip, twist):
+    """Height of the highest vertex of the footprint [m], and since the start the shift of the lowest one, so that a body
+    that only leans has not slipped [m], and the twist [rad]."""
+    u, v = body[1], body[0]
+    highest = 0.0
+    lowest, low = math.inf, 0
+    for q in range(joint.shape[0]):
+        p = joint[q]
+        if p.rest[l] == 0.0:
+            break
+        _, _, rz = in_space(u, l, p.x[l], p.y[l], p.z[l])
+        highest = max(highest, u.z[l] + rz)
+        if u.z[l] + rz < lowest:
+            lowest, low = u.z[l] + rz, q
+    turn = twist_of(u, v, watch[0].tw[l], l)
+    p = joint[low]
+    rx, ry, _ = in_space(u, l, p.x[l], p.y[l], p.z[l])
+    a, b, _ = in_space(v, l, p.x[l], p.y[l], p.z[l])  # where it was at rest, from the middle
+    c, s = math.cos(turn), math.sin(turn)
+    opening[0], twist[0] = highest, turn
+    slip[0, 0] = u.x[l] + rx - v.x[l] - (c * a - s * b)
+    slip[0, 1] = u.y[l] + ry - v.y[l] - (s * a + c * b)

@@ -6,6 +6,7 @@ Records: ``records.py``.
 from ..ground import MEAN, sample
 from ..jit import apart, kernel, law, strict
 from ..run_codes import CHUNK, FAILED, RUNNING, SUPPORT_MARGIN
+from ..shared.overturning import going_and_lost
 from . import contact as ct
 from .point_joint import face, meeting
 
@@ -135,8 +136,8 @@ def observe(body, joint, lane, feed, watch, hold, drums):
             down = max(o.g[l] - w.vmax[l], 0.0)
             against = max(w.amax[l] + side * o.gx[l], 0.0) + margin
             held = w.held[l] * each  # by links
-            lost = (out > 0.0) & (outward > 0.0) & (out * down > against * up + held)
-            w.going[l] = 1.0 if (out > 0.0) & (outward > 0.0) else w.going[l]
+            going, lost = going_and_lost(out, outward, out * down, against * up + held)
+            w.going[l] = 1.0 if going else w.going[l]
             parted = hi <= lo
             hit = (lost | parted) & (w.status[l] == RUNNING) & (w.when[l] < 0)
             w.when[l] = f.step[l] if hit else w.when[l]

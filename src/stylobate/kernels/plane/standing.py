@@ -18,6 +18,7 @@ import math
 import numpy as np
 
 from ..jit import kernel, strict
+from ..shared.overturning import barrier
 from .point_joint import face
 
 STAND_TYPE = np.dtype(
@@ -77,30 +78,8 @@ def lowest_barrier(stand, gravity, slope):
                 height = ax * ux + az * uz
         if half <= 0.0:
             return 0.0
-        radius = math.hypot(half, height)
-        slides = loose < half / radius
-        rise = loose * half - height * (1.0 - math.sqrt(1.0 - loose * loose)) if slides else radius - height
-        lowest = min(lowest, gravity * mass * rise - given_by_toes(stand, j, half, height))
+        lowest = min(lowest, barrier(stand, j, half, height, loose, gravity * mass))
     return lowest
-
-
-@kernel
-def given_by_toes(stand, j, half, height):
-    """What all joints give, at most, while the part above joint j stands on an edge ``half`` from under its centroid [J].
-
-    A joint gives more than in proportion to the square of the moment that it carries: with the moment's share of the
-    largest one squared, the toe's energy bounds it.
-    """
-    given = 0.0
-    for i in range(stand.shape[0]):
-        d = stand[i]
-        carried = min(d.moment, stand[j].moment)
-        if i == j:
-            carried = d.moment
-        elif i > j:  # above j all lean alike
-            carried = min(d.moment, d.weight * d.over * half / height)
-        given += d.toe * (carried / d.moment) ** 2
-    return given
 
 
 @strict

@@ -1,21 +1,30 @@
-"""Arrays of an engine in space for one stack of bodies: their records, and the list of their contacts."""
+"""Records of bodies in space over lanes: the engine's arrays, the list of their contacts, and what a lane reads as."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from ...kernels.run_codes import CHUNK
+from ...kernels.run_codes import CHUNK, LANES
 from ...kernels.shared.records import STATE
-from ..shared.lanes import aligned_zeros
+from ..shared.lanes import aligned_zeros, copied, in_rows
+
+#: Records of which every lane has its own numbers from the start.
+OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
+
+#: Records whose memory a look at the forces changes; those of bodies and loads are computed anew in every step.
+CHANGED = ("joint", "link", "lane")
 
 
-def stack_arrays(types: dict[str, np.dtype], bodies: int, joints: int, links: int = 0) -> dict[str, Any]:
-    """Records by their names in ``STATE``, empty but for the contacts.
+class Records:
+    """Records of bodies of which each stands on the one below, in lanes, as the engine takes them.
 
     Parameters
     ----------
+    kernel : module
+        Of the engine.
     types : dict of dtype
         Of the records (``kernels/dem3d/records.py``).
     bodies : int
@@ -23,41 +32,115 @@ def stack_arrays(types: dict[str, np.dtype], bodies: int, joints: int, links: in
     joints : int
         Rows of the records of joints: as many as these contacts, or those of a body's vertices.
     links : int
-        Their contacts follow, :func:`join_links`.
+        Their contacts follow, :meth:`join_links`.
     """
-    contacts = bodies - 1 + links
-    rows = {
-        "body": bodies,
-        "joint": joints,
-        "load": contacts + 2,
-        "link": links,
-        "bond": links,
-        "ground": CHUNK + 1,
-        "span": bodies,
-    }
-    rows |= {"hold": joints if links else 0, "pair": contacts, "touch": 2 * contacts}
-    arrays: dict[str, Any] = {name: aligned_zeros(rows.get(name, 1), types[name]) for name in STATE[:-1]}
-    arrays["stack"] = bodies - 1
-    arrays["pair"]["lower"][: bodies - 1] = np.arange(bodies - 1)
-    arrays["pair"]["upper"][: bodies - 1] = np.arange(1, bodies)
-    _list(arrays, bodies - 1)
-    return arrays
 
+    def __init__(self, kernel: Any, types: Mapping[str, np.dtype], bodies: int, joints: int, links: int = 0) -> None:
+        self.kernel = kernel
+        contacts = bodies - 1 + links
+        rows = {
+            "body": bodies, "joint": joints, "load": contacts + 2, "link": links, "bond": links, "ground": CHUNK + 1,
+            "span": bodies, "hold": joints if links else 0, "pair": contacts, "touch": 2 * contacts,
+        }  # fmt: skip
+        arrays = (aligned_zeros(rows.get(name, 1), types[name]) for name in STATE[:-1])
+        self.state: tuple[Any, ...] = (*arrays, bodies - 1)
+        (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
+         self.pair, self.span, self.touch, _) = self.state  # fmt: skip
+        self.rows = {name: in_rows(getattr(self, name), LANES) for name in OF_A_LANE}
+        self.pair["lower"][: bodies - 1] = np.arange(bodies - 1)
+        self.pair["upper"][: bodies - 1] = np.arange(1, bodies)
+        self._list(bodies - 1)
 
-def join_links(arrays: dict[str, Any], lower: np.ndarray, upper: np.ndarray) -> None:
-    """List the contacts of links between these bodies, behind those of the joints."""
-    pair, first = arrays["pair"], len(arrays["body"]) - 1
-    pair["lower"][first:], pair["upper"][first:] = lower, upper
-    _list(arrays, len(pair))
+    def join_links(self, links: Any) -> None:
+        """Write what links are in all lanes, and list their contacts behind those of the joints."""
+        for name, values in links.bond.items():
+            self.bond[name] = values
+        first = len(self.body) - 1
+        self.pair["lower"][first:], self.pair["upper"][first:] = links.lower, links.upper
+        self._list(len(self.pair))
 
+    def _list(self, count: int) -> None:
+        """List the first contacts body by body; the last load is one of nothing."""
+        from ...kernels.shared.contacts import list_contacts
 
-def _list(arrays: dict[str, Any], count: int) -> None:
-    """List the first contacts body by body; the last load is one of nothing."""
-    from ...kernels.shared.contacts import list_contacts
+        list_contacts(self.pair, count, len(self.load) - 1, self.span, self.touch)
 
-    list_contacts(arrays["pair"], count, len(arrays["load"]) - 1, arrays["span"], arrays["touch"])
+    # -- numbers of a lane ---------------------------------------------------------------------------------------
 
+    def fill(self, lane: int, /, **records: Mapping[str, Any]) -> None:
+        """Write fields of some records into a lane."""
+        for record, fields in records.items():
+            array = getattr(self, record)
+            for name, values in fields.items():
+                array[name][..., lane] = values
 
-def state_of(arrays: dict[str, Any]) -> tuple[Any, ...]:
-    """The arrays as the kernels take them."""
-    return tuple(arrays[name] for name in STATE)
+    def taken(self, lane: int) -> dict[str, np.ndarray]:
+        """All numbers of a lane, for :meth:`put`."""
+        return {name: rows[:, lane].copy() for name, rows in self.rows.items()}
+
+    def put(self, lane: int, numbers: Mapping[str, np.ndarray]) -> None:
+        """Write all numbers of a lane."""
+        for name, rows in self.rows.items():
+            rows[:, lane] = numbers[name]
+        if "near" in (self.lane.dtype.names or ()):
+            self.look_at_all_vertices()
+
+    def look_at_all_vertices(self) -> None:
+        """Whatever the engine had seen of which are near, which it looks for again before it steps."""
+        every = np.arange(len(self.joint))
+        self.lane["near"].reshape(-1)[every] = every
+        self.lane["count"] = len(every)
+
+    # -- looks at a lane, which change nothing that matters ------------------------------------------------------
+
+    def now(self, *others: str) -> tuple[Any, ...]:
+        """A state of copies of all records that a look at the forces changes, and of some others."""
+        names = (*CHANGED, *others)
+        return tuple(copied(one) if name in names else one for name, one in zip(STATE, self.state, strict=True))
+
+    def energies(self, lane: int, dt: float, base: np.ndarray, state: tuple[Any, ...] | None = None) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
+
+        With the forces at the present positions, as the next step will find them; ``base`` is the acceleration of the base.
+        Of a state, which is changed, instead of these records.
+        """
+        out = np.empty(6)
+        self.kernel.energies(self.now() if state is None else state, base, dt, lane, out)
+        return out
+
+    def net(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
+        """Forces [N] and moments [N m] of their contacts on every body in its present position, each of shape (n, 3)."""
+        state = self.now()
+        state[STATE.index("lane")]["dt"][0, lane] = 0.0
+        self.kernel.gather(state)
+        return self.body["f"][1:, :, lane], self.body["mo"][1:, :, lane]
+
+    def joints(self, lane: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Opening of every joint [m], and since the start its slip where it is closest [m], and twist with full turns [rad].
+
+        Shapes (n,), (n, 2), (n,).
+        """
+        n = len(self.body) - 1
+        opening, slip, twist = np.empty(n), np.empty((n, 2)), np.empty(n)
+        self.kernel.joint_state(self.state, lane, opening, slip, twist)
+        return opening, slip, twist
+
+    def places(self, lane: int) -> np.ndarray:
+        """Centroids of all bodies [m], shape (n, 3)."""
+        return self.vectors(lane, "x y z")
+
+    def axes(self, lane: int) -> np.ndarray:
+        """Axes of every body as the columns of a matrix [-], shape (n, 3, 3)."""
+        return np.stack([self.vectors(lane, f"{a}x {a}y {a}z") for a in "ijk"], axis=-1)
+
+    def vectors(self, lane: int, names: str) -> np.ndarray:
+        """Vectors of all bodies but the base, by the names of their fields, shape (n, 3)."""
+        return np.stack([self.body[name][1:, lane] for name in names.split()], axis=-1)
+
+    def acceleration(self, lane: int) -> float:
+        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
+        force, moment = self.net(lane)
+        im, ia, ib, ic, reach = (self.body[name][1:, lane] for name in ("im", "ia", "ib", "ic", "rb"))
+        linear = np.abs(force * im[:, None] - self.lane["g"][0, :, lane]).max()
+        easiest = ia + np.maximum(np.maximum(ib, ic), 0.0)  # about the axis of the least moment of inertia
+        return float(max(linear, (np.abs(moment).max(axis=1) * easiest * reach).max()))

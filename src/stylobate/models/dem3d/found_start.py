@@ -11,7 +11,8 @@ from ...column import Column, Drum
 from ...column.as_found import FoundDrum
 from ...column.found_in_space import SpaceGeometry, SpaceLoad, space_geometry, space_load
 from ...errors import InputError
-from .arrays import stack_arrays, state_of
+from ...kernels.shared.records import JOINT
+from .arrays import Records
 from .packing import CORNERS
 
 #: What may be left of a joint's force and moment over its load and its load's lever; from where on Newton's steps are
@@ -162,9 +163,9 @@ class _Contact:
         self, column: Column, kernel: Any, types: dict[str, np.dtype], fields: tuple[dict[str, Any], ...]
     ) -> None:
         n = column.n
-        self.column, self.kernel, self.cornered = column, kernel, column.section != "circular"
-        self.arrays = stack_arrays(types, n + 1, n)
-        self.drum, self.joint, lane = (self.arrays[name] for name in ("body", "joint", "lane"))
+        self.column, self.cornered = column, column.section != "circular"
+        self.records = records = Records(kernel, types, n + 1, n)
+        self.drum, self.joint, lane = records.body, records.joint, records.lane
         for array, values in zip((self.drum, self.joint, lane), fields, strict=True):
             for name, value in values.items():
                 array[name][...] = np.asarray(value)[..., None]
@@ -181,15 +182,16 @@ class _Contact:
                 self.drum[name][..., k] = values
         lower = np.concatenate((np.eye(3)[None], at.axes[:-1]))
         own = np.einsum("nba,nbc,nc->na", lower, at.frame, friction.shear)
-        memory = self.joint.copy()
+        state = self.records.now()
+        memory = state[JOINT]
         stored = (friction.bears[:, :, None] * own[:, None, :]).reshape(n, -1) if self.cornered else own
         memory["s"][..., :4] = stored[..., None]
         memory["t"][:] = friction.turning[:, None]
         for p in range(len(CORNERS) if self.cornered else 0):  # in lanes of their own: what each corner bears
             memory["mu"][:, 4 + p], memory["co"][:, 4 + p] = 1.0, 0.0
             memory["s"][:, 3 * p, 4 + p] = PROBE
-        load = self.arrays["load"]
-        self.kernel.forces(state_of(self.arrays | {"joint": memory}))
+        load = self.records.load
+        self.records.kernel.forces(state)
         held = np.empty((len(poses), n, 6))
         for k, pose in enumerate(poses):
             force = load["f"][:n, :, k]

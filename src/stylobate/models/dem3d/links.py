@@ -12,12 +12,9 @@ from ...column.found_in_space import space_geometry
 from ...kernels.shared.link_records import NUMBERS, SHARED
 from ..drums.links import acting, hold_of, law_fields
 
-#: What a link has not done at the start.
-NOTHING_YET = ("out", "fx", "fy", "dx", "dy", "lost", "drag", "slip", "long", "peak", "pull", "far", "most", "over")
-
 
 class SpaceLinks(NamedTuple):
-    """Links of a column: their bodies, and the fields of ``bond`` and of one lane of ``link``, each of shape (m, …)."""
+    """Links of a column: their bodies, and fields of ``bond`` and of a lane of ``link`` that are not 0, shapes (m, …)."""
 
     lower: np.ndarray
     upper: np.ndarray
@@ -48,11 +45,7 @@ def space_links(column: Column, drum: dict[str, np.ndarray]) -> SpaceLinks | Non
     pretension = np.array([one.pretension for one in links])
     start = np.where(laws["line"] > 0, line, joint[:, 2])
     stretch = np.where(laws["ka"] > 0.0, pretension / np.where(laws["ka"] > 0.0, laws["ka"], 1.0), 0.0)
-    none = dict.fromkeys(
-        ["out", "fx", "fy", "dx", "dy", "lost", "drag", "slip", "long", "peak", "pull", "far", "most", "over"],
-        np.zeros(len(links)),
-    )
-    own = none | {
+    own = {
         **{name: laws[name] for name in ("ka", "fa", "ua", "gap")},
         "h": start,
         "l0": start - stretch,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar
@@ -17,23 +16,25 @@ from ...column.specimen import Specimen
 from ...errors import InputError, check_range
 from ...kernels.dem3d.records import types
 from ...motion import Motion
-from ...response import Histories, Response
+from ...response import Response
 from ..base import RunOptions
+from ..drums.barriers import lowest_barrier
 from ..drums.joints import joint_stiffnesses
 from ..drums.links import kind_of, link_stiffness, with_beds_alone, with_links
-from ..drums.packing import PackedColumn
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
+from .arrays import Records
 from .block import SpaceBlock
 from .found_start import found_start
-from .histories import histories
 from .links import space_links
-from .packing import chipped, damping_rows, drum_fields, joint_fields, lane_fields
+from .packing import Packed, chipped, damping_rows, drum_fields, joint_fields, lane_fields, pack_column
 from .restitution import damping_for
-from .specimen import SpecimenBlock, rows_for, top_frequency
+from .specimen import FreeBody, pack_specimen, rows_for, top_frequency
 from .stability import highest_frequency
+from .stack import Stack
+from .verdict import numbers_for
 
 #: Bending stiffness of a closed joint over k_n J, less 1: of each law of contact of round faces, and of corners.
 LAWS = {"rim": 1.0, "bed": 0.0}
@@ -220,9 +221,17 @@ class DistinctElement3D(SteppedDrums):
         damped = self.damped or section == SPECIMEN
         return types(FACES.get(section, self.law), damped, self.rolling_resistance > 0.0, links > 0)
 
-    def pack(self, column: Column) -> PackedColumn:
-        """A column as the kernel wants it."""
-        return _pack(column, self)
+    def pack(self, column: Any) -> Packed:
+        """A column or a specimen as the kernel wants it."""
+        return _pack_specimen(column, self) if column.stack is None else _pack(column, self)
+
+    def records(self, kind: tuple) -> Records:
+        """Empty records of the kernel for what is of a kind."""
+        rows, section, *tied = kind
+        links = tied[0] if tied else 0
+        types = self.record_types(section, links)
+        bodies, joints = (2, rows) if section == SPECIMEN else (rows + 1, rows)
+        return Records(self.kernel(), types, bodies, joints, links)
 
     def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
@@ -231,48 +240,43 @@ class DistinctElement3D(SteppedDrums):
         return _stable_step(column, self)
 
     def block_for(self, kind: tuple, options: RunOptions) -> SpaceBlock:
-        """A block of lanes for columns of a kind."""
-        drums, *rest = kind
-        return self.make_block(drums, options, *rest)
-
-    def make_block(
-        self, drums: int, options: RunOptions, section: str = "circular", links: int = 0, which: tuple = ()
-    ) -> SpaceBlock:
-        """A block of lanes for columns of so many drums with a section, and of so many links which these are."""
-        kernel, types = self.kernel(), self.record_types(section, links)
+        """A block of lanes for what is of a kind."""
+        rows, section, *_ = kind
         if section == SPECIMEN:
-            damping, cost = (self.stiffness_damping, self.mass_damping), self.cost(drums // 32)
-            return SpecimenBlock(
-                drums, damping, self.step_for, kernel, types, self.pack, 1, options, cost, planar=self.planar
-            )
-        cost = self.cost(drums)
-        return SpaceBlock(kernel, types, self.pack, drums, options, cost, links, planar=self.planar)
+            return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.cost(rows // 32))
+        bodies, cost = Stack(planar=self.planar), self.cost(rows)
+        return SpaceBlock(self.records(kind), bodies, self.pack, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]."""
         return 4.5 * super().cost(drums)
 
-    def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
-        """Histories from the snapshots of a run."""
-        return histories(motion, states)
+
+@lru_cache(maxsize=256)
+def _pack_specimen(specimen: Specimen, model: DistinctElement3D) -> Packed:
+    damping = model.stiffness_damping, model.mass_damping
+    step = chosen_step(model.stable_step(specimen), model.step_factor, model.time_step, f"{specimen.name!r}")
+    return pack_specimen(model.records(model.kind(specimen)), specimen, damping, step)
 
 
 @lru_cache(maxsize=4096)
-def _pack(column: Column, model: DistinctElement3D) -> PackedColumn:
+def _pack(column: Column, model: DistinctElement3D) -> Packed:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     closure = column.joint_weights / (kn * column.joint_areas)
     drums, joints = drum_fields(column, closure), joint_fields(column, kn, ks)
     options = model.pivot_friction, model.planar, model.rolling_resistance
     lane = lane_fields(column, damping_rows(model.damped, model.damping(column), model.mass_damping), *options)
+    kind = model.kind(column)
     if column.as_found or column.pretensioned:
-        section = model.kind(column)[1]
         found, friction = found_start(
-            column, model.kernel(), model.record_types(section), (drums, joints, lane), closure
+            column, model.kernel(), model.record_types(kind[1]), (drums, joints, lane), closure
         )
         drums, joints = drums | found, joints | friction
+    links = space_links(column, drums)
+    numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, Stack(planar=model.planar).top)
     law = model.law if column.section == "circular" else "corners"
-    toes = TOES[law](column, kn * shares_left(column))
-    return PackedColumn((drums, joints, lane), model.step_for(column), toes, space_links(column, drums))
+    stand = numbers_for(column, TOES[law](column, kn * shares_left(column)))
+    return Packed(numbers, model.step_for(column), column.joint_widths, lowest_barrier(column), stand, links)
 
 
 @lru_cache(maxsize=4096)

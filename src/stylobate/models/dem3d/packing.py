@@ -1,16 +1,77 @@
-"""A column as the kernels in space want it: fields of drums, joints and lanes."""
+"""What stands as the kernels in space want it: one lane of their records; a column's fields of drums, joints and lane."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import space_geometry, upward
+from ...column.found_in_space import base_axes, space_geometry, upward
 from ...kernels.dem3d.records import ALPHA, BETA, CHIPS, RINGS
+from ...kernels.run_codes import RUNNING
+from .arrays import Records
+from .links import SpaceLinks
+
+
+@dataclass(frozen=True)
+class Packed:
+    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
+
+    Parameters
+    ----------
+    lane : dict of str to array
+        All numbers of a lane, see :meth:`Records.taken`.
+    step : float
+        Time step [s].
+    widths : array
+        Widths that openings and slips are measured by [m], shape (n,).
+    barrier : float
+        Lowest energy that overturns it [J].
+    stand : array
+        Its numbers for the verdict: of a column in ``kernels/dem3d/standing.py``, of a body least heights by tilt [m].
+    links : SpaceLinks, optional
+    axes : array, optional
+        Axes that histories tell, in those of the records; of a body, shape (3, 3).
+    """
+
+    lane: dict[str, np.ndarray]
+    step: float
+    widths: np.ndarray
+    barrier: float
+    stand: np.ndarray
+    links: SpaceLinks | None = None
+    axes: np.ndarray | None = None
+
+
+def start_watch(records: Records, top: np.ndarray) -> None:
+    """Let the first lane be looked at from the start: nothing has happened; ``top`` is where the top stands [m]."""
+    fields = dict.fromkeys(("when", "which", "wide"), -1.0)
+    records.fill(0, watch=fields | {"status": RUNNING, "sx": top[0], "sy": top[1]})
+
+
+def pack_column(
+    records: Records,
+    column: Column,
+    fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]],
+    links: SpaceLinks | None,
+    top: Callable[[Records, int], np.ndarray],
+) -> dict[str, np.ndarray]:
+    """Numbers of a lane with a column, from the fields of its drums, joints and lane; ``records`` are empty ones.
+
+    Slips and twists count from where the joints are, turns from where the axes are.
+    """
+    body, joint, lane = fields
+    records.fill(0, body=body | {"a" + c: body["k" + c] for c in "xyz"}, joint=joint, lane=lane)
+    _, slip, twist = records.joints(0)
+    records.fill(0, joint={"ox": slip[:, 0], "oy": slip[:, 1], "ot": twist, "tw": twist})
+    records.fill(0, feed={"r": base_axes(column).T.ravel()}, link={} if links is None else links.link)
+    start_watch(records, top(records, 0))
+    return records.taken(0)
+
 
 #: Radius of the base, wide enough to be a half-space [m].
 BASE_RADIUS = 1.0e3
@@ -20,7 +81,8 @@ LEAST = 1e-9
 
 
 def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
-    """Fields of the drums, the base first: upright, at rest, each joint closed by ``closure`` [m], shape (n,)."""
+    """Fields of the drums that are not 0, or that links need, the base first: upright, at rest, each joint closed by
+    ``closure`` [m], shape (n,)."""
     n = column.n + 1
     centroid = np.array([drum.centroid_height for drum in column.drums])
     axial = np.array([drum.axial_inertia for drum in column.drums])
@@ -34,11 +96,12 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
         name: [0.5 * getattr(drum, name) for drum in column.drums]
         for name in ("bottom_width", "top_width", "depth", "upper_depth")
     }
-    fields = dict.fromkeys(("x", "y", "vx", "vy", "vz", "lx", "ly", "lz", "wx", "wy", "wz"), zero)
-    fields |= {axis + c: one if "ijk".index(axis) == "xyz".index(c) else zero for axis in "ijk" for c in "xyz"}
+    axes = {axis + c: one if "ijk".index(axis) == "xyz".index(c) else zero for axis in "ijk" for c in "xyz"}
     return (
-        fields
+        axes
         | {
+            "x": zero,
+            "y": zero,
             "z": on_base(column.centroid_heights - np.cumsum(closure)),
             "m": on_base(column.masses),
             "im": on_base(1.0 / column.masses),
@@ -48,8 +111,6 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
             "fx": zero,
             "fy": zero,
             "fz": on_base(-centroid),
-            "nx": zero,
-            "ny": zero,
             "nz": one,
             "ht": on_base(column.heights - centroid),
             "tx": on_base(half["top_width"], BASE_RADIUS),
@@ -60,9 +121,8 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _round(half: dict[str, list[float]], on_base: Callable[..., np.ndarray]) -> dict[str, np.ndarray]:
-    """Radii of the faces; the fields of corners are not used."""
-    corners = dict.fromkeys(("px", "py", "pz"), np.zeros((len(half["depth"]) + 1, 1)))
-    return corners | {"rb": on_base(half["bottom_width"]), "rt": on_base(half["top_width"], BASE_RADIUS)}
+    """Radii of the faces."""
+    return {"rb": on_base(half["bottom_width"]), "rt": on_base(half["top_width"], BASE_RADIUS)}
 
 
 #: Signs of the corners of a face in order round it; mirror images in the plane of x and z follow one another.
@@ -75,27 +135,16 @@ def _cornered(half: dict[str, list[float]], on_base: Callable[..., np.ndarray]) 
     return {
         "px": along[:, None] * CORNERS[:, 0],
         "py": depth[:, None] * CORNERS[:, 1],
-        "pz": np.zeros((len(along), 4)),
         "rb": np.hypot(along, depth),
         "rt": np.hypot(on_base(half["top_width"], BASE_RADIUS), on_base(half["upper_depth"])),
     }
 
 
 def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np.ndarray]:
-    """Fields of the joints, the one with the base first."""
-    memory: dict[str, np.ndarray] = {name: np.zeros(column.n) for name in ("t", "kf", "kt", "en", "ox", "oy", "ot")}
-    memory["s"] = np.zeros((column.n, 3 if column.section == "circular" else 3 * len(CORNERS)))
+    """Fields of the joints that are not 0, the one with the base first."""
     own = {"ring": _sunken(column)} if column.on_rings else {"chip": _lost(column)} if chipped(column) else {}
-    return (
-        memory
-        | own
-        | {
-            "kn": kn,
-            "ks": ks,
-            "co": np.array([joint.cohesion for joint in column.joints]),
-            "mu": column.friction,
-        }
-    )
+    cohesion = np.array([joint.cohesion for joint in column.joints])
+    return own | {"kn": kn, "ks": ks, "co": cohesion, "mu": column.friction}
 
 
 def chipped(column: Column) -> bool:
@@ -145,9 +194,8 @@ def lane_fields(
     planar: bool,
     rolling_resistance: float = 0.0,
 ) -> dict[str, Any]:
-    """Fields of a lane at the start of a run; ``damping`` from :func:`damping_rows`, other parameters as of the model."""
-    sums = dict.fromkeys(("work", "shear", "visc"), 0.0)
-    return sums | {
+    """Fields of a lane that are not 0; ``damping`` from :func:`damping_rows`, other parameters as of the model."""
+    return {
         "g": column.gravity * upward(column),
         "damp": damping,
         "pivot": pivot_friction,

@@ -46,7 +46,7 @@ def restitutions(column: Column, model: Any) -> np.ndarray:
     lean = []
     while not block.is_over(0):
         block.advance(1)
-        lean.append(np.arcsin(np.clip(block.drum["kx"][1, : len(TRIED)], -1.0, 1.0)))
+        lean.append(np.arcsin(np.clip(block.records.body["kx"][1, : len(TRIED)], -1.0, 1.0)))
     other = np.array(lean)
     found = np.empty(len(TRIED))
     for lane in range(len(TRIED)):

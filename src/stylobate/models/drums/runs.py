@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -10,14 +11,16 @@ import numpy as np
 from ...column import Column
 from ...errors import InputError
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, FREE, LANES, RUNNING
-from ...outcome import Outcome
-from ...response import Collapse, LinkMeasures
+from ...outcome import Outcome, classify
+from ...response import Collapse, LinkMeasures, Measures
 from ...response.collapse import what_is_lost
+from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
 from ..shared.lanes import longest_piece
 from ..start import check_takes_pose
 from .barriers import lowest_barrier
+from .histories import ledger_imbalance
 from .links import acting, link_measures, link_snapshot
 from .pretension import held_at_start, set_free, without_tension
 
@@ -82,9 +85,21 @@ class LaneRuns:
         """The collapse of a lane."""
         raise NotImplementedError
 
-    def direction(self, lane: int) -> str:
-        """Where a collapse goes, in words."""
+    def lost(self, collapse: Collapse, column: Any) -> str:
+        """What has come down, and where to, in words."""
+        return f"{what_is_lost(collapse, column.n)}, to the {collapse.side}"
+
+    def stays(self, lane: int, energy: float) -> bool:
+        """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
         raise NotImplementedError
+
+    def widths(self, lane: int) -> np.ndarray:
+        """Widths that openings and slips are measured by [m], shape (n,)."""
+        return self.column(lane).joint_widths
+
+    def barrier(self, lane: int) -> float:
+        """Lowest energy that overturns what stands in a lane [J]."""
+        return lowest_barrier(self.column(lane))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
@@ -167,12 +182,11 @@ class LaneRuns:
 
     def at_rest(self, lane: int) -> bool:
         """Whether a lane's column has next to no energy above that at its start."""
-        column = self.column(lane)
         change = self.energies(lane) - self.start[lane]
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
-            free = set_free(column, self.link["ft"][:, lane], float(self.pressed[lane]))
-        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * lowest_barrier(column)
+            free = set_free(self.column(lane), self.link["ft"][:, lane], float(self.pressed[lane]))
+        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.barrier(lane)
 
     # -- what it tells -------------------------------------------------------------------------------------------
 
@@ -199,6 +213,10 @@ class LaneRuns:
         """Energy of pretension at the start, in links and in the joints that they press, which may be set free [J]."""
         return held_at_start(self.column(lane)) + float(self.pressed[lane]) if self.tied else 0.0
 
+    def mechanical(self, lane: int, change: np.ndarray) -> float:
+        """Energy above that at rest after a change of the ledger, with what links may set free [J]."""
+        return float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
+
     def begun(self, lane: int, change: np.ndarray) -> float:
         """What a run started with, for its imbalance: its elastic energy, or what the pose and the velocity hold [J]."""
         begun = float(self.start[lane, 3])
@@ -211,6 +229,60 @@ class LaneRuns:
         watch = self.watch[0]
         return float(watch["k" + name if watch["when"][lane] >= 0 else name][lane])
 
+    def measures(
+        self,
+        lane: int,
+        slips: np.ndarray,
+        top: float,
+        rotation: float,
+        space: SpaceMeasures | None = None,
+        since: np.ndarray | None = None,
+    ) -> Measures:
+        """Measures of a lane whose run is over.
+
+        Parameters
+        ----------
+        lane : int
+        slips : array
+            How far each joint has slipped [m], shape (n,).
+        top : float
+            Residual displacement of the top [m].
+        rotation : float
+            Largest rotation of a body [rad].
+        space : SpaceMeasures, optional
+        since : array, optional
+            Change of the ledger since the start [J], shape (6,); that of the lane if left out.
+        """
+        watch = self.watch[0]
+        status, when = watch["status"][lane], int(watch["when"][lane])
+        step, dt = int(self.feed["step"][0, lane]), float(self.dt[lane])
+        change = self.energies(lane) - self.start[lane] if since is None else since
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), self.barrier(lane))
+        failed = status == FAILED or bool(ledger.out_of_balance(imbalance))
+        widths = self.widths(lane)
+        outcome = classify(
+            status == COLLAPSED, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max())
+        )
+        collapsed = outcome is Outcome.COLLAPSED
+        return Measures(
+            outcome=outcome,
+            decided=collapsed or (not failed and self.stays(lane, self.mechanical(lane, change))),
+            collapse_time=when * dt if when >= 0 else math.nan,
+            peak_top_displacement=self.peak(lane, "top"),
+            residual_top_displacement=top,
+            peak_rotation=rotation,
+            peak_joint_opening=self.peak(lane, "open"),
+            residual_joint_slip=float(slips.max()),
+            energy_imbalance=imbalance,
+            time_step=dt,
+            steps=step - int(self.spans.left_out[lane]),
+            reason=self.reason(lane, outcome, imbalance),
+            collapse=self.collapse(lane) if collapsed else None,
+            space=space,
+            stepped=self.spans.stepped(lane, step, dt),
+            links=self.links_done(lane),
+        )
+
     def reason(self, lane: int, outcome: Outcome, imbalance: float) -> str:
         """Why a run failed, or what happened in a collapse; empty for a column that stands."""
         if outcome is Outcome.FAILED:
@@ -219,4 +291,4 @@ class LaneRuns:
             return ledger.out_of_balance(imbalance)
         if outcome is not Outcome.COLLAPSED:
             return ""
-        return f"{what_is_lost(self.collapse(lane), self.column(lane).n)}, {self.direction(lane)}"
+        return self.lost(self.collapse(lane), self.column(lane))

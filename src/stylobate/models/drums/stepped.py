@@ -11,7 +11,7 @@ from ...column import Column
 from ...errors import check_range
 from ...motion import Motion
 from ...outcome import Outcome
-from ...response import Histories, Measures, Response
+from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..shared.lanes import Riders, run_alike
 from ..shared.soft_joints import check_sinking, check_step_resolves
@@ -77,10 +77,6 @@ class SteppedDrums(Model):
     def block_for(self, kind: Any, options: RunOptions) -> Any:
         """A block of lanes for columns of a kind."""
         raise NotImplementedError
-
-    def histories(self, motion: Motion, states: Sequence[dict[str, Any]]) -> Histories:
-        """Histories from the snapshots of a run."""
-        return histories(motion, states)
 
     def cost(self, drums: int) -> float:
         """About what a step of a single run costs on one core [s]; a batch shares it among its lanes."""
@@ -152,8 +148,7 @@ class SteppedDrums(Model):
         measures = block.collect(0)
         rests = measures.stepped is not None and measures.outcome not in (Outcome.COLLAPSED, Outcome.FAILED)
         record(last=True, until=end if rests else None)
-        histories = self.histories(motion, states)
-        return Response(column, histories, measures, self.name, provenance, twins=twins.measures())
+        return Response(column, histories(motion, states), measures, self.name, provenance, twins=twins.measures())
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs through blocks of lanes; columns, joints and motions may differ from lane to lane."""

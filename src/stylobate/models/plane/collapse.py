@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,16 +12,14 @@ from ...column import Column
 from ...column.as_blocks import of_column
 from ...column.found_geometry import drum_outline
 from ...constants import DEGREE
-from ...kernels.run_codes import CHUNK, FAILED, RUNNING
+from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, RUNNING
 from ...motion import Motion
-from ...outcome import Outcome, classify
 from ...response import Collapse, Histories, Measures, Response
 from ...response.assembly_measures import first_touch
 from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import Case, RunOptions
-from ..drums.histories import histories, ledger_imbalance
-from ..shared import ledger
+from ..drums.histories import histories
 from .blocks import topology_of
 from .columns import ColumnLanes
 from .loose import CORNER, ENDLESS, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
@@ -260,28 +257,10 @@ class _ColumnRun:
 
     def measures(self, last: dict[str, Any], found: Histories) -> Measures:
         """Measures of the run; peaks end with a collapse, as in the lanes."""
-        watch, engine, column = self.block.watch[0], self.engine, self.column
+        block, watch = self.block, self.block.watch[0]
+        if self.collapsed and watch["status"][0] != FAILED:
+            watch["status"][0] = COLLAPSED
+        slips, residual = np.abs(last["slip"]), float(found.top_displacement[-1])
         change = last["energy"] - self.start
-        imbalance = ledger_imbalance(change, float(watch["wmax"][0]), self.block.begun(0, change), column)
-        failed = engine.failed or bool(ledger.out_of_balance(imbalance))
-        slip, widths = last["slip"], column.joint_widths
-        outcome = classify(
-            self.collapsed, failed, float(watch["open"][0] / widths.min()), float((np.abs(slip) / widths).max())
-        )
-        when = int(watch["when"][0])
-        return Measures(
-            outcome=outcome,
-            decided=self.collapsed or (not failed and self.block.stays(0, slip, change)),
-            collapse_time=float(when * engine.dt) if when >= 0 else math.nan,
-            peak_top_displacement=self.block.peak(0, "top"),
-            residual_top_displacement=float(found.top_displacement[-1]),
-            peak_rotation=self.block.peak(0, "turn"),
-            peak_joint_opening=self.block.peak(0, "open"),
-            residual_joint_slip=float(np.abs(slip).max()),
-            energy_imbalance=imbalance,
-            time_step=engine.dt,
-            steps=int(self.block.feed["step"][0, 0]),
-            reason=self.block.reason(0, outcome, imbalance),
-            collapse=self.collapse(found) if outcome is Outcome.COLLAPSED else None,
-            links=self.block.links_done(0),
-        )
+        measures = block.measures(0, slips, residual, block.peak(0, "turn"), since=change)
+        return measures if measures.collapse is None else replace(measures, collapse=self.collapse(found))

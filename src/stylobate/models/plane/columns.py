@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -10,15 +9,11 @@ import numpy as np
 
 from ...column import Column
 from ...constants import DEGREE
-from ...kernels.run_codes import COLLAPSED, FAILED
-from ...outcome import Outcome, classify
 from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ..base import Case, RunOptions
-from ..drums.histories import ledger_imbalance
 from ..drums.packing import whole_steps
 from ..drums.runs import CALLS_PER_RUN, LaneRuns
-from ..shared import ledger
 from ..start import check_in_plane
 from .block import Law, Records, base_acceleration, clear_watch, feed_motion
 from .packing import Packed, Topology
@@ -99,10 +94,6 @@ class ColumnLanes(LaneRuns):
         records.feed[...] = self.feed
         return records.energies(0, float(self.dt[lane]), self.ground_acceleration(lane))
 
-    def direction(self, lane: int) -> str:
-        """Where a collapse goes, in words."""
-        return f"to the {self.collapse(lane).side}"
-
     def half_a_step_back(self, lane: int) -> None:
         """Velocities half a step before the start; without a pose, of drums that do not move yet in a base that may."""
         half, records = 0.5 * self.dt[lane], self.records
@@ -161,39 +152,17 @@ class ColumnLanes(LaneRuns):
 
     def collect(self, lane: int) -> Measures:
         """Measures of a lane whose run is over."""
-        column, watch = self.column(lane), self.watch[0]
-        status = watch["status"][lane]
-        change = self.energies(lane) - self.start[lane]
-        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), column)
-        slip = self.records.joint_state(lane)[1] - self.slip[lane]
-        failed = status == FAILED or bool(ledger.out_of_balance(imbalance))
-        widths = column.joint_widths
-        outcome = classify(
-            status == COLLAPSED, failed, float(watch["open"][lane] / widths.min()), float((np.abs(slip) / widths).max())
-        )
-        return Measures(
-            outcome=outcome,
-            decided=outcome is Outcome.COLLAPSED or (not failed and self.stays(lane, slip, change)),
-            collapse_time=float(watch["when"][lane] * self.dt[lane]) if watch["when"][lane] >= 0 else math.nan,
-            peak_top_displacement=self.peak(lane, "top"),
-            residual_top_displacement=self.top(lane) - float(watch["stood"][lane]),
-            peak_rotation=self.peak(lane, "turn"),
-            peak_joint_opening=self.peak(lane, "open"),
-            residual_joint_slip=float(np.abs(slip).max()),
-            energy_imbalance=imbalance,
-            time_step=float(self.dt[lane]),
-            steps=int(self.feed["step"][0, lane] - self.spans.left_out[lane]),
-            reason=self.reason(lane, outcome, imbalance),
-            collapse=self.collapse(lane) if outcome is Outcome.COLLAPSED else None,
-            stepped=self.spans.stepped(lane, int(self.feed["step"][0, lane]), float(self.dt[lane])),
-            links=self.links_done(lane),
-        )
+        residual = self.top(lane) - float(self.watch["stood"][0, lane])
+        return self.measures(lane, np.abs(self.slips(lane)), residual, self.peak(lane, "turn"))
 
-    def stays(self, lane: int, slip: np.ndarray, change: np.ndarray) -> bool:
-        """Whether the column in a lane, with these slips [m] and this change of its ledger [J], stands for good."""
+    def slips(self, lane: int) -> np.ndarray:
+        """How far every joint has slipped since the start [m], shape (n,)."""
+        return self.records.joint_state(lane)[1] - self.slip[lane]
+
+    def stays(self, lane: int, energy: float) -> bool:
+        """Whether the column in a lane with so much energy above that at rest [J] stands for good."""
         column = self.column(lane)
-        mechanical = float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
-        return bool(stands_for_good(column, self.records, lane, slip, mechanical, self.pack(column).toes))
+        return stands_for_good(column, self.records, lane, self.slips(lane), energy, self.pack(column).toes)
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""

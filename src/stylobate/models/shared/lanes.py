@@ -76,6 +76,16 @@ def aligned_zeros(shape: int, dtype: np.dtype) -> np.ndarray:
     return raw[start : start + size].view(dtype)
 
 
+def copied(records: np.ndarray) -> np.ndarray:
+    """A copy as one piece of memory; numpy copies records field by field."""
+    return records.view(np.uint8).copy().view(records.dtype) if len(records) else records
+
+
+def in_rows(records: np.ndarray, lanes: int) -> np.ndarray:
+    """All fields of records over lanes as rows, shape (fields, lanes); bits, whatever their type."""
+    return records.view(np.int64).reshape(-1, lanes) if len(records) else np.zeros((0, lanes), np.int64)
+
+
 #: Cases that are looked at together, to put those next to each other that share blocks, and results that may wait.
 WINDOW = 4096
 

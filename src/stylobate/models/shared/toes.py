@@ -90,21 +90,6 @@ def point_toes(column: Column, kn: np.ndarray, share: float | np.ndarray) -> np.
     return SHORT_ARC * closed / share - closed
 
 
-def given_by_toes(column: Column, toes: np.ndarray, j: int, half: float, height: float) -> float:
-    """What all joints give, at most, while the part above joint j stands on an edge ``half`` from under its centroid [J].
-
-    A joint gives more than in proportion to the square of the moment that it carries: with the moment's share of the
-    largest one squared, the toe's energy bounds it.
-    """
-    moments = column.joint_weights * 0.5 * column.joint_widths
-    carried = np.minimum(
-        moments, column.joint_weights * centroids_above(column) * half / height
-    )  # above j: all lean alike
-    carried[:j] = np.minimum(moments[:j], moments[j])
-    carried[j] = moments[j]
-    return float(toes @ (carried / moments) ** 2)
-
-
 def centroids_above(column: Column) -> np.ndarray:
     """Height of the centroid of the part above each joint over that joint [m], shape (n,)."""
     mass = np.cumsum(column.masses[::-1])[::-1]

@@ -150,7 +150,7 @@ def _kernel(model: SteppedDrums, column: Column, motion: Motion, source: str, po
         block = model.block_for(model.kind(column), RunOptions(until_end=True))
         for lane in range(block.lanes):
             block.load(lane, Case(column, shaking))
-        bodies = block.records.body if hasattr(block, "records") else block.drum
+        bodies = block.records.body
         started = time.thread_time()
         block.advance(chunks)
         steps = chunks * block.chunk * column.n * points * block.lanes

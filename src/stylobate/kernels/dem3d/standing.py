@@ -1,0 +1,181 @@
+"""Does a column in space that stands now stand for good? What the energy that is left in it could still do.
+
+Legend (j joint, and the drum above it)::
+
+    stand[j]   m rough        mass of the drum [kg], tan φ of the joint
+               along across   half widths of the drum's lower face [m]; of round drums both its radius
+               under beside   the same of the face below it, infinite of the base
+               weight moment over toe  see shared/overturning.py
+"""
+
+import math
+
+import numpy as np
+
+from ..jit import kernel, law, strict
+from ..shared.overturning import barrier
+from .corner import clamped
+from .pose import in_space
+from .support import corner_of
+
+STAND_TYPE = np.dtype(
+    [(name, np.float64) for name in "m rough along across under beside weight moment over toe".split()]
+)
+
+#: Share of its margin that a drum on another one may walk off while it wobbles [-].
+WALK = 0.4
+
+
+@law
+def turned_by(x, y, c, s):
+    """A vector turned by an angle of this cosine and sine."""
+    return c * x - s * y, s * x + c * y
+
+
+@kernel
+def inside_by(x, y, corners):
+    """How far a point is inside a convex polygon given counter-clockwise, shape (k, 2); negative outside [m].
+
+    Sides without length do not count.
+    """
+    longest, least = 0.0, np.inf
+    for real in range(2):
+        for p in range(corners.shape[0]):
+            q = (p + 1) % corners.shape[0]
+            dx, dy = corners[q, 0] - corners[p, 0], corners[q, 1] - corners[p, 1]
+            length = math.hypot(dx, dy)
+            if real == 0:
+                longest = max(longest, length)
+            elif length > 1e-9 * longest:
+                least = min(least, (dx * (y - corners[p, 1]) - dy * (x - corners[p, 0])) / length)
+    return least if longest > 0.0 else -math.hypot(x - corners[0, 0], y - corners[0, 1])
+
+
+@law
+def inside_discs(d, x, y, own_x, own_y):
+    """How far a point is inside both of two discs, from the middle of the lower one; the upper one's is ``own`` [m]."""
+    return min(d.along - math.hypot(x - own_x, y - own_y), d.under - math.hypot(x, y))
+
+
+@kernel
+def inside_rectangles(d, x, y, own_x, own_y, lower, upper, corners):
+    """The same of two rectangles that are turned by these angles [rad]: of the upper one's corners on the lower one."""
+    c, s = math.cos(lower), -math.sin(lower)
+    x, y = turned_by(x, y, c, s)
+    own_x, own_y = turned_by(own_x, own_y, c, s)
+    c, s = math.cos(upper - lower), math.sin(upper - lower)
+    for p in range(4):
+        a, b = turned_by(d.along if p < 2 else -d.along, d.across if 0 < p < 3 else -d.across, c, s)
+        corners[p, 0], corners[p, 1] = clamped(own_x + a, d.under), clamped(own_y + b, d.beside)
+    return inside_by(x, y, corners)
+
+
+@kernel
+def lowest_barrier(stand, slip, turns, cornered, gravity, walks):
+    """Lowest barrier of a column that is put down flat with these slips of its joints, in the axes of the drums below [m],
+    shape (n, 2), and turns of its bodies, the base's first [rad]; 0 if none is left.  # Eq. (V1), in space
+
+    A drum that wobbles on another one may walk where ``walks``: its support is narrowed.
+    """
+    n = stand.shape[0]
+    place, corners = np.zeros((n + 1, 2)), np.empty((4, 2))
+    for j in range(n):
+        x, y = turned_by(slip[j, 0], slip[j, 1], math.cos(turns[j]), math.sin(turns[j]))
+        place[j + 1, 0], place[j + 1, 1] = place[j, 0] + x, place[j, 1] + y
+    lowest = loose = np.inf
+    mass = mx = my = 0.0
+    for j in range(n - 1, -1, -1):
+        d = stand[j]
+        mass += d.m
+        mx += d.m * place[j + 1, 0]
+        my += d.m * place[j + 1, 1]
+        # sliding on the base takes no support away: joints between drums count
+        if j > 0:
+            loose = min(loose, d.rough)
+        x, y = mx / mass - place[j, 0], my / mass - place[j, 1]
+        own_x, own_y = place[j + 1, 0] - place[j, 0], place[j + 1, 1] - place[j, 1]
+        if cornered:
+            half = inside_rectangles(d, x, y, own_x, own_y, turns[j], turns[j + 1], corners)
+        else:
+            half = inside_discs(d, x, y, own_x, own_y)
+        if half <= 0.0:
+            return 0.0
+        half *= 1.0 - WALK if walks and j > 0 else 1.0
+        lowest = min(lowest, barrier(stand, j, half, d.over, loose, gravity * mass))
+    return lowest
+
+
+@law
+def within(x, y, z, g, l, cx, cy, cz, nx, ny, nz, radius):
+    """Where a point is over a face along gravity, from the middle of that face, and whether within a radius."""
+    drop = ((x - cx) * nx + (y - cy) * ny + (z - cz) * nz) / (g[0, l] * nx + g[1, l] * ny + g[2, l] * nz)
+    x, y, z = x - drop * g[0, l] - cx, y - drop * g[1, l] - cy, z - drop * g[2, l] - cz
+    return x, y, z, x * x + y * y + z * z < radius * radius
+
+
+@strict
+def is_over_discs(u, v, e, g, l, x, y, z):
+    """Whether a point is over both round faces of a joint, less a chip of the upper one."""
+    nx, ny, nz = in_space(u, l, u.nx[l], u.ny[l], u.nz[l])
+    cx, cy, cz = in_space(u, l, u.fx[l], u.fy[l], u.fz[l])
+    cx, cy, cz = u.x[l] + cx, u.y[l] + cy, u.z[l] + cz
+    px, py, pz, upper = within(x, y, z, g, l, cx, cy, cz, nx, ny, nz, u.rb[l])
+    if e.chip.shape[0] > 1:
+        ax, ay, az = in_space(u, l, e.chip[0, l], e.chip[1, l], e.chip[2, l])
+        upper &= px * ax + py * ay + pz * az < u.rb[l] * e.chip[4, l]
+    kx, ky, kz, ht = v.kx[l], v.ky[l], v.kz[l], v.ht[l]
+    cx, cy, cz = v.x[l] + ht * kx, v.y[l] + ht * ky, v.z[l] + ht * kz
+    _, _, _, lower = within(x, y, z, g, l, cx, cy, cz, kx, ky, kz, v.rt[l])
+    return upper & lower
+
+
+@strict
+def is_over_corners(u, v, g, l, x, y, z, corners):
+    """Whether a point is over the corners of the overlap of a joint of rectangular faces."""
+    kx, ky, kz, ht = v.kx[l], v.ky[l], v.kz[l], v.ht[l]
+    for p in range(u.px.shape[0]):
+        a, b, c = corner_of(u, v, l, p)
+        c = c if (abs(a) < v.tx[l]) & (abs(b) < v.ty[l]) else 0.0
+        dx, dy, dz = in_space(v, l, clamped(a, v.tx[l]), clamped(b, v.ty[l]), c)
+        dz += v.z[l] + ht * kz
+        corners[p, 0] = v.x[l] + ht * kx + dx - dz * g[0, l] / g[2, l]
+        corners[p, 1] = v.y[l] + ht * ky + dy - dz * g[1, l] / g[2, l]
+    return inside_by(x - z * g[0, l] / g[2, l], y - z * g[1, l] / g[2, l], corners) > 0.0
+
+
+@strict
+def centroids_inside(body, joint, lane, l):
+    """Whether the centroid of every part of a column is over both faces of the joint under it, seen along gravity."""
+    g, corners = lane[0].g, np.empty((4, 2))
+    mass = mx = my = mz = 0.0
+    for j in range(joint.shape[0] - 1, -1, -1):
+        u, v = body[j + 1], body[j]
+        mass += u.m[l]
+        mx += u.m[l] * u.x[l]
+        my += u.m[l] * u.y[l]
+        mz += u.m[l] * u.z[l]
+        x, y, z = mx / mass, my / mass, mz / mass
+        if u.px.shape[0] > 1:
+            inside = is_over_corners(u, v, g, l, x, y, z, corners)
+        else:
+            inside = is_over_discs(u, v, joint[j], g, l, x, y, z)
+        if not inside:
+            return False
+    return True
+
+
+@strict
+def turns_of(body, l):
+    """Azimuth of the first axis of every body [rad]."""
+    turns = np.empty(body.shape[0])
+    for i in range(body.shape[0]):
+        turns[i] = math.atan2(body[i].iy[l], body[i].ix[l])
+    return turns
+
+
+@strict
+def stands(stand, slip, energy, gravity, walks, body, joint, lane, l):
+    """Whether a column as built, with these slips and this energy [J], stands for good: see ``models/dem3d/verdict.py``."""
+    if not centroids_inside(body, joint, lane, l):
+        return False
+    return energy < lowest_barrier(stand, slip, turns_of(body, l), body[1].px.shape[0] > 1, gravity, walks)
