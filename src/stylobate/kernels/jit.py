@@ -203,7 +203,7 @@ apart = _compiler(fastmath=FAST, noalias=True)
 #: For what looks at non-finite values: no assumption about them. Said outright, or the first fast caller would pass its own.
 strict = _compiler(fastmath=False)
 
-#: As ``kernel`` and ``strict``, for what makes arrays of its own.
+#: As ``kernel`` and ``strict``, for what makes arrays of its own, or calls what hands its own over.
 kernel_of_arrays = _compiler(owner=True, fastmath=FAST)
 strict_of_arrays = _compiler(owner=True, fastmath=False)
 

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from ..jit import kernel, law, strict
+from ..jit import kernel, kernel_of_arrays, law, strict, strict_of_arrays
 from ..shared.overturning import barrier
 from .corner import clamped
 from .pose import in_space
@@ -70,7 +70,7 @@ def inside_rectangles(d, x, y, own_x, own_y, lower, upper, corners):
     return inside_by(x, y, corners)
 
 
-@kernel
+@kernel_of_arrays
 def lowest_barrier(stand, slip, turns, cornered, gravity, walks):
     """Lowest barrier of a column that is put down flat with these slips of its joints, in the axes of the drums below [m],
     shape (n, 2), and turns of its bodies, the base's first [rad]; 0 if none is left.  # Eq. (V1), in space
@@ -143,7 +143,7 @@ def is_over_corners(u, v, g, l, x, y, z, corners):
     return inside_by(x - z * g[0, l] / g[2, l], y - z * g[1, l] / g[2, l], corners) > 0.0
 
 
-@strict
+@strict_of_arrays
 def centroids_inside(body, joint, lane, l):
     """Whether the centroid of every part of a column is over both faces of the joint under it, seen along gravity."""
     g, corners = lane[0].g, np.empty((4, 2))
@@ -164,7 +164,7 @@ def centroids_inside(body, joint, lane, l):
     return True
 
 
-@strict
+@strict_of_arrays
 def turns_of(body, l):
     """Azimuth of the first axis of every body [rad]."""
     turns = np.empty(body.shape[0])
@@ -173,7 +173,7 @@ def turns_of(body, l):
     return turns
 
 
-@strict
+@strict_of_arrays
 def stands(stand, slip, energy, gravity, walks, body, joint, lane, l):
     """Whether a column as built, with these slips and this energy [J], stands for good: see ``models/dem3d/verdict.py``."""
     if not centroids_inside(body, joint, lane, l):
