@@ -16,6 +16,7 @@ from stylobate.column.assembly import Assembly, Block
 from stylobate.column.assembly_files import assembly_from_dict
 from stylobate.column.files import write_column
 from stylobate.column.links import block_link
+from stylobate.models.base import Case, RunOptions
 from stylobate.simulate import simulate_assembly
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()]
@@ -46,8 +47,10 @@ PULSE = st.Motion(0.001, np.r_[np.full(50, 0.5), np.zeros(950)])
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.name)
 def test_a_joint_closes_under_the_weight_by_both_springs(model) -> None:
-    packed = model.pack(on_pad(**SOFT))
-    height = packed.lane["body"]["z"][1, 0] if hasattr(packed, "lane") else packed.fields[0]["z"][1]
+    column = on_pad(**SOFT)
+    block = model.block_for(model.kind(column), RunOptions())
+    block.load(0, Case(column, PULSE))
+    height = block.records.body["z"][1, 0]
     assert height == pytest.approx(0.1 - WEIGHT / (NORMAL * AREA), abs=1e-12)
 
 
