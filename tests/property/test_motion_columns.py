@@ -136,6 +136,11 @@ def test_a_peak_beyond_all_records_is_noticed(put):
         ("time_s,ax_g\n0,1\n0,1\n", {}, "time goes from 0 s to 0 s"),
         ("time_s,ax_g\n0,1\n0.1,1\n0.2,0\n", {"dt": 0.05}, "leave dt out"),
         ("0,15\n0,25\n1,35\n", {"unit": "g", "dt": 0.01}, "one number with a decimal comma or two numbers"),
+        (
+            "time_s;ax_m/s2\n0,00;0,1\n0,02;1.234\n0,04;999,5\n",
+            {},
+            "line 3: '0,02;1.234' holds a point, and other numbers",
+        ),
         ("words only\n", {}, "no format that is known"),
         ("", {}, "empty"),
         ("0.1\n", {"unit": "g", "dt": 0.1}, "one row"),

@@ -51,7 +51,7 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     numbered = {line.strip(): number for number, line in enumerate(lines[:start], 1) if line.strip()}
     titles = list(numbered)
     comments = _comments(titles)
-    rows, first = number_rows(lines, start)
+    rows, first = number_rows(lines, start, source.name)
     header, units = header_of(titles)
     named = header.line if header is not None and header.unknown is None else None
     if header is None or header.speaks_of_all is not None:

@@ -14,8 +14,14 @@ from .numbers import PIECE, count_numbers, read_numbers
 COLUMNS = "columns of numbers"
 
 
-def number_rows(lines: list[str], start: int) -> tuple[list[str], int]:
-    """Lines of numbers, with the separators made blanks and decimal commas made points."""
+def number_rows(lines: list[str], start: int, file: str) -> tuple[list[str], int]:
+    """Lines of numbers, with the separators made blanks and decimal commas made points.
+
+    Raises
+    ------
+    InputError
+        There are points beside decimal commas: they may be of thousands.
+    """
     rows = lines[start:]
     sample = rows[0]
     if ";" in sample or "," in sample:
@@ -23,11 +29,23 @@ def number_rows(lines: list[str], start: int) -> tuple[list[str], int]:
         # Commas within numbers that blanks or semicolons separate are decimal ones.
         apart = ";" in sample or (re.search(r"\S\s+\S", sample) is not None and re.search(r",\s|\s,", sample) is None)
         decimal = "." not in sample and apart
+        if decimal and "." in text:
+            check_points(rows, start, file)
         if ";" in sample:
             text = text.replace(";", " ")
         text = text.replace(",", "." if decimal else "," if ";" in sample else " ")
         rows = text.split("\n")
     return rows, start
+
+
+def check_points(rows: list[str], first: int, file: str) -> None:
+    """Rows with decimal commas that hold points as well are refused: 1.234 may be 1234."""
+    for line, row in enumerate(rows, first + 1):
+        if "." in row and not row.lstrip().startswith(("#", "%")):
+            raise InputError(
+                f"{file}, line {line}: {row.strip()[:60]!r} holds a point, and other numbers have decimal commas; write one "
+                "decimal mark throughout, and none for thousands."
+            )
 
 
 def check_commas(lines: list[str], file: str, first: int) -> None:
