@@ -57,8 +57,8 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
     names = [plain(one.state) + (f"\nagainst {plain(one.against)}" if several else "") for one in found.differences]
     bars.set_yticks(places, names)
     bars.set_ylim(-0.6, len(places) - 0.4)
-    against = "the state it is compared with" if several else f"“{plain(found.differences[0].against)}”"
-    bars.set_xlabel(f"share of runs with {found.state}, less that of\n{against} [percentage points], paired")
+    against = "the other one" if several else f"“{plain(found.differences[0].against)}”"
+    bars.set_xlabel(f"share of runs with {found.state},\nless that of {against}\n[percentage points], paired")
     _say_which_side(bars, found)
     if any(one.undecided for one in found.differences):
         bars.plot([], [], color=BLACK, linewidth=4.0, alpha=0.5, label="undecided, both ways")
