@@ -10,7 +10,7 @@ import stylobate as st
 from stylobate.column import Joint
 from stylobate.column.presets import preset
 from stylobate.models.base import Case
-from stylobate.models.drums.packing import whole_steps
+from stylobate.models.drums.whole_steps import whole_steps
 from stylobate.models.shared.soft_joints import longest_step
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate_iter

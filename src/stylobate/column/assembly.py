@@ -202,6 +202,6 @@ class Assembly(Structure):
         """Everything that defines the assembly, as plain values in SI units."""
         plain = asdict(self, dict_factory=without_unsaid)
         plain.pop("links")
-        return json.loads(json.dumps(plain)) | (
+        return json.loads(json.dumps(plain)) | (  # lists for tuples, as a file gives them back
             {"links": [link.to_dict() for link in self.links]} if self.links else {}
         )

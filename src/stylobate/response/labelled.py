@@ -19,7 +19,6 @@ from ..column.kinds import FROM_DICT
 from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome
-from .assembly_measures import recorded_blocks
 from .collapse import Collapse
 from .histories import Histories
 from .links import NAMES as LINKS
@@ -197,8 +196,6 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
     kind = next(name for name in FROM_DICT if name in data)
     structure = FROM_DICT[kind](store.from_json(data, kind))
     provenance = store.from_json(data, "provenance")
-    if "facts" not in data:
-        return _of_format_1(data, structure, provenance)
     facts = store.from_json(data, "facts")
     collapse, space, blocks = facts["collapse"], facts["space"], facts["blocks"]
     if blocks is not None:
@@ -220,42 +217,6 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
         float(data.attrs["wall_s"]),
         None if mechanism is None else Mechanism(**_tuples(mechanism)),
         bool(facts["followed"]),
-    )
-
-
-def _of_format_1(data: xarray.Dataset, structure: Structure, provenance: dict[str, Any]) -> Recorded:
-    """Files of the first format: a mechanism is in the provenance, an assembly's joints and measures are found anew."""
-    energy, wall = _energy(data), float(data.attrs["wall_s"])
-    if "at_rest" in data.attrs:
-        x, z, rotation, acceleration, displacement = (
-            data[name].to_numpy() for name in ("x", "z", "rotation", "ground_acceleration", "ground_displacement")
-        )
-        response = recorded_blocks(
-            structure.must_be("assembly"), data["time"].to_numpy(), x, z, rotation, energy, acceleration, displacement,
-            at_rest=bool(data.attrs["at_rest"]),
-            failed=bool(data.attrs["failed"]),
-            in_equilibrium=provenance.get("in_equilibrium_as_drawn"),
-            energy_imbalance=float(data.attrs["energy_imbalance"]),
-            time_step=float(data.attrs["time_step_s"]),
-            steps=int(data.attrs["steps"]),
-            model=str(data.attrs["model"]),
-            provenance=provenance,
-        )  # fmt: skip
-        return dataclasses.replace(response, wall_time=wall)
-    mechanism = provenance.pop("mechanism", None)
-    if mechanism is not None:
-        mechanism = Mechanism(**_tuples({key: value for key, value in mechanism.items() if key != "sentence"}))
-    followed = bool(provenance.pop("followed_to_the_ground", False))
-    measures = _measures(data.attrs)
-    return Recorded(
-        structure,
-        _histories(data, structure),
-        measures,
-        str(data.attrs["model"]),
-        provenance,
-        wall,
-        mechanism,
-        followed,
     )
 
 

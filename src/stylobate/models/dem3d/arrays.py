@@ -9,13 +9,10 @@ import numpy as np
 
 from ...kernels.run_codes import CHUNK, LANES
 from ...kernels.shared.records import STATE
-from ..shared.lanes import aligned_zeros, copied, in_rows
+from ..shared.lanes import aligned_zeros, in_rows, with_copies
 
 #: Records of which every lane has its own numbers from the start.
 OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
-
-#: Records whose memory a look at the forces changes; those of bodies and loads are computed anew in every step.
-CHANGED = ("joint", "link", "lane")
 
 
 class Records:
@@ -86,7 +83,7 @@ class Records:
             self.look_at_all_vertices()
 
     def look_at_all_vertices(self) -> None:
-        """Whatever the engine had seen of which are near, which it looks for again before it steps."""
+        """Let every vertex count as near the ground: the engine finds those that are before it steps."""
         every = np.arange(len(self.joint))
         self.lane["near"].reshape(-1)[every] = every
         self.lane["count"] = len(every)
@@ -95,8 +92,7 @@ class Records:
 
     def now(self, *others: str) -> tuple[Any, ...]:
         """A state of copies of all records that a look at the forces changes, and of some others."""
-        names = (*CHANGED, *others)
-        return tuple(copied(one) if name in names else one for name, one in zip(STATE, self.state, strict=True))
+        return with_copies(self.state, *others)
 
     def energies(self, lane: int, dt: float, base: np.ndarray, state: tuple[Any, ...] | None = None) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].

@@ -14,7 +14,7 @@ from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
-from ..drums.packing import whole_steps
+from ..drums.whole_steps import whole_steps
 from ..drums.runs import CALLS_PER_RUN, LaneRuns
 from ..shared.lanes import in_rows
 from .arrays import Records

@@ -12,7 +12,7 @@ from ...kernels.run_codes import CHUNK, RUNNING
 from ...kernels.shared.records import STATE
 from ...motion import Motion
 from ..shared.ground import along_base
-from ..shared.lanes import aligned_zeros
+from ..shared.lanes import aligned_zeros, in_rows, with_copies
 from .packing import Packed, Topology
 
 
@@ -79,7 +79,7 @@ class Records:
         """Write the numbers of a run into a lane: of all records that differ from lane to lane."""
         for name, values in packed.lane.items():
             if len(values):
-                _rows(getattr(self, name), self.lanes)[:, lane] = _rows(values, 1)[:, 0]
+                in_rows(getattr(self, name), self.lanes)[:, lane] = in_rows(values, 1)[:, 0]
         self.bond[...] = packed.bond
 
     def forces(self, lane: int) -> tuple[np.ndarray, ...]:
@@ -92,8 +92,7 @@ class Records:
 
     def now(self) -> tuple[Any, ...]:
         """A state of copies of all records that a look at the forces changes."""
-        changed = ("joint", "link", "lane")  # forces of bodies and loads of contacts are computed anew in every step
-        return tuple(_copy(one) if name in changed else one for name, one in zip(STATE, self.state, strict=True))
+        return with_copies(self.state)
 
     def energies(self, lane: int, dt: float, ground: tuple[float, float]) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
@@ -126,16 +125,6 @@ class Records:
         return np.maximum(self.joint["bl"][:, lane], self.joint["br"][:, lane])
 
 
-def _copy(records: np.ndarray) -> np.ndarray:
-    """A copy as one piece of memory; numpy copies records field by field."""
-    return records.view(np.uint8).copy().view(records.dtype) if len(records) else records
-
-
-def _rows(records: np.ndarray, lanes: int) -> np.ndarray:
-    """All fields of records over lanes as rows, shape (fields, lanes); bits, whatever their type."""
-    return records.view(np.int64).reshape(-1, lanes)
-
-
 def feed_motion(records: Records, lane: int, motion: Motion, dt: float, slope: float) -> None:
     """Let a lane's base move with a motion, taken along a slope [rad], in steps of dt [s]."""
     feed, watch = records.feed[0], records.watch[0]
@@ -154,7 +143,7 @@ def feed_motion(records: Records, lane: int, motion: Motion, dt: float, slope: f
 def clear_watch(records: Records, lane: int, follow: bool) -> None:
     """Let a lane be looked at from the start: nothing has happened."""
     watch = records.watch[0]
-    _rows(records.watch, records.lanes)[:, lane] = 0
+    in_rows(records.watch, records.lanes)[:, lane] = 0
     watch["status"][lane] = RUNNING
     watch["follow"][lane] = follow
     watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1

@@ -12,7 +12,7 @@ from ...constants import DEGREE
 from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ..base import Case, RunOptions
-from ..drums.packing import whole_steps
+from ..drums.whole_steps import whole_steps
 from ..drums.runs import CALLS_PER_RUN, LaneRuns
 from ..start import check_in_plane
 from .block import Law, Records, base_acceleration, clear_watch, feed_motion

@@ -15,7 +15,7 @@ from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
 from ...motion import Motion
 from ..drums.links import link_snapshot
-from ..drums.packing import whole_steps
+from ..drums.whole_steps import whole_steps
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
 from .block import Records, base_acceleration, clear_watch, feed_motion

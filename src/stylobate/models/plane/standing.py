@@ -69,14 +69,3 @@ def stands_for_good(
     stand["toe"] = toes
     slope = column.as_found.base_tilt * DEGREE
     return bool(stands(stand, offsets + slip, column.gravity, slope, energy, records.body, records.joint, lane))
-
-
-def flat_barrier(column: Column, slip: np.ndarray, toes: np.ndarray) -> float:
-    """Lowest barrier of a column that is put down flat with these slips along its joints [m], shape (n,); in [J]."""
-    from ...kernels.plane.standing import lowest_barrier, put_down
-
-    numbers, offsets = _numbers(column)
-    stand = numbers.copy()
-    stand["toe"] = toes
-    put_down(stand, offsets + slip)
-    return float(lowest_barrier(stand, column.gravity, column.as_found.base_tilt * DEGREE))

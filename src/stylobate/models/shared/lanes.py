@@ -17,6 +17,7 @@ from typing import Any, Protocol, TypeVar
 import numpy as np
 
 from ...errors import InputError
+from ...kernels.shared.records import STATE
 from ...outcome import Outcome
 from ...response import Measures
 from ..base import Case
@@ -79,6 +80,16 @@ def aligned_zeros(shape: int, dtype: np.dtype) -> np.ndarray:
 def copied(records: np.ndarray) -> np.ndarray:
     """A copy as one piece of memory; numpy copies records field by field."""
     return records.view(np.uint8).copy().view(records.dtype) if len(records) else records
+
+
+#: Records of an engine whose memory a look at the forces changes; those of bodies and loads are computed anew in every step.
+CHANGED = ("joint", "link", "lane")
+
+
+def with_copies(state: tuple[Any, ...], *others: str) -> tuple[Any, ...]:
+    """A state of an engine with copies of all records that a look at the forces changes, and of some others."""
+    names = (*CHANGED, *others)
+    return tuple(copied(one) if name in names else one for name, one in zip(STATE, state, strict=True))
 
 
 def in_rows(records: np.ndarray, lanes: int) -> np.ndarray:

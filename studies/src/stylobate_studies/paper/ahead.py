@@ -22,14 +22,18 @@ def compile_ahead() -> None:
 
 
 @contextmanager
-def compiled_meanwhile() -> Iterator[Callable[[], object]]:
-    """While this lasts, another process compiles the kernels in space; gives what waits for it.
+def compiled_meanwhile(needed: bool) -> Iterator[Callable[[], object]]:
+    """While this lasts, another process compiles the kernels in space if they are needed; gives what waits for it.
 
     The compiler uses one core, and what it has on disk it takes from there. Where the other process fails, nothing is lost:
     the kernels are compiled when they are needed.
     """
+    if not needed:
+        yield lambda: None
+        return
     call = f"from {__name__} import compile_ahead; compile_ahead()"
-    other = subprocess.Popen([sys.executable, "-c", call], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    unheard = subprocess.DEVNULL
+    other = subprocess.Popen([sys.executable, "-c", call], stdin=unheard, stdout=unheard, stderr=unheard)
     try:
         yield other.wait
     finally:

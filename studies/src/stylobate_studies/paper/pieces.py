@@ -40,6 +40,10 @@ if TYPE_CHECKING:
     import xarray
 
 
+#: File of a population in the folder of its piece.
+POPULATION = "probability.nc"
+
+
 def domain_piece(
     folder: Path, column: Column, model: Model, grid: tuple, tail: float, threads: int, progress: Progress | None
 ) -> Domain:
@@ -60,7 +64,7 @@ def population_piece(
     progress: Progress | None, imperfection: Imperfection | None = None,
 ) -> CollapseProbability:  # fmt: skip
     """The same domain for slightly different columns, 1 % in geometry, friction and stiffness by default."""
-    place = folder / "probability.nc"
+    place = folder / POPULATION
     if is_ready(place):
         discard(folder / PROGRESS_FILE)
         return CollapseProbability.load(place)

@@ -26,9 +26,9 @@ from stylobate.simulate import thread_count
 from . import cases as c
 from .ahead import compiled_meanwhile
 from .doubt import Doubt
-from .folder import check_folder, claim
+from .folder import check_folder, claim, is_ready
 from .literature import literature_piece
-from .pieces import cost_piece, domain_piece, histories_piece, population_piece, slug
+from .pieces import POPULATION, cost_piece, domain_piece, histories_piece, population_piece, slug
 
 if TYPE_CHECKING:
     import xarray
@@ -127,7 +127,8 @@ def run_study(
     check_folder(folder)
     with own_files(folder) as own:
         claim(own, grids)
-        with compiled_meanwhile() as wait:
+        spaces = (folder / "data" / slug("space", *one) / POPULATION for one in product(PRESETS, c.POPULATIONS))
+        with compiled_meanwhile(not all(map(is_ready, spaces))) as wait:
             return _pieces(folder, quick, grids, threads, report, wait)
 
 
