@@ -14,8 +14,8 @@ from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
-from ..drums.whole_steps import whole_steps
 from ..drums.runs import CALLS_PER_RUN, LaneRuns
+from ..drums.whole_steps import whole_steps
 from ..shared.lanes import in_rows
 from .arrays import Records
 from .packing import Packed

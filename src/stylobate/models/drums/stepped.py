@@ -17,7 +17,7 @@ from ..shared.lanes import Riders, run_alike
 from ..shared.soft_joints import check_sinking, check_step_resolves
 from ..shared.stable_step import chosen_step
 from .histories import histories
-from .packing import whole_steps
+from .whole_steps import whole_steps
 
 #: Largest share of the stable step at which columns alike are computed in one step: joints 2.8 times as stiff bear it.
 SAFE_FACTOR = 0.6

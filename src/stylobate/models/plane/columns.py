@@ -12,8 +12,8 @@ from ...constants import DEGREE
 from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ..base import Case, RunOptions
-from ..drums.whole_steps import whole_steps
 from ..drums.runs import CALLS_PER_RUN, LaneRuns
+from ..drums.whole_steps import whole_steps
 from ..start import check_in_plane
 from .block import Law, Records, base_acceleration, clear_watch, feed_motion
 from .packing import Packed, Topology

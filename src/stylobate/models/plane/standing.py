@@ -15,7 +15,7 @@ from .block import Records
 
 
 @lru_cache(maxsize=4096)
-def _numbers(column: Column) -> tuple[np.ndarray, np.ndarray]:
+def numbers_for(column: Column) -> tuple[np.ndarray, np.ndarray]:
     """Numbers of the drums for the law, put down flat as found, but for their toes; their offsets as found [m]."""
     from ...kernels.plane.standing import STAND_TYPE, put_down
 
@@ -64,7 +64,7 @@ def stands_for_good(
     """
     from ...kernels.plane.standing import stands
 
-    numbers, offsets = _numbers(column)
+    numbers, offsets = numbers_for(column)
     stand = numbers.copy()
     stand["toe"] = toes
     slope = column.as_found.base_tilt * DEGREE
