@@ -2,13 +2,17 @@
 
 import ast
 import re
+import threading
+import time
+import warnings
 from pathlib import Path
 
 import pytest
 
 import stylobate
 from stylobate.app.job import Job
-from stylobate.app.words import LABELS, in_page_words
+from stylobate.app.words import LABELS, doubted, in_page_words, warned
+from stylobate.errors import OutOfRangeWarning
 
 SOURCE = Path(stylobate.__file__).parent
 STATIC = SOURCE / "app" / "static"
@@ -95,3 +99,23 @@ def test_no_error_names_an_option(client, motion):
         motion = motion | {"text": client.post("/api/records", content=b"0 1\n1 2\n2 3\n3 4\n").json()["id"]}
     error = client.post("/api/motion", json={"motion": motion}).json()["error"]
     assert OPTION.search(error) is None, error
+
+
+def test_every_request_hears_its_own_warnings():
+    """Many threads at once: none misses one of its warnings or hears another's."""
+    heard = {}
+
+    def ask(number):
+        for _ in range(5):
+            with doubted() as doubts:
+                warnings.warn(f"doubt {number}", OutOfRangeWarning, stacklevel=1)
+                time.sleep(0.001)
+                warnings.warn(f"more {number}", OutOfRangeWarning, stacklevel=1)
+            heard.setdefault(number, []).append(warned(doubts))
+
+    threads = [threading.Thread(target=ask, args=(number,)) for number in range(8)]
+    for one in threads:
+        one.start()
+    for one in threads:
+        one.join()
+    assert heard == {number: [[f"doubt {number}", f"more {number}"]] * 5 for number in range(8)}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-import warnings
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +12,7 @@ from ..column.links.placed import strokes
 from ..column.presets import PRESETS
 from ..column.toml import parse_toml
 from ..errors import InputError
-from .words import warned
+from .words import doubted, warned
 
 #: Largest assembly file: the address in the browser holds it [characters].
 LARGEST = 100_000
@@ -60,8 +59,7 @@ def describe(text: str) -> dict[str, Any]:
     InputError
         The text describes none.
     """
-    with warnings.catch_warnings(record=True) as doubts:
-        warnings.simplefilter("always")
+    with doubted() as doubts:
         assembly = assembly_of(text)
     moving = [one for one in assembly.blocks if not one.fixed]
     return {

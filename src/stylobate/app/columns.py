@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -20,7 +19,7 @@ from ..constants import g
 from ..errors import InputError
 from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
-from .words import warned
+from .words import doubted, warned
 
 #: What messages about a column call it at first; on the page that goes without saying.
 SOURCE = "the column"
@@ -58,8 +57,7 @@ def describe(table: Mapping[str, Any]) -> dict[str, Any]:
     InputError
         The tables describe no column.
     """
-    with warnings.catch_warnings(record=True) as doubts:
-        warnings.simplefilter("always")
+    with doubted() as doubts:
         column = column_of(table)
         facts = {
             "height": column.height,

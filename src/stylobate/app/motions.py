@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Sequence
 from typing import Any
 
@@ -14,7 +13,7 @@ from ..constants import g
 from ..motion import Motion, MotionRequest
 from ..motion.intensity import motion_summary, rocking_measures, warn_of_drift
 from .asked import MotionAsked
-from .words import warned
+from .words import doubted, warned
 
 #: Most points of a plotted line, and of the path in plan.
 POINTS, PATH = 2400, 1500
@@ -36,8 +35,7 @@ def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) ->
     InputError
         There is no such motion.
     """
-    with warnings.catch_warnings(record=True) as doubts:
-        warnings.simplefilter("always")
+    with doubted() as doubts:
         request = MotionRequest.typed(**asked.words(files))
         motion = request.motion(None if column is None else column.frequency_parameter)
         summary = motion_summary(motion, spectrum=False)

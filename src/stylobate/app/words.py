@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+import threading
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 #: What a field of the page is called, by the option of the command line that it stands for; the scripts of the page take
@@ -53,6 +55,19 @@ def in_page_words(said: Any) -> Any:
     if isinstance(said, (list, tuple)):
         return [in_page_words(value) for value in said]
     return said
+
+
+#: Python keeps one list of filters for all threads: one request at a time listens to its warnings, or they would be those of
+#: another one, or nobody's.
+_LISTENING = threading.Lock()
+
+
+@contextmanager
+def doubted() -> Iterator[list[warnings.WarningMessage]]:
+    """What is warned of in this thread, for :func:`warned`."""
+    with _LISTENING, warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
+        yield doubts
 
 
 def warned(doubts: Sequence[warnings.WarningMessage]) -> list[str]:
