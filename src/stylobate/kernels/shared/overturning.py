@@ -46,5 +46,6 @@ def barrier(stand, j, half, height, loose, weight):
     """
     radius = math.hypot(half, height)
     slides = loose < half / radius
-    rise = loose * half - height * (1.0 - math.sqrt(1.0 - loose * loose)) if slides else radius - height
+    slip = min(loose, 1.0)  # none slides beyond that; the root is real
+    rise = slip * half - height * (1.0 - math.sqrt(1.0 - slip * slip)) if slides else radius - height
     return weight * rise - given_by_toes(stand, j, half, height)
