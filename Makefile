@@ -15,6 +15,9 @@ ifneq ($(shell cat $(STAMP) 2>/dev/null),$(CURDIR))
 .PHONY: $(STAMP)
 endif
 
+# What is imported is compiled when it is first imported, and kept: a tenth of what is installed.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: install demo test test-cpus test-pythons wheel test-wheel fuzz check format bench peers thresholds docs lock clean
 
 install: $(STAMP)
@@ -27,7 +30,6 @@ $(STAMP): pyproject.toml studies/pyproject.toml requirements/base.lock
 	@[ ! -e .venv ] || [ "$$(cat $@ 2>/dev/null)" = "$(CURDIR)" ] || rm -rf .venv
 	@[ -x $(BIN)/python ] || $(PYTHON) -m venv .venv
 	@$(PIP) install --no-compile --require-hashes -r requirements/base.lock
-	@$(BIN)/python -m compileall -qq -j 0 "$(CURDIR)/.venv/lib" || true # on all cores, which pip does not use
 	@$(PIP) install --no-deps --no-build-isolation -e . -e studies
 	@echo "$(CURDIR)" > $@
 
