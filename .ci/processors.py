@@ -1,7 +1,8 @@
 """The tests that are sensitive to how a machine rounds, on every machine that this processor can play.
 
 `make test-cpus`: compiled loops for the processor as it is, for any processor of its kind, without and with 512-bit
-vectors; linear algebra with two other kernels. `--without-default` leaves out what `make test` runs anyway.
+vectors; linear algebra with two other kernels. As many at a time as there are cores, for the compiler uses one.
+`--without-default` leaves out what `make test` runs anyway.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import platform
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 import llvmlite.binding as llvm
 
@@ -47,14 +49,21 @@ def core_runs(core: str, has: dict[str, bool]) -> bool:
 def main(arguments: list[str]) -> int:
     default = "--without-default" not in arguments
     rest = [one for one in arguments if one != "--without-default"] or ["tests"]
-    failed = []
-    for name, settings in targets(default).items():
-        print(f"== {name}", flush=True)
+    command = [sys.executable, "-m", "pytest", "-q", "-m", "processor", "-p", "no:cacheprovider", *rest]
+
+    def passes(name: str, settings: dict[str, str]) -> bool:
         begin = time.monotonic()
-        command = [sys.executable, "-m", "pytest", "-q", "-m", "processor", "-p", "no:cacheprovider", *rest]
-        code = subprocess.run(command, env=os.environ | settings, check=False).returncode
-        print(f"== {name}: {'passed' if code == 0 else 'FAILED'} in {time.monotonic() - begin:.0f} s", flush=True)
-        failed += [name] if code else []
+        done = subprocess.run(
+            command, env=os.environ | settings, check=False, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT
+        )
+        end = f"{'passed' if done.returncode == 0 else 'FAILED'} in {time.monotonic() - begin:.0f} s"
+        print(f"== {name}\n{done.stdout}== {name}: {end}", flush=True)
+        return done.returncode == 0
+
+    asked = targets(default)
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        results = list(pool.map(passes, asked, asked.values()))
+    failed = [name for name, passed in zip(asked, results, strict=True) if not passed]
     if failed:
         print(f"failed: {', '.join(failed)}", file=sys.stderr)
     return 1 if failed else 0
