@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..analysis.fragility import between
+from ..analysis.ida_curves import median_of
 from ..analysis.risk import years
 from ..analysis.side_by_side import codes_of, median_words, shares
 from ..analysis.studies import StudyResult
@@ -152,8 +153,7 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     fell = sum(one.get("collapses_from") is not None for one in s["capacities"])
     sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
-    half = s.get("capacity_50")
-    sentence += f"; half of them up to {n.plain(half)} ({n.plain(s.get('im'))})." if isinstance(half, float) else "."
+    sentence += f"; {median_of(s)}." if s["capacities"] else "."
     items: list[Item] = [
         _table(s["capacities"], list(s["capacities"][0])[:6] if s["capacities"] else [], "Capacity under each record.")
     ]
@@ -162,7 +162,7 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         items.append(
             _table(
                 s["measures"],
-                list(s["measures"][0])[:6],
+                ["measure", "unit", "beta", "beta_low", "beta_high", "sigma_ln_edp", "records"],
                 "Which measure of the motions tells most: the smaller its dispersion β, the more.",
             )
         )
