@@ -273,6 +273,7 @@ def write(response: Response, motion: Motion, folder: Path, figures: bool = True
 
 def describe(response: Response, motion: Motion, files: list[Path], population: Population | None = None) -> None:
     """Print the verdict for people."""
+    from ..response.words import doubt_of
     from . import console
 
     found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
@@ -280,6 +281,7 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
     if population is not None:
         sentence = f"{sentence} {population.sentence} {population.beside(response.summary())}".rstrip()
         facts |= population_facts(population)
+    sentence = f"{sentence} {doubt_of(response)}".rstrip()
     what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)
