@@ -93,7 +93,8 @@ def test_a_run_in_space_says_its_doubt(capsys, tmp_path):
     column = tmp_path / "two.toml"
     column.write_text(
         'name = "two"\nsection = "circular"\ndensity = 2600.0\n[tapered]\nheight = 2.0\nbottom_width = 0.4\n'
-        "top_width = 0.4\ndrums = 2\n[joint]\nnormal_stiffness = 2.0e9\nshear_stiffness = 1.0e9\nfriction_coefficient = 0.7\n"
+        "top_width = 0.4\ndrums = 2\n[joint]\nnormal_stiffness = 2.0e9\nshear_stiffness = 1.0e9\n"
+        "friction_coefficient = 0.7\n"
     )
     text = said(capsys, "run", column, "--model", "dem3d", "--harmonic", "1Hz,0.3g,1s", "--replicates", "0")
     assert "Nothing damped its wobble, and in space a verdict can hang on that, either way" in text
