@@ -94,7 +94,7 @@ def critical(
     nominal = None if not (harmonic or pulse) else shaking.pga if condition else 1.0
     o.the_engine(context, dask, count)
     with console.folder(out, *WRITES, "probability.csv", "probability") as folder:
-        with console.progress("amplitudes") as progress:
+        with console.progress("runs") as progress:
             ledger = console.ledger(folder)
             result = critical_amplitude(
                 stone,
