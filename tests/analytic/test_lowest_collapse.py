@@ -71,8 +71,8 @@ def test_the_first_number_is_the_lowest_collapse_of_all_columns():
     assert found["lowest_collapse_factor"] == pytest.approx(1.2)
     assert found["sentence"].startswith(
         "Of 5 columns, this one and 4 like it, the first falls at 0.3 g, 1.2 times the record (the next below that was "
-        "looked at is 0.2 g); of those like it fall 16 % by 0.3 g, 50 % by 0.4 g, 84 % only above 0.5 g, the highest looked "
-        "at. This one collapses at 0.5 g"
+        "looked at is 0.2 g); of those like it fall 16 % by 0.3 g, 50 % by 0.4 g, 84 % only above 0.5 g. "
+        "This one collapses at 0.5 g"
     )
     assert "--replicates" not in found["sentence"]
     read_again = json.loads(json.dumps(found).replace("Infinity", "null"))  # as a report finds it in its folder
@@ -82,14 +82,21 @@ def test_the_first_number_is_the_lowest_collapse_of_all_columns():
 def test_no_single_amplitude_where_verdicts_alternate_and_none_below_what_has_no_verdict():
     assert "at 0.3 g, 1.2 times the record (" in (said := over("scsc").summary()["sentence"])
     assert "but stands again at 0.4 g: no single amplitude is its limit." in said
-    assert "1 runs below that have no verdict, and may be collapses" in over("sucs").summary()["sentence"]
+    assert "runs below that without a verdict, which may be collapses: 1" in over("sucs").summary()["sentence"]
+
+
+def test_what_has_no_verdict_is_no_collapse_of_a_column_alike():
+    found = over("ssss", ["ussc", "usss"])  # nothing is decided at the first amplitude, so its share is not known
+    assert math.isnan(found.population.probability[0])
+    assert found.summary()["sentence"].startswith("Of 3 columns, this one and 2 like it, the first falls at 0.5 g")
+    assert sentence(over("usss").summary()).startswith("No amplitude looked at, 0.2 to 0.5 g, collapses the column")
 
 
 def test_bounds_are_told_as_bounds():
     low = over("cccc", ["cccc", "cccc", "sccc"]).summary()
     assert low["bounds"] == {"critical_g": "≤ 0.2", "all_collapse_above_g": "≤ 0.2", "critical_factor": "≤ 0.8"}
     assert low["certainty"]["bounds"] == {"critical_16_g": "≤ 0.2", "critical_50_g": "≤ 0.2"}
-    assert "16 % at 0.2 g already, the lowest looked at" in low["sentence"]
+    assert "16 % at 0.2 g or below" in low["sentence"]
     suite = CriticalSuite((over("ssss", ["ssss"]), over("sccc", ["cccc"])), 1.0)
     first, second = suite.summary()["records"]
     assert first["bounds"]["critical_50_g"] == "> 0.5"

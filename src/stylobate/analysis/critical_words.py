@@ -61,7 +61,7 @@ def _with_twins(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any]) -> st
     """The lowest collapse of the column and those like it, and by which amplitude shares of these have fallen."""
     number, lowest = s["replicates"], lowest_collapse(s)
     if lowest is None:
-        return f"No amplitude looked at, {_range(s)}, collapses the {kind} or one of {number} like it."
+        return f"No amplitude looked at, {_range(s)}, collapses the {kind} or one of {number} like it; larger ones were not."
     words = f"Of {number + 1} {kind}s, this one and {number} like it, the first falls {_at(s, lowest)}"
     shares = [(share, _by(twins, f"critical_{share}_g")) for share in (16, 50, 84)]
     said = ", ".join(f"{share} % {by}" for share, by in shares if by)
@@ -71,9 +71,9 @@ def _with_twins(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any]) -> st
 def _by(twins: Mapping[str, Any], name: str) -> str:
     value, bound = twins.get(name), twins.get("bounds", {}).get(name, "")
     if bound.startswith("≤"):
-        return f"at {bound[2:]} g already, the lowest looked at"
+        return f"at {bound[2:]} g or below"
     if bound.startswith(">"):
-        return f"only above {bound[2:]} g, the highest looked at"
+        return f"only above {bound[2:]} g"
     return f"by {value:.4g} g" if value is not None and math.isfinite(value) else ""
 
 
@@ -98,7 +98,7 @@ def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> 
     elif first < stretches[-1]["to_g"]:
         words += f", and at all larger ones up to {_last(s):.4g} g"
     if before:
-        words += f"; {sum(one['runs'] for one in before)} runs below that have no verdict, and may be collapses"
+        words += f"; runs below that without a verdict, which may be collapses: {sum(one['runs'] for one in before)}"
     return words + "."
 
 
@@ -120,7 +120,7 @@ def lowest_collapse(s: Mapping[str, Any]) -> float | None:
     """The smallest amplitude that collapses the column or one like it [g]; None where none does."""
     found = [s.get("first_collapse_g", s.get("critical_g"))]
     shares = zip(s.get("amplitudes_g", ()), s.get("collapse_probability", ()), strict=True)
-    found += [amplitude for amplitude, share in shares if share]
+    found += [amplitude for amplitude, share in shares if share is not None and share > 0.0]
     return min((one for one in found if one is not None), default=None)
 
 
@@ -132,7 +132,10 @@ def _at(s: Mapping[str, Any], amplitude: float) -> str:
     elif s.get("critical_factor") is not None:
         times = s["critical_factor"] / s["critical_g"]
     words = f"at {amplitude:.4g} g" + (f", {times * amplitude:.3g} times the record" if times else "")
-    looked_at = [*(one[end] for one in s["alternation"] for end in ("from_g", "to_g")), *s.get("amplitudes_g", ())]
+    own = amplitude == s.get(
+        "first_collapse_g", s.get("critical_g")
+    )  # else it is that of one like it, which went through fewer
+    looked_at = [one[end] for one in s["alternation"] for end in ("from_g", "to_g")] if own else s["amplitudes_g"]
     if below := max((one for one in looked_at if one < amplitude), default=None):
         return f"{words} (the next below that was looked at is {below:.4g} g)"
     return f"already {words}, the lowest amplitude looked at"

@@ -84,6 +84,6 @@ def _twins(s: dict[str, Any]) -> list[Item]:
 def _by_record(records: Sequence[Mapping[str, Any]]) -> Rows:
     keys = [key for key in BY_RECORD if key in records[0]]
     rows = [[n.plain(one.get("bounds", {}).get(key, one.get(key))) for key in keys] for one in records[:MOST]]
-    caption = "By record; ≤ and > mark bounds, where no amplitude was run on the other side."
+    caption = "By record; ≤ and > mark bounds, where no amplitude on the other side was stood, or brought collapse."
     left_out = f" The first {MOST} of {len(records)}." if len(records) > MOST else ""
     return Rows([key.replace("_", " ") for key in keys], rows, caption + left_out, numbers=True)
