@@ -1,5 +1,6 @@
 """Incremental dynamic analysis: levels that tell something, curves with plateaus, and which intensity tells most."""
 
+import dataclasses
 import math
 import warnings
 
@@ -12,6 +13,7 @@ from stylobate.analysis.efficiency import which_tells_most
 from stylobate.analysis.evidence import evidence
 from stylobate.analysis.hunt import CLOSE, next_levels
 from stylobate.analysis.ida import ida
+from stylobate.analysis.ida_curves import median_of
 from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import half_sine_pulse
@@ -101,6 +103,23 @@ def test_fractiles_count_a_collapse_as_larger_than_anything(found):
     beyond = table["im"] > fell[2]
     assert np.isinf(table.loc[beyond, "edp_50"].dropna()).all()
     assert found.summary()["capacity_50"] == pytest.approx(fell[2])
+
+
+def test_a_median_that_no_level_brackets_is_a_bound(found):
+    assert found.summary()["bounds"] == {}
+    low, high = (
+        found.capacities[name].astype(float).sort_values().iloc[2] for name in ("stands_until", "collapses_from")
+    )
+    assert median_of(found.summary()) == f"half of the curves have collapsed between pga = {low:.3g} and {high:.3g} g"
+    below = dataclasses.replace(found, runs=found.runs[found.runs["level"] <= low])  # the third has not fallen yet
+    low = below.capacities["stands_until"].sort_values().iloc[2]
+    assert below.summary()["bounds"]["capacity_50"] == f"> {low:.4g}"
+    assert median_of(below.summary()) == (
+        f"fewer than half of the curves collapse up to pga = {low:.3g} g, and the median lies above"
+    )
+    fell = dataclasses.replace(found, runs=found.runs[found.runs["verdict"] == v.COLLAPSED])
+    assert fell.summary()["bounds"]["capacity_50"] == f"≤ {high:.4g}"
+    assert "or below: no lower level was stood" in median_of(fell.summary())
 
 
 def test_scaled_measures_follow_the_factor(found):

@@ -2,6 +2,7 @@
 
 import json
 import math
+import re
 
 import numpy as np
 import pytest
@@ -27,7 +28,10 @@ from stylobate.motion import (
     rotated_spectrum,
     significant_duration,
 )
+from stylobate.motion.condition_specs import conditioned
 from stylobate.motion.intensity import displacement_drift, warn_of_drift
+from stylobate.motion.motion import integrate
+from stylobate.motion.readers.registry import sample_motion
 
 PERIODS = np.array([0.03, 0.1, 0.33, 0.7, 1.0, 1.9, 4.0])
 
@@ -203,6 +207,40 @@ def test_a_displacement_that_double_integration_leaves_is_told_with_its_size():
     assert displacement_drift(back) == 0.0
     assert motion_summary(back, spectrum=False)["pgd_drift_m"] == {"x": 0.0}
     assert motion_summary(offset, spectrum=False)["pgd_drift_m"]["x"] == pytest.approx(1.0)
+
+
+def mended(motion, step):
+    """Whether a step of conditioning ends the drift of a motion, its velocity at the end included."""
+    after = conditioned(motion, step)
+    speed = np.abs(integrate(after.samples, after.dt))
+    return displacement_drift(after) == 0.0 and speed[-1] < 0.05 * speed.max()
+
+
+@pytest.mark.parametrize("drift", [lambda t: 1e-3 * t, lambda t: 0.003 * np.ones_like(t), lambda t: 0.02 * (t > 8.0)])
+def test_only_a_conditioning_that_ends_the_drift_is_named(drift):
+    time = 0.01 * np.arange(2001)
+    shaking = 3.0 * np.sin(2.0 * np.pi * 1.5 * time) * np.exp(-(((time - 8.0) / 3.0) ** 2))
+    record = Motion(0.01, shaking + drift(time), name="r", metadata={"file": "r.csv"})
+    assert displacement_drift(record) != 0.0
+    with pytest.warns(OutOfRangeWarning, match="stand at the end") as seen:
+        warn_of_drift(record)
+    named = re.search(r"\(--condition (\S+)\)", str(seen[0].message))
+    assert named is not None
+    assert mended(record, named[1])
+
+
+def test_no_conditioning_is_named_where_none_helps():
+    with pytest.warns(OutOfRangeWarning, match="take no displacement from it") as seen:  # nothing but an offset
+        warn_of_drift(Motion(0.01, np.full(1001, 0.02), name="r", metadata={"file": "r.csv"}))
+    assert "--condition" not in str(seen[0].message)
+
+
+def test_el_centro_is_not_told_a_baseline_that_leaves_it_moving():
+    record = sample_motion("el-centro-1940")
+    assert not mended(record, "baseline")
+    with pytest.warns(OutOfRangeWarning, match=r"\(--condition highpass=0.1Hz\)"):
+        warn_of_drift(record)
+    assert mended(record, "highpass=0.1Hz")
 
 
 @pytest.mark.parametrize("size", [0.0, 2.0])

@@ -115,7 +115,11 @@ def test_critical_answers_with_the_probability_over_the_factor(answer, column, r
     assert (tmp_path / "c" / "probability.png").is_file()
     formula = answer("critical", column, "--harmonic", "1Hz,?g,1s", *grid)
     assert formula["critical_factor"] is None
-    bare = answer("critical", column, "--motion", record, *grid)
+    assert formula["replicates"] == 15  # as many as run takes along, unasked, at a dozen of the amplitudes at most
+    fine = answer("critical", column, "--harmonic", "1Hz,?g,0.2s", "--from", "0.01g", "--to", "0.2g", "--step", "0.01g")
+    assert (fine["runs"], len(fine["amplitudes_g"])) == (20, 12)
+    bare = answer("critical", column, "--motion", record, *grid, "--replicates", "0")
+    assert not KEYS & set(bare)
     assert [bare[key] for key in ("critical_g", "alternation")] == [found[key] for key in ("critical_g", "alternation")]
 
 

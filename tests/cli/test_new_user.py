@@ -116,13 +116,23 @@ def test_the_peak_velocity_is_one_number():
 @pytest.mark.parametrize(
     ("collapsed", "sentence"),
     [
-        ([0, 0, 1, 1], "The column collapses from 0.3 g on."),
+        (
+            [0, 0, 1, 1],
+            "collapses at 0.3 g (the next below that was looked at is 0.2 g), and at all larger ones up to 0.4 g.",
+        ),
         (
             [0, 1, 0, 1],
-            "first collapses at 0.2 g; from there some amplitudes collapse it, and from 0.4 g to 0.4 g all do.",
+            "at 0.2 g (the next below that was looked at is 0.1 g), but stands again at 0.3 g: no single amplitude",
         ),
-        ([0, 1, 0, 0], "first collapses at 0.2 g; from there to 0.4 g some amplitudes collapse it."),
-        ([0, 0, 0, 0], "No amplitude from 0.1 to 0.4 g collapses the column."),
+        (
+            [0, 1, 0, 0],
+            "collapses at 0.2 g (the next below that was looked at is 0.1 g), but stands again at 0.3 to 0.4 g",
+        ),
+        (
+            [1, 1, 0, 1],
+            "The column collapses already at 0.1 g, the lowest amplitude looked at, but stands again at 0.3 g",
+        ),
+        ([0, 0, 0, 0], "No amplitude looked at, 0.1 to 0.4 g, collapses the column; larger ones were not looked at."),
     ],
 )
 def test_sentences_on_collapse_do_not_contradict_themselves(capsys, collapsed, sentence):
@@ -133,8 +143,10 @@ def test_sentences_on_collapse_do_not_contradict_themselves(capsys, collapsed, s
         for one in collapsed
     ]
     result = CriticalAmplitude(column, motion, "housner", st.g * np.array([0.1, 0.2, 0.3, 0.4]), rows, 1.0)
-    command.describe(result, motion, [], 0.0)
-    assert sentence in capsys.readouterr().out
+    command.describe(result, result.summary(), motion, [])
+    said = capsys.readouterr().out
+    assert sentence in said
+    assert "one alone says little: --replicates 15" in said
 
 
 def test_folders_and_records_whose_names_are_no_text(tmp_path):

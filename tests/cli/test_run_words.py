@@ -1,6 +1,8 @@
 """What ``stylobate run`` says: one story of a fall, a remedy that was not tried, a table of several runs."""
 
 import dataclasses
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -8,7 +10,8 @@ import pytest
 import stylobate as st
 from stylobate.cli.main import call
 from stylobate.motion import write_csv
-from stylobate.response.words import longer_tail, sentence_of
+from stylobate.response import SpaceMeasures
+from stylobate.response.words import doubt_of, longer_tail, sentence_of
 
 BLOCK = ("run", "paper-monolithic", "--model", "housner")
 
@@ -61,5 +64,38 @@ def test_an_assembly_is_no_column(capsys, tmp_path):
     )
     grid = ("--from", "0.05g", "--to", "0.1g", "--step", "0.05g")
     text = said(capsys, "critical", tmp_path / "blocks.toml", "--harmonic", "2Hz,?g,0.3s", *grid)
-    assert "No amplitude from 0.05 to 0.1 g collapses the assembly." in text
+    assert "No amplitude looked at, 0.05 to 0.1 g, collapses the assembly; larger ones were not looked at." in text
     assert "column" not in text
+
+
+@pytest.mark.parametrize(
+    ("parameters", "tilt", "doubted"),
+    [
+        ({"stiffness_damping": 0.0}, 0.05, True),
+        ({"stiffness_damping": 1e-4}, 0.05, False),
+        ({"stiffness_damping": 0.0, "restitution": 0.9}, 0.05, False),
+        ({"stiffness_damping": 0.0, "planar": True}, 0.05, False),
+        ({"stiffness_damping": 0.0}, 1e-4, False),  # its joints hardly opened
+    ],
+)
+def test_a_verdict_on_undamped_wobble_is_doubted(parameters, tilt, doubted):
+    space = SpaceMeasures(0.1, 0.1, tilt, 0.0, (), ())
+    run = SimpleNamespace(
+        measures=SimpleNamespace(space=space),
+        structure=SimpleNamespace(slenderness=0.15),
+        provenance={"parameters": parameters},
+    )
+    assert doubt_of(cast(Any, run)).startswith("Nothing damped its wobble" if doubted else "")
+    assert bool(doubt_of(cast(Any, run))) is doubted
+
+
+def test_a_run_in_space_says_its_doubt(capsys, tmp_path):
+    column = tmp_path / "two.toml"
+    column.write_text(
+        'name = "two"\nsection = "circular"\ndensity = 2600.0\n[tapered]\nheight = 2.0\nbottom_width = 0.4\n'
+        "top_width = 0.4\ndrums = 2\n[joint]\nnormal_stiffness = 2.0e9\nshear_stiffness = 1.0e9\n"
+        "friction_coefficient = 0.7\n"
+    )
+    text = said(capsys, "run", column, "--model", "dem3d", "--harmonic", "1Hz,0.3g,1s", "--replicates", "0")
+    assert "Nothing damped its wobble, and in space a verdict can hang on that, either way" in text
+    assert "--set stiffness_damping=1e-4" in text

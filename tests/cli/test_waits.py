@@ -80,14 +80,46 @@ def test_progress_in_lines(told, monkeypatch):
     clock = [100.0]
     monkeypatch.setattr(console, "time", SimpleNamespace(monotonic=lambda: clock[0]))
     lines = console.Lines("runs")
-    for at, done in ((1.0, 0), (9.0, 2), (11.0, 4), (15.0, 7), (17.0, 8), (40.0, 30)):
+    for at, done in ((1.0, 0), (3.0, 1), (5.0, 2), (7.0, 3), (9.0, 4), (11.0, 5), (15.0, 7), (17.0, 8), (40.0, 30)):
         clock[0] = 100.0 + at
         lines(done, 30)
-    # the first after ten seconds, the next after half as many again; ten seconds for four runs; the end needs no line
+    # the first after ten seconds, the next after half as many again; two seconds a run after the first; none at the end
     assert told().splitlines() == [
-        "stylobate: 4 of 30 runs, about 65 s to go ...",
+        "stylobate: 5 of 30 runs, about 50 s to go ...",
         "stylobate: 8 of 30 runs, about 44 s to go ...",
     ]
+
+
+def left_at(monkeypatch, finished, total):
+    """The time to go that is told where so many are done at these times."""
+    clock = [0.0]
+    monkeypatch.setattr(console, "time", SimpleNamespace(monotonic=lambda: clock[0]))
+    pace, found = console.Pace(), []
+    for clock[0], done in finished:
+        found.append(pace.left(done, total))
+    return found
+
+
+def test_the_time_to_go_is_that_of_runs_and_not_of_compiling(monkeypatch):
+    # forty seconds in which code is compiled, then a run a second
+    steady = left_at(monkeypatch, [(0.0, 0), *((40.0 + k, 1 + k) for k in range(11))], 1001)
+    assert steady[:6] == [None] * 6
+    assert steady[-1] == duration(990.0)
+    # twelve hundred runs that an earlier call has left, within a second, then the same
+    kept = left_at(
+        monkeypatch, [*((0.001 * k, k) for k in range(1201)), *((40.0 + k, 1201 + k) for k in range(11))], 2201
+    )
+    assert kept[:-6] == [None] * (len(kept) - 6)
+    assert kept[-1] == duration(990.0)
+
+
+def test_runs_that_end_many_at_a_time_tell_nothing_until_some_such_times_have_passed(monkeypatch):
+    # sixteen lanes end within some milliseconds every minute: of 1600 runs all take 100 minutes
+    burst = [(40.0 + 60.0 * (1 + n) + 0.001 * k, 1 + k + 16 * n) for n in range(5) for k in range(16)]
+    found = left_at(monkeypatch, [(0.0, 0), *burst], 1600)
+    first = next(k for k, one in enumerate(found) if one is not None)
+    assert first == 1 + 3 * 16  # with the fourth minute
+    assert found[first] == duration(180.0 * (1600 - 49) / 48)
 
 
 def test_progress_is_in_lines_where_there_is_no_terminal(told, monkeypatch):

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 from matplotlib.colors import to_rgb
+from matplotlib.image import imread
 
 import stylobate as st
 from stylobate import plots
@@ -88,6 +89,15 @@ def test_axes_say_what_and_in_which_unit_and_nothing_is_cut_off(name):
         assert tight.y0 >= figure.bbox.y0 - 1
         assert tight.y1 <= figure.bbox.y1 + 1
     assert figure.get_suptitle() or figure.axes[0].get_title(loc="left")
+
+
+def test_no_letter_is_cut_in_the_file(tmp_path):
+    """Letters are up to a tenth wider in the resolution of the file than in that of a screen, and long names add up."""
+    suite = critical_suite([["stands", "collapsed"]])
+    (one,) = suite.results
+    named = dataclasses.replace(one, motion=one.motion.replace(name="W" * 40))
+    png, _ = plots.save(plots.draw_record_verdicts(dataclasses.replace(suite, results=(named,))), tmp_path / "verdicts")
+    assert (imread(png)[:, :4, :3] == 1.0).all()  # white at the left edge, where the label of the axis stands
 
 
 def test_the_rocking_spectrum_is_read_in_grey():

@@ -1,19 +1,23 @@
 """The smallest amplitude of a motion that collapses a column, on a stated grid of amplitudes.
 
 Verdicts near the boundary alternate, so every amplitude of the grid is run and the whole alternation is reported; a
-bisection would return one of many boundaries.
+bisection would return one of many boundaries. A record is run as it is, too: what is said of a factor of the record must not
+be more than the record itself does.
 """
 
 from __future__ import annotations
 
+import dataclasses
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from ..campaign.runner import Progress, Stopped, run_campaign
-from ..campaign.twins import the_twins
+from ..campaign.twins import Twins, the_twins
 from ..column import Column
 from ..column.scatter import Scatter
 from ..constants import g
@@ -23,7 +27,9 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..response.rows import Rows
 from . import verdicts as v
+from .capacity import Capacity, bounds, of_levels
 from .critical_population import CriticalPopulation
+from .critical_words import sentence
 
 if TYPE_CHECKING:
     import pandas
@@ -43,7 +49,7 @@ class CriticalAmplitude:
         The shape that was scaled.
     model : str
     amplitudes : array
-        Peak accelerations along x [m/s²], shape (runs,), rising.
+        Peak accelerations along x [m/s²], shape (runs,), rising: the grid, and that of a record as it is.
     rows : Rows, or a list of dict
         One per amplitude, with the keys of ``Measures.row()``.
     wall_time : float
@@ -90,6 +96,45 @@ class CriticalAmplitude:
         return v.all_collapse_above(self.amplitudes, self.verdicts)
 
     @property
+    def capacity(self) -> Capacity:
+        """Between which amplitudes the first collapse lies [m/s²]."""
+        return of_levels(self.amplitudes, self.verdicts)
+
+    @property
+    def lowest(self) -> float | None:
+        """Smallest amplitude that collapses the column or one of its twins [m/s²]; None when none does."""
+        found = [self.capacity.high, *([] if self.population is None else self.population.critical)]
+        return min(found) if min(found) < math.inf else None
+
+    @property
+    def lowest_factor(self) -> float | None:
+        """The same as a factor of the record [-]; None for a formula, too."""
+        return None if self.lowest is None or not self.nominal else self.lowest / self.nominal
+
+    @property
+    def bounds(self) -> dict[str, str]:
+        """Of which numbers of :meth:`summary` only a bound is known, such as "≤ 0.3" or "> 1.5", by name."""
+        above = self.all_collapse_above
+        below = [one for one in self.amplitudes if above is None or one < above]
+        always = Capacity(float(max(below, default=0.0)), math.inf if above is None else above)
+        named = {"critical_g": (self.capacity, g), "all_collapse_above_g": (always, g)}
+        if self.nominal:
+            named["critical_factor"] = self.capacity, self.nominal
+        return bounds(named)
+
+    @property
+    def as_recorded(self) -> dict[str, Any] | None:
+        """What the record does as it is: amplitude, verdict, share of the twins; None for a formula, or beyond the grid."""
+        if self.nominal is None or self.nominal not in self.amplitudes:
+            return None
+        verdict = self.verdicts[int(np.flatnonzero(self.amplitudes == self.nominal)[0])]
+        found: dict[str, Any] = {"amplitude_g": self.nominal / g, "verdict": verdict}
+        if self.population is not None:
+            share = self.population.probability[self.population.amplitudes == self.nominal]
+            found["collapse_probability"] = float(share[0]) if len(share) else None
+        return found
+
+    @property
     def counts(self) -> dict[str, int]:
         """Number of runs by verdict."""
         return v.count(self.verdicts)
@@ -117,11 +162,15 @@ class CriticalAmplitude:
     def summary(self) -> dict:
         """The JSON object of ``stylobate critical``."""
         counts = self.counts
-        return {
+        found = {
             "critical_g": _in_g(self.critical),
             "first_collapse_g": _in_g(self.critical),
             "critical_factor": self.critical_factor,
             "all_collapse_above_g": _in_g(self.all_collapse_above),
+            "lowest_collapse_g": _in_g(self.lowest),
+            "lowest_collapse_factor": self.lowest_factor,
+            "bounds": self.bounds,
+            "as_recorded": self.as_recorded,
             "runs": len(self.rows),
             "collapsed": counts[v.COLLAPSED],
             "stands": counts[v.STANDS],
@@ -132,6 +181,7 @@ class CriticalAmplitude:
             "model": self.model,
             **({} if self.population is None else self.population.summary()),
         }
+        return found | {"sentence": sentence(found, self.column.kind)}
 
 
 def critical_amplitude(
@@ -146,13 +196,10 @@ def critical_amplitude(
     replicates: int = 0,
     scatter: Scatter | None = None,
     seed: int = 0,
-    tail: float = 0.0,
-    whole: bool = False,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    ledger: str | Path | None = None,
+    twin_amplitudes: int | None = None,
+    **how: Any,
 ) -> CriticalAmplitude:
-    """Run a column under one motion at every amplitude of a grid.
+    """Run a column under one motion at every amplitude of a grid, and under a record as it is.
 
     Parameters
     ----------
@@ -166,17 +213,10 @@ def critical_amplitude(
         Amplitude that ``motion`` stands for as it is [m/s²], of a formula; its peak along x by default.
     replicates, scatter, seed
         Twins of the column that go through every amplitude as well, as in :func:`stylobate.certainty`; none by default.
-    tail : float
-        Time to go on after the motion has ended [s].
-    whole : bool
-        Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
-        shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
-    threads : int, optional
-        All cores by default.
-    progress : callable, optional
-        Called with (finished, all).
-    ledger : path, optional
-        File that keeps finished runs: a call that was stopped goes on from there. It stays for the caller to remove.
+    twin_amplitudes : int, optional
+        Most amplitudes of the grid that twins go through, evenly spread; all by default.
+    **how
+        ``tail``, ``whole``, ``threads``, ``progress``, ``ledger``, as for :func:`stylobate.analysis.critical.sweep`.
 
     Returns
     -------
@@ -189,29 +229,106 @@ def critical_amplitude(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
-    amplitudes = amplitude_grid(start, stop, step)
     as_is = motion.pga if nominal is None else nominal
-    if as_is == 0.0:
-        raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
-    cases = own = Cases(len(amplitudes), lambda number: Case(column, motion.scaled(amplitudes[number] / as_is)))
-    key = {"column": column.digest, "motion": motion.digest, "as_is": as_is, "amplitudes": amplitudes.tolist()}
-    count = len(amplitudes)
+    shaken = [Shaken(motion, as_is, nominal is None)]
     drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
+    results, wall = sweep(column, shaken, model, amplitude_grid(start, stop, step), drawn, twin_amplitudes, **how)
+    return dataclasses.replace(results[0], wall_time=wall)
+
+
+class Shaken(NamedTuple):
+    """A motion, its amplitude as it is [m/s²], and whether that is one of a record, not of a formula."""
+
+    motion: Motion
+    as_is: float
+    recorded: bool
+
+
+def sweep(
+    column: Column,
+    shaken: Sequence[Shaken],
+    model: Model,
+    grid: np.ndarray,
+    drawn: Twins | None,
+    twin_amplitudes: int | None = None,
+    *,
+    tail: float = 0.0,
+    whole: bool = False,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    ledger: str | Path | None = None,
+) -> tuple[list[CriticalAmplitude], float]:
+    """Run a column and its twins under motions at every amplitude of a grid; what came of each, and the time it took [s].
+
+    Parameters
+    ----------
+    column, model
+    shaken : sequence of Shaken
+    grid : array
+        Amplitudes [m/s²], rising.
+    drawn : Twins, optional
+    twin_amplitudes : int, optional
+        As for :func:`critical_amplitude`.
+    tail : float
+        Time to go on after the motion has ended [s].
+    whole : bool
+        Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
+        shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
+    threads : int, optional
+        All cores by default.
+    progress : callable, optional
+        Called with (finished, all).
+    ledger : path, optional
+        File that keeps finished runs: a call that was stopped goes on from there. It stays for the caller to remove.
+    """
+    for motion, as_is, _ in shaken:
+        if as_is == 0.0:
+            raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
+    twins = () if drawn is None else drawn.columns
+    spread = grid[np.unique(np.linspace(0, len(grid) - 1, twin_amplitudes or len(grid)).round().astype(int))]
+    own = [_with_own(grid, one) for one in shaken]
+    theirs = [_with_own(spread, one) for one in shaken]
+    counts = np.array([len(a) + len(twins) * len(b) for a, b in zip(own, theirs, strict=True)])
+    ends = np.cumsum(counts)
+
+    def case(number: int) -> Case:
+        which = int(np.searchsorted(ends, number, side="right"))
+        place = number - int(ends[which] - counts[which])
+        stands, amplitudes = column, own[which]
+        if place >= len(amplitudes):
+            twin, place = divmod(place - len(amplitudes), len(theirs[which]))
+            stands, amplitudes = twins[twin], theirs[which]
+        motion, as_is, recorded = shaken[which]
+        size = float(amplitudes[place])
+        return Case(stands, motion.scaled_to_pga(size) if recorded else motion.scaled(size / as_is))
+
+    cases = Cases(int(ends[-1]), case)
+    key: dict[str, Any] = {
+        "column": column.digest,
+        "motions": [[motion.digest, as_is] for motion, as_is, _ in shaken],
+        "amplitudes": [one.tolist() for one in own],
+    }
     if drawn is not None:
-        columns = [column, *drawn.columns]
-        cases = Cases(len(columns) * count, lambda i: Case(columns[i // count], own[i % count].motion))
-        key |= drawn.key
+        key |= drawn.key | {"twin_amplitudes": [one.tolist() for one in theirs]}
         model = model.paced(column)
-    quiet = share_of([motion], whole)
-    result = run_campaign(
+    quiet = share_of([motion for motion, *_ in shaken], whole)
+    campaign = run_campaign(
         cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
     )
-    if result.interrupted:
-        raise Stopped(result.rows.finished, len(cases), ledger)
-    record = as_is if nominal is None else None
-    population = None if drawn is None else CriticalPopulation.of(amplitudes, result.rows[count:], drawn, record)
-    rows = result.rows[:count]
-    return CriticalAmplitude(column, motion, model.name, amplitudes, rows, result.wall_time, record, population)
+    if campaign.interrupted:
+        raise Stopped(campaign.rows.finished, len(cases), ledger)
+    results = []
+    for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):
+        rows, record = campaign.rows[int(end - count) : int(end)], one.as_is if one.recorded else None
+        known = rows[: len(amplitudes)], rows[len(amplitudes) :]
+        population = None if drawn is None else CriticalPopulation.of(spread, known[1], drawn, record)
+        results.append(CriticalAmplitude(column, one.motion, model.name, amplitudes, known[0], 0.0, record, population))
+    return results, campaign.wall_time
+
+
+def _with_own(grid: np.ndarray, one: Shaken) -> np.ndarray:
+    """The grid with the amplitude that a record has as it is, unless that is beyond the grid's end."""
+    return np.union1d(grid, [one.as_is]) if one.recorded and one.as_is <= grid[-1] else grid
 
 
 def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:

@@ -13,6 +13,7 @@ from ..column.scatter import Scatter
 from ..constants import g
 from ..response.rows import Rows
 from . import verdicts as v
+from .capacity import SHARES, Capacity, bounds, of_levels, quantiles
 
 if TYPE_CHECKING:
     import pandas
@@ -64,10 +65,14 @@ class CriticalPopulation:
         return v.collapse_interval(*v.tally(self.verdicts, axis=0), self.confidence)
 
     @property
+    def capacities(self) -> list[Capacity]:
+        """Between which amplitudes the first collapse of each twin lies [m/s²]."""
+        return [of_levels(self.amplitudes, list(one)) for one in self.verdicts]
+
+    @property
     def critical(self) -> np.ndarray:
         """Smallest amplitude that collapses each twin [m/s²], shape (twins,); infinite where none of the grid does."""
-        found = [v.first_collapse(self.amplitudes, list(one)) for one in self.verdicts]
-        return np.array([np.inf if one is None else one for one in found])
+        return np.array([one.high for one in self.capacities])
 
     @property
     def factors(self) -> np.ndarray | None:
@@ -76,9 +81,18 @@ class CriticalPopulation:
 
     @property
     def percentiles(self) -> dict[str, float]:
-        """Amplitudes at which 16, 50 and 84 % of the twins have first collapsed [g]; infinite beyond the grid."""
-        found = np.quantile(self.critical, (0.16, 0.5, 0.84), method="higher") / g
-        return {f"critical_{share}_g": float(one) for share, one in zip((16, 50, 84), found, strict=True)}
+        """Amplitudes by which 16, 50 and 84 % of the twins have first collapsed [g]; infinite beyond the grid."""
+        return {name: one.high / g for name, one in self._quantiles.items()}
+
+    @property
+    def bounds(self) -> dict[str, str]:
+        """Of which of these only a bound is known, as nobody stood or nobody fell below it, by name."""
+        return bounds({name: (one, g) for name, one in self._quantiles.items()})
+
+    @property
+    def _quantiles(self) -> dict[str, Capacity]:
+        found = zip(SHARES, quantiles(self.capacities), strict=True)
+        return {f"critical_{100 * share:.0f}_g": one for share, one in found}
 
     @property
     def table(self) -> pandas.DataFrame:
@@ -108,6 +122,7 @@ class CriticalPopulation:
                 "seed": self.seed,
                 "confidence": self.confidence,
                 **self.percentiles,
+                "bounds": self.bounds,
                 **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
             },
         }

@@ -5,23 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.runner import Progress, Stopped, run_campaign
 from ..campaign.twins import the_twins
 from ..column import Column
 from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError
-from ..models.base import Case, Cases, Model
-from ..models.shared.quiet import share_of
+from ..models.base import Model
 from ..motion import Motion
 from . import verdicts as v
-from .critical import CriticalAmplitude, amplitude_grid
-from .critical_population import CriticalPopulation
+from .critical import CriticalAmplitude, Shaken, amplitude_grid, sweep
+from .critical_words import sentence_of_suite
 from .directions import Compass, bearing, direction_of
 
 if TYPE_CHECKING:
@@ -45,8 +42,18 @@ class CriticalSuite:
 
     @property
     def amplitudes(self) -> np.ndarray:
-        """Peak accelerations along x [m/s²], shape (A,)."""
-        return self.results[0].amplitudes
+        """Peak accelerations along x of every record [m/s²], shape (A,): the grid."""
+        common = self.results[0].amplitudes
+        for one in self.results[1:]:
+            common = np.intersect1d(common, one.amplitudes)
+        return common
+
+    @property
+    def verdicts(self) -> np.ndarray:
+        """Verdicts by record on that grid, shape (records, A)."""
+        return np.array(
+            [np.array(one.verdicts)[np.isin(one.amplitudes, self.amplitudes)] for one in self.results], dtype=object
+        )
 
     @property
     def critical(self) -> float | None:
@@ -60,9 +67,9 @@ class CriticalSuite:
 
     @property
     def worst(self) -> CriticalAmplitude | None:
-        """The motion that collapses the column at the smallest factor; None when none does."""
-        fell = [one for one in self.results if one.critical_factor is not None]
-        return min(fell, key=lambda one: one.critical_factor or math.inf, default=None)
+        """The motion that collapses the column, or one of its twins, at the smallest factor; None when none does."""
+        fell = [one for one in self.results if one.lowest_factor is not None]
+        return min(fell, key=lambda one: one.lowest_factor or math.inf, default=None)
 
     @property
     def compass(self) -> Compass:
@@ -90,14 +97,17 @@ class CriticalSuite:
 
         See :func:`stylobate.analysis.verdicts.share_collapsed`.
         """
-        return v.share_collapsed(*v.tally(np.array([one.verdicts for one in self.results]), axis=0))
+        return v.share_collapsed(*v.tally(self.verdicts, axis=0))
 
     @property
     def table(self) -> pandas.DataFrame:
         """One row per record: its own peak, the critical amplitude, and how many runs came to which verdict."""
         import pandas
 
-        return pandas.DataFrame([_row(one) for one in self.results])
+        rows = [_row(one) for one in self.results]
+        for row in rows:
+            row["bounds"] = "; ".join(f"{name} {one}" for name, one in row["bounds"].items())
+        return pandas.DataFrame(rows)
 
     @property
     def runs(self) -> pandas.DataFrame:
@@ -116,7 +126,7 @@ class CriticalSuite:
         """The JSON object of ``stylobate critical`` for a folder of records."""
         counts = v.count([verdict for one in self.results for verdict in one.verdicts])
         critical, above = self.critical, self.all_collapse_above
-        return {
+        found = {
             "critical_g": None if critical is None else critical / g,
             "first_collapse_g": None if critical is None else critical / g,
             "all_collapse_above_g": None if above is None else above / g,
@@ -130,6 +140,7 @@ class CriticalSuite:
             "wall_s": self.wall_time,
             "model": self.results[0].model,
         }
+        return found | {"sentence": sentence_of_suite(found, self.results[0].column.kind)}
 
 
 def critical_suite(
@@ -143,11 +154,7 @@ def critical_suite(
     replicates: int = 0,
     scatter: Scatter | None = None,
     seed: int = 0,
-    tail: float = 0.0,
-    whole: bool = False,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    ledger: str | Path | None = None,
+    **how: Any,
 ) -> CriticalSuite:
     """Run a column under every record at every amplitude of a grid.
 
@@ -157,8 +164,10 @@ def critical_suite(
     motions : sequence of Motion
         Each is scaled, all its components alike, so that its peak along x takes the amplitudes of the grid.
     model : Model
-    start, stop, step, replicates, scatter, seed, tail, whole, threads, progress, ledger
+    start, stop, step, replicates, scatter, seed
         As for :func:`stylobate.analysis.critical.critical_amplitude`.
+    **how
+        ``twin_amplitudes``, ``tail``, ``whole``, ``threads``, ``progress``, ``ledger``, as there.
 
     Returns
     -------
@@ -169,43 +178,13 @@ def critical_suite(
     InputError
         No motion, one that is zero along x, an impossible grid, or input that the model refuses.
     """
-    amplitudes = amplitude_grid(start, stop, step)
     if not motions:
         raise InputError("the suite holds no motion; give at least one.")
-    for motion in motions:
-        if motion.pga == 0.0:
-            raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
+    grid = amplitude_grid(start, stop, step)
     drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
-    columns = [column] if drawn is None else [column, *drawn.columns]
-    count, each = len(amplitudes), len(amplitudes) * len(columns)
-
-    def case(number: int) -> Case:
-        record, rest = divmod(number, each)
-        return Case(columns[rest // count], motions[record].scaled_to_pga(float(amplitudes[rest % count])))
-
-    cases = Cases(len(motions) * each, case)
-    key = {
-        "column": column.digest,
-        "motions": [motion.digest for motion in motions],
-        "amplitudes": amplitudes.tolist(),
-    }
-    if drawn is not None:
-        key |= drawn.key
-        model = model.paced(column)
-    quiet = share_of(motions, whole)
-    campaign = run_campaign(
-        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
-    )
-    if campaign.interrupted:
-        raise Stopped(campaign.rows.finished, len(cases), ledger)
-    results = []
-    for i, motion in enumerate(motions):
-        some = campaign.rows[i * each : (i + 1) * each]
-        population = None if drawn is None else CriticalPopulation.of(amplitudes, some[count:], drawn, motion.pga)
-        results.append(
-            CriticalAmplitude(column, motion, model.name, amplitudes, some[:count], 0.0, motion.pga, population)
-        )
-    return CriticalSuite(tuple(results), campaign.wall_time)
+    shaken = [Shaken(motion, motion.pga, recorded=True) for motion in motions]
+    results, wall = sweep(column, shaken, model, grid, drawn, **how)
+    return CriticalSuite(tuple(results), wall)
 
 
 def _row(one: CriticalAmplitude) -> dict[str, Any]:
@@ -217,7 +196,11 @@ def _row(one: CriticalAmplitude) -> dict[str, Any]:
         "critical_g": None if critical is None else critical / g,
         "critical_factor": one.critical_factor,
         "all_collapse_above_g": None if above is None else above / g,
+        "as_recorded": (one.as_recorded or {}).get("verdict"),
         **direction_of(one.motion),
         **{name: counts[name] for name in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
         **({} if one.population is None else one.population.percentiles),
+        "lowest_collapse_g": None if one.lowest is None else one.lowest / g,
+        "lowest_collapse_factor": one.lowest_factor,
+        "bounds": one.bounds | ({} if one.population is None else one.population.bounds),
     }

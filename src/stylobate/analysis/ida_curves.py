@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -16,12 +16,10 @@ from ..motion.intensity_specs import IntensityMeasure
 from ..outcome import Outcome
 from ..response import Measures, SpaceMeasures
 from . import verdicts as v
+from .capacity import SHARES, Capacity, bounds, quantiles
 
 if TYPE_CHECKING:
     import pandas
-
-#: Shares of the records below the curves of all.
-SHARES = (0.16, 0.5, 0.84)
 
 
 def check_response(edp: str, column: Column, model: Model) -> None:
@@ -188,10 +186,9 @@ class Ida:
         table: Any = self.capacities
         runs: Any = self.runs
         counts = v.count(self.runs["verdict"].to_numpy(dtype=object))
-        fell = np.sort(table["collapses_from"].astype(float).fillna(math.inf).to_numpy())
-        quantiles = {
-            f"capacity_{100 * share:.0f}": float(np.quantile(fell, share, method="inverted_cdf")) for share in SHARES
-        }
+        capacities = table.astype(object).where(table.notna(), None).to_dict("records")
+        found = zip(SHARES, quantiles(map(_capacity, capacities)), strict=True)
+        shares = {f"capacity_{100 * share:.0f}": one for share, one in found}
         return {
             "im": self.measure.name,
             "unit": self.measure.unit,
@@ -201,9 +198,33 @@ class Ida:
             **{one: counts[one] for one in v.MADE},
             "resurrections": int(table["resurrections"].sum()),
             "curves_with_resurrections": int((table["resurrections"] > 0).sum()),
-            **quantiles,
+            **{name: one.high for name, one in shares.items()},
+            "bounds": bounds({name: (one, 1.0) for name, one in shares.items()}),
             "largest_factor": float(runs["factor"].max()),
-            "capacities": table.astype(object).where(table.notna(), None).to_dict("records"),
+            "capacities": capacities,
             "wall_s": self.wall_time,
             "model": self.model,
         }
+
+
+def _capacity(row: Mapping[str, Any]) -> Capacity:
+    high = row["collapses_from"]
+    return Capacity(float(row["stands_until"]), math.inf if high is None else float(high))
+
+
+def median_of(summary: Mapping[str, Any]) -> str:
+    """Between which levels half of the curves have collapsed, in words; from the JSON object of ``stylobate ida``.
+
+    It is counted, without a curve. The median of a fragility is that of the lognormal curve that fits all capacities best.
+    """
+    (half,) = quantiles(map(_capacity, summary["capacities"]), (0.5,))
+    unit = "" if summary.get("unit") in (None, "-") else f" {summary['unit']}"
+    at = f"{summary.get('im')} ="
+    bound = half.bound()
+    if bound is None:
+        return f"half of the curves have collapsed between {at} {half.low:.3g} and {half.high:.3g}{unit}"
+    if half.low > 0.0:
+        return f"fewer than half of the curves collapse up to {at} {half.low:.3g}{unit}, and the median lies above"
+    if bound.startswith("≤"):
+        return f"half of the curves have collapsed at {at} {half.high:.3g}{unit}, or below: no lower level was stood"
+    return "no level tells where half of the curves have collapsed"

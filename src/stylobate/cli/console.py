@@ -26,6 +26,9 @@ WARNED: list[str] = []
 #: Time until the first line about progress, where there is no terminal [s].
 FIRST_LINE = 10.0
 
+#: Least time in which runs must have ended before their pace says anything [s].
+STEADY = 5.0
+
 #: Widest line of a table [characters], and what stands where there is no value.
 WIDEST, MISSING = 100, "-"
 
@@ -224,6 +227,33 @@ def tell() -> None:
     log.addHandler(Notes())
 
 
+class Pace:
+    """How long what is left will take, from what has been finished at a steady pace; nothing as long as none is known.
+
+    What was finished before a pause that is longer than all the time before it does not count: it was kept from an earlier
+    call, and the pause is that in which code is compiled, or the first runs are under way. Runs end many at a time: a pace
+    is known once the time in which they ended holds three of their longest pauses.
+    """
+
+    def __init__(self) -> None:
+        self.began = self.last = self.base = time.monotonic()
+        self.first = self.pause = 0.0
+
+    def left(self, done: float, total: float) -> str | None:
+        """So many are done of so many: the time that the others take, for people; None where it is not known."""
+        from ..models.base import duration
+
+        now = time.monotonic()
+        pause, self.last, before = now - self.last, now, self.last - self.began
+        if pause > before:
+            self.base, self.first, self.pause = now, done, 0.0
+        self.pause = max(self.pause, pause if now > self.base else 0.0)
+        spent, finished = now - self.base, done - self.first
+        if spent < max(STEADY, 3.0 * self.pause) or finished <= 0.0:
+            return None
+        return duration(spent * (total - done) / finished)
+
+
 class Lines:
     """Progress in lines, each after half as much time again as the one before.
 
@@ -235,22 +265,17 @@ class Lines:
 
     def __init__(self, title: str) -> None:
         self.title, self.due = title, FIRST_LINE
-        self.began = self.first = time.monotonic()
-        self.before: float | None = None
+        self.began, self.pace = time.monotonic(), Pace()
+        self.told = -math.inf
 
     def __call__(self, done: float, total: float) -> None:
         """So many are done, of so many."""
-        from ..models.base import duration
-
-        now = time.monotonic()
-        if self.before is None:
-            self.first, self.before = now, done
-        gone = done - self.before
-        if now - self.began < self.due or gone <= 0 or done >= total:
+        left, now = self.pace.left(done, total), time.monotonic()
+        if now - self.began < self.due or done <= max(self.told, 0.0) or done >= total:
             return
-        self.due = 1.5 * (now - self.began)
-        left = duration((now - self.first) * (total - done) / gone)
-        logging.getLogger("stylobate").info("%.4g of %.4g %s, about %s to go.", done, total, self.title, left)
+        self.due, self.told = 1.5 * (now - self.began), done
+        to_go = "" if left is None else f", about {left} to go"
+        logging.getLogger("stylobate").info("%.4g of %.4g %s%s.", done, total, self.title, to_go)
 
 
 @contextmanager
@@ -263,12 +288,17 @@ def progress(title: str) -> Iterator[Callable[[float, float], None]]:
         yield Lines(title)
         return
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
 
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TextColumn("{task.fields[left]}"))
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(title, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+        task, pace = bar.add_task(title, total=None, left=""), Pace()
+
+        def update(done: float, total: float) -> None:
+            left = pace.left(done, total)
+            bar.update(task, completed=done, total=total, left="" if left is None else f"about {left} to go")
+
+        yield update
 
 
 def length(value: float) -> str:

@@ -11,10 +11,16 @@ import typer
 from . import options as o
 
 if TYPE_CHECKING:
+    import pandas
+
     from ..analysis.critical import CriticalAmplitude
+    from ..analysis.critical_suite import CriticalSuite
     from ..column import Column
     from ..models.base import Model
     from ..motion import Motion, Suite
+
+#: Amplitudes that columns like it go through unasked: what they cost then is bounded, and some two hundred runs.
+TWIN_AMPLITUDES = 12
 
 #: Files that every run of the command writes.
 WRITES = ("critical.csv", "critical.json", "critical", "asked-critical.json")
@@ -60,8 +66,9 @@ def critical(
 ) -> None:
     """Smallest amplitude that collapses a column.
 
-    The amplitude of a record or a simulated motion is its horizontal peak; a folder of records, or several directions, is
-    run on one grid. With --replicates, the probability of collapse over the amplitude, with its interval.
+    The amplitude of a record or a simulated motion is its horizontal peak; it is run as it is, too. Models that step drums
+    take fifteen columns like it through a dozen of the amplitudes; --replicates takes more through all, or none with 0. A
+    folder of records, or several directions, is run on one grid, with columns like it by --replicates only.
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..motion.specs import parse_acceleration
@@ -73,18 +80,21 @@ def critical(
     stone: Any = o.the_structure(column, project)
     how = o.the_model(model, settings)
     after, count = o.the_tail(tail), o.the_threads(threads)
-    twins = o.the_population(replicates, scatter, seed) or {}
+    population = o.the_population(replicates, scatter, seed)
     if asked.several:
         suite = asked.expand(stone.frequency_parameter, amplitude_open=True)
         o.the_engine(context, dask, count)
-        over_suite(stone, suite, how, grid, twins, after, whole, count, out, as_json)
+        over_suite(stone, suite, how, grid, population or {}, after, whole, count, out, as_json)
         return
+    twins = o.the_twins(stone, how, population) or {}
+    if population is None:
+        twins["twin_amplitudes"] = TWIN_AMPLITUDES
     shaking = asked.motion(stone.frequency_parameter, amplitude_open=True)
-    # the amplitude of a formula is that of its sine; of a record, or once it is conditioned, the peak that it has along x
-    nominal = 1.0 if (harmonic or pulse) and not condition else None
+    # the amplitude of a formula is that of its sine, once it is conditioned the peak that it has along x, as of a record
+    nominal = None if not (harmonic or pulse) else shaking.pga if condition else 1.0
     o.the_engine(context, dask, count)
     with console.folder(out, *WRITES, "probability.csv", "probability") as folder:
-        with console.progress("amplitudes") as progress:
+        with console.progress("runs") as progress:
             ledger = console.ledger(folder)
             result = critical_amplitude(
                 stone,
@@ -109,7 +119,7 @@ def critical(
     if as_json:
         console.emit(summary)
     else:
-        describe(result, how.taken(shaking), files, after)
+        describe(result, summary, how.taken(shaking), files)
 
 
 def over_suite(
@@ -165,9 +175,8 @@ def over_suite(
     if as_json:
         console.emit(summary)
         return
-    console.print_table(result.table)
-    if result.worst is not None and len(result.results) > 1:
-        print(f"Most harm: {result.worst.motion.name}, from {result.worst.critical_factor:.3g} times the record on.")
+    print(summary["sentence"])
+    console.print_table(with_bounds(result))
     console.print_refused(suite.refused)
     console.print_files(files)
 
@@ -189,50 +198,43 @@ def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
     return files
 
 
-def describe(result: CriticalAmplitude, taken: Motion, files: list[Path], tail: float) -> None:
+def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
+    """The table of a suite for people: bounds, such as "> 1.5", in place of what is no number."""
+    table = result.table.drop(columns=["bounds", "lowest_collapse_g"])
+    if result.results[0].population is None:
+        table = table.drop(columns="lowest_collapse_factor")
+    table = table.astype(object).where(table.notna(), math.nan)
+    for place, one in enumerate(result.summary()["records"]):
+        for name, bound in one["bounds"].items():
+            table.loc[place, name] = bound
+    return table
+
+
+def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
     from ..constants import g
-    from ..response.words import longer_tail
     from . import console
 
-    counts = result.counts
+    kind, likes = result.column.kind, result.population
     low, high = result.amplitudes[0] / g, result.amplitudes[-1] / g
-    kind = result.column.kind
-    if result.critical is None:
-        sentence = f"No amplitude from {low:g} to {high:g} g collapses the {kind}."
-    else:
-        first, all_above = result.critical / g, result.all_collapse_above
-        if all_above is None:
-            sentence = (
-                f"The {kind} first collapses at {first:.4g} g; from there to {high:g} g some amplitudes collapse it."
-            )
-        elif all_above > result.critical:
-            sentence = (
-                f"The {kind} first collapses at {first:.4g} g; from there some amplitudes collapse it, and from "
-                f"{all_above / g:.4g} g to {high:g} g all do."
-            )
-        else:
-            sentence = f"The {kind} collapses from {first:.4g} g on."
-    if result.critical_factor is not None:
-        sentence += f" That is {result.critical_factor:.3g} times the record."
-    if result.population is not None:
-        parts = result.population.percentiles.items()
-        shares = ", ".join(
-            f"{share} % from {one:.3g} g" for share, (_, one) in zip((16, 50, 84), parts) if one < math.inf
-        )
-        sentence += f" Of {len(result.population.verdicts)} columns like this {shares or 'few collapse on this grid'}"
-        sentence += " on." if shares else "."
-    far = f"ended far from rest (try {longer_tail(tail)})"
-    for one, meaning in (("undecided", far), ("failed", "could not be computed")):
-        if counts[one]:
-            sentence += f" {counts[one]} of {len(result.rows)} runs {meaning} and are not counted as collapse."
     facts = {
         kind: result.column.name,
         "motion": result.motion.name if result.motion.factor != 1.0 else f"{result.motion.name.split(',')[0]}, ? g",
         **{name: text for name, text in o.input_lines(taken).items() if name != "motion"},
         "model": result.model,
-        "grid": f"{low:g} to {high:g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
+        "grid": f"{low:.4g} to {high:.4g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }
-    for row in result.alternation.to_dict("records"):
+    if likes is not None:
+        left_out = f", without {', '.join(likes.left_out)}" * bool(likes.left_out)
+        facts[f"{kind}s like this"] = (
+            f"{len(likes.verdicts)} that vary by {likes.scatter.describe()}; seed {likes.seed}{left_out}; at "
+            f"{len(likes.amplitudes)} of these amplitudes"
+        )
+    if (own := summary["as_recorded"]) is not None:
+        share = own.get("collapse_probability")
+        facts["as recorded"] = f"{own['amplitude_g']:.4g} g: {own['verdict']}" + (
+            f"; {100.0 * share:.0f} % of those like it collapse" if share is not None and math.isfinite(share) else ""
+        )
+    for row in summary["alternation"]:
         facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = f"{row['verdict']} ({row['runs']} runs)"
-    console.say(sentence, facts, files)
+    console.say(summary["sentence"], facts, files)

@@ -64,7 +64,7 @@ def ida(
     """
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
-    from ..analysis.ida_curves import check_response
+    from ..analysis.ida_curves import check_response, median_of
     from ..motion.intensity_specs import parse_levels, parse_measure
     from ..response.words import longer_tail
     from . import console
@@ -124,12 +124,10 @@ def ida(
         console.emit(result)
         return
     fell = sum(one["collapses_from"] is not None for one in result["capacities"])
-    shown = "" if measure.unit == "-" else f" {measure.unit}"
-    half = result["capacity_50"]
     facts = {
         "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",
-        "collapses": f"under {fell} of {_count(len(curves), 'curve')}"
-        + (f", under half of all up to {measure.name} = {half:.3g}{shown}" if half < float("inf") else ""),
+        "collapses": f"{fell} of {_count(len(curves), 'curve')} end in collapse",
+        "median capacity": f"{median_of(result)}; counted, fragility fits a curve and its interval",
         "resurrections": f"{_count(result['resurrections'], 'run')} above a collapse that stand, in "
         f"{_count(result['curves_with_resurrections'], 'curve')}",
     }

@@ -305,6 +305,27 @@ def the_population(replicates: str | None, scatter: str | None, seed: str | None
     }
 
 
+def the_twins(
+    stone: Structure, model: Model, asked: dict[str, Any] | None, to_the_ground: bool = False
+) -> dict[str, Any] | None:
+    """The columns that are computed beside this one: as asked for, or as many as cost nothing; None without any."""
+    from ..campaign.twins import the_twins as drawn
+
+    if asked is not None:
+        if asked["replicates"] == 0:
+            return None
+        drawn(stone, model, **asked)
+        return asked
+    if not model.carried(stone) or to_the_ground:
+        return None
+    free = {"replicates": model.carries, "scatter": None, "seed": 0}
+    try:
+        drawn(stone, model, **free)
+    except InputError:  # so close to falling as it was found that no twin of it stands
+        return None
+    return free
+
+
 def the_scatter(text: str) -> Scatter:
     """Sizes of the scatter as typed, by name; what is not named does not scatter."""
     from ..column.scatter import LARGEST, Scatter

@@ -92,7 +92,7 @@ def run(
     interval, length = parse_time(output_interval), o.the_tail(tail)
     following = {"tail": length, "output_interval": interval, "until_end": until_end, "until_rest": until_rest}
     following["whole"] = whole
-    twins = the_twins(stone, how, o.the_population(replicates, scatter, seed), until_end or until_rest)
+    twins = o.the_twins(stone, how, o.the_population(replicates, scatter, seed), until_end or until_rest)
     drawn = Drawn(pictures, pictures and twins is not None and replicates is not None)
     follow = partial(run_one, stone, model=how, twins=twins, threads=count, **following)
     if asked.several:
@@ -127,28 +127,6 @@ def directions(summaries: Sequence[dict], name: str, model: str, out: Path | Non
         with console.folder(out, "directions") as folder:
             assert folder is not None
             plots.save(plots.draw_directions(chances, f"{name}, {model}"), folder / "directions")
-
-
-def the_twins(
-    stone: Structure, model: Model, asked: dict[str, Any] | None, to_the_ground: bool
-) -> dict[str, Any] | None:
-    """The columns that are computed beside this one: as asked for, or as many as cost nothing; None without any."""
-    from ..campaign.twins import the_twins
-    from ..errors import InputError
-
-    if asked is not None:
-        if asked["replicates"] == 0:
-            return None
-        the_twins(stone, model, **asked)
-        return asked
-    if not model.carried(stone) or to_the_ground:
-        return None
-    free = {"replicates": model.carries, "scatter": None, "seed": 0}
-    try:
-        the_twins(stone, model, **free)
-    except InputError:  # so close to falling as it was found that no twin of it stands
-        return None
-    return free
 
 
 def run_one(
@@ -295,6 +273,7 @@ def write(response: Response, motion: Motion, folder: Path, figures: bool = True
 
 def describe(response: Response, motion: Motion, files: list[Path], population: Population | None = None) -> None:
     """Print the verdict for people."""
+    from ..response.words import doubt_of
     from . import console
 
     found = column_facts(response) if response.measures.blocks is None else assembly_facts(response)
@@ -302,6 +281,7 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
     if population is not None:
         sentence = f"{sentence} {population.sentence} {population.beside(response.summary())}".rstrip()
         facts |= population_facts(population)
+    sentence = f"{sentence} {doubt_of(response)}".rstrip()
     what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
     console.say(sentence, {**what, **o.input_lines(motion), "model": computed, **facts}, files)

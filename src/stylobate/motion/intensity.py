@@ -10,14 +10,11 @@ import numpy as np
 
 from ..constants import g
 from ..errors import OutOfRangeWarning, check_range
+from .drift import cure_of, drift_of
 from .integration import absolute_integral, arias, displacement, square_integral, time_above
 from .motion import Motion, peak_velocity
 from .pulse_match import pulse_match
 from .spectra import housner_intensity, pseudo_acceleration, rotated_pga
-
-#: A displacement that has not come back by the end of a record is drift from this share of its peak on [-], where it
-#: also exceeds what a column would be surveyed to [m].
-DRIFT_SHARE, SMALLEST_DRIFT = 0.5, 0.1
 
 
 def peak_ground_velocity(motion: Motion, component: str = "x") -> float:
@@ -36,20 +33,21 @@ def displacement_drift(motion: Motion, component: str = "x") -> float:
     An offset of the baseline grows with the square of time under double integration; a ground that shook comes back, or
     stops within metres of a fault.
     """
-    path = displacement(motion.components[component], motion.dt)
-    last = float(path[-1])
-    return last if abs(last) > max(DRIFT_SHARE * float(np.abs(path).max()), SMALLEST_DRIFT) else 0.0
+    return drift_of(motion.components[component], motion.dt)
 
 
 def warn_of_drift(motion: Motion) -> None:
     """Warn of peak displacements of a record that double integration has made; computed motions have no baseline."""
     for axis in motion.components if "file" in motion.metadata else ():
         if drift := displacement_drift(motion, axis):
-            peak = peak_ground_displacement(motion, axis)
+            peak, cure = peak_ground_displacement(motion, axis), cure_of(motion.components[axis], motion.dt)
+            remedy = "take no displacement from it, as no step of conditioning mends it alone"
+            if cure is not None:
+                remedy = f"correct it before a displacement is taken from it (--condition {cure})"
             warnings.warn(
                 f"{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
-                f"leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; correct "
-                "it before a displacement is taken from it (--condition baseline).",
+                f"leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; "
+                f"{remedy}.",
                 OutOfRangeWarning,
                 stacklevel=3,
             )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ _MARKS: dict[str, dict[str, Any]] = {
 
 @styled
 def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: Axes | None = None) -> Figure:
-    """Peak top displacement of the runs that have one, and the verdict of every run.
+    """Peak top displacement of the runs that have one, the verdict of every run, and the lowest collapse, of twins too.
 
     Parameters
     ----------
@@ -53,7 +54,10 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
             axes.plot(amplitudes[chosen], shown[chosen], linestyle="none", markersize=5.0, label=counted, **mark)
     if result.critical is not None:
         at = result.critical / g
-        axes.axvline(at, color=RED, linewidth=0.8, label=f"first collapse, {at:.4g} g")
+        axes.axvline(at, color=RED, linewidth=0.8, label=f"lowest collapse, {at:.4g} g")
+    if result.population is not None and (fell := float(result.population.critical.min())) < math.inf:
+        label_of_likes = f"lowest of {len(result.population.verdicts)} like it, {fell / g:.4g} g"
+        axes.axvline(fell / g, color=RED, linestyle=(0, (1.2, 1.2)), linewidth=1.2, label=label_of_likes)
     if (opens := result.column.uplift_acceleration) is not None:
         uplift = opens / g
         axes.axvline(uplift, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.0, label=f"static uplift, {uplift:.3f} g")

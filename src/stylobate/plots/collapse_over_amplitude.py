@@ -28,7 +28,15 @@ def draw_collapse_over_amplitude(
     amplitudes, (low, high) = population.amplitudes / g, population.interval
     band = f"{100.0 * population.confidence:g} % interval (Wilson; undecided counted both ways)"
     axes.fill_between(amplitudes, low, high, step="mid", color=BLUE, alpha=0.25, linewidth=0.0, label=band)
-    axes.plot(amplitudes, population.probability, "o-", color=BLACK, markersize=3.0, label="share that collapses")
+    axes.plot(
+        amplitudes,
+        population.probability,
+        "o-",
+        color=BLACK,
+        markersize=3.0,
+        label="share that collapses",
+        clip_on=False,
+    )
     axes.set_ylim(-0.03, 1.03)
     axes.set_xlim(amplitudes[0], max(amplitudes[-1], amplitudes[0] * 1.0001))
     axes.grid(axis="y")

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from ..analysis.ida_curves import SHARES, Ida
+from ..analysis.capacity import SHARES
+from ..analysis.ida_curves import Ida
 from .fragility import NARROW
 from .style import BLACK, BLUE, GREY, RED, panel, styled
 

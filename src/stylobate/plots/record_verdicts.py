@@ -39,7 +39,7 @@ def draw_record_verdicts(
     upper.set_ylim(-0.03, 1.03)
     upper.grid(axis="y")
     upper.set_ylabel("share of records\nthat collapse it [-]")
-    verdicts = np.array([one.verdicts for one in suite.results])
+    verdicts = suite.verdicts
     handles = []
     for one, fill in FILL.items():
         cells = [

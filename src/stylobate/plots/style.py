@@ -102,11 +102,14 @@ def save(figure: Figure, stem: str | Path) -> list[Path]:
         The two files.
     """
     png, svg = Path(f"{stem}.png"), Path(f"{stem}.svg")
-    layout = figure.get_layout_engine()
+    layout, dots = figure.get_layout_engine(), figure.dpi
     settled: dict[Any, Any] = {"figure.constrained_layout.use": False}
     with matplotlib.rc_context(_STYLE | settled):
-        figure.draw_without_rendering()  # the layout, once for both files
+        # The layout, once for both files. Letters are not as wide in every resolution: in that of the file, or it cuts them.
+        figure.set_dpi(DOTS_PER_INCH)
+        figure.draw_without_rendering()
         figure.set_layout_engine(None)
+        figure.set_dpi(dots)
         try:
             with replacing(png) as partial:
                 figure.savefig(partial, dpi=DOTS_PER_INCH, facecolor="white")

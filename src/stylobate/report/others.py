@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 from ..analysis.fragility import between
+from ..analysis.ida_curves import median_of
 from ..analysis.risk import years
 from ..analysis.side_by_side import codes_of, median_words, shares
 from ..analysis.studies import StudyResult
@@ -16,6 +17,7 @@ from ..constants import g
 from ..results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
 from ..results.kinds import Grid
 from . import numbers as n
+from .critical import critical_result
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import kept
 from .record import asked_section, known_model, model_section, record_section, sources_section, versions_of, warnings_of
@@ -104,54 +106,6 @@ def _scope(kind: Kind) -> str:
 # -- many runs -----------------------------------------------------------------------------------------------------
 
 
-def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    s = result.summary
-    first, above = s.get("first_collapse_g", s.get("critical_g")), s.get("all_collapse_above_g")
-    kind = result.structures[0].kind if result.structures else "column"
-    if first is None:
-        sentence = f"No amplitude that was tried collapses the {kind}; larger ones were not tried."
-    else:
-        sentence = f"The smallest amplitude tried that collapses the {kind} is {first:.4g} g"
-        sentence += (
-            f"; from {above:.4g} g on every amplitude tried does."
-            if above is not None
-            else "; above it some amplitudes do and some do not."
-        )
-    sentence += _open(s)
-    pairs = [
-        ("runs", n.plain(s["runs"])),
-        ("collapsed / stands", f"{n.plain(s.get('collapsed'))} / {n.plain(s.get('stands'))}"),
-    ]
-    if s.get("critical_factor") is not None:
-        pairs.append(("as a factor of the record", f"{s['critical_factor']:.3g}"))
-    items: list[Item] = [Facts(pairs)]
-    if s.get("alternation"):
-        rows = [
-            [f"{one['from_g']:.4g}", f"{one['to_g']:.4g}", one["verdict"], str(one["runs"])] for one in s["alternation"]
-        ]
-        items.append(
-            Rows(
-                ["from [g]", "to [g]", "verdict", "runs"],
-                rows[:MOST],
-                "How verdicts follow one another with growing amplitude.",
-                numbers=True,
-            )
-        )
-    if isinstance(s.get("records"), list):
-        rows = [[n.plain(one.get(key)) for key in list(s["records"][0])[:7]] for one in s["records"][:MOST]]
-        items.append(
-            Rows([key.replace("_", " ") for key in list(s["records"][0])[:7]], rows, "By record.", numbers=True)
-        )
-    items += kept(result.pictures, "critical", "Verdict and response at every amplitude of the grid.")
-    items += kept(
-        result.pictures,
-        "probability",
-        "Share of columns like this one that collapse, over the amplitude, with its interval.",
-    )
-    items += kept(result.pictures, "directions", "By direction of the motion.")
-    return (sentence, " bad" if first is not None else ""), items
-
-
 def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
     s, data = result.summary, result.data
     if result.kind is Kind.DOMAIN:
@@ -199,8 +153,7 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     fell = sum(one.get("collapses_from") is not None for one in s["capacities"])
     sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
-    half = s.get("capacity_50")
-    sentence += f"; half of them up to {n.plain(half)} ({n.plain(s.get('im'))})." if isinstance(half, float) else "."
+    sentence += f"; {median_of(s)}." if s["capacities"] else "."
     items: list[Item] = [
         _table(s["capacities"], list(s["capacities"][0])[:6] if s["capacities"] else [], "Capacity under each record.")
     ]
@@ -209,7 +162,7 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         items.append(
             _table(
                 s["measures"],
-                list(s["measures"][0])[:6],
+                ["measure", "unit", "beta", "beta_low", "beta_high", "sigma_ln_edp", "records"],
                 "Which measure of the motions tells most: the smaller its dispersion β, the more.",
             )
         )
@@ -368,7 +321,7 @@ def _table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | N
 _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
     Kind.PUSHOVER: pushover_result,
     Kind.LIMIT: limit_result,
-    Kind.CRITICAL: _critical,
+    Kind.CRITICAL: critical_result,
     Kind.DOMAIN: _grid,
     Kind.PROBABILITY: _grid,
     Kind.SUITE: _suite,

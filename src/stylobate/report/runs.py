@@ -12,7 +12,7 @@ from ..bibliography import cite_run
 from ..constants import g
 from ..outcome import Outcome
 from ..response import Response
-from ..response.words import longer_tail
+from ..response.words import doubt_of, longer_tail
 from ..results import RunResult, SeveralRuns
 from . import numbers as n
 from .certainty import beside_them, certainty_section, certainty_sentence
@@ -85,7 +85,7 @@ def _verdict(run: RunResult) -> Note:
             "How sure this verdict is was not computed: only columns are computed with varied properties. It is that of "
             "exactly this geometry, these joints and this motion, and near collapse small differences decide."
         )
-    texts.append(_scope(run))
+    texts += [*filter(None, [doubt_of(r)]), _scope(run)]
     return Note(texts, verdict_look(r, bool(beside_them(run.summary))))
 
 

@@ -35,6 +35,28 @@ def sentence_of(response: Recorded) -> str:
     return " ".join(words)
 
 
+#: Damping of a run in space, by the names of the parameters; a column wobbles beyond this share of its slenderness [-].
+DAMPING, WOBBLES = ("stiffness_damping", "mass_damping", "restitution", "rolling_resistance"), 0.02
+
+
+def doubt_of(response: Recorded) -> str:
+    """What a verdict in space hangs on that nobody has measured, and how to see how much; empty where it does not.
+
+    Without damping a column on rims wobbles long, and how many of a population fall differs several times with and without a
+    little of it, in either direction.
+    """
+    known, space = response.provenance.get("parameters", {}), response.measures.space
+    slenderness = response.structure.slenderness
+    if space is None or slenderness is None or not space.peak_tilt > WOBBLES * slenderness:
+        return ""
+    if "stiffness_damping" not in known or known.get("planar") or any(known.get(name) for name in DAMPING):
+        return ""
+    return (
+        "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall "
+        "with --set stiffness_damping=1e-4, and with 1e-3, before relying on it."
+    )
+
+
 def longer_tail(given: float) -> str:
     """The option that follows a run which ended before its verdict was certain longer than it was.
 

@@ -109,13 +109,14 @@ export async function hear(job) {
 function foundCritical(job) {
   const r = (job.results || [])[0], { asked } = job;
   if (!r || !asked) return;
-  const place = find("#run-said", panel), none = r.critical_g === null;
+  const place = find("#run-said", panel), none = r.critical_g === null, low = r.lowest_collapse_g ?? r.critical_g, like = r.certainty;
   const peak = Number.isFinite(r.critical_g) && asked.motion && ["harmonic", "pulse"].includes(asked.motion.kind);
   const near = peak ? { ...asked.motion, text: asked.motion.text.replace("?g", `${r.critical_g}g`), ...(asked.motion.across ? { across: asked.motion.across.replace("?g", `${r.critical_g}g`) } : {}) } : { ...asked.motion, pga: `${r.critical_g}g` };
   place.dataset.key = "";
   tell(place, job, () => [
-    el("p", { class: `verdict ${none ? "stands" : "collapsed"}` }, none ? `Up to ${asked.last} nothing of this motion brings the column down.` : `The column first collapses at ${number(r.critical_g)} g${r.critical_factor ? `, ${number(r.critical_factor)} times the motion` : ""}.`,
-      !none && r.all_collapse_above_g !== r.critical_g && el("small", {}, r.all_collapse_above_g === null ? "It does not collapse at some larger ones." : `It does not collapse at some larger ones; above ${number(r.all_collapse_above_g)} g it always does.`),
+    el("p", { class: `verdict ${low === null ? "stands" : "collapsed"}` }, low === null ? `Up to ${asked.last} nothing of this motion brings the column down.` : `${low === r.critical_g ? "The column" : "A column like it"} collapses at ${number(low)} g${r.lowest_collapse_factor ? `, ${number(r.lowest_collapse_factor)} times the motion` : ""}: the lowest amplitude at which any that was tried does.`,
+      like && el("small", {}, `Of ${r.replicates} columns like it ${[16, 50, 84].map(share => `${share} % fall ${(like.bounds || {})[`critical_${share}_g`] ? `at ${(like.bounds || {})[`critical_${share}_g`]}` : `by ${number(like[`critical_${share}_g`])}`} g`).join(", ")}.${low !== r.critical_g ? none ? " This one falls at none of them." : ` This one falls at ${number(r.critical_g)} g.` : ""}`),
+      !none && r.all_collapse_above_g !== r.critical_g && el("small", {}, "It stands again, or is undecided, at some larger ones: no single amplitude is its limit."),
       r.undecided > 0 && el("small", {}, `${r.undecided} of ${r.runs} runs ended before their verdict was certain: let them go on after the motion.`)),
     facts([["runs", r.runs], ["amplitudes", `${asked.first} to ${asked.last}`], ["steps of", asked.step], ["undecided", r.undecided || ""], ["failed", r.failed || ""]]),
     warnings(job.warnings),
@@ -151,7 +152,8 @@ function verdict(r, words) {
   const bar = total > 0 && el("div", { class: "chance", role: "img", "aria-label": sure.sentence }, parts.map(([name, count]) => {
     const piece = el("i", { class: name }); piece.style.width = `${100 * count / total}%`; return piece;
   }));
-  return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar, beside && el("p", { class: "warning" }, beside)];
+  return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar, beside && el("p", { class: "warning" }, beside),
+    r.doubt && el("p", { class: "warning" }, "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it.")];
 }
 
 function measures(r) {

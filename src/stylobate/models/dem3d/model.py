@@ -102,6 +102,8 @@ class DistinctElement3D(SteppedDrums):
     )
     limits: ClassVar[tuple[str, ...]] = (
         "What an impact loses depends on the law of contact, on friction and on damping.",
+        "Undamped (stiffness_damping = 0, the default) a column wobbles long, and near collapse the verdict hangs on how "
+        "long a contact of stone lasts, which is not known: take a population, and compare 1e-4 to 1e-3 s.",
         "A drum touches its neighbours and the base only.",
         "Drums do not crack, chip or wear.",
         "The overlap of rectangular faces turned against each other is taken too small: its corners are those of the upper "

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...constants import g
 from ...errors import InputError, OutOfRangeWarning
+from ..drift import cure_of
 from ..motion import MAX_SAMPLES, Motion, integrate
 from .component import Component
 from .steps import resampled, same_step
@@ -207,9 +208,11 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
     for axis, array in values.items():
         fastest = float(np.abs(integrate(array, step)).max())
         if fastest > LARGEST_VELOCITY and peaks[axis] <= LARGEST_PEAK:
+            cure = cure_of(array, step, LARGEST_VELOCITY)
+            drift = "" if cure is None else f", or take off the drift of the baseline (--condition {cure})"
             _doubt(
                 f"{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
-                "unit and the step, or take off the drift of the baseline (--condition baseline)."
+                f"unit and the step{drift}."
             )
 
 

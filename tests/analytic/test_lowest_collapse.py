@@ -1,0 +1,121 @@
+"""The lowest collapse over amplitudes: what is said first is never above what was seen, and bounds are told as bounds."""
+
+import json
+import math
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis.capacity import Capacity, of_levels, quantiles
+from stylobate.analysis.critical import CriticalAmplitude
+from stylobate.analysis.critical_population import CriticalPopulation
+from stylobate.analysis.critical_suite import CriticalSuite
+from stylobate.analysis.critical_words import sentence, sentence_of_suite
+from stylobate.column.presets import preset
+from stylobate.column.scatter import Scatter
+from stylobate.report.critical import critical_result
+
+COLUMN = preset("paper-monolithic")
+AMPLITUDES = np.array([0.2, 0.3, 0.4, 0.5])
+RECORD = st.Motion(0.01, 0.25 * st.g * np.sin(2.0 * np.pi * 0.01 * np.arange(200)), name="record.csv")
+
+
+def row(verdict):
+    fell = verdict == "collapsed"
+    return {"outcome": "collapsed" if fell else "rocked", "collapsed": fell, "decided": verdict != "undecided"}
+
+
+def verdicts(text):
+    return [{"s": "stands", "c": "collapsed", "u": "undecided"}[one] for one in text]
+
+
+def over(own, twins=(), motion=RECORD):
+    """The column and its twins over four amplitudes, a letter for each verdict."""
+    population = None
+    if twins:
+        codes = np.array([verdicts(one) for one in twins])
+        population = CriticalPopulation(AMPLITUDES * st.g, codes, Scatter(), 0, (), motion.pga)
+    rows = [row(one) for one in verdicts(own)]
+    return CriticalAmplitude(COLUMN, motion, "dem2d", AMPLITUDES * st.g, rows, 1.0, motion.pga, population)
+
+
+def test_what_is_known_of_a_capacity_is_two_levels_or_a_bound():
+    assert of_levels([1.0, 2.0, 3.0], verdicts("ssc")) == (2.0, 3.0)
+    assert of_levels([1.0, 2.0, 3.0], verdicts("usc")) == (0.0, 3.0)  # the undecided may be a collapse
+    bounds = [of_levels([1.0, 2.0], verdicts(one)).bound() for one in ("sc", "cc", "ss", "us")]
+    assert bounds == [None, "≤ 1", "> 2", "not known"]
+
+
+def test_shares_of_capacities_are_between_those_of_their_ends():
+    some = [Capacity(0.0, 1.0), Capacity(1.0, 2.0), Capacity(2.0, math.inf), Capacity(2.0, math.inf)]
+    assert quantiles(some) == [(0.0, 1.0), (1.0, 2.0), (2.0, math.inf)]  # the first, second and fourth of four
+    assert [one.bound() for one in quantiles(some)] == ["≤ 1", None, "> 2"]
+
+
+def test_a_record_is_run_as_it_is_between_the_levels_of_the_grid():
+    pulse = st.half_sine_pulse(0.5, 0.6 * st.g, 6.0)
+    record = st.Motion(pulse.dt, pulse.samples * pulse.factor, name="r")
+    assert st.simulate(COLUMN, record, st.HousnerBlock()).collapsed
+    grid = 0.1 * record.pga, 1.6 * record.pga, 1.3 * record.pga  # 0.1 and 1.4 times the record
+    found = st.critical_amplitude(COLUMN, record, st.HousnerBlock(), *grid)
+    assert found.critical_factor == 1.0
+    assert found.as_recorded == {"amplitude_g": record.pga / st.g, "verdict": "collapsed"}
+    assert len(found.rows) == 3
+
+
+def test_the_first_number_is_the_lowest_collapse_of_all_columns():
+    found = over("sssc", ["sscc", "scsc", "ssss", "sssc"]).summary()
+    assert (found["critical_g"], found["lowest_collapse_g"]) == pytest.approx((0.5, 0.3))
+    assert found["lowest_collapse_factor"] == pytest.approx(1.2)
+    assert found["sentence"].startswith(
+        "Of 5 columns, this one and 4 like it, the first falls at 0.3 g, 1.2 times the record (the next below that was "
+        "looked at is 0.2 g); of those like it fall 16 % by 0.3 g, 50 % by 0.4 g, 84 % only above 0.5 g. "
+        "This one collapses at 0.5 g"
+    )
+    assert "--replicates" not in found["sentence"]
+    read_again = json.loads(json.dumps(found).replace("Infinity", "null"))  # as a report finds it in its folder
+    assert sentence(read_again) == found["sentence"]
+
+
+def test_no_single_amplitude_where_verdicts_alternate_and_none_below_what_has_no_verdict():
+    assert "at 0.3 g, 1.2 times the record (" in (said := over("scsc").summary()["sentence"])
+    assert "but stands again at 0.4 g: no single amplitude is its limit." in said
+    assert "runs below that without a verdict, which may be collapses: 1" in over("sucs").summary()["sentence"]
+
+
+def test_what_has_no_verdict_is_no_collapse_of_a_column_alike():
+    found = over("ssss", ["ussc", "usss"])  # nothing is decided at the first amplitude, so its share is not known
+    assert math.isnan(found.population.probability[0])
+    assert found.summary()["sentence"].startswith("Of 3 columns, this one and 2 like it, the first falls at 0.5 g")
+    assert sentence(over("usss").summary()).startswith("No amplitude looked at, 0.2 to 0.5 g, collapses the column")
+
+
+def test_bounds_are_told_as_bounds():
+    low = over("cccc", ["cccc", "cccc", "sccc"]).summary()
+    assert low["bounds"] == {"critical_g": "≤ 0.2", "all_collapse_above_g": "≤ 0.2", "critical_factor": "≤ 0.8"}
+    assert low["certainty"]["bounds"] == {"critical_16_g": "≤ 0.2", "critical_50_g": "≤ 0.2"}
+    assert "16 % at 0.2 g or below" in low["sentence"]
+    suite = CriticalSuite((over("ssss", ["ssss"]), over("sccc", ["cccc"])), 1.0)
+    first, second = suite.summary()["records"]
+    assert first["bounds"]["critical_50_g"] == "> 0.5"
+    assert second["bounds"] == dict.fromkeys(("critical_16_g", "critical_50_g", "critical_84_g"), "≤ 0.2")
+    assert suite.table["bounds"].tolist()[1] == "critical_16_g ≤ 0.2; critical_50_g ≤ 0.2; critical_84_g ≤ 0.2"
+    assert "1 of 2 records collapse the column" in (said := sentence_of_suite(suite.summary()))
+    assert "which collapses it or one like it at 0.8 times the record" in said
+
+
+def test_the_report_has_the_shares_of_the_columns_alike():
+    summary = over("sssc", ["sscc", "scsc", "ssss", "sssc"]).summary()
+    folder = SimpleNamespace(summary=json.loads(json.dumps(summary)), structures=[], pictures={})
+    (said, _), (_, facts, table, *_) = critical_result(folder)
+    assert said == summary["sentence"]
+    assert dict(facts.pairs) == {
+        f"{share} % of 4 columns like this one have fallen by": at
+        for share, at in ((16, "0.3 g"), (50, "0.4 g"), (84, "> 0.5 g"))
+    }
+    assert table.body[1] == ["0.3", "1.2", "25 %", "5 %", "70 %"]  # Wilson's interval for 1 of 4
+    records = CriticalSuite((over("ssss", ["ssss"]),), 1.0).summary()
+    (_, _), (_, table) = critical_result(SimpleNamespace(summary=records, structures=[], pictures={}))
+    assert dict(zip(table.header, table.body[0]))["critical 50 g"] == "> 0.5"
