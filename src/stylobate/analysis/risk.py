@@ -12,6 +12,7 @@ import numpy as np
 from scipy.special import ndtr
 
 from ..errors import InputError, check_range
+from ..percent import percent
 from .fragility import Fragility
 from .hazard import Hazard
 from .lognormal import curve, log_interval
@@ -84,7 +85,7 @@ class Risk:
         if self.beyond > BEYOND * self.rate:
             found.append(
                 f"{self.hazard.name} ends at {self.hazard.im[-1]:g} {self.hazard.unit}; stronger shaking could add up to "
-                f"{100 * self.beyond / max(self.rate, 1e-300):.0f} % to the rate."
+                f"{percent(self.beyond / max(self.rate, 1e-300))} to the rate."
             )
         if self.below > BEYOND:
             found.append(

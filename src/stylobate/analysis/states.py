@@ -111,13 +111,7 @@ class StateComparison:
                     "column": column.name,
                     "runs": int((table["state"] == label).sum()),
                     "collapsed": int(table.loc[table["state"] == label, "collapsed"].fillna(0).sum()),
-                    "same_runs": share.runs,
-                    "exceeded": share.exceeded,
-                    "not_exceeded": share.not_exceeded,
-                    "undecided": share.undecided,
-                    "failed": share.failed,
-                    "share_low": share.low,
-                    "share_high": share.high,
+                    **share.counts,
                     "fragility": None if curve is None else curve.summary(),
                     "links_broken": int(links.loc[links["state"] == label, "broken"].sum()) if len(links) else 0,
                 }
@@ -198,7 +192,7 @@ def compare_states(
         _with_undecided(told[first], one, curves[first], curve, samples, seed, confidence)
         for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
     )
-    side_by_side = tuple(shares({one.name: one.codes for one in told}))
+    side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records))
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state)
 
 

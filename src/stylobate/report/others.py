@@ -6,16 +6,21 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from ..analysis.certainty import chance_words
 from ..analysis.fragility import between
 from ..analysis.risk import years
-from ..analysis.side_by_side import codes_of, median_words, shares
+from ..analysis.side_by_side import Share, codes_of, median_words, shares
 from ..analysis.studies import StudyResult
+from ..analysis.suite import suite_shares
 from ..bibliography import cite, cite_run
 from ..column import Column
 from ..constants import g
 from ..results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
 from ..results.kinds import Grid
 from . import numbers as n
+from .certainty import OF_TWINS
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import kept
 from .record import asked_section, known_model, model_section, record_section, sources_section, versions_of, warnings_of
@@ -23,6 +28,9 @@ from .runs import once
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
 from .structure import state_section, structure_section
+
+#: What the columns like one come to, in a table.
+CHANCE = "columns like it that collapse"
 
 #: Most rows of a table of a result; the CSV file in the folder holds them all.
 MOST = 40
@@ -139,9 +147,7 @@ def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         )
     if isinstance(s.get("records"), list):
         rows = [[n.plain(one.get(key)) for key in list(s["records"][0])[:7]] for one in s["records"][:MOST]]
-        items.append(
-            Rows([key.replace("_", " ") for key in list(s["records"][0])[:7]], rows, "By record.", numbers=True)
-        )
+        items.append(Rows([n.named(key) for key in list(s["records"][0])[:7]], rows, "By record.", numbers=True))
     items += kept(result.pictures, "critical", "Verdict and response at every amplitude of the grid.")
     items += kept(
         result.pictures,
@@ -179,20 +185,23 @@ def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
 
 
 def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    verdicts = result.summary["verdicts"]
-    said = [
-        f"{name}: {', '.join(f'{count} {one}' for one, count in found.items())}" for name, found in verdicts.items()
-    ]
-    fell = any(found.get("collapsed") for found in verdicts.values())
-    keys = ["column", "record", "pga_g", "pgv_m_s", "verdict", "collapse_probability", "peak_top_displacement_m"]
-    if "peak_displacement_m" in (result.summary["runs"] or [{}])[0]:
+    runs = result.summary["runs"]
+    found = suite_shares(runs)
+    rows = [{"motion": one["record"], **one, CHANCE: chance_words(one)} for one in runs]
+    keys = ["column", "motion", "factor", "pga_g", "pgv_m_s", "verdict", CHANCE, "peak_top_displacement_m"]
+    if "peak_displacement_m" in (runs or [{}])[0]:
         keys[-1] = "peak_displacement_m"
+    body = [[one.label, *_counts_of(one)] for one in found]
     items: list[Item] = [
-        _table(result.summary["runs"], keys, "One row per record; all measures are in suite.csv.", "verdict")
+        Rows(["column", *COUNTED], body, f"Of the same motions for every column. {COUNTED_HOW}", numbers=True)
     ]
+    caption = "One row per motion; all measures are in suite.csv."
+    if any(one[CHANCE] for one in rows):
+        caption += f" {OF_TWINS}"
+    items.append(_table(rows, keys, caption, "verdict"))
     items += kept(result.pictures, "suite", "Peak response against a measure of the records.")
     items += kept(result.pictures, "directions", "Share of collapses by direction.")
-    return (f"Under the records of the suite: {'; '.join(said)}.", " bad" if fell else ""), items
+    return (" ".join(one.collapses for one in found), " bad" if any(one.exceeded for one in found) else ""), items
 
 
 def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -330,22 +339,40 @@ def _study(result: StudyFolder) -> tuple[tuple[str, str], list[Item]]:
 def _shares_of_study(study: StudyResult) -> Rows:
     """Shares by column, model and level: at each level of the cases that are finished for every column and model."""
     axes, codes = study.plan.axes, codes_of(study.verdicts).reshape(study.plan.shape)
+    records = np.repeat([str(one["record"]) for one in axes["motions"]], study.plan.shape[-1])
     names = [(one["column"], model["model"]) for model in axes["models"] for one in axes["columns"]]
     rows = []
     for place, level in enumerate(axes["levels"]):
         each = codes[:, :, :, place].reshape(len(names), -1)
-        for (column, model), one in zip(names, shares(dict(enumerate(each)))):
-            counts = [one.runs, one.exceeded, one.not_exceeded, one.undecided]
-            rows.append([column, model, n.plain(level), *map(str, counts), one.words or n.NONE, str(one.failed)])
-    header = ["column", "model", f"level ({axes.get('measure')})", "same cases", "collapse", "stand", "undecided"]
-    caption = (
-        "Of the cases that are finished and could be computed for every column and model: the share that collapses, with "
-        "none and with all of the undecided counted in."
-    )
+        for (column, model), one in zip(names, shares(dict(enumerate(each)), records)):
+            rows.append([column, model, n.plain(level), *_counts_of(one)])
+    caption = f"Of the cases that are finished and could be computed for every column and model. {COUNTED_HOW}"
     left_out = f" The first {MOST} of {len(rows)} rows." if len(rows) > MOST else ""
     rows.sort(key=lambda row: row[:2])
-    shown = [*header, "share that collapses", "failed or missing"]
-    return Rows(shown, rows[:MOST], caption + left_out, numbers=True)
+    header = ["column", "model", f"level ({axes.get('measure')})", *COUNTED]
+    return Rows(header, rows[:MOST], caption + left_out, numbers=True)
+
+
+#: Columns of tables of shares, and what they are.
+COUNTED = (
+    "same runs",
+    "records",
+    "collapse",
+    "stand",
+    "undecided",
+    "share that collapses",
+    "95 % interval",
+    "failed or missing",
+)
+COUNTED_HOW = (
+    "The share that collapses is told with none and with all of the undecided counted in; so is its interval, over records, "
+    "each of which counts once."
+)
+
+
+def _counts_of(one: Share) -> list[str]:
+    counts = [one.runs, one.records, one.exceeded, one.not_exceeded, one.undecided]
+    return [*map(str, counts), one.words or n.NONE, one.interval_words or n.NONE, str(one.failed)]
 
 
 def _open(s: dict[str, Any]) -> str:
@@ -361,7 +388,7 @@ def _table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | N
     body = [[n.plain(row.get(key)) for key in there] for row in rows[:MOST]]
     place = there.index(mark) if mark in there else None
     looks = {"stands": "good", "collapsed": "bad"}
-    header = [key.replace("_", " ") for key in there]
+    header = [n.named(key) for key in there]
     return Rows(header, body, caption + left_out, mark=place, looks=looks, numbers=True)
 
 

@@ -33,7 +33,7 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
             for key, value in asked.options.items()
             if value not in (None, [], "", False) and key not in FOUND
         }
-        pairs += [(_option(key), n.plain(value)) for key, value in options.items()]
+        pairs += [(n.named(key), n.plain(value)) for key, value in options.items()]
         if asked.day:
             pairs.append(("computed on", asked.day))
     else:
@@ -112,12 +112,6 @@ def versions_of(result: Result) -> dict[str, str]:
     found = {"stylobate": asked.version, "Python": asked.python, "machine": asked.machine}
     digests = [str(one.get("digest", "")) for one in asked.structures]
     return found | ({"digest of what stood": "\n".join(digests)} if digests else {})
-
-
-def _option(name: str) -> str:
-    """An option by its name, the unit behind: ``tail_s`` is ``tail [s]``."""
-    stem, _, unit = name.rpartition("_")
-    return f"{stem.replace('_', ' ')} [{unit}]" if stem and unit in ("s", "g", "m", "y") else name.replace("_", " ")
 
 
 def titled(name: str) -> str:
