@@ -138,7 +138,7 @@ def codes_of(verdicts: np.ndarray) -> np.ndarray:
 
 
 def median_words(curve: Mapping[str, Any]) -> str:
-    """The median of a curve with its unit, or from which to which what is undecided or failed can take it.
+    """The median of a curve with its unit, or from which to which what is undecided or failed can take it; or its bound.
 
     Parameters
     ----------
@@ -146,6 +146,9 @@ def median_words(curve: Mapping[str, Any]) -> str:
         As of ``Fragility.summary()``, or of a JSON file, where an infinite median is None.
     """
     unit = "" if curve["unit"] == "-" else f" {curve['unit']}"
+    if curve.get("outside"):
+        low, high = curve["levels"]
+        return (f"> {high:.3g}" if curve["median"] > high else f"≤ {low:.3g}") + unit
     if not curve["undecided"] + curve["failed"]:
         return f"{curve['median']:.3g}{unit}"
     ends = [curve[key]["median"] for key in ("if_open_exceed", "if_open_do_not")]

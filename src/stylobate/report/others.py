@@ -23,11 +23,24 @@ from . import numbers as n
 from .certainty import OF_TWINS
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import kept
-from .record import asked_section, known_model, model_section, record_section, sources_section, versions_of, warnings_of
+from .record import (
+    asked_section,
+    basis_section,
+    known_model,
+    model_section,
+    record_section,
+    sources_section,
+    versions_of,
+    warnings_of,
+)
 from .runs import once
+from .shaking import motions_section
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
 from .structure import state_section, structure_section
+
+#: Kinds that rest on the runs of another command.
+FROM_RUNS = (Kind.FRAGILITY, Kind.RISK, Kind.SURVIVAL)
 
 #: What the columns like one come to, in a table.
 CHANCE = "columns like it that collapse"
@@ -54,8 +67,10 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     else:
         verdict, body = _TELL[result.kind](result)
         note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
-        parts = [Section("Result", [note, *warnings_of(result)]), asked_section(result)]
+        parts = [Section("Result", [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
+        parts += [basis_section(result)] if result.kind in FROM_RUNS else []
         parts += [once(structure_section(one), one.digest, told) for one in result.structures[:5]]
+        parts += [motions_section(result)] if asked is not None and asked.motions else []
         parts.append(Section("What was found", body))
     if result.kind is Kind.PUSHOVER and columns:
         parts.append(code_check(columns[0], result, run))
@@ -84,9 +99,8 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
     assert isinstance(result, Numbers)
     labels = [str(one["label"]) for one in result.summary["states"]]
     lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result)]
-    names = [str(one["name"]) for one in (result.asked.motions if result.asked is not None else ())]
-    motions = [("motions", f"{len(names)}: {', '.join(names)}")] if names else []
-    parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result, motions)]
+    parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result)]
+    parts += [motions_section(result)] if result.asked is not None and result.asked.motions else []
     for label, column in zip(labels, columns):
         if column is columns[0]:
             first = structure_section(column)
@@ -94,6 +108,17 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
         else:
             parts.append(state_section(column, label, columns[0], labels[0]))
     return [*parts, *([statics_of_states(dict(zip(labels, columns)))] if columns else [])]
+
+
+def _doubts(result: Result) -> list[str]:
+    """What about a result that rests on the runs of others is to be doubted."""
+    if result.kind not in FROM_RUNS:
+        return []
+    curves = result.summary.get("curves") or [result.summary]
+    return [
+        *map(str, result.summary.get("warnings") or ()),
+        *(f"{one['outside']}." for one in curves if one.get("outside")),
+    ]
 
 
 def _scope(kind: Kind) -> str:
@@ -147,7 +172,9 @@ def _critical(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         )
     if isinstance(s.get("records"), list):
         rows = [[n.plain(one.get(key)) for key in list(s["records"][0])[:7]] for one in s["records"][:MOST]]
-        items.append(Rows([n.named(key) for key in list(s["records"][0])[:7]], rows, "By record.", numbers=True))
+        items.append(
+            Rows([key.replace("_", " ") for key in list(s["records"][0])[:7]], rows, "By record.", numbers=True)
+        )
     items += kept(result.pictures, "critical", "Verdict and response at every amplitude of the grid.")
     items += kept(
         result.pictures,
@@ -234,13 +261,18 @@ def _fragility(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     sentence = (
         f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
     )
-    if one.get("bracket"):
+    if one.get("outside"):
+        sentence = (
+            f"Half of the records bring {one['state']} at {one['im']} {median_words(one)} (95 % interval {limits})."
+        )
+    elif one.get("bracket"):
         sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
     for each in curves:
+        each["known of the median"] = median_words(each) if each.get("outside") else None
         if each.get("undecided") or each.get("failed"):
             each["median_undecided_both_ways"] = median_words(each)
-    keys = ["name", "im", "median", "median_low", "median_high", "median_undecided_both_ways", "beta", "records"]
-    keys += ["runs", "undecided", "p_value"]
+    keys = ["name", "im", "levels", "known of the median", "median", "median_low", "median_high"]
+    keys += ["median_undecided_both_ways", "beta", "records", "runs", "undecided", "p_value"]
     items: list[Item] = [
         _table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")
     ]
@@ -258,14 +290,28 @@ def _risk(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         f"once in {years(period)} on average." if isinstance(period, float) else "never, under this hazard."
     )
     low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
+    known, unit = s.get("fragility") or {}, "" if s.get("unit") in (None, "-") else f" {s['unit']}"
     if n.NONE not in (low, high):
         sentence += f" The annual rate lies between {low} and {high} (95 %)."
     pairs = [
         ("annual rate [1/year]", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
         ("hazard", n.plain(s.get("hazard"))),
+        ("intensity", f"{n.plain(s.get('im'))}{unit and f' [{unit.strip()}]'}"),
     ]
+    if known:
+        median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
+        levels = " to ".join(f"{one:.3g}" for one in known["levels"])
+        pairs += [
+            ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
+            ("dispersion β of the fragility", f"{n.plain(known['beta'])} (95 %: {beta})"),
+            ("intensities of its runs", f"{levels}{unit}"),
+            ("records / runs / exceeded / undecided / failed",
+             " / ".join(str(known[one]) for one in ("records", "runs", "exceeded", "undecided", "failed"))),
+            ("p of its fit", n.plain(known["p_value"])),
+        ]  # fmt: skip
     items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]
-    return (sentence, ""), [*items, *map(str, s.get("warnings", ()))]
+    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
+    return (sentence, ""), items
 
 
 def _survival(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -284,7 +330,7 @@ def _survival(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     )
     items: list[Item] = [_table(s["hazards"], keys, "Hazard curves compared.")]
     items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
-    return (sentence, ""), [*items, *map(str, s.get("warnings", ()))]
+    return (sentence, ""), items
 
 
 def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
