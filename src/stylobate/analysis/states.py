@@ -19,10 +19,11 @@ from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
+from ..response.measures import blank_row
 from .difference import Difference, reference
 from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, bootstrap, fragility
-from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
+from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
 from .lognormal import falls, fit
 from .paired import levels_of, share_limits, unseen
 from .side_by_side import Share, shares
@@ -181,6 +182,7 @@ def compare_states(
     study = Study(
         named, motions, [model], levels, im, realisations=realisations, scatter=scatter, seed=seed, tail=tail
     )  # fmt: skip
+    parse_state(state).must_be_told(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
     result = run_study(study, out, threads=threads, progress=progress)
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
