@@ -205,7 +205,7 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
         "What the model assumes, and where it ends",
     } <= {*sections}
     table = sections["The ground motions"].items[0]
-    assert table.body[0][:4] == ["0.csv", "x", "x 0.400", "1"]
+    assert table.body[0][:4] == ["0.csv", "x", "x\N{NO-BREAK SPACE}0.400", "1"]
     assert table.body[0][4] == f"{low:.3g} to {high:.3g} (8)"
     assert own.motions[0]["digest"].startswith(table.body[0][-1])
     (out / "runs.csv").write_text((out / "runs.csv").read_text() + "\n")

@@ -120,7 +120,10 @@ def _axes(motion: Mapping[str, Any]) -> str:
 
 
 def _peaks(motion: Mapping[str, Any]) -> str:
-    return ", ".join(f"{axis} {value:.3f}" for axis, value in (motion.get("peaks_g") or {}).items()) or n.NONE
+    return (
+        ", ".join(f"{axis}\N{NO-BREAK SPACE}{value:.3f}" for axis, value in (motion.get("peaks_g") or {}).items())
+        or n.NONE
+    )
 
 
 def _scales(motion: Mapping[str, Any]) -> str:
