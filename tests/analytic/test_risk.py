@@ -29,7 +29,7 @@ def test_a_power_law_has_a_closed_form(curve, points):
     # k₀ θ^−k exp(k²β²/2) (Cornell et al. 2002); the curve is straight in logarithms, so that its points do not matter.
     k0, k = 1e-3, 2.5
     x = np.geomspace(1e-4, 1e4, points)
-    found = risk(curve, Hazard(x, k0 * x**-k, "m/s", "power law"))
+    found = risk(curve, Hazard(x, k0 * x**-k, "m/s", "power law", "PGV"))
     exact = k0 * math.exp(-k * curve.log_median + 0.5 * (k * curve.beta) ** 2)
     assert found.rate == pytest.approx(exact, rel=1e-10)
     assert found.parts.sum() == pytest.approx(found.rate, rel=1e-12)
@@ -54,14 +54,14 @@ def test_any_curve_is_the_integral(curve):
 
 
 def test_the_ends_of_a_hazard_curve_are_said(curve):
-    short = risk(curve, Hazard(np.array([0.1, 1.2]), np.array([0.1, 0.05]), "m/s", "short"))
+    short = risk(curve, Hazard(np.array([0.1, 1.2]), np.array([0.1, 0.05]), "m/s", "short", "PGV"))
     assert "ends at 1.2 m/s" in short.warnings[0]
     assert short.rate < short.high <= 0.1  # all shaking that the curve has
     with pytest.raises(
         InputError, match=r"shorter ends at 0\.2 m/s, once in 20 years, .* give a curve to .* m/s or more"
     ):
         risk(curve, Hazard(np.array([0.1, 0.2]), np.array([0.1, 0.05]), "m/s", "shorter"))
-    late = risk(curve, Hazard(np.array([1.0, 9.0]), np.array([0.1, 1e-9]), "m/s", "late"))
+    late = risk(curve, Hazard(np.array([1.0, 9.0]), np.array([0.1, 1e-9]), "m/s", "late", "PGV"))
     assert "begins at 1 m/s" in late.warnings[0]
 
 

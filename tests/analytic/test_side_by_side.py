@@ -6,13 +6,15 @@ import math
 import numpy as np
 import pytest
 
+import stylobate as st
 from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference, reference
-from stylobate.analysis.evidence import Evidence
-from stylobate.analysis.fragility import FEWEST
+from stylobate.analysis.evidence import Evidence, evidence
+from stylobate.analysis.fragility import FEWEST, fragility
 from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from stylobate.analysis.side_by_side import codes_of, median_words, shares
 from stylobate.analysis.states import _with_undecided
-from stylobate.analysis.verdicts import VERDICTS
+from stylobate.analysis.suite import suite_table
+from stylobate.analysis.verdicts import VERDICTS, wilson_interval
 
 
 def runs(name, *codes):
@@ -63,6 +65,35 @@ def test_what_failed_in_one_state_is_left_out_of_all():
     assert (two.runs, two.exceeded, two.not_exceeded, two.undecided, two.failed) == (3, 1, 1, 1, 1)
     assert [each.words for each in shares({"a": np.array([FAILED])})] == [""]
     assert codes_of(np.array(VERDICTS)).tolist() == [NOT_EXCEEDED, EXCEEDED, OPEN, FAILED, FAILED]
+
+
+def test_an_interval_of_a_share_is_over_records_however_many_runs_each_has():
+    """Five directions of each of four records are four records: Wilson's interval of 2 of 4, not of 10 of 20."""
+    (one,) = shares({"a": np.array([EXCEEDED] * 10 + [NOT_EXCEEDED] * 10)}, np.repeat(list("abcd"), 5))
+    assert (one.runs, one.records) == (20, 4)
+    assert one.interval == pytest.approx(tuple(float(each) for each in wilson_interval(2, 4)), abs=1e-12)
+    (open_,) = shares({"a": np.array([EXCEEDED, OPEN, NOT_EXCEEDED])})
+    assert open_.interval[0] == pytest.approx(float(wilson_interval(1, 3)[0]), abs=1e-12)
+    assert open_.interval[1] == pytest.approx(float(wilson_interval(2, 3)[1]), abs=1e-12)
+    assert shares({"a": np.array([FAILED])})[0].interval == (0.0, 1.0)
+
+
+def test_directions_of_a_record_are_no_records_of_their_own():
+    """A suite of one record in twelve directions says nothing about the next earthquake."""
+    time = np.arange(60) * 0.02
+    record = st.Motion(0.02, np.sin(3.0 * time), name="one")
+    motions = [
+        record.replace(name=f"one at {a}°", metadata={"direction": {"record": "one", "azimuth": a}}).scaled(
+            3.0 + 0.2 * a
+        )
+        for a in range(12)
+    ]
+    block = st.Column.of_drums([st.Drum(2.0, 0.5, 0.5, 2500.0)], st.Joint(5e10, 2.5e10), name="block")
+    table = suite_table(block, motions, st.HousnerBlock())
+    assert set(table["record"]) == {"one"}
+    assert table["motion"].nunique() == 12
+    with pytest.raises(st.InputError, match="a fragility of 1 record"):
+        fragility(evidence(table, "pga"))
 
 
 KNOWN = Difference("dowels", "as built", 40, 3, 9, 0.15, 0.05, 0.25, 0.9, 0.8, 0.97, records=20)

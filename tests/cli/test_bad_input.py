@@ -4,6 +4,8 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call
+from stylobate.column.files import write_column
+from stylobate.motion import write_csv
 
 GOOD = {"--model": "housner", "--harmonic": "1Hz,0.3g,1s"}
 COLUMN = """\
@@ -297,3 +299,34 @@ def test_until_rest_is_for_the_model_that_follows_a_collapse(model, refused, tmp
     sentence = refused(*with_options("run", "paper-monolithic", tmp_path, model=model), "--until-rest")
     assert model in sentence
     assert "use dem2d" in sentence
+
+
+@pytest.mark.parametrize(
+    ("arguments", "why"),
+    [
+        (("--state", "roof_m:0.3"), "needs 'roof_m', which the runs do not have"),
+        (("--state", "peak_tilt_rad:0.1"), "needs 'peak_tilt_rad'"),  # of a model in space
+        (("--state", "reason:1"), "'reason' of the runs is none"),
+        (("--as-found", "drums.toml"), "computes one block"),
+    ],
+)
+def test_states_are_refused_before_anything_is_written(tmp_path, monkeypatch, refused, arguments, why):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "drums.toml").write_text(COLUMN)
+    for name, width in (("thin", 0.5), ("wide", 0.6)):
+        column = st.Column.of_drums([st.Drum(2.0, width, width, 2500.0)], st.Joint(5e10, 2.5e10), name=name)
+        write_column(column, tmp_path / f"{name}.toml")
+    write_csv(st.harmonic(2.0, 0.3 * st.g, 3.0), tmp_path / "sine.csv")
+    states = ("compare", "--as-built", "thin.toml", "--with", "wide.toml", "--model", "housner", "--motion", "sine.csv")
+    assert why in refused(*states, *arguments, "--out", tmp_path / "never")
+
+
+@pytest.mark.parametrize(
+    "motion",
+    [("--harmonic", "1Hz,0.1g,1s"), ("--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2", "--duration", "1s")],
+)
+def test_models_are_refused_before_the_first_of_them_is_run(tmp_path, monkeypatch, refused, motion):
+    for name in ("simulate", "collapse_domain"):
+        monkeypatch.setattr(f"stylobate.analysis.compare.{name}", None)
+    drums = ("compare", "paper-12-drums", "--models", "dem2d,housner", *motion)
+    assert "computes one block" in refused(*drums, "--out", tmp_path / "never")

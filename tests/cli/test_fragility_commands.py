@@ -1,5 +1,6 @@
 """``ida``, ``fragility``, ``risk`` and ``survival`` on the command line."""
 
+import dataclasses
 import json
 
 import numpy as np
@@ -10,6 +11,9 @@ from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.motion import half_sine_pulse, write_csv
+from stylobate.own_files import digest
+from stylobate.report.others import sections_of
+from stylobate.results import read_results
 
 PROMISED = {"median", "median_low", "median_high", "beta", "beta_low", "beta_high", "im", "unit", "state", "records", "runs",
             "undecided", "failed"}  # fmt: skip
@@ -92,6 +96,67 @@ def test_bad_input_is_one_sentence(place, capsys):
     assert said(capsys, "fragility", few, "--records-are-one", "--json")["records"] == 20
 
 
+@pytest.mark.parametrize(
+    ("header", "im", "why"),
+    [
+        (
+            "record,im_m_s,collapsed",
+            (),
+            "Which intensity im_m_s is, is not said: call the column after it, such as pgv_m_s",
+        ),
+        ("record,im_m_s,collapsed", ("--im", "cav"), "such as cav_m_s"),
+        ("record,im_m_s,collapsed", ("--im", "pga"), "such as pgv_m_s"),
+        ("record,im_g,collapsed", ("--im", "pga"), "such as pga_g"),
+        ("record,pgv_m_s,collapsed", (), "choose one with --im, such as --im pgv"),
+        ("record,im,pgv,collapsed", ("--im", "pgv"), "which of them is pgv in m/s is not said; call that one pgv_m_s"),
+        ("record,im,pgv_cm_s,collapsed", ("--im", "pgv"), "the columns im and pgv_cm_s"),
+        ("record,im,im_m_s,collapsed", ("--im", "pgv"), "the columns im and im_m_s"),
+    ],
+)
+def test_an_intensity_that_is_not_named_is_not_guessed(place, capsys, header, im, why):
+    values = ",0.5" * (header.count(",") - 1)
+    (place / "strange.csv").write_text(header + "\n" + "".join(f"r{k}{values},{k % 2}\n" for k in range(20)))
+    got = said(capsys, "fragility", place / "strange.csv", *im, code=2)
+    assert why in got.err
+    assert got.err.count("\n") == 1
+
+
+def test_a_hazard_curve_names_its_intensity_or_it_is_said_what_it_is_taken_for(place, capsys):
+    text = (place / "A.csv").read_text()
+    for name in ("pgv_m_s", "cav_m_s", "pgv_cm_s"):
+        (place / f"{name}.csv").write_text(text.replace("im_m_s", name))
+    risk = ("risk", place / "runs.csv", "--hazard")
+    taken = "its column im_m_s is; it is taken for {0}: name the column {0}_m_s if it is."
+    for im in ("pgv", "cav"):
+        (warning,) = said(capsys, *risk, place / "A.csv", "--im", im, "--json")["warnings"]
+        assert warning.endswith(taken.format(im))
+    assert said(capsys, *risk, place / "pgv_m_s.csv", "--im", "pgv", "--json")["warnings"] == []
+    assert "is of cav" in said(capsys, *risk, place / "cav_m_s.csv", "--im", "pgv", code=2).err
+    assert "called after its measure" in said(capsys, *risk, place / "pgv_cm_s.csv", "--im", "pgv", code=2).err
+
+
+def test_a_median_beyond_all_runs_is_none(place, capsys):
+    """Ten of twelve records stand at the largest level, or all below it: the curve goes on, the runs do not."""
+    rows = [
+        f"r{k},{x:.3f},{int(x > (0.1, 0.25, 1.0)[min(k, 2)])}" for k in range(12) for x in np.geomspace(0.05, 0.4, 5)
+    ]
+    (place / "weak.csv").write_text("\n".join(["record,im,collapsed", *rows]) + "\n")
+    one = said(capsys, "fragility", place / "weak.csv", "--im", "pgv", "--out", place / "f", "--json")
+    assert one["median"] > one["levels"][1] == 0.4
+    assert one["outside"] in one["sentence"]
+    assert "lies above all runs (pgv = 0.05 to 0.4 m/s)" in one["outside"]
+    text = said(capsys, "fragility", place / "weak.csv", "--im", "pgv").out
+    assert "median      > 0.4 m/s (95 %:" in text
+    found = said(
+        capsys, "risk", place / "weak.csv", "--im", "pgv", "--hazard", place / "A.csv", "--out", place / "r", "--json"
+    )
+    assert f"{one['outside']}." in found["warnings"]
+    for folder in ("f", "r"):
+        result = sections_of(read_results([place / folder])[0], set())[0]
+        assert any(one["outside"] in note.texts[0] for note in result.items[1:])
+        assert "> 0.4 m/s" in str(sections_of(read_results([place / folder])[0], set()))
+
+
 @pytest.fixture
 def records(tmp_path):
     folder = tmp_path / "records"
@@ -116,3 +181,46 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
         assert curve["method"] == "records"
         assert curve["im"] == (im[1] if im else "pgv")
         assert curve["median_low"] < curve["median"] < curve["median_high"]
+    hazard = tmp_path / "hazard.csv"
+    hazard.write_text(
+        "pgv_m_s,annual_rate\n" + "".join(f"{x:.5g},{1e-3 * x**-2:.5g}\n" for x in np.geomspace(0.05, 9.0, 9))
+    )
+    said(capsys, "risk", out, "--hazard", hazard, "--out", tmp_path / "risk", "--json")
+    (result,) = read_results([tmp_path / "risk"])
+    own, ida = result.asked, read_results([out])[0].asked
+    assert [one.digest for one in own.stood] == [ida.stood[0].digest]
+    assert (own.models, own.motions) == (ida.models, ida.motions)
+    (source,) = own.sources
+    assert (source["table"], source["runs"], len(source["records"])) == ("runs.csv", 80, 10)
+    assert source["command"] == list(ida.command)
+    assert source["unchanged"] is True
+    low, high, number = own.motions[0]["scales"]
+    assert 0.0 < low < high
+    assert number == 8
+    sections = {one.title: one for one in sections_of(result, set())}
+    assert {
+        "What it was computed from",
+        "The column",
+        "The ground motions",
+        "What the model assumes, and where it ends",
+    } <= {*sections}
+    table = sections["The ground motions"].items[0]
+    assert table.body[0][:4] == ["0.csv", "x", "x\N{NO-BREAK SPACE}0.400", "1"]
+    assert table.body[0][4] == f"{low:.3g} to {high:.3g} (8)"
+    assert own.motions[0]["digest"].startswith(table.body[0][-1])
+    (out / "runs.csv").write_text((out / "runs.csv").read_text() + "\n")
+    said(capsys, "risk", out, "--hazard", hazard, "--out", tmp_path / "again", "--json")
+    assert "is not as stylobate wrote it" in str(sections_of(read_results([tmp_path / "again"])[0], set()))
+
+
+def test_what_is_not_known_of_a_risk_is_said(place, capsys):
+    said(capsys, "risk", place / "runs.csv", "--im", "pgv", "--hazard", place / "A.csv", "--out", place / "r", "--json")
+    (result,) = read_results([place / "r"])
+    (basis,) = [one for one in sections_of(result, set()) if one.title == "What it was computed from"]
+    assert "Which column stood, in which model with which parameters, and the motions" in basis.items[1].texts[0]
+    pairs = dict(basis.items[0].pairs)
+    assert pairs["runs"] == "96 of 12 records"
+    assert pairs["column, as the table calls it"] == "not told"
+    assert pairs["SHA-256 of runs.csv"] == digest(place / "runs.csv")
+    older = dataclasses.replace(result, asked=dataclasses.replace(result.asked, sources=()))
+    assert "does not keep what runs" in str(sections_of(older, set()))

@@ -148,7 +148,7 @@ def test_a_suite_is_a_table_a_figure_and_the_files_that_were_not_used(command, f
         table = suite_table(preset("paper-monolithic"), motions, st.HousnerBlock(), threads=1)
     assert [row["peak_top_displacement_m"] for row in result["runs"]] == table["peak_top_displacement_m"].tolist()
     text = command(*arguments)
-    assert "paper-monolithic under 2 records: 1 collapsed, 1 stands." in text
+    assert "paper-monolithic collapses in 1 of 2 runs: 50 % (95 % interval over 2 records: 9 to 91 %)." in text
     assert "left out of strong.csv: second horizontal component (azimuth 300°" in text
     assert "not used: README.txt" in text
 

@@ -254,6 +254,7 @@ def test_a_study_sets_columns_side_by_side_over_the_same_cases():
     axes = {
         "models": [{"model": "m"}],
         "columns": [{"column": "a"}, {"column": "b"}],
+        "motions": [{"record": f"record {k}"} for k in range(10)],
         "levels": [1.0],
         "measure": "pga",
     }
@@ -261,9 +262,34 @@ def test_a_study_sets_columns_side_by_side_over_the_same_cases():
     plan = SimpleNamespace(axes=axes, shape=(1, 2, 10, 1, 1))
     rows = _shares_of_study(SimpleNamespace(plan=plan, verdicts=verdicts))
     assert rows.body == [
-        ["a", "m", "1", "9", "7", "0", "2", "78 to 100 %", "1"],
-        ["b", "m", "1", "9", "7", "2", "0", "78 %", "0"],
+        ["a", "m", "1", "9", "9", "7", "0", "2", "78 to 100 %", "45 to 100 %", "1"],
+        ["b", "m", "1", "9", "9", "7", "2", "0", "78 %", "45 to 94 %", "0"],
     ]
+
+
+def test_every_share_of_a_suite_has_its_interval_and_its_number():
+    """Of the motions, over records; and of the columns like each, undecided ones counted both ways."""
+    from types import SimpleNamespace
+
+    from stylobate.report.others import _suite
+
+    ends = ["collapsed"] * 4 + ["stands"] * 3 + ["undecided"]
+    runs = [
+        {"column": "a", "record": f"r{k // 2}", "motion": f"r{k // 2} at {k % 2}°", "verdict": end, "pga_g": 0.3}
+        | {"collapse_probability": 0.4, "replicates": 6, "twins_collapsed": 2, "twins_stands": 2, "twins_undecided": 1,
+           "twins_failed": 1}
+        for k, end in enumerate(ends)
+    ]  # fmt: skip
+    (sentence, look), items = _suite(SimpleNamespace(summary={"runs": runs}, pictures={}))
+    assert sentence == (
+        "a collapses in 4 of 8 runs, and 1 more may, which are undecided: 50 to 63 % (95 % interval over 4 records: "
+        "15 to 91 %)."
+    )
+    assert "bad" in look
+    assert items[0].body == [["a", "8", "4", "4", "3", "1", "50 to 63 %", "15 to 91 %", "0"]]
+    place = items[1].header.index("columns like it that collapse")
+    assert items[1].body[0][place] == "40 to 60 % of 5 (12 to 88 %); 1 undecided, 1 failed"
+    assert items[1].body[1][items[1].header.index("motion")] == "r0 at 1°"
 
 
 def test_an_undecided_run_of_a_model_is_told_beside_others(place):

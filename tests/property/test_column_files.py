@@ -1,6 +1,8 @@
 """Column files: what is written is read back equal, and every mistake is one sentence."""
 
+import re
 import warnings
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -9,6 +11,7 @@ from hypothesis import strategies as some
 import stylobate as st
 from stylobate.column.assembly_files import read_assembly
 from stylobate.column.files import column_from_dict, load_column, read_column, write_column
+from stylobate.column.plausible import unit_doubts
 from stylobate.column.presets import PRESETS, preset
 from stylobate.errors import InputError
 
@@ -117,6 +120,10 @@ friction_angle = 25.0
     [
         (("density = 1600.0", "density = 2.3"), r"density of drum 1 is 2.3 kg/m³.*was it meant in g/cm³\?"),
         (("density = 1600.0", "density = 25"), r"density of drum 1 is 25 kg/m³.*was it meant in kN/m³\?"),
+        (
+            ("height = 5.0", "height = 14.0"),
+            r"height of the column, 14 m, is 17.\d times its width.*is 0.8\d* m half of the",
+        ),
         (("height = 5.0", "height = 680.0"), r"height of the column is 680 m.*was it meant in cm\?"),
         (("bottom_width = 0.96", "bottom_width = 86.0"), r"width of the lower face of drum 1 is 86 m.*meant in cm\?"),
         # σ = 1600 × 9.81 × 5 Pa × 0.81/0.96 on 5e7 N/m³
@@ -130,6 +137,46 @@ def test_slips_of_units_are_said(change, says, tmp_path):
     path.write_text(TAPERED.replace(*change))
     with pytest.warns(st.OutOfRangeWarning, match=says):
         read_column(path)
+
+
+def drums_of(height, width, number):
+    """Equal round drums."""
+    joint = st.Joint(5e10, 2.5e10)
+    return st.Column.tapered(
+        height=height,
+        bottom_width=width,
+        top_width=width,
+        drums=number,
+        density=2500.0,
+        joint=joint,
+        section="circular",
+    )
+
+
+@pytest.mark.parametrize(
+    ("column", "says"),
+    [
+        (
+            drums_of(9.0, 0.5, 1),
+            "9 m, is 18 times its width of 0.5 m, .* some 15 times: is 0.5 m the radius, where the",
+        ),
+        (drums_of(14.0, 1.0, 6), r"drums are 2.33 times as high as wide \(1 m\), .* 2.2 times: is 1 m the radius"),
+        (drums_of(9.0, 1.0, 1), ""),
+        (drums_of(9.0, 1.0, 4), ""),  # tall drums, as Roman columns have them
+        (drums_of(19.6, 1.6, 6), ""),  # Persepolis, among the most slender of many drums
+        (drums_of(5.5, 0.5, 10), ""),
+    ],
+)
+def test_a_radius_given_for_a_diameter_is_told_by_the_slenderness(column, says):
+    found = unit_doubts(column)
+    assert len(found) == bool(says)
+    assert re.search(says, " ".join(found))
+
+
+def test_no_column_that_is_known_is_doubted():
+    gallery = Path(__file__).parents[2] / "gallery" / "assemblies"
+    for column in (*map(preset, PRESETS), read_column(gallery / "column5.toml")):
+        assert unit_doubts(column) == []
 
 
 AS_FOUND = """

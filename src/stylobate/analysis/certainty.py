@@ -15,6 +15,7 @@ from ..column import Column
 from ..column.scatter import Scatter
 from ..models.base import Case, Model
 from ..motion import Motion
+from ..percent import percents, whole
 from ..response import Response
 from ..simulate import simulate, simulate_iter
 from . import verdicts as v
@@ -112,7 +113,7 @@ class Population:
         trials = number - counts[v.FAILED]
         if trials == 0:
             return f"None of {number} columns like this could be computed."
-        low, high = (round(100.0 * one) for one in self.interval)
+        low, high = map(whole, self.interval)
         said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
         said += f" ({100.0 * self.confidence:g} %: {low}–{high} %)"
         if counts[v.UNDECIDED]:
@@ -230,6 +231,25 @@ class Certainty:
         """The JSON object of ``stylobate run``."""
         own = self.response.summary()
         return own | self.population.summary(own)
+
+
+def chance_words(row: Mapping[str, Any]) -> str:
+    """Share of the columns like one that collapse, with its interval and their number; empty where there are none.
+
+    Parameters
+    ----------
+    row : mapping
+        Of a table with :attr:`Population.columns`, or the JSON object of ``stylobate run``.
+    """
+    known = row.get("certainty") or {one: row.get(f"twins_{one}") for one in v.MADE}
+    fell, stood, open_, failed = (int(known.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED))
+    number = fell + stood + open_
+    if not number:
+        return f"none of {failed} could be computed" if failed else ""
+    low, high = (float(one) for one in v.collapse_interval(fell, stood, open_, float(known.get("confidence") or 0.95)))
+    said = f"{percents(fell / number, (fell + open_) / number)} of {number} ({percents(low, high)})"
+    counts = [f"{count} {word}" for count, word in ((open_, "undecided"), (failed, "failed")) if count]
+    return f"{said}; {', '.join(counts)}" if counts else said
 
 
 def set_against(collapsed: bool, counts: Mapping[str, Any], decided: bool = True) -> str:

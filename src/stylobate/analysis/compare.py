@@ -14,12 +14,12 @@ from ..campaign.ledger import Ledger
 from ..campaign.runner import Stopped, full_key
 from ..column import Column
 from ..errors import InputError
-from ..models.base import Model
-from ..motion import Motion
+from ..models.base import Case, Model
+from ..motion import Motion, harmonic
 from ..response import Response, load_response
-from ..simulate import simulate
+from ..simulate import check_cases, simulate
 from . import verdicts as v
-from .domain import Domain, collapse_domain
+from .domain import Domain, collapse_domain, grid_axis
 
 if TYPE_CHECKING:
     import pandas
@@ -126,6 +126,7 @@ def compare_models(
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     _at_least_one(models)
+    _refuse([Case(column, motion)], models, tail)
     names = _labels(models, labels)
     key = {"column": column.digest, "motion": motion.digest, "output_interval": output_interval, "compared": names}
     key["models"] = [[model.name, model.parameters()] for model in models]
@@ -174,6 +175,9 @@ def compare_domains(
     :class:`~stylobate.campaign.runner.Stopped`: half a comparison is none.
     """
     _at_least_one(models)
+    most = float(grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²").max())
+    each = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz").tolist()
+    _refuse([Case(column, harmonic(one, most, duration)) for one in each], models, tail)
     cells = len(frequencies) * len(amplitudes)
     domains = []
     for i, model in enumerate(models):
@@ -205,6 +209,12 @@ def compare_domains(
 def _at_least_one(models: Sequence[Model]) -> None:
     if not models:
         raise InputError("no model is given to compare; name at least one.")
+
+
+def _refuse(cases: Sequence[Case], models: Sequence[Model], tail: float) -> None:
+    """Refuse what any of the models cannot compute before one of them is run, and anything written."""
+    for model in models:
+        check_cases(cases, model, tail=tail)
 
 
 def _labels(models: Sequence[Model], labels: Sequence[str] | None) -> list[str]:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+from ..percent import whole
 from .fragility import FEWEST
 
 #: What a difference comes to.
@@ -164,7 +165,7 @@ class Difference:
 
 def _size(value: float, unit: str) -> str:
     """A change by its size and direction."""
-    size = f"{100.0 * abs(value):.0f}"
+    size = whole(abs(value))
     return "the same" if size == "0" else f"{size} {unit} {'higher' if value > 0.0 else 'lower'}"
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import InputError
-from ..motion.intensity_specs import IntensityMeasure, parse_measure
+from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..outcome import Outcome
 from ..reading import check_file, shown
 from . import tables
@@ -29,6 +29,9 @@ ALSO = {
     "d5_75_s": ("duration_5_75_s",),
     **{f"sa_{t}s_g": (f"psa_{t}s_g",) for t in ("0.1", "0.2", "0.5", "1", "2", "4")},
 }
+
+#: Columns of an intensity that is not named, each with one that is, in the same unit.
+UNNAMED = {f"im{ENDS[one.unit]}": one.key for one in map(parse_measure, ("pga", "pgv", "d5_95"))}
 
 #: Intensities whose logarithms differ in later digits only are one.
 DIGITS = 6
@@ -73,6 +76,26 @@ class Evidence:
         return int(np.count_nonzero(self.codes == code))
 
 
+def table_of(source: str | Path) -> Path:
+    """The table of runs of a folder, or the file itself.
+
+    Raises
+    ------
+    InputError
+        The folder has none.
+    """
+    place = Path(source)
+    if not place.is_dir():
+        return place
+    found = next((place / one for one in TABLES if (place / one).is_file()), None)
+    if found is None:
+        raise InputError(
+            f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA or a suite, "
+            "or a CSV file with the columns record, im, collapsed."
+        )
+    return found
+
+
 def read_table(source: str | Path) -> pandas.DataFrame:
     """The table of runs of a folder or a file (CSV, Parquet).
 
@@ -83,15 +106,7 @@ def read_table(source: str | Path) -> pandas.DataFrame:
     """
     import pandas
 
-    place = Path(source)
-    if place.is_dir():
-        found = [place / one for one in TABLES if (place / one).is_file()]
-        if not found:
-            raise InputError(
-                f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA or a "
-                "suite, or a CSV file with the columns record, im, collapsed."
-            )
-        place = found[0]
+    place = table_of(source)
     if place.suffix == ".parquet":
         check_file(place, MOST)
         try:
@@ -146,7 +161,12 @@ def evidence(
     if key not in table or (key == "im" and measure is not None and said not in (None, measure.name)):
         raise InputError(
             f"the runs of {name} have no intensity {measure.name if measure else 'im'!r}; "
-            f"columns are {', '.join(map(str, list(table.columns)[:40]))}."
+            f"columns are {', '.join(map(str, list(table.columns)[:40]))}{_remedy(table, measure)}."
+        )
+    if key == "im" and measure is not None and said is None and (rivals := _rivals(table, measure)):
+        raise InputError(
+            f"the runs of {name} have the columns im and {' and '.join(rivals)}, and which of them is {measure.name} in "
+            f"{measure.unit} is not said; call that one {measure.key}."
         )
     import pandas
 
@@ -188,6 +208,27 @@ def evidence(
         name,
         "hunted" in table and bool(table["hunted"].iloc[0]),
     )
+
+
+def _rivals(table: pandas.DataFrame, measure: IntensityMeasure) -> list[str]:
+    """Columns besides ``im`` that may be the measure as well: of its kind in no unit that is known, or of none."""
+    stem = measure.name.replace(":", "_").replace("@", "_")
+    names = [str(one) for one in table.columns]
+    return [one for one in names if one in UNNAMED or one == stem or one.startswith(f"{stem}_")]
+
+
+def _remedy(table: pandas.DataFrame, measure: IntensityMeasure | None) -> str:
+    """What can be done where a table has not the intensity that is asked for."""
+    unnamed = [str(one) for one in table.columns if one in UNNAMED]
+    if unnamed:
+        alike = measure is not None and ENDS[measure.unit] == unnamed[0].removeprefix("im")
+        key = measure.key if measure is not None and alike else UNNAMED[unnamed[0]]
+        return f". Which intensity {unnamed[0]} is, is not said: call the column after it, such as {key}"
+    if measure is None and (
+        known := [one for one in map(measure_of_column, map(str, table.columns)) if one is not None]
+    ):
+        return f"; choose one with --im, such as --im {known[0].name}"
+    return ""
 
 
 def scaled_to(table: pandas.DataFrame) -> str | None:

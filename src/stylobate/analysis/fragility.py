@@ -82,6 +82,27 @@ class Fragility:
         """Number of records of which a run is decided."""
         return len(np.unique(self.evidence.records[self.evidence.codes >= 0]))
 
+    @property
+    def levels(self) -> tuple[float, float]:
+        """Smallest and largest intensity of a run that is decided."""
+        im = self.evidence.im[self.evidence.codes >= 0]
+        return float(im.min()), float(im.max())
+
+    @property
+    def outside(self) -> str:
+        """What must be said of a median beyond all intensities that were computed; empty where it is among them."""
+        e, (low, high) = self.evidence, self.levels
+        unit = "" if e.unit == "-" else f" {e.unit}"
+        if low * (1.0 - CLOSE) <= self.median <= high * (1.0 + CLOSE):
+            return ""
+        where, bound, more = (
+            ("above", f"> {high:.3g}", "larger") if self.median > high else ("below", f"≤ {low:.3g}", "smaller")
+        )
+        return (
+            f"the median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}{unit}): it "
+            f"is told by the shape of the curve, and the runs themselves show only {bound}{unit}; give {more} intensities"
+        )
+
     def probability(self, im: np.ndarray) -> np.ndarray:
         """Probability of exceedance given the intensity, shape of ``im``."""
         return curve(im, self.log_median, self.beta)
@@ -165,6 +186,8 @@ class Fragility:
         e = self.evidence
         where = f"{e.state} at {e.measure}"
         unit = "" if e.unit == "-" else f" {e.unit}"
+        if self.outside:
+            return f"{e.name}: {self.outside}."
         if self.bracket is None:
             return f"{e.name}: half of the records bring {where} = {self.median:.3g}{unit}."
         low, high = self.bracket
@@ -199,6 +222,8 @@ class Fragility:
             "undecided": e.count(OPEN),
             "failed": e.count(FAILED),
             "confidence": self.confidence,
+            "levels": list(self.levels),
+            "outside": self.outside,
             "bracket": None if self.bracket is None else list(self.bracket),
             "if_open_exceed": {"median": math.exp(high_median), "beta": _seen(high_beta)},
             "if_open_do_not": {"median": math.exp(low_median), "beta": _seen(low_beta)},

@@ -10,14 +10,15 @@ from pathlib import Path
 import numpy as np
 
 from ..errors import InputError
+from ..motion.intensity_specs import ENDS, measure_of_column
 from ..reading import read_bytes, shown
 from . import tables
 
 #: Largest file that is read [bytes].
 MOST = 50_000_000
 
-#: Columns of an intensity, by unit.
-COLUMNS = {"im_g": "g", "im_m_s": "m/s", "im_s": "s", "im": "-"}
+#: Columns of an intensity that is not named, by unit; a column of runs, such as ``pgv_m_s``, names it.
+COLUMNS = {f"im{end}": unit for unit, end in ENDS.items()}
 
 #: Intensity [g or m/s], how often a year it is exceeded where the Earth shakes most, and why a file may say more.
 ENVELOPE = (
@@ -51,7 +52,7 @@ class Hazard:
         Of the intensity.
     name : str
     imt : str
-        What the file says the intensity is, such as ``PGA``; empty if it does not.
+        What the file says the intensity is, such as ``PGA``, or ``pgv`` as it is typed; empty if it does not.
     """
 
     im: np.ndarray
@@ -118,7 +119,8 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
     Parameters
     ----------
     path : path
-        CSV with the columns ``im_g`` or ``im_m_s`` and ``annual_rate``; or the export ``hazard_curve-*.csv`` of OpenQuake,
+        CSV with the columns ``annual_rate`` and the intensity, called ``pga_g``, ``pgv_m_s``, ``sa_1s_g`` …, or ``im_g`` or
+        ``im_m_s`` where it is not said which; or the export ``hazard_curve-*.csv`` of OpenQuake,
         whose probabilities of exceedance become rates −ln(1 − p)/T, and whose PGV in cm/s become m/s.
     site : (float, float), optional
         Longitude and latitude [degrees], for a file of several sites: the nearest one.
@@ -139,13 +141,16 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
         path, MOST, "annual_rate", "im_g or im_m_s, and annual_rate, or to be a hazard curve of OpenQuake"
     )
     name = shown(Path(path).name)
-    keys = [one for one in COLUMNS if one in table.columns]
+    measures = {one: measure_of_column(one) for one in table.columns}
+    keys = [one for one, measure in measures.items() if one in COLUMNS or measure is not None]
     if len(keys) != 1:
         raise InputError(
-            f"{name} has the columns {shown(', '.join(table.columns))[:200]}; it needs one of {', '.join(COLUMNS)} beside "
-            "annual_rate."
+            f"{name} has the columns {shown(', '.join(table.columns))[:200]}; it needs one intensity beside annual_rate, "
+            f"called after its measure, such as pgv_m_s, pga_g or sa_1s_g, or {', '.join(COLUMNS)}."
         )
-    return Hazard(np.array(table.numbers(keys[0])), np.array(table.numbers("annual_rate")), COLUMNS[keys[0]], name)
+    (key,), measure = keys, measures[keys[0]]
+    unit, imt = (COLUMNS[key], "") if measure is None else (measure.unit, measure.name)
+    return Hazard(np.array(table.numbers(key)), np.array(table.numbers("annual_rate")), unit, name, imt)
 
 
 def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tuple[float, float] | None) -> Hazard:

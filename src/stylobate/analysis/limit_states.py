@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from typing import Any
 
+from ..column.structure import Structure
 from ..errors import InputError
 from . import verdicts as v
 
@@ -76,12 +78,36 @@ class LimitState:
         if self.what not in row:
             raise InputError(f"the state {self.name} needs {self.what!r}, which the runs do not have; use collapse.")
         value = row[self.what]
-        if value is None or not math.isfinite(value):
+        if value is not None and (isinstance(value, bool) or not isinstance(value, Real)):
+            raise InputError(
+                f"the state {self.name} needs a number, and {self.what!r} of the runs is none; use collapse, or another "
+                "measure."
+            )
+        size = math.nan if value is None else abs(float(value))
+        if not math.isfinite(size):
             return OPEN
-        passed = abs(value) >= self._limit(row)
+        passed = size >= self._limit(row)
         if verdict == v.UNDECIDED and not (passed and self.what.startswith("peak_")):
             return OPEN
         return EXCEEDED if passed else NOT_EXCEEDED
+
+    def must_be_told(self, row: Mapping[str, Any], columns: Sequence[Structure]) -> None:
+        """Refuse a state that runs do not tell, before there are any.
+
+        Parameters
+        ----------
+        row : mapping
+            Names of what runs measure (:func:`~stylobate.response.measures.blank_row`).
+        columns : sequence of Structure
+            What is to be run.
+
+        Raises
+        ------
+        InputError
+        """
+        for column in columns:
+            self._limit(column.widths)
+            self.of({**row, **column.widths, "verdict": v.STANDS})
 
     def _limit(self, row: Mapping[str, Any]) -> float:
         if not self.in_diameters:

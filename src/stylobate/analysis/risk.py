@@ -12,6 +12,8 @@ import numpy as np
 from scipy.special import ndtr
 
 from ..errors import InputError, check_range
+from ..motion.intensity_specs import ENDS, parse_measure
+from ..percent import percent
 from .fragility import Fragility
 from .hazard import Hazard
 from .lognormal import curve, log_interval
@@ -70,11 +72,17 @@ class Risk:
     @property
     def warnings(self) -> list[str]:
         """What is to be doubted, and what the hazard curve does not cover, in sentences."""
-        found = [f"{self.doubt}."] if self.doubt else []
+        found = [f"{one}." for one in (self.fragility.outside, self.doubt) if one]
         if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
             found.append(
                 f"the runs do not say what their intensity is; it is taken for that of {self.hazard.name}, in "
                 f"{self.hazard.unit}: say so with --im."
+            )
+        elif self.fragility.evidence.measure != "im" and not self.hazard.imt:
+            measure, end = parse_measure(self.fragility.evidence.measure), ENDS[self.hazard.unit]
+            found.append(
+                f"{self.hazard.name} does not say of which intensity its column im{end} is; it is taken for {measure.name}: "
+                f"name the column {measure.key} if it is."
             )
         if self.rate > OFTEN:
             found.append(
@@ -84,7 +92,7 @@ class Risk:
         if self.beyond > BEYOND * self.rate:
             found.append(
                 f"{self.hazard.name} ends at {self.hazard.im[-1]:g} {self.hazard.unit}; stronger shaking could add up to "
-                f"{100 * self.beyond / max(self.rate, 1e-300):.0f} % to the rate."
+                f"{percent(self.beyond / max(self.rate, 1e-300))} to the rate."
             )
         if self.below > BEYOND:
             found.append(
@@ -113,6 +121,7 @@ class Risk:
             "beta": f.beta,
             "hazard": self.hazard.name,
             "name": f.evidence.name,
+            "fragility": {key: value for key, value in f.summary().items() if key != "points"},
             "deaggregation": [
                 {"from": a, "to": b, "annual_rate": p}
                 for a, b, p in zip(self.edges[:-1].tolist(), self.edges[1:].tolist(), self.parts.tolist())
@@ -298,6 +307,8 @@ def _rate(hazard: Hazard, log_median: float, beta: float, split: bool = True) ->
 
 
 def _same(imt: str, measure: str) -> bool:
+    if imt == measure.upper():
+        return True
     kind = measure.partition("@")[0]
     if kind.startswith("sa:"):
         return imt.startswith("SA(") and math.isclose(float(imt[3:-1]), float(kind[3:-1]), rel_tol=1e-3)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from ..percent import percents
 from . import verdicts as v
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 
@@ -29,6 +30,11 @@ class Share:
         Of these runs.
     failed : int
         Runs of this one that could not be computed, or were not made.
+    records : int
+        That these runs are of.
+    interval : (float, float)
+        95 % confidence limits of the share over records, each of which counts once however many runs are of it; the lower
+        one as if no undecided run exceeded the state, the upper one as if every one did.
     """
 
     label: str
@@ -37,6 +43,8 @@ class Share:
     not_exceeded: int
     undecided: int
     failed: int
+    records: int
+    interval: tuple[float, float]
 
     @property
     def low(self) -> float:
@@ -51,34 +59,77 @@ class Share:
     @property
     def words(self) -> str:
         """The share for people: a percentage, or from which to which where runs are undecided; empty without runs."""
-        return share_words(self.exceeded, self.undecided, self.runs)
+        return percents(self.low, self.high) if self.runs else ""
+
+    @property
+    def interval_words(self) -> str:
+        """Its confidence limits for people; empty without runs."""
+        return percents(*self.interval) if self.runs else ""
+
+    @property
+    def counts(self) -> dict[str, Any]:
+        """Under the names of JSON objects of commands."""
+        return {
+            "same_runs": self.runs,
+            "same_records": self.records,
+            "exceeded": self.exceeded,
+            "not_exceeded": self.not_exceeded,
+            "undecided": self.undecided,
+            "failed": self.failed,
+            "share_low": self.low,
+            "share_high": self.high,
+            "interval_low": self.interval[0],
+            "interval_high": self.interval[1],
+        }
+
+    @property
+    def collapses(self) -> str:
+        """How many of the runs collapse, with the share and its interval, in a sentence."""
+        several = "" if self.runs == 1 else "s"
+        if not self.runs:
+            return f"{self.label}: no run could be computed."
+        said = f"{self.label} collapses in {self.exceeded} of {self.runs} run{several}"
+        said += f", and {self.undecided} more may, which are undecided" if self.undecided else ""
+        over = f"over {self.records} record" + ("" if self.records == 1 else "s")
+        said += f": {self.words} (95 % interval {over}: {self.interval_words})"
+        return said + (f"; {self.failed} more could not be computed." if self.failed else ".")
 
 
-def share_words(exceeded: int, undecided: int, runs: int) -> str:
-    """A share as a percentage, or from which to which where runs are undecided; empty without runs."""
-    if not runs:
-        return ""
-    low, high = (f"{100.0 * count / runs:.0f}" for count in (exceeded, exceeded + undecided))
-    return f"{low} to {high} %" if undecided else f"{low} %"
-
-
-def shares(codes: Mapping[Any, np.ndarray]) -> list[Share]:
+def shares(codes: Mapping[Any, np.ndarray], records: Sequence[Any] | np.ndarray | None = None) -> list[Share]:
     """The shares of all that stand side by side.
 
     Parameters
     ----------
     codes : mapping of a label to array of int
         By label what each run says, as of :mod:`~stylobate.analysis.limit_states`; the runs of all in the same order.
+    records : array, optional
+        Of which record each run is, in the same order; each of its own by default.
     """
     same = np.all([one != FAILED for one in codes.values()], axis=0)
-    found = []
+    names = (
+        np.arange(len(same)) if records is None else np.unique(np.asarray(records, dtype=str), return_inverse=True)[1]
+    )
+    owner, found = names[same], []
     for label, mine in codes.items():
         exceeded, not_exceeded, undecided = (
             int(np.count_nonzero(mine[same] == one)) for one in (EXCEEDED, NOT_EXCEEDED, OPEN)
         )
         failed = int(np.count_nonzero(mine == FAILED))
-        found.append(Share(str(label), int(same.sum()), exceeded, not_exceeded, undecided, failed))
+        number, interval = len(np.unique(owner)), _interval(mine[same], owner)
+        found.append(Share(str(label), int(same.sum()), exceeded, not_exceeded, undecided, failed, number, interval))
     return found
+
+
+def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
+    """Confidence limits over records of the share that exceeds, none and all of the undecided counted in."""
+    runs = np.bincount(owner)
+    there = runs > 0
+    passed = [
+        float((np.bincount(owner, hits, len(runs))[there] / runs[there]).sum())
+        for hits in (codes == EXCEEDED, (codes == EXCEEDED) | (codes == OPEN))
+    ]
+    low, high = (v.wilson_interval(one, there.sum())[k] for k, one in enumerate(passed))
+    return float(low), float(high)
 
 
 def codes_of(verdicts: np.ndarray) -> np.ndarray:
@@ -87,7 +138,7 @@ def codes_of(verdicts: np.ndarray) -> np.ndarray:
 
 
 def median_words(curve: Mapping[str, Any]) -> str:
-    """The median of a curve with its unit, or from which to which what is undecided or failed can take it.
+    """The median of a curve with its unit, or from which to which what is undecided or failed can take it; or its bound.
 
     Parameters
     ----------
@@ -95,6 +146,9 @@ def median_words(curve: Mapping[str, Any]) -> str:
         As of ``Fragility.summary()``, or of a JSON file, where an infinite median is None.
     """
     unit = "" if curve["unit"] == "-" else f" {curve['unit']}"
+    if curve.get("outside"):
+        low, high = curve["levels"]
+        return (f"> {high:.3g}" if curve["median"] > high else f"≤ {low:.3g}") + unit
     if not curve["undecided"] + curve["failed"]:
         return f"{curve['median']:.3g}{unit}"
     ends = [curve[key]["median"] for key in ("if_open_exceed", "if_open_do_not")]

@@ -19,10 +19,11 @@ from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
+from ..response.measures import blank_row
 from .difference import Difference, reference
 from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, bootstrap, fragility
-from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
+from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
 from .lognormal import falls, fit
 from .paired import levels_of, share_limits, unseen
 from .side_by_side import Share, shares
@@ -111,13 +112,7 @@ class StateComparison:
                     "column": column.name,
                     "runs": int((table["state"] == label).sum()),
                     "collapsed": int(table.loc[table["state"] == label, "collapsed"].fillna(0).sum()),
-                    "same_runs": share.runs,
-                    "exceeded": share.exceeded,
-                    "not_exceeded": share.not_exceeded,
-                    "undecided": share.undecided,
-                    "failed": share.failed,
-                    "share_low": share.low,
-                    "share_high": share.high,
+                    **share.counts,
                     "fragility": None if curve is None else curve.summary(),
                     "links_broken": int(links.loc[links["state"] == label, "broken"].sum()) if len(links) else 0,
                 }
@@ -187,6 +182,7 @@ def compare_states(
     study = Study(
         named, motions, [model], levels, im, realisations=realisations, scatter=scatter, seed=seed, tail=tail
     )  # fmt: skip
+    parse_state(state).must_be_told(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
     result = run_study(study, out, threads=threads, progress=progress)
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
@@ -198,7 +194,7 @@ def compare_states(
         _with_undecided(told[first], one, curves[first], curve, samples, seed, confidence)
         for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
     )
-    side_by_side = tuple(shares({one.name: one.codes for one in told}))
+    side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records))
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state)
 
 

@@ -15,10 +15,11 @@ from ..campaign.engine import run_cases
 from ..campaign.plan import RUNS_FILE, Plan
 from ..campaign.runner import Progress
 from ..errors import InputError
+from ..models.base import Case
 from ..models.shared.quiet import share_of
 from ..response import Response
 from ..response.rows import Rows
-from ..simulate import simulate
+from ..simulate import check_cases, simulate
 from . import verdicts as v
 from .directions import harm
 
@@ -124,11 +125,20 @@ def run_study(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    _refuse(study)
     folder = None if out is None else Path(out)
     if folder is not None and not folder.is_dir():
         raise InputError(f"folder {folder} does not exist; create it first.")
     found = run_cases(study, folder, threads=threads, progress=progress, waiting=waiting)
     return StudyResult(found.plan, found.rows, found.wall_time, found.computed)
+
+
+def _refuse(study: Study) -> None:
+    """Refuse what a model cannot compute before anything is run or written: each column under each motion at its largest."""
+    for model in study.models:
+        for motion, factors in zip(study.motions, study.factors, strict=True):
+            largest = motion.scaled(float(factors[np.abs(factors).argmax()]))
+            check_cases([Case(column, largest) for column in study.columns], model, tail=study.tail)
 
 
 def histories_of(study: Study, number: int) -> Response:

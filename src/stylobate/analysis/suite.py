@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from ..campaign.cases import RELATIVE, must_be_alike
 from ..campaign.runner import Progress, Stopped, run_campaign
@@ -17,9 +19,11 @@ from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
+from ..motion.orientation import record_of
 from .certainty import Population
 from .directions import direction_of
-from .verdicts import verdict
+from .side_by_side import Share, codes_of, shares
+from .verdicts import NOT_RUN, verdict
 
 if TYPE_CHECKING:
     import pandas
@@ -92,7 +96,8 @@ def suite_table(
     Returns
     -------
     pandas.DataFrame
-        One row per column and record, ``number`` that of the record: outcome and measures as the JSON keys of
+        One row per column and motion, ``number`` that of the motion; ``record`` is the same for all directions and signs of
+        one: outcome and measures as the JSON keys of
         ``stylobate run``, the factor by which the record was multiplied, and its intensity measures along x, with
         those that relate it to the column (:data:`INTENSITIES`); an assembly has no slenderness. With twins, the probability
         of collapse with its interval, and what 16, 50 and 84 % of them do not exceed.
@@ -112,7 +117,8 @@ def suite_table(
     rows: list[dict[str, Any]] = []
     for column in stands:
         for number, (motion, record) in enumerate(zip(motions, records, strict=True), 1):
-            named = {"number": number, "record": motion.name, "column": column.name} | direction_of(motion)
+            named = {"number": number, "record": record_of(motion), "motion": motion.name, "column": column.name}
+            named |= direction_of(motion)
             rows.append(named | _of_column(column, motion, record))
     cases = [Case(column, motion) for column in stands for motion in motions]
     own = len(cases)
@@ -136,6 +142,20 @@ def suite_table(
             of_twins = [one for one in found.rows[own + i * replicates : own + (i + 1) * replicates] if one is not None]
             line |= Population(some.columns, tuple(of_twins), some.scatter, seed, some.left_out).columns
     return pandas.DataFrame(rows)
+
+
+def suite_shares(rows: Sequence[Mapping[str, Any]]) -> list[Share]:
+    """Shares of the motions that collapse each column of a suite, side by side.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        Of the table of a suite.
+    """
+    names = list(dict.fromkeys(str(row["column"]) for row in rows))
+    each = {name: [row for row in rows if str(row["column"]) == name] for name in names}
+    codes = {name: codes_of(np.array([row.get("verdict") or NOT_RUN for row in mine])) for name, mine in each.items()}
+    return shares(codes, [str(row["record"]) for row in each[names[0]]]) if names else []
 
 
 def _of_column(column: Structure, motion: Motion, record: dict[str, Any]) -> dict[str, Any]:

@@ -19,6 +19,7 @@ from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
 from ..motion.intensity_specs import IntensityMeasure, told, told_powers
+from ..motion.orientation import record_of
 from ..version import __version__
 from .digests import LENGTH, Digests, Hasher, digest_of_samples, samples_of
 from .kept import Group
@@ -172,7 +173,7 @@ class Study:
             direction = motion.metadata.get("direction") or {}
             known = (motion.metadata.get("azimuths") or {}).get("x")
             return {
-                "record": direction.get("record", motion.name),
+                "record": record_of(motion),
                 "motion": motion.name,
                 "azimuth_deg": direction.get("azimuth", known),
                 "reversed": bool(direction.get("reversed", False)),

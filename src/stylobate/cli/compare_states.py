@@ -72,7 +72,11 @@ def run(
             from .. import plots
 
             what = {"structures": list(columns.values()), "models": [model]}
-            what |= {"motions": [model.taken(one) for one in motions.motions], "states": list(columns)}
+            what |= {
+                "motions": [model.taken(one) for one in motions.motions],
+                "states": list(columns),
+                "runs": found.table,
+            }
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": tail}
             files = [
                 console.write_table(found.table, folder / "states.csv"),
@@ -104,6 +108,7 @@ def describe(found: StateComparison) -> None:
     for one, curve in zip(found.shares, found.curves, strict=True):
         row = {"state": one.label, "same runs": one.runs, how: one.exceeded, "do not": one.not_exceeded}
         row |= {"undecided": one.undecided, "failed": one.failed, f"share that {how}s": one.words or console.MISSING}
+        row["95 %"] = one.interval_words or console.MISSING
         row["median"] = console.MISSING if curve is None else median_words(curve.summary())
         rows.append(row)
     console.print_table(pandas.DataFrame(rows), digits=3)

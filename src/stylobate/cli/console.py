@@ -81,11 +81,12 @@ def asked(folder: Path, command: str, **what: Any) -> Path:
     command : str
         Its name.
     **what
-        ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them.
+        ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them, or
+        what :func:`stylobate.results.sources.kept_of` says of the runs that it rests on.
     """
     from ..results.asked import Asked, asked_file
 
-    found = Asked.of(COMMAND, warnings=WARNED, **what)
+    found = Asked.of(COMMAND, warnings=[*what.pop("earlier", ()), *WARNED], **what)
     return write_json(folder / asked_file(command), found.to_dict())
 
 

@@ -213,6 +213,7 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
 def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
     from ..constants import g
+    from ..percent import percent
     from . import console
 
     kind, likes = result.column.kind, result.population
@@ -233,7 +234,7 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
     if (own := summary["as_recorded"]) is not None:
         share = own.get("collapse_probability")
         facts["as recorded"] = f"{own['amplitude_g']:.4g} g: {own['verdict']}" + (
-            f"; {100.0 * share:.0f} % of those like it collapse" if share is not None and math.isfinite(share) else ""
+            f"; {percent(share)} of those like it collapse" if share is not None and math.isfinite(share) else ""
         )
     for row in summary["alternation"]:
         facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = f"{row['verdict']} ({row['runs']} runs)"

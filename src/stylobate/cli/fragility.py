@@ -14,6 +14,7 @@ from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.fragility import Fragility
+    from ..results.sources import Source
 
 Sources = Annotated[
     list[Path],
@@ -56,10 +57,11 @@ def fragility(
 
     A lognormal curve by maximum likelihood with intervals over records; several sources or columns in one picture.
     """
+    from ..results.sources import kept_of
     from . import console
 
     o.the_threads(threads)
-    found = curves(sources, im, state, of, method, records_are_one, seed)
+    found, used = curves(sources, im, state, of, method, records_are_one, seed)
     summaries = [one.summary() for one in found]
     result = summaries[0] | ({"curves": summaries} if len(found) > 1 else {})
     files: list[Path] = []
@@ -75,7 +77,7 @@ def fragility(
             files = [
                 console.write_table(pandas.DataFrame(rows), folder / "fragility.csv"),
                 *plots.save(plots.draw_fragility(found), folder / "fragility"),
-                console.asked(folder, "fragility", sources=[str(one) for one in sources], state=state, im=im),
+                console.asked(folder, "fragility", **kept_of(used), state=state, im=im, method=method),
             ]
             console.write_summary(result, files, folder / "fragility.json")
     if as_json:
@@ -94,19 +96,20 @@ def curves(
     method: str | None,
     records_are_one: bool,
     seed: int,
-) -> list[Fragility]:
-    """The fragilities that are asked for, one per source and column."""
-    from ..analysis.evidence import evidence, read_table, scaled_to
+) -> tuple[list[Fragility], list[Source]]:
+    """The fragilities that are asked for, one per source and column; and the runs that they rest on, one per source."""
+    from ..analysis.evidence import evidence, read_table, scaled_to, table_of
     from ..analysis.fragility import fragility as fit
     from ..analysis.limit_states import parse_state
     from ..motion.intensity_specs import parse_measure
+    from ..results.sources import Source
 
     if method not in (None, "runs", "records"):
         raise InputError(f"--method is {method!r}; allowed is runs or records.")
     if not 0 <= seed < 2**63:
         raise InputError(f"--seed is {seed}; allowed is a whole number from 0.")
     asked, level = None if im is None else parse_measure(im), parse_state(state)
-    found = []
+    found, used = [], []
     for source in sources:
         table = read_table(source)
         measure = asked
@@ -123,6 +126,8 @@ def curves(
             if missing:
                 raise InputError(f"{source} has no runs of a column {missing[0]!r}; it has {', '.join(names)}.")
             names = [one for one in names if one in of]
+        chosen: Any = table[[one in names for one in labels]]
+        used.append(Source(source, table_of(source), chosen))
         for name in names:
             rows: Any = table[[one == name for one in labels]]
             shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
@@ -131,23 +136,26 @@ def curves(
             )
     if len({one.evidence.unit for one in found}) > 1:
         raise InputError("the sources are over different intensities; choose one with --im.")
-    return found
+    return found, used
 
 
-def one_curve(sources: Path, im: str | None, state: str, of: Sequence[str] | None, alone: bool, seed: int) -> Fragility:
-    """The one fragility of a source, for commands that go on from it."""
-    found = curves([sources], im, state, of, None, alone, seed)
+def one_curve(
+    sources: Path, im: str | None, state: str, of: Sequence[str] | None, alone: bool, seed: int
+) -> tuple[Fragility, list[Source]]:
+    """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""
+    found, used = curves([sources], im, state, of, None, alone, seed)
     if len(found) > 1:
         raise InputError(
             f"{sources} holds runs of {len(found)} columns ({', '.join(one.evidence.name for one in found)}); choose one "
             "with --of."
         )
-    return found[0]
+    return found[0], used
 
 
 def describe(found: Fragility) -> None:
     """A curve in words."""
     from ..analysis.fragility import between
+    from ..analysis.side_by_side import median_words
     from . import console
 
     s = found.summary()
@@ -158,14 +166,15 @@ def describe(found: Fragility) -> None:
         ends = [s[one]["median"] for one in ("if_open_exceed", "if_open_do_not")]
         low, high = (f"{one:.3g}" if math.isfinite(one) else "no curve" for one in ends)
         open_ = f"; with the {' and '.join(counts)} all exceeding it {low}, all not exceeding it {high}"
-    median = f"{s['median']:.4g}{unit} (95 %: {between(s['median_low'], s['median_high'])}){open_}"
+    known = median_words(s) if s["outside"] else f"{s['median']:.4g}{unit}"
+    median = f"{known} (95 %: {between(s['median_low'], s['median_high'])}){open_}"
     limits = between(s["beta_low"], s["beta_high"], digits=2)
     spread = f"not seen in these runs (95 %: {limits})" if s["beta"] is None else f"{s['beta']:.3f} (95 %: {limits})"
     fit = "the points lie as a lognormal curve lets expect" if s["p_value"] >= 0.05 else "a lognormal curve fits badly"
     console.say(
         s["sentence"],
         {
-            "median": f"middle {median}" if s["bracket"] else median,
+            "median": f"middle {median}" if s["bracket"] and not s["outside"] else median,
             "dispersion": spread,
             "from": f"{s['runs']} runs of {s['records']} records, {s['exceeded']} exceed; by {s['method']}",
             "fit": f"{fit} (largest distance {s['largest_distance']:.2f}, p = {s['p_value']:.2f})",

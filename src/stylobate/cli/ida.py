@@ -116,7 +116,7 @@ def ida(
                 files.append(console.write_table(best, folder / "measures.csv"))
                 files += plots.save(plots.draw_efficiency(best), folder / "measures")
             taken = [how.taken(motion) for motion in records.motions]
-            what = {"structures": [stone], "models": [how], "motions": taken}
+            what = {"structures": [stone], "models": [how], "motions": taken, "runs": found.runs}
             files.append(console.asked(folder, "ida", **what, im=measure.name, edp=edp, tail_s=after))
             console.write_summary(result, files, folder / "ida.json")
             console.done_with(ledger)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -25,7 +26,9 @@ def risk(
     source: Source,
     hazard: Annotated[
         Path,
-        typer.Option("--hazard", metavar="FILE", help="Hazard curve: im_g or im_m_s, annual_rate; or OpenQuake's."),
+        typer.Option(
+            "--hazard", metavar="FILE", help="Hazard curve: annual_rate and pga_g, pgv_m_s …; or OpenQuake's."
+        ),
     ],
     im: Im = None,
     state: State = "collapse",
@@ -41,11 +44,13 @@ def risk(
     from ..analysis.hazard import read_hazard
     from ..analysis.risk import risk as rate_of
     from ..analysis.risk import years
+    from ..results.sources import kept_of
     from . import console
 
     o.the_threads(threads)
     curve = read_hazard(hazard, the_site(site))
-    found = rate_of(one_curve(source, im, state, of, records_are_one, seed), curve)
+    fragility, used = one_curve(source, im, state, of, records_are_one, seed)
+    found = rate_of(fragility, curve)
     result, files = found.summary(), []
     with console.folder(out, "risk.csv", "risk.json", "risk", "asked-risk.json") as folder:
         if folder is not None:
@@ -56,7 +61,7 @@ def risk(
             files = [
                 console.write_table(pandas.DataFrame(result["deaggregation"]), folder / "risk.csv"),
                 *plots.save(plots.draw_risk(found), folder / "risk"),
-                console.asked(folder, "risk", sources=[str(source)], hazards=[str(hazard)], state=state),
+                console.asked(folder, "risk", **kept_of(used), **hazards_of([hazard], site), state=state, im=im),
             ]
             console.write_summary(result, files, folder / "risk.json")
     if as_json:
@@ -74,6 +79,13 @@ def risk(
         },
         files,
     )
+
+
+def hazards_of(files: Sequence[Path], site: str | None) -> dict[str, Any]:
+    """Hazard curves with their digests, and the site, as they are kept beside what rests on them."""
+    from ..own_files import digest
+
+    return {"hazards": [f"{one} (SHA-256 {digest(one)})" for one in files], "site": site}
 
 
 def the_site(text: str | None) -> tuple[float, float] | None:

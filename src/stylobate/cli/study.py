@@ -45,7 +45,9 @@ def run(
         with console.progress("histories") as progress:
             files = keep_histories(study, result, folder, progress)
         files.append(write_table(result.table, folder / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
-        what = {"structures": study.columns, "models": study.models, "motions": study.motions}
+        (model, *more), motions = study.models, study.motions
+        what = {"structures": study.columns, "models": study.models, "runs": result.table}
+        what |= {"motions": motions if more else [model.taken(one) for one in motions]}
         files.append(console.asked(folder, "study", **what, tail_s=study.tail))
         summary = result.summary() | {"refused": refused}
         console.write_summary(summary, files, folder / "study.json")

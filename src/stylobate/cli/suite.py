@@ -8,21 +8,23 @@ from typing import Annotated, Any
 
 import typer
 
+from ..percent import percent
 from . import options as o
+
+#: How many of the columns like each collapse, as it is printed.
+CHANCE = "collapse of twins (95 %)"
 
 #: Columns of the table that are printed.
 SHOWN = (
     "number",
-    "record",
+    "motion",
     "factor",
     "pga_g",
     "pgv_m_s",
     "pga_over_g_tan_alpha",
     "verdict",
     "outcome",
-    "collapse_probability",
-    "collapse_interval_low",
-    "collapse_interval_high",
+    CHANCE,
     "peak_top_displacement_m",
     "peak_displacement_m",
     "links_broken",
@@ -68,8 +70,9 @@ def suite(
     A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them. With
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
+    from ..analysis.certainty import chance_words
     from ..analysis.directions import compass_of_shares, worst
-    from ..analysis.suite import must_be_told, suite_table
+    from ..analysis.suite import must_be_told, suite_shares, suite_table
     from ..errors import InputError
     from ..models.shared.quiet import share_of
     from . import console
@@ -112,6 +115,8 @@ def suite(
             "model": how.name,
         }
         result["worst"] = worst(result["runs"])
+        found = suite_shares(result["runs"])
+        result["shares"] = [{"column": one.label, **one.counts} for one in found]
         files = []
         if folder is not None:
             from .. import plots
@@ -132,14 +137,16 @@ def suite(
     if as_json:
         console.emit(result)
         return
-    for name, rows in table.groupby("column", sort=False):
-        print(f"{name} under {len(rows)} records: {', '.join(f'{n} {one}' for one, n in counts[name].items())}.")
-        console.print_table(rows.filter(list(SHOWN)), digits=3)
+    table[CHANCE] = [chance_words(row) for row in result["runs"]]
+    for one, (_, rows) in zip(found, table.groupby("column", sort=False), strict=True):
+        print(one.collapses)
+        shown = rows.filter(list(SHOWN))
+        console.print_table(shown if any(shown[CHANCE]) else shown.drop(columns=CHANCE), digits=3)
     if swept and result["worst"] is not None:
-        print(f"Most harm: {result['worst']['record']}.")
+        print(f"Most harm: {result['worst']['motion']}.")
     console.print_left_out(result["inputs"])
     if "stepped_s" in table:
-        share = table["stepped_s"].sum() / table["duration_s"].sum()
-        print(f"stepped: {100 * share:.0f} % of the records, without what is quiet (--whole steps all)")
+        share: Any = table["stepped_s"].sum() / table["duration_s"].sum()
+        print(f"stepped: {percent(share)} of the records, without what is quiet (--whole steps all)")
     console.print_refused(records.refused)
     console.print_files(files)

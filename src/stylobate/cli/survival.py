@@ -9,7 +9,7 @@ import typer
 
 from . import options as o
 from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
-from .risk import Site, Source, the_site
+from .risk import Site, Source, hazards_of, the_site
 
 
 def survival(
@@ -33,6 +33,7 @@ def survival(
     from ..analysis.risk import parse_age
     from ..analysis.risk import survival as survive
     from ..errors import InputError
+    from ..results.sources import kept_of
     from . import console
 
     o.the_threads(threads)
@@ -43,7 +44,8 @@ def survival(
         raise InputError(
             f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own."
         )
-    found = survive(one_curve(source, im, state, of, records_are_one, seed), years, hazards)
+    fragility, used = one_curve(source, im, state, of, records_are_one, seed)
+    found = survive(fragility, years, hazards)
     result, files = found.summary(), []
     with console.folder(out, "survival.csv", "survival.json", "survival", "asked-survival.json") as folder:
         if folder is not None:
@@ -57,8 +59,8 @@ def survival(
                 console.asked(
                     folder,
                     "survival",
-                    sources=[str(source)],
-                    hazards=[str(one) for one in hazard],
+                    **kept_of(used),
+                    **hazards_of(hazard, site),
                     state=state,
                     age_y=years,
                 ),

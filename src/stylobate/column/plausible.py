@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import statistics
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
@@ -52,6 +53,10 @@ STIFFNESS = Measure("N/m³", 1e7, 1e13, 2e10, {"kN/m³": 1e3, "MPa/m": 1e6, "N/m
 #: Largest friction coefficient that was measured on stone [-]; an angle below the least [degrees] looks like a coefficient.
 ROUGHEST, SLIPPERIEST = 2.0, 3.0
 
+#: How often columns go over their width at most, and drums where there are so many of them: half as much again as the most
+#: slender columns of stone that stand, and as the tallest drums of such columns [-].
+SLENDEREST, DRUMS, TALLEST = 15.0, 5, 2.2
+
 #: By so much dry joints of stone close under the weight on them, at most [m].
 CLOSES = 5e-4
 
@@ -73,6 +78,7 @@ def unit_doubts(column: Stack, friction_angles: Iterable[float | None] = ()) -> 
         for i, one in enumerate(column.drums, 1)
         for face, width in (("lower", one.bottom_width), ("upper", one.top_width))
     )
+    doubts = doubts or _slenderness_doubt(column)
     densities = [drum.density for drum in column.drums]
     doubts += first(DENSITY.doubt(f"the density of drum {i + 1}", one, "stone has") for i, one in enumerate(densities))
     doubts += [
@@ -82,6 +88,23 @@ def unit_doubts(column: Stack, friction_angles: Iterable[float | None] = ()) -> 
     ][:1]
     laws = first(joint_doubts(joint) for joint in dict.fromkeys(column.joints))
     return doubts + (laws or _sinking(column))
+
+
+def _slenderness_doubt(column: Stack) -> list[str]:
+    """The doubt about a column far more slender than any that stands, as one becomes whose radii are given for widths."""
+    width = statistics.median(0.5 * (one.bottom_width + one.top_width) for one in column.drums)
+    often, of_drums = column.height / width, statistics.median(column.heights) / width
+    if often > SLENDEREST:
+        what = f"the height of the column, {column.height:g} m, is {often:.3g} times its width of {width:.3g} m"
+        what += ", and columns of stone"
+        most = SLENDEREST
+    elif column.n >= DRUMS and of_drums > TALLEST:
+        what = f"drums are {of_drums:.3g} times as high as wide ({width:.3g} m), and those of columns of many drums"
+        most = TALLEST
+    else:
+        return []
+    slip = "the radius, where the diameter is asked for" if column.section == "circular" else "half of the width"
+    return [f"{what} reach some {most:g} times: is {width:.3g} m {slip}?"]
 
 
 def joint_doubts(joint: Joint) -> list[str]:

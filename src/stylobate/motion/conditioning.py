@@ -15,6 +15,7 @@ import numpy as np
 
 from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_range
+from ..percent import percent, percents
 from .integration import arias_growth, displacement
 from .motion import MAX_SAMPLES, Motion, integrate
 
@@ -291,7 +292,7 @@ def trim(
     t2 = float(np.interp(high, growth, motion.time)) + check_range("after", after, 0.0, 1e4, unit="s")
     i = max(0, math.floor(t1 / motion.dt))
     j = min(motion.steps - 1, math.ceil(t2 / motion.dt))
-    text = f"trimmed to {i * motion.dt:g} … {j * motion.dt:g} s ({low:.0%} to {high:.0%} of the Arias intensity)"
+    text = f"trimmed to {i * motion.dt:g} … {j * motion.dt:g} s ({percents(low, high)} of the Arias intensity)"
     kept = _changed(motion, lambda a: a[i : j + 1], text)
     length = min(0.25, 0.05 * kept.duration) if ends is None else check_range("ends", ends, 0.0, 0.5 * kept.duration)
     loud = [
@@ -328,7 +329,7 @@ def scale_to_sa(motion: Motion, period: float, sa: float, damping: float = 0.05)
 
     value = check_range("sa", sa, 0.0, 1e4, unit="m/s²")
     found = float(pseudo_acceleration(motion, [period], damping)[0])
-    return _scaled_to(motion, value, found, f"Sa({period:g} s, {damping:.0%}) of {value / g:g} g")
+    return _scaled_to(motion, value, found, f"Sa({period:g} s, {percent(damping)}) of {value / g:g} g")
 
 
 def _scaled_to(motion: Motion, wanted: float, found: float, text: str) -> Motion:

@@ -84,6 +84,9 @@ TOLD = (
 )
 TOLD_OF_TWO = ("pga@geomean", "pgv@geomean")
 
+#: Ends of the columns of tables, by unit.
+ENDS = {"g": "_g", "m/s": "_m_s", "s": "_s", "-": ""}
+
 #: What is made of the two horizontal components.
 COMPONENTS = ("x", "y", "z", "geomean", "larger", "rotd50", "rotd100")
 
@@ -136,8 +139,7 @@ class IntensityMeasure:
     @property
     def key(self) -> str:
         """Its column in a table."""
-        unit = {"g": "_g", "m/s": "_m_s", "s": "_s", "-": ""}[self.unit]
-        return self.name.replace(":", "_").replace("@", "_") + unit
+        return self.name.replace(":", "_").replace("@", "_") + ENDS[self.unit]
 
     def of(self, motion: Motion, column: tuple[float, float] | None = None) -> float:
         """Value for a motion, in :attr:`unit`.
@@ -221,6 +223,21 @@ def parse_measure(text: str) -> IntensityMeasure:
         example = {"sa": "sa:1.0s", "avgsa": "avgsa:0.5s-3s"}.get(kind, kind)
         raise InputError(f"intensity measure {text!r} has the wrong periods; write it as {example}.")
     return IntensityMeasure(kind, periods, component)
+
+
+def measure_of_column(name: str) -> IntensityMeasure | None:
+    """The measure whose column in a table has this name; None where it is that of none."""
+    for end in ENDS.values():
+        stem, _, component = name.removesuffix(end).rpartition("_")
+        kind = next((one for one in ("sa_", "avgsa_") if name.startswith(one)), "")
+        for text in (name.removesuffix(end), f"{stem}@{component}"):
+            try:
+                found = parse_measure(f"{kind[:-1]}:{text.removeprefix(kind)}" if kind else text)
+            except InputError:
+                continue
+            if found.key == name:
+                return found
+    return None
 
 
 def told(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[str, float]]:

@@ -103,6 +103,11 @@ def along(motion: Motion, azimuth: float) -> Motion:
     )
 
 
+def record_of(motion: Motion) -> str:
+    """The record that a motion is of: the same for all directions, signs and components of one."""
+    return str((motion.metadata.get("direction") or {}).get("record", motion.name))
+
+
 def beyond_axes(motion: Motion, axes: str) -> dict[str, str]:
     """The components along other axes than those of ``axes`` and x, by axis, each in words with its peak."""
     azimuths = motion.metadata.get("azimuths") or {}

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from ..analysis.capacity import SHARES
 from ..analysis.ida_curves import Ida
+from ..percent import percent
 from .fragility import NARROW
 from .style import BLACK, BLUE, GREY, RED, panel, styled
 
@@ -63,7 +64,7 @@ def draw_ida(
         known = ~np.isnan(edp_values)
         known &= np.cumsum(np.isinf(edp_values)) <= 1  # up to the plateau
         x = np.minimum(edp_values[known], right)
-        (handles[f"{100 * share:.0f} % of the records"],) = axes.plot(
+        (handles[f"{percent(share)} of the records"],) = axes.plot(
             x, table["im"].to_numpy()[known], color=RED if share == 0.5 else BLACK, linestyle=look, linewidth=1.6
         )
     fell = [one.collapses for one in curves if math.isfinite(one.collapses)]

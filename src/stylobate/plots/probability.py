@@ -15,6 +15,7 @@ from ..analysis import verdicts as v
 from ..analysis.domain import cell_edges
 from ..analysis.probability import CollapseProbability
 from ..constants import g
+from ..percent import percent
 from .domain import fill_cells, framed
 from .style import BLACK, BLUE, HALO, RED, SAND, WIDTH, page, styled
 
@@ -72,7 +73,7 @@ def message(result: CollapseProbability) -> str:
     facts = result.summary()
     open_cells = facts["no_verdict"]
     if open_cells:
-        said = f"{100.0 * open_cells / facts['cells']:.0f} % of the cells have no verdict: follow the column longer (--tail)"
+        said = f"{percent(open_cells / facts['cells'])} of the cells have no verdict: follow the column longer (--tail)"
         if open_cells == facts["cells"]:
             return said
         return f"{_about_the_others(result, facts)}\n{said}"
@@ -86,7 +87,7 @@ def _about_the_others(result: CollapseProbability, facts: dict) -> str:
     width, cells = facts["band_width_median_g"], facts["some_collapse"]
     if not cells:
         return "all variations agree in every cell" + (" with a verdict" if facts["no_verdict"] else "")
-    share = f"{100.0 * cells / facts['cells']:.0f} % of the cells are uncertain"
+    share = f"{percent(cells / facts['cells'])} of the cells are uncertain"
     if width is None:
         return f"{share};\nthe band reaches beyond the largest amplitude at every frequency that collapses"
     beyond = facts["band_open_frequencies"]

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.risk import Risk, Survival, years
 from ..motion.intensity_specs import parse_measure
+from ..percent import percent
 from .fragility import NARROW, logarithmic
 from .style import BLACK, BLUE, GREY, RED, page, panel, styled
 
@@ -40,9 +41,9 @@ def draw_risk(result: Risk, title: str | None = None, *, figure: Figure | SubFig
     share = result.parts[:-1] / max(result.rate, 1e-300)
     lower.stairs(100.0 * share, result.edges[:-1], fill=True, color=BLUE, alpha=0.6)
     lower.stairs(100.0 * share, result.edges[:-1], color=BLUE, linewidth=0.8)
-    rest = 100.0 * result.parts[-1] / max(result.rate, 1e-300)
-    if rest >= 0.5:
-        lower.set_title(f"{rest:.0f} % beyond", loc="right", fontsize=8)
+    rest = result.parts[-1] / max(result.rate, 1e-300)
+    if rest >= 0.005:
+        lower.set_title(f"{percent(rest)} beyond", loc="right", fontsize=8)
     lower.set_ylabel("share of the rate [%]")
     lower.set_xlim(hazard.im[0], hazard.im[-1])
     lower.grid(True, axis="y")

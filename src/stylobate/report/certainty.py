@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..analysis.certainty import set_against
+from ..percent import percent
 from . import numbers as n
 from .page import Facts, Item, Section
 
@@ -19,6 +20,11 @@ PARTS = {
     "offset": "place of each drum on the one below, over the width",
 }
 
+#: What a cell with the columns like one says.
+OF_TWINS = (
+    "Columns like it that collapse: their share, of how many, and in brackets its 95 % interval; from which to which where "
+    "some are undecided."
+)
 
 #: How a spread is told.
 PERCENTILES = "16th / 50th / 84th percentile"
@@ -37,12 +43,12 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
     if not number:
         return "How sure this verdict is, is not known: none of the columns like this one could be computed."
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
-    level = n.percent(known.get("confidence", 0.95))
+    level = percent(known.get("confidence", 0.95))
     how_many = "none" if not fell else "all" if fell == number else str(fell)
     said = f"Of {number} columns like this one, {how_many} collapse{'s' if fell == 1 else ''}"
     if low is not None and high is not None:
-        said += f" ({n.percent(fell / number)}): under this motion and in this model the probability of collapse lies "
-        said += f"between {n.percent(low)} and {n.percent(high)}, with {level} confidence"
+        said += f" ({percent(fell / number)}): under this motion and in this model the probability of collapse lies "
+        said += f"between {percent(low)} and {percent(high)}, with {level} confidence"
     said += f". {open_} of them had not come to rest and are not counted as either." if open_ else "."
     if known.get("failed"):
         said += f" {known['failed']} more could not be computed."
@@ -76,7 +82,7 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
     if low is not None and high is not None:
         pairs.append(
             (
-                f"{n.percent(known.get('confidence', 0.95))} interval of it, from their number alone",
+                f"{percent(known.get('confidence', 0.95))} interval of it, from their number alone",
                 f"{low:.3f} to {high:.3f}",
             )
         )

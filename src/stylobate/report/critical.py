@@ -7,6 +7,7 @@ from typing import Any
 
 from ..analysis.critical_words import lowest_collapse, sentence_of_suite
 from ..analysis.critical_words import sentence as sentence_of
+from ..percent import percent
 from ..results import Numbers
 from . import numbers as n
 from .page import Facts, Item, Rows
@@ -73,7 +74,7 @@ def _twins(s: dict[str, Any]) -> list[Item]:
     ]
     limits = s["collapse_interval_low"], s["collapse_interval_high"]
     rows = [
-        [f"{a:.4g}", n.plain(factor), *(n.NONE if one is None else n.percent(one) for one in shares)]
+        [f"{a:.4g}", n.plain(factor), *(n.NONE if one is None else percent(one) for one in shares)]
         for a, factor, *shares in zip(s["amplitudes_g"], scale, s["collapse_probability"], *limits)
     ]
     header = ["amplitude [g]", "factor of the record", "collapse", "95 % from", "to"]

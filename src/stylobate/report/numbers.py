@@ -28,9 +28,14 @@ def angle(value: float | None) -> str:
     return NONE if value is None or not math.isfinite(value) else f"{value:.4f} rad ({math.degrees(value):.2f}°)"
 
 
-def percent(share: float) -> str:
-    """A share as a percentage."""
-    return f"{100.0 * share:.0f} %"
+#: Units that names of keys end in.
+UNITS = {"_m_s": "m/s", "_m": "m", "_s": "s", "_g": "g", "_y": "years", "_rad": "rad", "_deg": "°"}
+
+
+def named(key: str) -> str:
+    """A key of a JSON object or a table as a name, its unit behind: ``tail_s`` is ``tail [s]``."""
+    end = next((one for one in UNITS if key.endswith(one) and key != one), "")
+    return key.removesuffix(end).replace("_", " ") + (f" [{UNITS[end]}]" if end else "")
 
 
 def plain(value: Any) -> str:

@@ -6,25 +6,46 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from ..analysis.certainty import chance_words
 from ..analysis.fragility import between
 from ..analysis.ida_curves import median_of
 from ..analysis.risk import years
-from ..analysis.side_by_side import codes_of, median_words, shares
+from ..analysis.side_by_side import Share, codes_of, median_words, shares
 from ..analysis.studies import StudyResult
+from ..analysis.suite import suite_shares
 from ..bibliography import cite, cite_run
 from ..column import Column
 from ..constants import g
 from ..results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
 from ..results.kinds import Grid
 from . import numbers as n
+from .certainty import OF_TWINS
 from .critical import critical_result
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import kept
-from .record import asked_section, known_model, model_section, record_section, sources_section, versions_of, warnings_of
+from .record import (
+    asked_section,
+    basis_section,
+    known_model,
+    model_section,
+    record_section,
+    sources_section,
+    versions_of,
+    warnings_of,
+)
 from .runs import once
+from .shaking import motions_section
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
 from .structure import state_section, structure_section
+
+#: Kinds that rest on the runs of another command.
+FROM_RUNS = (Kind.FRAGILITY, Kind.RISK, Kind.SURVIVAL)
+
+#: What the columns like one come to, in a table.
+CHANCE = "columns like it that collapse"
 
 #: Most rows of a table of a result; the CSV file in the folder holds them all.
 MOST = 40
@@ -48,8 +69,10 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     else:
         verdict, body = _TELL[result.kind](result)
         note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
-        parts = [Section("Result", [note, *warnings_of(result)]), asked_section(result)]
+        parts = [Section("Result", [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
+        parts += [basis_section(result)] if result.kind in FROM_RUNS else []
         parts += [once(structure_section(one), one.digest, told) for one in result.structures[:5]]
+        parts += [motions_section(result)] if asked is not None and asked.motions else []
         parts.append(Section("What was found", body))
     if result.kind is Kind.PUSHOVER and columns:
         parts.append(code_check(columns[0], result, run))
@@ -78,9 +101,8 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
     assert isinstance(result, Numbers)
     labels = [str(one["label"]) for one in result.summary["states"]]
     lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result)]
-    names = [str(one["name"]) for one in (result.asked.motions if result.asked is not None else ())]
-    motions = [("motions", f"{len(names)}: {', '.join(names)}")] if names else []
-    parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result, motions)]
+    parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result)]
+    parts += [motions_section(result)] if result.asked is not None and result.asked.motions else []
     for label, column in zip(labels, columns):
         if column is columns[0]:
             first = structure_section(column)
@@ -88,6 +110,17 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
         else:
             parts.append(state_section(column, label, columns[0], labels[0]))
     return [*parts, *([statics_of_states(dict(zip(labels, columns)))] if columns else [])]
+
+
+def _doubts(result: Result) -> list[str]:
+    """What about a result that rests on the runs of others is to be doubted."""
+    if result.kind not in FROM_RUNS:
+        return []
+    curves = result.summary.get("curves") or [result.summary]
+    return [
+        *map(str, result.summary.get("warnings") or ()),
+        *(f"{one['outside']}." for one in curves if one.get("outside")),
+    ]
 
 
 def _scope(kind: Kind) -> str:
@@ -133,20 +166,23 @@ def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
 
 
 def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    verdicts = result.summary["verdicts"]
-    said = [
-        f"{name}: {', '.join(f'{count} {one}' for one, count in found.items())}" for name, found in verdicts.items()
-    ]
-    fell = any(found.get("collapsed") for found in verdicts.values())
-    keys = ["column", "record", "pga_g", "pgv_m_s", "verdict", "collapse_probability", "peak_top_displacement_m"]
-    if "peak_displacement_m" in (result.summary["runs"] or [{}])[0]:
+    runs = result.summary["runs"]
+    found = suite_shares(runs)
+    rows = [{"motion": one["record"], **one, CHANCE: chance_words(one)} for one in runs]
+    keys = ["column", "motion", "factor", "pga_g", "pgv_m_s", "verdict", CHANCE, "peak_top_displacement_m"]
+    if "peak_displacement_m" in (runs or [{}])[0]:
         keys[-1] = "peak_displacement_m"
+    body = [[one.label, *_counts_of(one)] for one in found]
     items: list[Item] = [
-        _table(result.summary["runs"], keys, "One row per record; all measures are in suite.csv.", "verdict")
+        Rows(["column", *COUNTED], body, f"Of the same motions for every column. {COUNTED_HOW}", numbers=True)
     ]
+    caption = "One row per motion; all measures are in suite.csv."
+    if any(one[CHANCE] for one in rows):
+        caption += f" {OF_TWINS}"
+    items.append(_table(rows, keys, caption, "verdict"))
     items += kept(result.pictures, "suite", "Peak response against a measure of the records.")
     items += kept(result.pictures, "directions", "Share of collapses by direction.")
-    return (f"Under the records of the suite: {'; '.join(said)}.", " bad" if fell else ""), items
+    return (" ".join(one.collapses for one in found), " bad" if any(one.exceeded for one in found) else ""), items
 
 
 def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -178,13 +214,18 @@ def _fragility(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     sentence = (
         f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
     )
-    if one.get("bracket"):
+    if one.get("outside"):
+        sentence = (
+            f"Half of the records bring {one['state']} at {one['im']} {median_words(one)} (95 % interval {limits})."
+        )
+    elif one.get("bracket"):
         sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
     for each in curves:
+        each["known of the median"] = median_words(each) if each.get("outside") else None
         if each.get("undecided") or each.get("failed"):
             each["median_undecided_both_ways"] = median_words(each)
-    keys = ["name", "im", "median", "median_low", "median_high", "median_undecided_both_ways", "beta", "records"]
-    keys += ["runs", "undecided", "p_value"]
+    keys = ["name", "im", "levels", "known of the median", "median", "median_low", "median_high"]
+    keys += ["median_undecided_both_ways", "beta", "records", "runs", "undecided", "p_value"]
     items: list[Item] = [
         _table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")
     ]
@@ -202,14 +243,28 @@ def _risk(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         f"once in {years(period)} on average." if isinstance(period, float) else "never, under this hazard."
     )
     low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
+    known, unit = s.get("fragility") or {}, "" if s.get("unit") in (None, "-") else f" {s['unit']}"
     if n.NONE not in (low, high):
         sentence += f" The annual rate lies between {low} and {high} (95 %)."
     pairs = [
         ("annual rate [1/year]", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
         ("hazard", n.plain(s.get("hazard"))),
+        ("intensity", f"{n.plain(s.get('im'))}{unit and f' [{unit.strip()}]'}"),
     ]
+    if known:
+        median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
+        levels = " to ".join(f"{one:.3g}" for one in known["levels"])
+        pairs += [
+            ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
+            ("dispersion β of the fragility", f"{n.plain(known['beta'])} (95 %: {beta})"),
+            ("intensities of its runs", f"{levels}{unit}"),
+            ("records / runs / exceeded / undecided / failed",
+             " / ".join(str(known[one]) for one in ("records", "runs", "exceeded", "undecided", "failed"))),
+            ("p of its fit", n.plain(known["p_value"])),
+        ]  # fmt: skip
     items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]
-    return (sentence, ""), [*items, *map(str, s.get("warnings", ()))]
+    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
+    return (sentence, ""), items
 
 
 def _survival(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -228,7 +283,7 @@ def _survival(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     )
     items: list[Item] = [_table(s["hazards"], keys, "Hazard curves compared.")]
     items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
-    return (sentence, ""), [*items, *map(str, s.get("warnings", ()))]
+    return (sentence, ""), items
 
 
 def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
@@ -283,22 +338,40 @@ def _study(result: StudyFolder) -> tuple[tuple[str, str], list[Item]]:
 def _shares_of_study(study: StudyResult) -> Rows:
     """Shares by column, model and level: at each level of the cases that are finished for every column and model."""
     axes, codes = study.plan.axes, codes_of(study.verdicts).reshape(study.plan.shape)
+    records = np.repeat([str(one["record"]) for one in axes["motions"]], study.plan.shape[-1])
     names = [(one["column"], model["model"]) for model in axes["models"] for one in axes["columns"]]
     rows = []
     for place, level in enumerate(axes["levels"]):
         each = codes[:, :, :, place].reshape(len(names), -1)
-        for (column, model), one in zip(names, shares(dict(enumerate(each)))):
-            counts = [one.runs, one.exceeded, one.not_exceeded, one.undecided]
-            rows.append([column, model, n.plain(level), *map(str, counts), one.words or n.NONE, str(one.failed)])
-    header = ["column", "model", f"level ({axes.get('measure')})", "same cases", "collapse", "stand", "undecided"]
-    caption = (
-        "Of the cases that are finished and could be computed for every column and model: the share that collapses, with "
-        "none and with all of the undecided counted in."
-    )
+        for (column, model), one in zip(names, shares(dict(enumerate(each)), records)):
+            rows.append([column, model, n.plain(level), *_counts_of(one)])
+    caption = f"Of the cases that are finished and could be computed for every column and model. {COUNTED_HOW}"
     left_out = f" The first {MOST} of {len(rows)} rows." if len(rows) > MOST else ""
     rows.sort(key=lambda row: row[:2])
-    shown = [*header, "share that collapses", "failed or missing"]
-    return Rows(shown, rows[:MOST], caption + left_out, numbers=True)
+    header = ["column", "model", f"level ({axes.get('measure')})", *COUNTED]
+    return Rows(header, rows[:MOST], caption + left_out, numbers=True)
+
+
+#: Columns of tables of shares, and what they are.
+COUNTED = (
+    "same runs",
+    "records",
+    "collapse",
+    "stand",
+    "undecided",
+    "share that collapses",
+    "95 % interval",
+    "failed or missing",
+)
+COUNTED_HOW = (
+    "The share that collapses is told with none and with all of the undecided counted in; so is its interval, over records, "
+    "each of which counts once."
+)
+
+
+def _counts_of(one: Share) -> list[str]:
+    counts = [one.runs, one.records, one.exceeded, one.not_exceeded, one.undecided]
+    return [*map(str, counts), one.words or n.NONE, one.interval_words or n.NONE, str(one.failed)]
 
 
 def _open(s: dict[str, Any]) -> str:
@@ -314,7 +387,7 @@ def _table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | N
     body = [[n.plain(row.get(key)) for key in there] for row in rows[:MOST]]
     place = there.index(mark) if mark in there else None
     looks = {"stands": "good", "collapsed": "bad"}
-    header = [key.replace("_", " ") for key in there]
+    header = [n.named(key) for key in there]
     return Rows(header, body, caption + left_out, mark=place, looks=looks, numbers=True)
 
 

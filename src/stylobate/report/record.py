@@ -23,7 +23,7 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
     items: list[Item] = []
     asked = result.asked
     if asked is not None and asked.command:
-        items.append(Code(" ".join(["stylobate", *(_typed(word) for word in asked.command)])))
+        items.append(Code(typed(asked.command)))
     pairs = list(more)
     if asked is not None:
         if asked.models and not any(name == "model" for name, _ in more):
@@ -33,12 +33,61 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
             for key, value in asked.options.items()
             if value not in (None, [], "", False) and key not in FOUND
         }
-        pairs += [(_option(key), n.plain(value)) for key, value in options.items()]
+        pairs += [(n.named(key), n.plain(value)) for key, value in options.items()]
         if asked.day:
             pairs.append(("computed on", asked.day))
     else:
         items.append("The folder does not hold the command line: it was written by a version that did not keep it.")
     return Section("What was asked", [*items, *([Facts(pairs)] if pairs else [])])
+
+
+def basis_section(result: Result) -> Section:
+    """The runs that a result rests on: where they lie, of which command, and what is not known of them."""
+    title = "What it was computed from"
+    sources = result.asked.sources if result.asked is not None else ()
+    if not sources:
+        text = "Not known: the folder does not keep what runs it was computed from. Compute it again to have them told here."
+        return Section(title, [Note([text], "fair")])
+    items: list[Item] = []
+    for one in sources:
+        records = list(one["records"])
+        state = {True: ", as written", False: ", changed by somebody since it was written", None: ""}[one["unchanged"]]
+        pairs = [
+            ("runs", f"{one['runs']} of {len(records)} record{'' if len(records) == 1 else 's'}"),
+            ("column, as the table calls it", ", ".join(one["columns"]) or "not told"),
+            ("model, as the table calls it", ", ".join(one["models"]) or "not told"),
+            ("records", ", ".join(records[:MOST_NAMES]) + (", …" if len(records) > MOST_NAMES else "")),
+            (f"SHA-256 of {one['table']}", f"{one['sha256']}{state}"),
+        ]
+        if one["command"] is not None:
+            pairs.append(("computed by", f"{typed(one['command'])}\non {one['day']}, version {one['version']}"))
+        items.append(Facts(pairs, str(one["path"])))
+        if one["command"] is None:
+            items.append(Note([NOT_TOLD.format(table=one["table"])], "fair"))
+        elif one["unchanged"] is False:
+            items.append(Note([CHANGED.format(table=one["table"])], "fair"))
+    return Section(title, items)
+
+
+#: What is not known of a table of runs that lies beside no results of a command.
+NOT_TOLD = (
+    "Not known: {table} lies beside no results of stylobate. Which column stood, in which model with which parameters, and "
+    "the motions with their digests and scale factors are not told; whoever signs this has to know them from elsewhere."
+)
+
+#: What is not known of a table that somebody has changed.
+CHANGED = (
+    "{table} is not as stylobate wrote it: whether its runs are those of the columns, models and motions below is not "
+    "known."
+)
+
+#: Most names of records of a table that are told.
+MOST_NAMES = 40
+
+
+def typed(command: Sequence[str]) -> str:
+    """A command line as it was typed."""
+    return " ".join(["stylobate", *map(_typed, command)])
 
 
 def model_section(names: Iterable[str]) -> Section:
@@ -112,12 +161,6 @@ def versions_of(result: Result) -> dict[str, str]:
     found = {"stylobate": asked.version, "Python": asked.python, "machine": asked.machine}
     digests = [str(one.get("digest", "")) for one in asked.structures]
     return found | ({"digest of what stood": "\n".join(digests)} if digests else {})
-
-
-def _option(name: str) -> str:
-    """An option by its name, the unit behind: ``tail_s`` is ``tail [s]``."""
-    stem, _, unit = name.rpartition("_")
-    return f"{stem.replace('_', ' ')} [{unit}]" if stem and unit in ("s", "g", "m", "y") else name.replace("_", " ")
 
 
 def titled(name: str) -> str:

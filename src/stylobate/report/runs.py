@@ -6,16 +6,22 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 from .. import plots
+from ..analysis.certainty import chance_words
 from ..analysis.directions import harm
+from ..analysis.side_by_side import codes_of, shares
+from ..analysis.verdicts import verdict
 from ..bibliography import cite_run
 from ..constants import g
 from ..outcome import Outcome
+from ..percent import percent
 from ..response import Response
 from ..response.words import doubt_of, longer_tail
 from ..results import RunResult, SeveralRuns
 from . import numbers as n
-from .certainty import beside_them, certainty_section, certainty_sentence
+from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import picture
 from .record import asked_section, model_section, record_section, sources_section, titled, versions_of, warnings_of
@@ -126,7 +132,7 @@ def _doubts(run: RunResult) -> list[str]:
         found.append(f"the run ended before the verdict was certain; go on with {longer} before relying on it.")
     if abs(r.energy_imbalance) > IMBALANCE:
         found.append(
-            f"the energy balance misses {n.percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
+            f"the energy balance misses {percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
             "(--set step_factor=…) and compare."
         )
     if left_out := [str(one) for one in r.provenance.get("left_out", ())]:
@@ -250,7 +256,7 @@ def _energy(r: Response) -> Section:
         "The energy that the motion put in is found again as kinetic energy, height, elastic energy of the joints and what "
         f"friction, damping and impacts took. Missing at the end: {100.0 * share:.2g} % of the energy at stake, the "
         "largest of what was put in, what it takes to overturn, and what a fall sets free. A run that misses more than "
-        f"{n.percent(IMBALANCE)} is warned of under the verdict."
+        f"{percent(IMBALANCE)} is warned of under the verdict."
     )
     return Section(
         "Energy balance",
@@ -285,34 +291,42 @@ def worst_of(runs: Sequence[RunResult]) -> int:
     return max(range(len(runs)), key=lambda i: harm(runs[i].response.measures.row()))
 
 
+def _record_of(run: RunResult) -> str:
+    """The record that its motion is of; the motion itself where the folder does not tell."""
+    asked = run.asked.motions if run.asked is not None else ()
+    return str((asked[0].get("record") if asked else None) or run.folder.name)
+
+
 def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
     """A table of all runs, and the one with the most harm in full."""
     runs = found.runs
-    fell = sum(one.response.collapsed for one in runs)
-    open_ = sum(not one.response.decided for one in runs)
-    name = runs[0].response.structure.name
-    sentence = f"{name} collapses under {fell} of {len(runs)} motions." + (
-        f" {open_} runs are undecided." if open_ else ""
-    )
-    header = ["motion", "PGA [g]", "outcome", "probability of collapse", "peak displacement", "folder"]
+    codes = codes_of(np.array([verdict(one.response.summary()) for one in runs]))
+    (share,) = shares({runs[0].response.structure.name: codes}, [_record_of(one) for one in runs])
+    header = ["motion", "PGA [g]", "outcome", "columns like it that collapse", "peak displacement", "folder"]
     body = []
     for one in runs:
         r, s = one.response, one.summary
         m = r.measures
         moved = m.peak_top_displacement if m.blocks is None else m.blocks.peak_displacement
         peak = n.NONE if one.motion is None else f"{one.motion.pga / g:.3f}"
-        share = s.get("collapse_probability")
         outcome = r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided")
         body.append(
-            [str(r.provenance.get("motion", "")), peak, outcome, n.plain(share), n.length(moved), one.folder.name]
+            [
+                str(r.provenance.get("motion", "")),
+                peak,
+                outcome,
+                chance_words(s) or n.NONE,
+                n.length(moved),
+                one.folder.name,
+            ]
         )
     looks = {name.replace("_", " "): look for name, look in LOOKS.items()}
     worst = worst_of(runs)
     lead = Section(
         "All runs",
         [
-            Note([sentence], "verdict bad" if fell else "verdict"),
-            Rows(header, body, "One row per motion.", mark=2, looks=looks, numbers=True),
+            Note([share.collapses], "verdict bad" if share.exceeded else "verdict"),
+            Rows(header, body, f"One row per motion. {OF_TWINS}", mark=2, looks=looks, numbers=True),
         ],
     )
     title = f"The run with the most harm: {runs[worst].response.provenance.get('motion', '')}"

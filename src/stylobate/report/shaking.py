@@ -14,8 +14,13 @@ from ..motion import Motion
 from ..motion.intensity import motion_summary
 from ..plots import draw_motion, draw_spectra
 from ..response import Response
+from ..results import Result
+from . import numbers as n
 from .page import Facts, Item, Note, Rows, Section
 from .pictures import picture
+
+#: Most motions of a table, and the digits of a digest in it.
+MOST, DIGITS = 40, 12
 
 #: What a record says of itself, in words.
 SAID = ("station", "station_name", "network", "event", "start_time", "stage", "terms")
@@ -78,6 +83,62 @@ def motion_section(
         )
         items.append(picture(draw_spectra(motion, title=" "), caption))
     return Section("The ground motion", items)
+
+
+def motions_section(result: Result) -> Section:
+    """The motions of a result of several: which records, components, azimuths, and by how much they were scaled."""
+    motions = result.asked.motions if result.asked is not None else ()
+    left_out = f" The first {MOST} of {len(motions)}." if len(motions) > MOST else ""
+    body = [
+        [
+            str(one.get("name")), _axes(one), _peaks(one), n.plain(one.get("factor")), _scales(one),
+            f"{float(one['duration_s']):.2f}", f"{float(one['dt_s']):.4g}", str(one.get("digest", ""))[:DIGITS],
+        ]
+        for one in motions[:MOST]
+    ]  # fmt: skip
+    caption = (
+        "The motions as the model takes them, as they were given where there are several models: components with their "
+        "azimuths from north, peaks with the factor in them. The factor is that of the record; runs at several levels "
+        "multiply the motion by the scale factors besides, in brackets how many of them. The digest, "
+        f"here its first {DIGITS} places, is that of samples and factor; in full it stands in the file of what was asked. "
+        f"{n.NONE}: not kept, or not known.{left_out}"
+    )
+    header = ["motion", "components", "peak [g]", "factor", "scale factors", "duration [s]", "step [s]", "digest"]
+    items: list[Item] = [Rows(header, body, caption, numbers=True)]
+    facts = [(str(one.get("name")), "\n".join(told)) for one in motions[:MOST] if (told := _done(one))]
+    if facts:
+        items.append(
+            Facts(facts, "Where they come from, what was done to them, and what the model leaves out of them.")
+        )
+    return Section("The ground motions" if len(motions) > 1 else "The ground motion", items)
+
+
+def _axes(motion: Mapping[str, Any]) -> str:
+    azimuths = motion.get("azimuths") or {}
+    each = [axis if azimuths.get(axis) is None else f"{axis} {azimuths[axis]:g}°" for axis in motion["components"]]
+    return ", ".join(each) + (", reversed" if motion.get("reversed") else "")
+
+
+def _peaks(motion: Mapping[str, Any]) -> str:
+    return (
+        ", ".join(f"{axis}\N{NO-BREAK SPACE}{value:.3f}" for axis, value in (motion.get("peaks_g") or {}).items())
+        or n.NONE
+    )
+
+
+def _scales(motion: Mapping[str, Any]) -> str:
+    if not motion.get("scales"):
+        return n.NONE
+    low, high, number = motion["scales"]
+    return f"{low:.3g}" if number == 1 else f"{low:.3g} to {high:.3g} ({number})"
+
+
+def _done(motion: Mapping[str, Any]) -> list[str]:
+    metadata = motion.get("metadata") or {}
+    known = [str(metadata[key]) for key in SAID if metadata.get(key) not in (None, "", "None")]
+    left_out = [f"left out: {one}" for one in motion.get("left_out") or ()]
+    done = dict.fromkeys([*map(str, motion.get("processing") or ()), *left_out])
+    return [*([", ".join(known)] if known else []), *done]
 
 
 def recorded_ground(response: Response) -> Motion:

@@ -7,6 +7,7 @@ from typing import Any
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER
 from ..analysis.evidence import evidence
 from ..analysis.side_by_side import median_words, shares
+from ..percent import percents
 from ..results import Numbers
 from . import numbers as n
 from .page import Item, Note, Points, Rows
@@ -29,18 +30,21 @@ def states_items(result: Numbers) -> list[Item]:
     basis = [f"“{one['state']}” against “{one['against']}”. {one['basis']}" for one in s["differences"]]
     items: list[Item] = [Points(basis + _at_capacity(s["links"]))]
     shown = verb.replace("collapse", "collapses").replace("exceed ", "exceeds ")
-    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "failed", "median intensity"]
+    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "95 % interval", "failed"]
+    header.append("median intensity")
     body = []
     for one in s["states"]:
         row = [one["label"], *(n.plain(one[key]) for key in ("same_runs", "exceeded", "not_exceeded", "undecided"))]
         body.append(
-            [*row, _share(one), str(one["failed"]), median_words(one["fragility"]) if one["fragility"] else "no curve"]
-        )
+            [*row, _share(one, "share"), _share(one, "interval"), str(one["failed"]),
+             median_words(one["fragility"]) if one["fragility"] else "no curve"]
+        )  # fmt: skip
     caption = (
         "The same motions and levels for every state, and the same slightly different columns where these are drawn; runs "
-        "that failed in one of them are left out of all. Undecided: the run ended before its verdict was certain; share and "
-        "median are with none and with all of them counted in. A pair of runs is undecided where either of them is. A state "
-        "is the stronger the smaller its share and the higher its median intensity."
+        "that failed in one of them are left out of all. Undecided: the run ended before its verdict was certain; share, "
+        "interval and median are with none and with all of them counted in; the interval is over records. A pair of runs is "
+        "undecided where either of them is. A state is the stronger the smaller its share and the higher its median "
+        "intensity."
     )
     items.append(Rows(header, body, caption, numbers=True))
     items += _by_level(result)
@@ -71,11 +75,9 @@ def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
     return said
 
 
-def _share(one: dict[str, Any]) -> str:
-    low, high = one["share_low"], one["share_high"]
-    if low is None or high is None:
-        return n.NONE
-    return n.percent(low) if low == high else f"{100.0 * low:.0f} to {n.percent(high)}"
+def _share(one: dict[str, Any], name: str) -> str:
+    low, high = one.get(f"{name}_low"), one.get(f"{name}_high")
+    return n.NONE if low is None or high is None else percents(low, high)
 
 
 def _by_level(result: Numbers) -> list[Item]:
@@ -91,11 +93,15 @@ def _by_level(result: Numbers) -> list[Item]:
         return []
     body = []
     for level in levels:
-        found = shares({one.name: one.codes[one.im == level] for one in told})
-        body.append([f"{level:.4g}", str(found[0].runs), *(one.words or n.NONE for one in found)])
+        found = shares({one.name: one.codes[one.im == level] for one in told}, told[0].records[told[0].im == level])
+        words = (f"{one.words} ({one.interval_words})" if one.runs else n.NONE for one in found)
+        body.append([f"{level:.4g}", str(found[0].runs), *words])
     measure, curve = str(table["measure"].iloc[0]), next((one for one in s["states"] if one["fragility"]), None)
     unit = f" [{curve['fragility']['unit']}]" if curve is not None else ""
-    caption = "Share by level, of the same runs; from which to which where runs are undecided."
+    caption = (
+        "Share by level, of the same runs; from which to which where runs are undecided. In brackets its 95 % interval over "
+        "records."
+    )
     return [Rows([f"{measure}{unit}", "same runs", *labels], body, caption, numbers=True)]
 
 

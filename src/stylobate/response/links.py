@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from ..percent import percent
+
 #: Names of the histories of links, in the order in which models record them.
 NAMES = ("shear", "tension", "slip", "elongation")
 
@@ -126,7 +128,7 @@ def sentence_of(links: Sequence[LinkMeasures]) -> str:
         all_of_them = {1: f"The {most.kind} is", 2: f"Both {many} are"}.get(
             len(counted), f"All {len(counted)} {many} are"
         )
-        share = f"; the {most.name} bore {100.0 * most.utilisation:.0f} % of what it can" if most.utilisation else ""
+        share = f"; the {most.name} bore {percent(most.utilisation)} of what it can" if most.utilisation else ""
         return f"{all_of_them} whole{share}."
     first = broken[0]
     where = f" in joint {first.joint}" if first.joint else f", the {first.name}"

@@ -47,6 +47,22 @@ class SpaceMeasures:
         }
 
 
+def blank_row(*, space: bool = False, links: bool = False) -> dict:
+    """What a row of a run of a column holds, before there is one: all measures missing.
+
+    Parameters
+    ----------
+    space : bool
+        Of a model in space.
+    links : bool
+        Of a column with links.
+    """
+    nan = math.nan
+    in_space = SpaceMeasures(nan, nan, nan, nan, (), ()) if space else None
+    row = Measures(Outcome.AT_REST, False, nan, nan, nan, nan, nan, nan, nan, nan, 0, space=in_space).row()
+    return row | (row_of(()) if links else {})
+
+
 @dataclass(frozen=True)
 class BlockMeasures:
     """What a run of an assembly comes down to besides; there is no top.

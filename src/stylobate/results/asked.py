@@ -7,16 +7,24 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from datetime import date
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from ..analysis.directions import direction_of
 from ..column.kinds import FROM_DICT
 from ..column.structure import Structure
+from ..constants import g
 from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
+from ..motion.orientation import record_of
 from ..reading import shown
 from ..version import __version__
 from .json_files import read_json
+
+if TYPE_CHECKING:
+    import pandas
 
 #: Number of the form of these files; a larger one is of a later version.
 FORM = 1
@@ -40,7 +48,11 @@ class Asked:
     models : tuple of dict
         ``name`` and ``parameters``.
     motions : tuple of dict
-        ``name``, ``digest``, ``processing``, ``left_out`` and what their files say of themselves (``metadata``).
+        ``name``, ``digest``, ``record``, ``components``, ``azimuths``, ``factor``, ``peaks_g``, ``processing``, ``left_out``
+        and what their files say of themselves (``metadata``); ``scales``, by which runs multiplied them: the least factor,
+        the largest one and how many there are.
+    sources : tuple of dict
+        Tables of runs that it was computed from, see :class:`~stylobate.results.sources.Source`.
     options : dict
         What else was asked, by the name of the option.
     warnings : tuple of str
@@ -53,6 +65,7 @@ class Asked:
     structures: tuple[dict[str, Any], ...] = ()
     models: tuple[dict[str, Any], ...] = ()
     motions: tuple[dict[str, Any], ...] = ()
+    sources: tuple[dict[str, Any], ...] = ()
     options: Mapping[str, Any] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     version: str = __version__
@@ -65,18 +78,28 @@ class Asked:
         cls,
         command: Sequence[str] = (),
         *,
-        structures: Sequence[Structure] = (),
-        models: Sequence[Model] = (),
-        motions: Sequence[Motion] = (),
+        structures: Sequence[Structure | dict[str, Any]] = (),
+        models: Sequence[Model | dict[str, Any]] = (),
+        motions: Sequence[Motion | dict[str, Any]] = (),
+        sources: Sequence[dict[str, Any]] = (),
+        runs: pandas.DataFrame | None = None,
         warnings: Sequence[str] = (),
         **options: Any,
     ) -> Asked:
-        """What is asked now, with the objects that it is asked for; motions as the models take them."""
+        """What is asked now, with the objects that it is asked for, or what another command has kept of them.
+
+        Motions are given as the models take them; ``runs`` is the table that tells by how much each was multiplied.
+        """
         return cls(
             tuple(command),
-            tuple({one.kind: one.to_dict(), "digest": one.digest} for one in structures),
-            tuple({"name": one.name, "parameters": one.parameters()} for one in models),
-            tuple(_motion(one) for one in motions),
+            tuple(
+                one if isinstance(one, dict) else {one.kind: one.to_dict(), "digest": one.digest} for one in structures
+            ),
+            tuple(
+                one if isinstance(one, dict) else {"name": one.name, "parameters": one.parameters()} for one in models
+            ),
+            tuple(one if isinstance(one, dict) else _motion(one) | scales_of(runs, one.name) for one in motions),
+            tuple(sources),
             options,
             tuple(warnings),
             day=date.today().isoformat(),
@@ -126,9 +149,23 @@ def _motion(one: Motion) -> dict[str, Any]:
         "digest": one.digest,
         "duration_s": one.duration,
         "dt_s": one.dt,
+        "record": record_of(one),
+        **direction_of(one),
         "components": list(one.components),
+        "azimuths": dict(one.metadata.get("azimuths") or {}),
+        "factor": one.factor,
+        "peaks_g": {axis: float(np.abs(values).max()) / g for axis, values in one.components.items()},
         "processing": list(one.processing),
         "left_out": list(one.metadata.get("left_out", ())),
         "references": list(one.metadata.get("references", ())),
         "metadata": said,
     }
+
+
+def scales_of(runs: pandas.DataFrame | None, motion: str) -> dict[str, Any]:
+    """Smallest and largest factor by which runs multiplied a motion, and how many of them differ; empty if not told."""
+    key = next((one for one in ("motion", "record") if runs is not None and one in runs and "factor" in runs), None)
+    if runs is None or key is None:
+        return {}
+    mine: Any = runs.loc[runs[key].astype(str) == motion, "factor"]
+    return {"scales": [float(mine.min()), float(mine.max()), int(mine.nunique())]} if len(mine) else {}

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...constants import g
 from ...errors import InputError, OutOfRangeWarning
+from ...percent import percent
 from ..drift import cure_of
 from ..motion import MAX_SAMPLES, Motion, integrate
 from .component import Component
@@ -222,7 +223,7 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         mean = float(array.mean()) if array.size else 0.0
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
             _doubt(
-                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {abs(mean) / peak:.0%} of its peak, as "
+                f"{name}: the mean of component {axis} is {mean / g:.3g} g, {percent(abs(mean) / peak)} of its peak, as "
                 "when an instrument's offset was left in; take it off with stylobate.motion.demean (--condition "
                 "demean) unless it is meant."
             )

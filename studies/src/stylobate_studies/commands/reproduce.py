@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stylobate.cli import options as o
+from stylobate.percent import percent
 
 if TYPE_CHECKING:
     from ..paper.cases import Grids
@@ -109,9 +110,9 @@ def describe(summary: dict) -> None:
     from stylobate.cli import console
 
     folder = Path(summary["folder"]).resolve()
-    cells = {name: f"{100.0 * value:.0f} % of the cells collapse" for name, value in summary["unsafe_share"].items()}
+    cells = {name: f"{percent(value)} of the cells collapse" for name, value in summary["unsafe_share"].items()}
     doubt = {
-        f"{name}, uncertain": f"{100.0 * value:.0f} % of the cells near the boundary"
+        f"{name}, uncertain": f"{percent(value)} of the cells near the boundary"
         for name, value in summary["uncertain_share"].items()
     }
     console.say(

@@ -15,7 +15,7 @@ from . import cases as c
 
 
 def compile_ahead() -> None:
-    """Run models for as short as can be, in the order in which the study comes to them: their compiled code stays on disk."""
+    """Run models for as short as can be, in the order of the study: their compiled code stays on disk."""
     in_the_plane = [(c.MODELS[label], "rectangular") for label in (c.SLIDING, c.BLOCKS)]
     in_space = [(DistinctElement3D(law=law), "circular") for law in ("rim", "bed")]
     for model, section in (*in_the_plane, *in_space):

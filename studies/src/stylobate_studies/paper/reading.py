@@ -10,7 +10,7 @@ import numpy as np
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
 from stylobate.constants import g
-from stylobate.report.numbers import percent
+from stylobate.percent import percent
 
 from .cases import BEAM, DEM, REFERENCE, VARIANTS
 from .study import PaperResults

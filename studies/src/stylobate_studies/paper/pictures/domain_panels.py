@@ -12,8 +12,8 @@ from matplotlib.lines import Line2D
 
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
-from stylobate.analysis.side_by_side import share_words
 from stylobate.constants import g
+from stylobate.percent import percents
 from stylobate.plots.domain import draw_boundary, draw_cells, draw_static_line
 from stylobate.plots.style import BLACK, WIDTH, page, styled
 
@@ -52,7 +52,7 @@ def _domain(axes: Axes, domain: Domain) -> tuple[dict[str, Artist], str]:
     handles["static uplift"] = Line2D([], [], color=uplift.get_color(), linestyle=uplift.get_linestyle(),
                                       linewidth=uplift.get_linewidth(), label="static uplift")  # fmt: skip
     counts, cells = domain.counts, len(domain.rows)
-    return handles, share_words(counts[v.COLLAPSED], cells - counts[v.COLLAPSED] - counts[v.STANDS], cells)
+    return handles, percents(counts[v.COLLAPSED] / cells, 1.0 - counts[v.STANDS] / cells)
 
 
 def _verdicts(axes: Axes, domain: Domain, verdicts: np.ndarray) -> dict[str, Artist]:

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from stylobate.analysis.probability import CollapseProbability
+from stylobate.percent import percent
 from stylobate.plots.probability import draw_band, draw_shares
 from stylobate.plots.style import WIDTH, styled
 
@@ -46,4 +47,4 @@ def _shares(axes: Axes, one: CollapseProbability) -> tuple[dict[str, Artist], st
     """One map of several: its handles by label, and the mean share that collapses."""
     handles: dict[str, Artist] = {str(patch.get_label()): patch for patch in draw_shares(axes, one)}
     draw_band(axes, one)
-    return handles, f"{100.0 * one.mean:.0f} %"
+    return handles, percent(one.mean)

@@ -1,0 +1,105 @@
+"""What a result was computed from: the table of runs of another command, with what that one was asked, or of anybody."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..own_files import LIST, OwnFiles, digest
+from .asked import Asked, asked_file, scales_of
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Commands by the stem of the table of runs that they write.
+COMMANDS = {"runs": "ida", "study": "study", "suite": "suite"}
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A table of runs, as far as a result rests on it.
+
+    Parameters
+    ----------
+    path : Path
+        As given: a folder, or a file.
+    table : Path
+    runs : pandas.DataFrame
+        The rows that are used.
+    """
+
+    path: Path
+    table: Path
+    runs: pandas.DataFrame
+
+    @cached_property
+    def asked(self) -> Asked | None:
+        """What the command that wrote the table was asked; None where it lies beside none, or in a later version's form."""
+        command = COMMANDS.get(self.table.stem)
+        file = self.table.parent / asked_file(command or "")
+        if command is None or not file.is_file() or not OwnFiles(self.table.parent).lists(self.table):
+            return None
+        return Asked.read(file)
+
+    def names(self, column: str) -> list[str]:
+        """Different values of a column of the table; none where it has no such column."""
+        return list(dict.fromkeys(map(str, self.runs[column]))) if column in self.runs else []
+
+    @property
+    def structures(self) -> list[dict[str, Any]]:
+        """What stood in these runs, as kept by the command."""
+        asked, names = self.asked, self.names("column")
+        kept = asked.structures if asked is not None else ()
+        return [one for one in kept if not names or any(_named(one, name) for name in names)]
+
+    @property
+    def models(self) -> list[dict[str, Any]]:
+        """Models of these runs, as kept by the command."""
+        asked, names = self.asked, self.names("model")
+        return [one for one in (asked.models if asked is not None else ()) if not names or one["name"] in names]
+
+    @property
+    def motions(self) -> list[dict[str, Any]]:
+        """Motions of these runs, as kept by the command, each with the factors by which it was multiplied."""
+        asked = self.asked
+        scaled = None if self.table.stem == "suite" else self.runs  # a suite runs its motions as they are
+        return [] if asked is None else [{**scales_of(scaled, str(one["name"])), **one} for one in asked.motions]
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """What is kept of it beside the result that rests on it."""
+        asked, records = self.asked, self.names("record")
+        listed = (self.table.parent / LIST).is_file() and OwnFiles(self.table.parent).lists(self.table)
+        return {
+            "path": str(self.path),
+            "table": self.table.name,
+            "sha256": digest(self.table),
+            "unchanged": OwnFiles(self.table.parent).holds(self.table) if listed else None,
+            "runs": len(self.runs),
+            "records": records,
+            "columns": self.names("column"),
+            "models": self.names("model"),
+            "command": None if asked is None else list(asked.command),
+            "version": None if asked is None else asked.version,
+            "day": None if asked is None else asked.day,
+        }
+
+
+def kept_of(sources: Sequence[Source]) -> dict[str, Any]:
+    """What results that rest on these runs keep of them, as arguments of :meth:`Asked.of`; each structure once."""
+    found: dict[str, dict[str, Any]] = {"structures": {}, "models": {}, "motions": {}}
+    warnings: dict[str, None] = {}
+    for one in sources:
+        for kind, some in found.items():
+            for value in getattr(one, kind):
+                some.setdefault(str(value.get("digest") or sorted(value.items(), key=str)), value)
+        warnings |= dict.fromkeys(one.asked.warnings if one.asked is not None else ())
+    kept = {kind: list(some.values()) for kind, some in found.items()}
+    return kept | {"sources": [one.facts for one in sources], "earlier": list(warnings)}
+
+
+def _named(structure: dict[str, Any], name: str) -> bool:
+    return any(isinstance(one, dict) and one.get("name") == name for one in structure.values())

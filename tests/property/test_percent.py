@@ -1,0 +1,59 @@
+"""One rule of rounding for shares, whoever tells them: the page, reports, pictures and the command line."""
+
+import re
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stylobate
+from stylobate.analysis import verdicts as v
+from stylobate.analysis.certainty import Population, chance_words
+from stylobate.analysis.side_by_side import shares
+from stylobate.column.scatter import Scatter
+from stylobate.percent import percent, percents, whole
+
+SOURCES = Path(stylobate.__file__).parent
+
+
+@pytest.mark.parametrize(
+    ("share", "said"),
+    [(4 / 7, "57"), (0.575, "58"), (23 / 40, "58"), (0.145, "15"), (0.125, "13"), (0.565, "57"), (0.0, "0"), (1e-17, "0"), (1.0, "100"), (0.001, "<1"), (0.998, ">99"),
+     (1 / 3, "33"), (2 / 3, "67"), (0.5749, "57"), (float("nan"), "–"), (float("inf"), "–")],
+)  # fmt: skip
+def test_half_of_a_per_cent_is_rounded_up(share, said):
+    assert whole(share) == said
+    assert percent(share) == f"{said} %"
+
+
+def test_every_share_of_up_to_four_hundred_runs_is_rounded_as_its_fraction_and_never_to_none_or_all():
+    for runs in range(1, 401):
+        for count in range(runs + 1):
+            exact = (Fraction(100 * count, runs) + Fraction(1, 2)).__floor__()
+            said = "<1" if exact == 0 < count else ">99" if exact == 100 > Fraction(100 * count, runs) else str(exact)
+            assert whole(count / runs) == said, (count, runs)
+
+
+def test_all_who_tell_a_share_tell_the_same():
+    row = {"collapsed": True, "decided": True, "outcome": "collapsed", "collapse_time_s": 1.0}
+    rows = tuple({**row, "peak_top_displacement_m": 1.0, "collapsed": k < 23,
+                  "outcome": "collapsed" if k < 23 else "rocked"} for k in range(40))  # fmt: skip
+    (share,) = shares({"a": np.array([1] * 23 + [0] * 17)})
+    population = Population([None] * 40, rows, Scatter(), 0)
+    assert percents(share.low, share.high) == share.words == "58 %"
+    assert chance_words({f"twins_{key}": value for key, value in population.counts.items()}).startswith("58 % of 40 (")
+    assert f"{whole(population.interval[0])}–{whole(population.interval[1])} %" in population.sentence
+    assert population.counts[v.COLLAPSED] == 23
+
+
+def test_nobody_else_rounds_a_share():
+    """Neither a script of the page nor a module writes a percentage of whole numbers by itself."""
+    own = re.compile(r":\.0f\} %|:\.0%|Math\.round\(100")
+    found = [
+        f"{path.relative_to(SOURCES)}: {line.strip()}"
+        for path in sorted([*SOURCES.rglob("*.py"), *SOURCES.rglob("*.js")])
+        for line in path.read_text(encoding="utf-8").splitlines()
+        if own.search(line) and "running.done" not in line  # how far a job is, no share of runs
+    ]
+    assert not found
