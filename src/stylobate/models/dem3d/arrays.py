@@ -9,6 +9,7 @@ import numpy as np
 
 from ...kernels.run_codes import CHUNK, LANES
 from ...kernels.shared.records import STATE
+from ..drums.bodies import Topology
 from ..shared.lanes import aligned_zeros, in_rows, with_copies
 
 #: Records of which every lane has its own numbers from the start.
@@ -24,43 +25,30 @@ class Records:
         Of the engine.
     types : dict of dtype
         Of the records (``kernels/dem3d/records.py``).
-    bodies : int
-        The base among them; every one has a contact with the one below.
+    topology : Topology
+        Every body has a contact with the one below.
     joints : int
         Rows of the records of joints: as many as these contacts, or those of a body's vertices.
-    links : int
-        Their contacts follow, :meth:`join_links`.
     """
 
-    def __init__(self, kernel: Any, types: Mapping[str, np.dtype], bodies: int, joints: int, links: int = 0) -> None:
+    def __init__(self, kernel: Any, types: Mapping[str, np.dtype], topology: Topology, joints: int) -> None:
         self.kernel = kernel
-        contacts = bodies - 1 + links
+        bodies, links, contacts = topology.bodies, len(topology.links), (*topology.joints, *topology.links)
         rows = {
-            "body": bodies, "joint": joints, "load": contacts + 2, "link": links, "bond": links, "ground": CHUNK + 1,
-            "span": bodies, "hold": joints if links else 0, "pair": contacts, "touch": 2 * contacts,
+            "body": bodies, "joint": joints, "load": len(contacts) + 2, "link": links, "bond": links, "ground": CHUNK + 1,
+            "span": bodies, "hold": joints if links else 0, "pair": len(contacts), "touch": 2 * len(contacts),
         }  # fmt: skip
         arrays = (aligned_zeros(rows.get(name, 1), types[name]) for name in STATE[:-1])
         self.state: tuple[Any, ...] = (*arrays, bodies - 1)
         (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
          self.pair, self.span, self.touch, _) = self.state  # fmt: skip
         self.rows = {name: in_rows(getattr(self, name), LANES) for name in OF_A_LANE}
-        self.pair["lower"][: bodies - 1] = np.arange(bodies - 1)
-        self.pair["upper"][: bodies - 1] = np.arange(1, bodies)
-        self._list(bodies - 1)
-
-    def join_links(self, links: Any) -> None:
-        """Write what links are in all lanes, and list their contacts behind those of the joints."""
-        for name, values in links.bond.items():
-            self.bond[name] = values
-        first = len(self.body) - 1
-        self.pair["lower"][first:], self.pair["upper"][first:] = links.lower, links.upper
-        self._list(len(self.pair))
-
-    def _list(self, count: int) -> None:
-        """List the first contacts body by body; the last load is one of nothing."""
         from ...kernels.shared.contacts import list_contacts
 
-        list_contacts(self.pair, count, len(self.load) - 1, self.span, self.touch)
+        self.pair["lower"], self.pair["upper"] = np.transpose(contacts)
+        list_contacts(
+            self.pair, len(contacts), len(self.load) - 1, self.span, self.touch
+        )  # the last load is of nothing
 
     # -- numbers of a lane ---------------------------------------------------------------------------------------
 

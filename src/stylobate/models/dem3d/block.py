@@ -87,8 +87,8 @@ class SpaceBlock(LaneRuns):
         dt, chunks = whole_steps(motion, self.options.tail, packed.step)
         steps = chunks * self.chunk
         records.lane["dt"][0, lane] = self.dt[lane] = dt
-        if packed.links is not None:
-            records.join_links(packed.links)
+        if self.tied:
+            records.bond[...] = packed.bond
             records.link["dt"][:, lane] = dt
         feed, watch = self.feed[0], self.watch[0]
         watch["follow"][lane] = self.options.until_end

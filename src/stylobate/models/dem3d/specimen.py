@@ -12,11 +12,12 @@ from ...column.specimen import Specimen
 from ...errors import InputError
 from ...response import Collapse
 from ...response.poses import rotation_matrices
+from ..drums.joints import damping_rows
 from ..shared.stable_step import highest_frequency
 from ..start import Toss
 from .arrays import Records
 from .lying import lying, potential, turned
-from .packing import Packed, damping_rows, start_watch
+from .packing import Packed, start_watch
 
 #: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
 ROUND_UP = 64
@@ -139,7 +140,7 @@ def pack_specimen(records: Records, specimen: Specimen, damping: tuple[float, fl
     least = height_barrier(specimen)
     lowest = specimen.mass * specimen.gravity * (least.max() - rest.height)
     width = np.array([math.sqrt(rest.area)])
-    return Packed(records.taken(0), step, width, max(lowest, 0.0), least, axes=axes.T)
+    return Packed(records.taken(0), step, width, max(lowest, 0.0), least, records.bond, axes.T)
 
 
 def _turn(records: Records, lane: int, turn: np.ndarray) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -11,9 +11,10 @@ import numpy as np
 from ...kernels.run_codes import CHUNK, RUNNING
 from ...kernels.shared.records import STATE
 from ...motion import Motion
+from ..drums.bodies import Topology
 from ..shared.ground import along_base
 from ..shared.lanes import aligned_zeros, in_rows, with_copies
-from .packing import Packed, Topology
+from .packing import Packed
 
 
 class Law(NamedTuple):
@@ -74,6 +75,13 @@ class Records:
         from ...kernels.shared.contacts import list_contacts
 
         list_contacts(self.pair, self.contacts, len(self.load) - 1, self.span, self.touch)
+
+    def fill(self, lane: int, /, **records: Mapping[str, Any]) -> None:
+        """Write fields of some records into a lane."""
+        for record, fields in records.items():
+            array = getattr(self, record)
+            for name, values in fields.items():
+                array[name][..., lane] = values
 
     def put(self, lane: int, packed: Packed) -> None:
         """Write the numbers of a run into a lane: of all records that differ from lane to lane."""

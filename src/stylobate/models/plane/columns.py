@@ -12,11 +12,12 @@ from ...constants import DEGREE
 from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ..base import Case, RunOptions
+from ..drums.bodies import Topology
 from ..drums.runs import CALLS_PER_RUN, LaneRuns
 from ..drums.whole_steps import whole_steps
 from ..start import check_in_plane
 from .block import Law, Records, base_acceleration, clear_watch, feed_motion
-from .packing import Packed, Topology
+from .packing import Packed
 from .pose import leans_right, placed, sink
 from .standing import stands_for_good
 
@@ -77,8 +78,7 @@ class ColumnLanes(LaneRuns):
         check_in_plane(start, "a model in the plane")
         records = self.records
         fields, (push, lift) = placed(start, records, lane, column.gravity)
-        for name, values in fields.items():
-            records.body[name][:, lane] = values
+        records.fill(lane, body=fields)
         records.joint["fs"][0, :, lane] = 0.0
         records.joint["fs"][0, -1 if leans_right(start) else 0, lane] = push
         sink(records, lane, lift)
@@ -89,7 +89,7 @@ class ColumnLanes(LaneRuns):
 
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """Ledger as if the column stood in a lane without its pretension; ``bare`` is that column [J]."""
-        records = Records(self.records.law, Topology.of_column(bare))
+        records = Records(self.records.law, Topology.of(bare))
         records.put(0, self.pack(bare))
         records.feed[...] = self.feed
         return records.energies(0, float(self.dt[lane]), self.ground_acceleration(lane))
