@@ -7,9 +7,12 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from .assembly import Assembly
 from .block import Block
 from .column import Column
+from .found_geometry import Geometry, geometry
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
 
@@ -40,11 +43,10 @@ def links_of_column(
     prefix : str
         Of the names of the links.
     """
-    found = []
+    at, found = geometry(column), []
     for link, one in zip(column.links, column.placed_links, strict=True):
         between: Any = tuple(names[f"drum {body}" if body else "ground"] for body in (one.lower, one.upper))
-        low, high = _ends(column, one)
-        ends = (low, high) if one.straight else (high,)
+        ends = _ends(column, one) if one.straight else (_in_joint(column, at, one),)
         moved = ((x + place[0], y, z + place[1]) for x, y, z in ends)
         where = dict(zip(("at", "to"), moved, strict=False))
         # what stone a pin leaves was looked at in the column
@@ -54,11 +56,22 @@ def links_of_column(
     return found
 
 
-def _ends(column: Column, link: PlacedLink) -> list[tuple[float, float, float]]:
-    """Places of a link on its two bodies as they stand [m]."""
-    ends = []
-    for body, (x, y, z) in zip((link.lower, link.upper), column.link_ends(link)[:2], strict=True):
-        one = column.bodies[body]
-        c, s = math.cos(one.lean), math.sin(one.lean)
-        ends.append((float(one.place[0] + c * x - s * z), float(y), float(one.place[1] + s * x + c * z)))
-    return ends
+def _ends(column: Column, link: PlacedLink) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Ends of a tie or core of a column as it stands [m]."""
+    at, ends = geometry(column), []
+    for body, place in zip((link.lower, link.upper), link.arms, strict=True):
+        x, z = place[0], place[2]
+        if body:
+            angle = float(at.lean[body - 1] + at.tilt[body - 1])
+            c, s = math.cos(angle), math.sin(angle)
+            x, z = np.array([c * x - s * z, s * x + c * z]) + at.centroid[body - 1]
+        ends.append((float(x), float(place[1]), float(z)))
+    return ends[0], ends[1]
+
+
+def _in_joint(column: Column, at: Geometry, link: PlacedLink) -> tuple[float, float, float]:
+    """Place of a dowel, bar or layer on the lower face of its upper drum, as it stands [m]."""
+    i = link.upper - 1
+    axis, lean = float(at.lean[i] + at.tilt[i]), float(at.lean[i])
+    x, z = at.centroid[i] - column.drums[i].centroid_height * np.array([-math.sin(axis), math.cos(axis)])
+    return float(x + link.high[0] * math.cos(lean)), link.high[1], float(z + link.high[0] * math.sin(lean))
