@@ -1,4 +1,4 @@
-"""Records of bodies in space over lanes: the engine's arrays, the list of their contacts, and what a lane reads as."""
+"""Records of bodies in space over lanes, and what a lane reads as."""
 
 from __future__ import annotations
 
@@ -7,66 +7,27 @@ from typing import Any
 
 import numpy as np
 
-from ...kernels.run_codes import CHUNK, LANES
 from ...kernels.shared.records import STATE
 from ..drums.bodies import Topology
-from ..shared.lanes import aligned_zeros, in_rows, with_copies
-
-#: Records of which every lane has its own numbers from the start.
-OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
+from ..drums.records import LaneRecords
 
 
-class Records:
-    """Records of bodies of which each stands on the one below, in lanes, as the engine takes them.
+class Records(LaneRecords):
+    """Records of bodies of which each stands on the one below; others as for :class:`LaneRecords`.
 
     Parameters
     ----------
     kernel : module
         Of the engine.
-    types : dict of dtype
-        Of the records (``kernels/dem3d/records.py``).
-    topology : Topology
-        Every body has a contact with the one below.
-    joints : int
-        Rows of the records of joints: as many as these contacts, or those of a body's vertices.
     """
 
     def __init__(self, kernel: Any, types: Mapping[str, np.dtype], topology: Topology, joints: int) -> None:
+        super().__init__(types, topology, joints, spare=1)  # for what all loads of a body add up to
         self.kernel = kernel
-        bodies, links, contacts = topology.bodies, len(topology.links), (*topology.joints, *topology.links)
-        rows = {
-            "body": bodies, "joint": joints, "load": len(contacts) + 2, "link": links, "bond": links, "ground": CHUNK + 1,
-            "span": bodies, "hold": joints if links else 0, "pair": len(contacts), "touch": 2 * len(contacts),
-        }  # fmt: skip
-        arrays = (aligned_zeros(rows.get(name, 1), types[name]) for name in STATE[:-1])
-        self.state: tuple[Any, ...] = (*arrays, bodies - 1)
-        (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
-         self.pair, self.span, self.touch, _) = self.state  # fmt: skip
-        self.rows = {name: in_rows(getattr(self, name), LANES) for name in OF_A_LANE}
-        from ...kernels.shared.contacts import list_contacts
-
-        self.pair["lower"], self.pair["upper"] = np.transpose(contacts)
-        list_contacts(
-            self.pair, len(contacts), len(self.load) - 1, self.span, self.touch
-        )  # the last load is of nothing
-
-    # -- numbers of a lane ---------------------------------------------------------------------------------------
-
-    def fill(self, lane: int, /, **records: Mapping[str, Any]) -> None:
-        """Write fields of some records into a lane."""
-        for record, fields in records.items():
-            array = getattr(self, record)
-            for name, values in fields.items():
-                array[name][..., lane] = values
-
-    def taken(self, lane: int) -> dict[str, np.ndarray]:
-        """All numbers of a lane, for :meth:`put`."""
-        return {name: rows[:, lane].copy() for name, rows in self.rows.items()}
 
     def put(self, lane: int, numbers: Mapping[str, np.ndarray]) -> None:
         """Write all numbers of a lane."""
-        for name, rows in self.rows.items():
-            rows[:, lane] = numbers[name]
+        super().put(lane, numbers)
         if "near" in (self.lane.dtype.names or ()):
             self.look_at_all_vertices()
 
@@ -77,10 +38,6 @@ class Records:
         self.lane["count"] = len(every)
 
     # -- looks at a lane, which change nothing that matters ------------------------------------------------------
-
-    def now(self, *others: str) -> tuple[Any, ...]:
-        """A state of copies of all records that a look at the forces changes, and of some others."""
-        return with_copies(self.state, *others)
 
     def energies(self, lane: int, dt: float, base: np.ndarray, state: tuple[Any, ...] | None = None) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].

@@ -14,8 +14,7 @@ from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
-from ..drums.runs import CALLS_PER_RUN, LaneRuns
-from ..drums.whole_steps import whole_steps
+from ..drums.runs import LaneRuns
 from ..shared.lanes import in_rows
 from .arrays import Records
 from .packing import Packed
@@ -72,45 +71,23 @@ class SpaceBlock(LaneRuns):
         *,
         planar: bool = False,
     ) -> None:
-        super().__init__(pack, (records.lane, records.feed, records.watch, records.link), options, cost)
+        super().__init__(pack, records, options, cost)
         self.records, self.bodies, self.planar = records, bodies, planar
-        self.packed: dict[int, Packed] = {}
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
-    def load(self, lane: int, case: Case) -> None:
-        """Start a case in a lane."""
-        self.cases[lane] = case
-        packed, motion, records = self.pack(case.column), case.motion, self.records
-        self.packed[lane] = packed
-        records.put(lane, packed.lane)
-        dt, chunks = whole_steps(motion, self.options.tail, packed.step)
-        steps = chunks * self.chunk
-        records.lane["dt"][0, lane] = self.dt[lane] = dt
-        if self.tied:
-            records.bond[...] = packed.bond
-            records.link["dt"][:, lane] = dt
-        feed, watch = self.feed[0], self.watch[0]
-        watch["follow"][lane] = self.options.until_end
-        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
-        feed["ratio"][lane] = dt / motion.dt
-        feed["factor"][lane] = motion.factor
-        feed["last"][lane] = motion.steps - 1
+    def stand(self, lane: int, case: Case) -> None:
+        """Note how the base of a lane moves."""
+        motion, feed, watch = case.motion, self.feed[0], self.watch[0]
         along, high = motion.samples**2, 0.0
-        feed["x"][lane] = motion.samples.ctypes.data
         if motion.y_samples is not None:
-            feed["y"][lane] = motion.y_samples.ctypes.data
             along = along + motion.y_samples**2
         if motion.z_samples is not None:
-            feed["z"][lane] = motion.z_samples.ctypes.data
             high = float(np.abs(motion.z_samples).max()) * abs(motion.factor)
         flat = math.sqrt(float(along.max())) * abs(motion.factor)
         level, slope = float(feed["r"][8, lane]), math.hypot(feed["r"][2, lane], feed["r"][5, lane])
         watch["amax"][lane] = flat + slope * high
         watch["vmax"][lane] = level * high + slope * flat
-        self.steps[lane] = steps
-        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
-        self.begin(lane)
 
     def check_start(self, column: Any) -> None:
         """Refuse a start that is not one for what stands in the block."""

@@ -51,7 +51,7 @@ SPECIMEN, RING, CHIPPED = "specimen", "ring", "chipped"
 FACES = {SPECIMEN: "vertex", "rectangular": "corner", RING: "ring", CHIPPED: "chip"}
 
 #: The contacts of a single body: with the base.
-ALONE = Topology(2, ((0, 1),))
+ALONE = Topology(2, ((0, 1),), stack=1)
 
 
 class Kind(NamedTuple):

@@ -12,8 +12,8 @@ import numpy as np
 from ...column import Column
 from ...column.found_in_space import base_axes, space_geometry, upward
 from ...kernels.dem3d.records import CHIPS, RINGS
-from ...kernels.run_codes import RUNNING
 from ..drums.bodies import body_fields
+from ..drums.records import UNSEEN
 from .arrays import Records
 
 
@@ -50,8 +50,7 @@ class Packed:
 
 def start_watch(records: Records, top: np.ndarray) -> None:
     """Let the first lane be looked at from the start: nothing has happened; ``top`` is where the top stands [m]."""
-    fields = dict.fromkeys(("when", "which", "wide"), -1.0)
-    records.fill(0, watch=fields | {"status": RUNNING, "sx": top[0], "sy": top[1]})
+    records.fill(0, watch=UNSEEN | {"sx": top[0], "sy": top[1]})
 
 
 def pack_column(

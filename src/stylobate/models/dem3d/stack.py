@@ -10,10 +10,11 @@ from ...column import Column
 from ...kernels.shared.records import LANE
 from ...response import Collapse
 from ...response.collapse import what_is_lost
+from ..drums.records import sink
 from ..start import check_in_plane, check_takes_pose
 from .arrays import Records
 from .packing import Packed
-from .pose import placed, sink
+from .pose import placed
 from .verdict import stands_for_good
 
 
@@ -46,7 +47,7 @@ class Stack:
             records.kernel.forces(state)
             return float(records.load["f"][0, 2, lane])
 
-        sink(records.body, lane, force, carried)
+        sink(records.body["z"], lane, force, carried)
 
     def top(self, records: Records, lane: int) -> np.ndarray:
         """Place of the middle of the topmost face along the base [m], shape (2,)."""

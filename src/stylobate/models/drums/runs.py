@@ -23,6 +23,8 @@ from .barriers import lowest_barrier
 from .histories import ledger_imbalance
 from .links import acting, link_measures, link_snapshot
 from .pretension import held_at_start, set_free, without_tension
+from .records import LaneRecords
+from .whole_steps import whole_steps
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
@@ -35,18 +37,16 @@ class LaneRuns:
     ----------
     pack : callable
         Gives the numbers of a column.
-    records : tuple of array
-        Of the engine: ``lane``, ``feed``, ``watch`` and ``link``.
+    records : LaneRecords
     options : RunOptions
     cost : float
         About what a step of a run costs [s].
     """
 
-    def __init__(
-        self, pack: Callable[[Any], Any], records: tuple[Any, Any, Any, Any], options: RunOptions, cost: float
-    ) -> None:
-        self.pack, self.options = pack, options
-        self.lane, self.feed, self.watch, self.link = records
+    def __init__(self, pack: Callable[[Any], Any], records: LaneRecords, options: RunOptions, cost: float) -> None:
+        self.pack, self.arrays, self.options = pack, records, options
+        self.lane, self.feed, self.watch, self.link = records.lane, records.feed, records.watch, records.link
+        self.packed: dict[int, Any] = {}
         self.lanes, self.chunk, self.tied = LANES, CHUNK, len(self.link) > 0
         self.watch["status"] = FREE
         self.dt = np.zeros(self.lanes)
@@ -71,6 +71,10 @@ class LaneRuns:
 
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """The same as if the column stood there without its pretension; ``bare`` is that column."""
+        raise NotImplementedError
+
+    def stand(self, lane: int, case: Case) -> None:
+        """Note how a column stands in a lane, and how its base moves."""
         raise NotImplementedError
 
     def take_pose(self, lane: int, column: Any, start: Any) -> None:
@@ -102,6 +106,25 @@ class LaneRuns:
         return lowest_barrier(self.column(lane))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
+
+    def load(self, lane: int, case: Case) -> None:
+        """Start a case in a lane."""
+        self.cases[lane] = case
+        packed = self.packed[lane] = self.pack(case.column)
+        self.arrays.put(lane, packed.lane)
+        dt, chunks = whole_steps(case.motion, self.options.tail, packed.step)
+        steps, feed = chunks * self.chunk, self.feed[0]
+        self.lane["dt"][0, lane] = self.dt[lane] = dt
+        if self.tied:
+            self.arrays.bond[...] = packed.bond
+            self.link["dt"][:, lane] = dt
+        self.watch["follow"][0, lane] = self.options.until_end
+        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
+        self.arrays.feed_motion(lane, case.motion, dt)
+        self.stand(lane, case)
+        self.steps[lane] = steps
+        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
+        self.begin(lane)
 
     def begin(self, lane: int) -> None:
         """Take the start's pose, if there is one; velocities half a step before the start, and the energy there.

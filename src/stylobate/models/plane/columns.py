@@ -13,12 +13,11 @@ from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ..base import Case, RunOptions
 from ..drums.bodies import Topology
-from ..drums.runs import CALLS_PER_RUN, LaneRuns
-from ..drums.whole_steps import whole_steps
+from ..drums.runs import LaneRuns
 from ..start import check_in_plane
-from .block import Law, Records, base_acceleration, clear_watch, feed_motion
+from .block import Law, Records, base_acceleration, slope_base
 from .packing import Packed
-from .pose import leans_right, placed, sink
+from .pose import leans_right, placed, sink_in
 from .standing import stands_for_good
 
 
@@ -42,36 +41,19 @@ class ColumnLanes(LaneRuns):
         self, law: Law, pack: Callable[[Column], Packed], topology: Topology, options: RunOptions, cost: float
     ) -> None:
         self.records = records = Records(law, topology)
-        super().__init__(pack, (records.lane, records.feed, records.watch, records.link), options, cost)
+        super().__init__(pack, records, options, cost)
         self.slip = np.zeros((self.lanes, topology.stack))
         self.stood = np.zeros((self.lanes, 2, topology.stack))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
-    def load(self, lane: int, case: Case) -> None:
-        """Start a case in a lane."""
-        self.cases[lane] = case
-        column, motion = case
-        packed, records = self.pack(column), self.records
-        records.put(lane, packed)
-        dt, chunks = whole_steps(motion, self.options.tail, packed.step)
-        steps = chunks * self.chunk
-        records.lane["dt"][0, lane] = dt
-        if self.tied:
-            records.link["dt"][:, lane] = dt
-        clear_watch(records, lane, self.options.until_end)
-        feed_motion(records, lane, motion, dt, column.as_found.base_tilt * DEGREE)
-        feed, watch, body = self.feed[0], self.watch[0], records.body
-        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
-        for name, value in packed.top.items():
-            watch[name][lane] = value
-        self.slip[lane] = records.joint_state(lane)[1]
+    def stand(self, lane: int, case: Case) -> None:
+        """Note how a column stands in a lane, and how its base moves."""
+        slope_base(self.records, lane, case.motion, case.column.as_found.base_tilt * DEGREE)
+        body = self.records.body
+        self.slip[lane] = self.records.joint_state(lane)[1]
         self.stood[lane] = body["x"][1:, lane], body["z"][1:, lane]
-        watch["stood"][lane] = self.top(lane)
-        self.dt[lane] = dt
-        self.steps[lane] = steps
-        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
-        self.begin(lane)
+        self.watch["stood"][0, lane] = self.top(lane)
 
     def take_pose(self, lane: int, column: Column, start: Any) -> None:
         """Tilt a column that stands in a lane."""
@@ -81,7 +63,7 @@ class ColumnLanes(LaneRuns):
         records.fill(lane, body=fields)
         records.joint["fs"][0, :, lane] = 0.0
         records.joint["fs"][0, -1 if leans_right(start) else 0, lane] = push
-        sink(records, lane, lift)
+        sink_in(records, lane, lift)
 
     def step(self, chunks: int) -> None:
         """Let the kernel take so many chunks of steps."""
@@ -90,8 +72,9 @@ class ColumnLanes(LaneRuns):
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """Ledger as if the column stood in a lane without its pretension; ``bare`` is that column [J]."""
         records = Records(self.records.law, Topology.of(bare))
-        records.put(0, self.pack(bare))
-        records.feed[...] = self.feed
+        packed = self.pack(bare)
+        records.put(0, packed.lane)
+        records.bond[...], records.feed[...] = packed.bond, self.feed
         return records.energies(0, float(self.dt[lane]), self.ground_acceleration(lane))
 
     def half_a_step_back(self, lane: int) -> None:
@@ -162,7 +145,7 @@ class ColumnLanes(LaneRuns):
     def stays(self, lane: int, energy: float) -> bool:
         """Whether the column in a lane with so much energy above that at rest [J] stands for good."""
         column = self.column(lane)
-        return stands_for_good(column, self.records, lane, self.slips(lane), energy, self.pack(column).toes)
+        return stands_for_good(column, self.records, lane, self.slips(lane), energy, self.packed[lane].toes)
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""

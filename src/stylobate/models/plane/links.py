@@ -2,39 +2,46 @@
 
 from __future__ import annotations
 
+import math
+from typing import Any
+
 import numpy as np
 
 from ...column.links.placed import PlacedLink
 from ...column.structure import Structure
 from ...kernels.shared.link_records import OWN, link_types
-from ...kernels.shared.records import PAIR_TYPE
-from ..drums.links import LinkStiffness, acting, bonds, hold_of, law_fields
+from ..drums.links import LinkStiffness, acting, hold_of, law_fields
 from ..shared.stable_step import highest_frequency
 
-NO_LINKS = np.zeros(0, link_types(0)[0])
 
-
-def links_at_rest(structure: Structure, body: np.ndarray) -> np.ndarray:
+def links_at_rest(structure: Structure, body: Any) -> np.ndarray:
     """Links of a structure whose bodies stand as these records of one lane say: whole, and free of force but for their
     pretension."""
-    from ...kernels.plane.links import begin
-
     links = acting(structure)
     if not links:
-        return NO_LINKS
+        return np.zeros(0, link_types(0)[0])
     records = np.zeros(len(links), link_types(1)[0])
     for name, values in law_fields(links).items():
         if name in OWN.split():
             records[name][:, 0] = values
+    x, z, c, s = (body[name][:, 0] for name in ("x", "z", "c", "s"))
     for k, link in zip(records, links, strict=True):
-        *ends, (k["tc"], k["ts"]) = structure.link_ends(link)
-        for end, place in zip("ab", ends, strict=True):
-            for axis, value in zip("xyz", place, strict=True):
-                k[end + axis] = value
-        k["ft"] = link.pretension
+        low, up, (tc, ts) = structure.link_ends(link)
+        k["tc"], k["ts"], k["on"], k["when"], k["ft"] = tc, ts, 1.0, -1, link.pretension
         k["whole"] = 0.0 if structure.stack is None else hold_of(structure.stack, link)
-    pair = np.array([(one.lower, one.upper) for one in links], PAIR_TYPE)
-    begin(body, pair[:0], records, bonds(structure), pair)
+        places = []
+        for end, i, (px, py, pz) in (("a", link.lower, low), ("b", link.upper, up)):
+            k[end + "x"], k[end + "y"], k[end + "z"] = px, py, pz
+            places.append((x[i] + c[i] * px - s[i] * pz, py, z[i] + s[i] * px + c[i] * pz))
+        start = math.dist(*places)
+        if not link.straight:
+            i = link.lower
+            tc, ts = c[i] * tc - s[i] * ts, s[i] * tc + c[i] * ts
+            ax, az = places[1][0] - x[i], places[1][2] - z[i]
+            k["sx"] = k["px"] = tc * ax + ts * az
+            start = tc * az - ts * ax
+        k["h"] = start
+        k["l0"] = start - (link.pretension / link.axial_stiffness if link.pretension else 0.0)
     return records
 
 

@@ -18,11 +18,12 @@ from ...motion import Motion
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_snapshot
+from ..drums.records import UNSEEN
 from ..drums.whole_steps import whole_steps
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
 from .beds import bed_laws, fill_hands, fill_shapes
-from .block import Records, base_acceleration, clear_watch, feed_motion
+from .block import Records, base_acceleration, slope_base
 from .laws import point_law
 from .links import links_at_rest
 from .packing import joint_fields, lane_fields
@@ -128,6 +129,7 @@ class Loose:
         self.search: tuple[Any, ...] = (
             now, hand, shape, corner, np.zeros((n, 4)), np.arange(n), joined, self.law, self.memory, real, whole
         )  # fmt: skip
+        self.begin_links()
         self.dt, self.duration, self.safe = 0.0, duration, 0
         self.stood_at, self.stood_since = np.full((3, n), np.inf), 0.0
         # a body below this level has left the model: it falls without end and does not count as moving
@@ -139,8 +141,10 @@ class Loose:
         self.dt, self.chunks = whole_steps(self.motion, self.duration - self.motion.duration, step)
         self.now["dt"] = self.now["last"] = self.records.lane["dt"][0] = self.dt
         self.look = max(1, int(AHEAD[0] / (CHUNK * self.dt)))
-        clear_watch(self.records, 0, True)
-        feed_motion(self.records, 0, self.motion, self.dt, self.structure.as_found.base_tilt * DEGREE)
+        self.records.watch[...] = 0
+        self.records.fill(0, watch=UNSEEN | {"follow": True})
+        self.records.feed_motion(0, self.motion, self.dt)
+        slope_base(self.records, 0, self.motion, self.structure.as_found.base_tilt * DEGREE)
         self.records.feed["end"] = ENDLESS
         self.renew_pairs()
         self._push()

@@ -11,34 +11,33 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import gravity_vector
 from ...column.structure import Structure
+from ..drums.bodies import Topology
 from ..drums.joints import contact_points
 from ..drums.links import bonds
+from ..drums.records import UNSEEN, LaneRecords
 from .links import links_at_rest
 
 
 @dataclass(frozen=True)
 class Packed:
-    """One run's lane of the records that differ from lane to lane, before it begins.
+    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
 
     Parameters
     ----------
     lane : dict of str to array
-        Records of one lane by their names in ``kernels/shared/records.py``: body, joint, link, lane.
+        All numbers of a lane, see :meth:`LaneRecords.taken`.
     bond : array
         Records of what links are in all lanes.
     step : float
         Time step [s].
     toes : array
         What joints give with their load on their edge [J], shape (n,).
-    top : dict of str to float
-        The topmost face, as ``watch`` wants it.
     """
 
     lane: dict[str, np.ndarray]
     bond: np.ndarray
     step: float
     toes: np.ndarray
-    top: dict[str, float]
 
 
 def pack_column(
@@ -49,20 +48,13 @@ def pack_column(
     toes: np.ndarray,
 ) -> Packed:
     """A column's lane from the fields of its bodies, joints and lane; ``types`` are those of records of one lane."""
+    records = LaneRecords(types, Topology.of(column), column.n)
     body, joint, lane = fields
-    rows = {"body": (column.n + 1, body), "joint": (column.n, joint), "lane": (1, lane)}
-    records = {name: one_lane(types[name], count, values) for name, (count, values) in rows.items()}
     top = column.upper_faces[-1]
     face = {"th": top.height, "tc": top.direction[0], "ts": top.direction[1]}
-    return Packed(records | {"link": links_at_rest(column, records["body"])}, bonds(column), step, toes, face)
-
-
-def one_lane(dtype: np.dtype, rows: int, fields: Mapping[str, Any]) -> np.ndarray:
-    """Records of one lane from fields whose first axis is that of the records, shape (rows,)."""
-    records: Any = np.zeros(rows, dtype)
-    for name, values in fields.items():
-        records[name][..., 0] = values
-    return records
+    records.fill(0, body=body, joint=joint, lane=lane, watch=UNSEEN | face)
+    records.link[...] = links_at_rest(column, records.body)
+    return Packed(records.taken(0), bonds(column), step, toes)
 
 
 #: Fields of a body that a run begins with.
