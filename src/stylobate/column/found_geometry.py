@@ -229,22 +229,15 @@ class StandingDrum(Standing):
     @cached_property
     def polygon(self) -> np.ndarray:
         """Corners from its centroid in these axes, counter-clockwise from the lower left [m], shape (k, 2)."""
-        return drum_outline(self.drum, self.found)
-
-
-def drum_outline(drum: Drum, one: FoundDrum) -> np.ndarray:
-    """Corners of a drum, counter-clockwise from the lower left, from its centroid [m], shape (k, 2).
-
-    The axes are along and normal to its lower face.
-    """
-    tilt = one.tilt * DEGREE
-    c, s = math.cos(tilt), math.sin(tilt)
-    half, high = 0.5 * drum.top_width, drum.height
-    top = {side: np.array([c * side * half - s * high, s * side * half + c * high]) for side in (-1, 1)}
-    corners = []
-    for side, chip in ((-1, one.chip_left), (1, one.chip_right)):
-        edge = np.array([side * 0.5 * drum.bottom_width, 0.0])
-        flank = edge + min(CHIP_SLOPE * chip / drum.height, 0.5) * (top[side] - edge)
-        face = edge - (side * chip, 0.0)
-        corners += [face] if chip == 0.0 else [flank, face] if side < 0 else [face, flank]
-    return np.array([*corners, top[1], top[-1]]) - drum.centroid_height * np.array([-s, c])
+        drum, one = self.drum, self.found
+        tilt = one.tilt * DEGREE
+        c, s = math.cos(tilt), math.sin(tilt)
+        half, high = 0.5 * drum.top_width, drum.height
+        top = {side: np.array([c * side * half - s * high, s * side * half + c * high]) for side in (-1, 1)}
+        corners = []
+        for side, chip in ((-1, one.chip_left), (1, one.chip_right)):
+            edge = np.array([side * 0.5 * drum.bottom_width, 0.0])
+            flank = edge + min(CHIP_SLOPE * chip / drum.height, 0.5) * (top[side] - edge)
+            face = edge - (side * chip, 0.0)
+            corners += [face] if chip == 0.0 else [flank, face] if side < 0 else [face, flank]
+        return np.array([*corners, top[1], top[-1]]) - drum.centroid_height * np.array([-s, c])

@@ -22,6 +22,7 @@ from ..base import Case, RunOptions
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
 from ..drums.links import link_stiffness, with_links
+from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..plane.assemblies import AssemblyNumbers, expected_step, measures_of_assemblies, run_assembly
 from ..plane.block import Law
@@ -29,7 +30,7 @@ from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
 from ..plane.laws import point_law
 from ..plane.loose import Contacts
-from ..plane.packing import Packed, joint_fields, lane_fields, pack_column
+from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
@@ -120,10 +121,6 @@ class DistinctElement2D(SteppedDrums):
         return (1.0 if self.damped else 0.5) * self.points * super().cost(drums)
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
-
-    def kind(self, column: Column) -> Topology:
-        """Which contacts there are: columns alike in that share blocks of lanes."""
-        return Topology.of(column)
 
     def law(self, linked: bool) -> Law:
         """The law of the joints, for columns with links or without."""

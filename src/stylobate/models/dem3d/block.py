@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -14,38 +14,15 @@ from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
+from ..drums.records import Packed
 from ..drums.runs import LaneRuns
 from ..shared.lanes import in_rows
 from .arrays import Records
-from .packing import Packed
+from .specimen import FreeBody
+from .stack import Stack
 
-
-class Bodies(Protocol):
-    """What stacked drums and a single body in a block of lanes do each in their own way."""
-
-    def check_start(self, structure: Any, start: Any) -> None:
-        """Refuse a start that is not one for them."""
-        ...
-
-    def take_pose(self, records: Records, lane: int, structure: Any, start: Any) -> None:
-        """Put what stands in a lane where a run starts from."""
-        ...
-
-    def top(self, records: Records, lane: int) -> np.ndarray:
-        """Place of the top along the base [m], shape (2,)."""
-        ...
-
-    def foot(self, records: Records, lane: int, structure: Any) -> np.ndarray:
-        """Place of the middle of the lowest face [m], shape (3,)."""
-        ...
-
-    def stays(self, packed: Packed, records: Records, lane: int, structure: Any, energy: float) -> bool:
-        """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
-        ...
-
-    def lost(self, collapse: Collapse, structure: Any) -> str:
-        """What has come down, in words."""
-        ...
+#: What stacked drums and a single body do each in their own way.
+Bodies = Stack | FreeBody
 
 
 class SpaceBlock(LaneRuns):
@@ -153,14 +130,6 @@ class SpaceBlock(LaneRuns):
                 a[c] = sample_one(address, last, place, BEFORE) * case.motion.factor
         return feed["r"][:, lane].reshape(3, 3) @ a
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        return self.records.energies(lane, float(self.dt[lane]), self.ground_acceleration(lane))
-
-    def residual_acceleration(self, lane: int) -> float:
-        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
-        return self.records.acceleration(lane)
-
     def top(self, lane: int) -> np.ndarray:
         """Displacement of the top along the base [m], shape (2,)."""
         return self.bodies.top(self.records, lane) - [self.watch[name][0, lane] for name in ("sx", "sy")]
@@ -196,14 +165,6 @@ class SpaceBlock(LaneRuns):
             residual_twist_per_joint=tuple(twist.tolist()),
         )
         return self.measures(lane, slips, float(np.hypot(*self.top(lane))), lean, space)
-
-    def widths(self, lane: int) -> np.ndarray:
-        """Widths that openings and slips are measured by [m], shape (n,)."""
-        return self.packed[lane].widths
-
-    def barrier(self, lane: int) -> float:
-        """Lowest energy that overturns what stands in a lane [J]."""
-        return self.packed[lane].barrier
 
     def stays(self, lane: int, energy: float) -> bool:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""

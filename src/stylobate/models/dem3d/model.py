@@ -22,6 +22,7 @@ from ..drums.barriers import lowest_barrier
 from ..drums.bodies import Topology
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
+from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
@@ -30,7 +31,7 @@ from .arrays import Records
 from .block import SpaceBlock
 from .found_start import found_start
 from .links import link_fields
-from .packing import Packed, chipped, drum_fields, joint_fields, lane_fields, pack_column
+from .packing import chipped, drum_fields, joint_fields, lane_fields, pack_column
 from .restitution import damping_for
 from .specimen import FreeBody, pack_specimen, rows_for, top_frequency
 from .stability import highest_frequency
@@ -292,7 +293,7 @@ def _pack(column: Column, model: DistinctElement3D) -> Packed:
     numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, top)
     law = model.law if column.section == "circular" else "corners"
     stand = numbers_for(column, TOES[law](column, kn * shares_left(column)))
-    return Packed(numbers, model.step_for(column), column.joint_widths, lowest_barrier(column), stand, bonds(column))
+    return Packed(numbers, bonds(column), model.step_for(column), column.joint_widths, lowest_barrier(column), stand)
 
 
 @lru_cache(maxsize=4096)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,42 +14,6 @@ from ...kernels.dem3d.records import CHIPS, RINGS
 from ..drums.bodies import body_fields
 from ..drums.records import UNSEEN
 from .arrays import Records
-
-
-@dataclass(frozen=True)
-class Packed:
-    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
-
-    Parameters
-    ----------
-    lane : dict of str to array
-        All numbers of a lane, see :meth:`Records.taken`.
-    step : float
-        Time step [s].
-    widths : array
-        Widths that openings and slips are measured by [m], shape (n,).
-    barrier : float
-        Lowest energy that overturns it [J].
-    stand : array
-        Its numbers for the verdict: of a column in ``kernels/dem3d/standing.py``, of a body least heights by tilt [m].
-    bond : array
-        Records of what links are in all lanes.
-    axes : array, optional
-        Axes that histories tell, in those of the records; of a body, shape (3, 3).
-    """
-
-    lane: dict[str, np.ndarray]
-    step: float
-    widths: np.ndarray
-    barrier: float
-    stand: np.ndarray
-    bond: np.ndarray
-    axes: np.ndarray | None = None
-
-
-def start_watch(records: Records, top: np.ndarray) -> None:
-    """Let the first lane be looked at from the start: nothing has happened; ``top`` is where the top stands [m]."""
-    records.fill(0, watch=UNSEEN | {"sx": top[0], "sy": top[1]})
 
 
 def pack_column(
@@ -69,7 +32,7 @@ def pack_column(
     _, slip, twist = records.joints(0)
     records.fill(0, joint={"ox": slip[:, 0], "oy": slip[:, 1], "ot": twist, "tw": twist})
     records.fill(0, feed={"r": base_axes(column).T.ravel()}, link=links)
-    start_watch(records, top(records, 0))
+    records.fill(0, watch=UNSEEN | dict(zip(("sx", "sy"), top(records, 0), strict=True)))
     return records.taken(0)
 
 

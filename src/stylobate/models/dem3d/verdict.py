@@ -1,4 +1,4 @@
-"""Does a column in space that stands now stand for good? What the energy that is left in it could still do."""
+"""Numbers of a column in space for the law of whether it stands for good."""
 
 from __future__ import annotations
 
@@ -12,38 +12,6 @@ from ...column import Column
 from ...column.found_in_space import rotation, space_geometry, upward
 from ...constants import DEGREE
 from ..shared.toes import centroids_above
-from .arrays import Records
-
-
-def stands_for_good(
-    column: Column, records: Records, lane: int, energy: float, stand: np.ndarray, walks: bool = True
-) -> bool:
-    """Whether a column that no input shakes any more can neither overturn nor slide apart. Eq. (V1), in space.
-
-    Parameters
-    ----------
-    column : Column
-    records : Records
-        In which the column is.
-    lane : int
-    energy : float
-        Kinetic, gravitational and elastic energy above that of the column at rest [J].
-    stand : array
-        See :func:`numbers_for`.
-    walks : bool
-        A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
-        (``kernels/dem3d/standing.py``). Walking without slip costs nothing, so that no bound by energy is a proof; the
-        margin is measured, see the theory page.
-    """
-    from ...kernels.dem3d.standing import stands
-    from ...kernels.dem3d.standing_found import stands_as_found
-
-    _, slip, _ = records.joints(lane)
-    of_lane = records.body, records.joint, records.lane, lane
-    if not column.as_found:
-        return bool(stands(stand, slip, energy, column.gravity, walks, *of_lane))
-    found, pull, up, high = found_numbers(column)
-    return bool(stands_as_found(found, stand, pull, slip, energy, high, up, column.gravity, walks, *of_lane))
 
 
 @lru_cache(maxsize=4096)

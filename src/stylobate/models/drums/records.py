@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,38 @@ OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
 
 #: What a lane is looked at with from the start: nothing has happened.
 UNSEEN = {"status": RUNNING, "when": -1, "which": -1, "wide": -1}
+
+
+@dataclass(frozen=True)
+class Packed:
+    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
+
+    Parameters
+    ----------
+    lane : dict of str to array
+        All numbers of a lane, see :meth:`LaneRecords.taken`.
+    bond : array
+        Records of what links are in all lanes.
+    step : float
+        Time step [s].
+    widths : array
+        Widths that openings and slips are measured by [m], shape (n,).
+    barrier : float
+        Lowest energy that overturns it [J].
+    stand : array
+        For the verdict: of a column in the plane what its joints give with their load on their edge [J], shape (n,), in
+        space its numbers in ``kernels/dem3d/standing.py``; of a body least heights by tilt [m].
+    axes : array, optional
+        Axes that histories tell, in those of the records; of a body, shape (3, 3).
+    """
+
+    lane: dict[str, np.ndarray]
+    bond: np.ndarray
+    step: float
+    widths: np.ndarray
+    barrier: float
+    stand: np.ndarray
+    axes: np.ndarray | None = None
 
 
 class LaneRecords:
@@ -88,6 +121,17 @@ class LaneRecords:
                 feed[name][lane] = samples.ctypes.data
         feed["last"][lane] = motion.steps - 1
         feed["ratio"][lane], feed["factor"][lane] = dt / motion.dt, motion.factor
+
+    def energies(self, lane: int, dt: float, base: Any) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
+
+        With the forces at the present positions, as the next step will find them; ``base`` is the acceleration of the base.
+        """
+        raise NotImplementedError
+
+    def acceleration(self, lane: int) -> float:
+        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
+        raise NotImplementedError
 
     def now(self, *others: str) -> tuple[Any, ...]:
         """A state of copies of all records that a look at the forces changes, and of some others."""

@@ -19,11 +19,10 @@ from ..base import Case, RunOptions
 from ..shared import ledger, quiet
 from ..shared.lanes import longest_piece
 from ..start import check_takes_pose
-from .barriers import lowest_barrier
 from .histories import ledger_imbalance
 from .links import acting, link_measures, link_snapshot
 from .pretension import held_at_start, set_free, without_tension
-from .records import LaneRecords
+from .records import LaneRecords, Packed
 from .whole_steps import whole_steps
 
 #: Calls of the kernel per run.
@@ -46,7 +45,7 @@ class LaneRuns:
     def __init__(self, pack: Callable[[Any], Any], records: LaneRecords, options: RunOptions, cost: float) -> None:
         self.pack, self.arrays, self.options = pack, records, options
         self.lane, self.feed, self.watch, self.link = records.lane, records.feed, records.watch, records.link
-        self.packed: dict[int, Any] = {}
+        self.packed: dict[int, Packed] = {}
         self.lanes, self.chunk, self.tied = LANES, CHUNK, len(self.link) > 0
         self.watch["status"] = FREE
         self.dt = np.zeros(self.lanes)
@@ -65,8 +64,8 @@ class LaneRuns:
         """Let the kernel take so many chunks of steps."""
         raise NotImplementedError
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+    def ground_acceleration(self, lane: int) -> Any:
+        """Acceleration of the base in its own axes now [m/s²]."""
         raise NotImplementedError
 
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
@@ -96,14 +95,6 @@ class LaneRuns:
     def stays(self, lane: int, energy: float) -> bool:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
         raise NotImplementedError
-
-    def widths(self, lane: int) -> np.ndarray:
-        """Widths that openings and slips are measured by [m], shape (n,)."""
-        return self.column(lane).joint_widths
-
-    def barrier(self, lane: int) -> float:
-        """Lowest energy that overturns what stands in a lane [J]."""
-        return lowest_barrier(self.column(lane))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
@@ -209,9 +200,17 @@ class LaneRuns:
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
             free = set_free(self.column(lane), self.link["ft"][:, lane], float(self.pressed[lane]))
-        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.barrier(lane)
+        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.packed[lane].barrier
 
     # -- what it tells -------------------------------------------------------------------------------------------
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        return self.arrays.energies(lane, float(self.dt[lane]), self.ground_acceleration(lane))
+
+    def residual_acceleration(self, lane: int) -> float:
+        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
+        return self.arrays.acceleration(lane)
 
     def column(self, lane: int) -> Any:
         """The column, or the body, in a lane."""
@@ -276,13 +275,13 @@ class LaneRuns:
         since : array, optional
             Change of the ledger since the start [J], shape (6,); that of the lane if left out.
         """
-        watch = self.watch[0]
+        watch, packed = self.watch[0], self.packed[lane]
         status, when = watch["status"][lane], int(watch["when"][lane])
         step, dt = int(self.feed["step"][0, lane]), float(self.dt[lane])
         change = self.energies(lane) - self.start[lane] if since is None else since
-        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), self.barrier(lane))
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), packed.barrier)
         failed = status == FAILED or bool(ledger.out_of_balance(imbalance))
-        widths = self.widths(lane)
+        widths = packed.widths
         outcome = classify(
             status == COLLAPSED, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max())
         )

@@ -54,13 +54,13 @@ class Records(LaneRecords):
         body = state[STATE.index("body")]
         return tuple(body[name][:, lane] for name in ("fx", "fz", "mo"))
 
-    def energies(self, lane: int, dt: float, ground: tuple[float, float]) -> np.ndarray:
+    def energies(self, lane: int, dt: float, base: tuple[float, float]) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
         state = self.now()  # the forces at the present positions, as the next step will find them
         state[STATE.index("lane")]["dt"][0, lane] = dt
         self.law.gather(state)
         out = np.empty(6)
-        self.law.ledger(state, ground[0], ground[1], dt, lane, out)
+        self.law.ledger(state, base[0], base[1], dt, lane, out)
         return out
 
     def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:

@@ -13,12 +13,12 @@ from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ..base import Case, RunOptions
 from ..drums.bodies import Topology
+from ..drums.records import Packed
 from ..drums.runs import LaneRuns
 from ..start import check_in_plane
 from .block import Law, Records, base_acceleration, slope_base
-from .packing import Packed
 from .pose import leans_right, placed, sink_in
-from .standing import stands_for_good
+from .standing import numbers_for
 
 
 class ColumnLanes(LaneRuns):
@@ -107,14 +107,6 @@ class ColumnLanes(LaneRuns):
         b, w = self.records.body[-1], self.watch[0]
         return float(b["x"][lane] - (b["s"][lane] * w["tc"][lane] + b["c"][lane] * w["ts"][lane]) * w["th"][lane])
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        return self.records.energies(lane, float(self.dt[lane]), self.ground_acceleration(lane))
-
-    def residual_acceleration(self, lane: int) -> float:
-        """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
-        return self.records.acceleration(lane)
-
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
         body = self.records.body
@@ -143,9 +135,23 @@ class ColumnLanes(LaneRuns):
         return self.records.joint_state(lane)[1] - self.slip[lane]
 
     def stays(self, lane: int, energy: float) -> bool:
-        """Whether the column in a lane with so much energy above that at rest [J] stands for good."""
-        column = self.column(lane)
-        return stands_for_good(column, self.records, lane, self.slips(lane), energy, self.packed[lane].toes)
+        """Whether a column that no input shakes any more can neither overturn nor slide apart.
+
+        Two conditions, Eq. (V1). As the column is, the centroid of every part stands within its contact: it is on the near
+        side of every barrier. And the energy is below the lowest barrier of the column put down flat with its present
+        offsets: overturning as one body about the nearer end of the contact, m g (R − H); where some joint above is so
+        slippery that it slides first, tan φ below the sine of the critical angle, sliding and lifting together:
+        m g [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
+        the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that.
+        """
+        from ...kernels.plane.standing import stands
+
+        column, records = self.column(lane), self.records
+        numbers, offsets = numbers_for(column)
+        stand, slope = numbers.copy(), column.as_found.base_tilt * DEGREE
+        stand["toe"] = self.packed[lane].stand
+        where = records.body, records.joint, lane
+        return bool(stands(stand, offsets + self.slips(lane), column.gravity, slope, energy, *where))
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,33 +10,12 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import gravity_vector
 from ...column.structure import Structure
+from ..drums.barriers import lowest_barrier
 from ..drums.bodies import Topology
 from ..drums.joints import contact_points
 from ..drums.links import bonds
-from ..drums.records import UNSEEN, LaneRecords
+from ..drums.records import UNSEEN, LaneRecords, Packed
 from .links import links_at_rest
-
-
-@dataclass(frozen=True)
-class Packed:
-    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
-
-    Parameters
-    ----------
-    lane : dict of str to array
-        All numbers of a lane, see :meth:`LaneRecords.taken`.
-    bond : array
-        Records of what links are in all lanes.
-    step : float
-        Time step [s].
-    toes : array
-        What joints give with their load on their edge [J], shape (n,).
-    """
-
-    lane: dict[str, np.ndarray]
-    bond: np.ndarray
-    step: float
-    toes: np.ndarray
 
 
 def pack_column(
@@ -54,7 +32,7 @@ def pack_column(
     face = {"th": top.height, "tc": top.direction[0], "ts": top.direction[1]}
     records.fill(0, body=body, joint=joint, lane=lane, watch=UNSEEN | face)
     records.link[...] = links_at_rest(column, records.body)
-    return Packed(records.taken(0), bonds(column), step, toes)
+    return Packed(records.taken(0), bonds(column), step, column.joint_widths, lowest_barrier(column), toes)
 
 
 #: Fields of a body that a run begins with.

@@ -16,11 +16,12 @@ from ..base import RunOptions
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import damping_rows
 from ..drums.links import link_stiffness, with_links
+from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..plane.block import Law
 from ..plane.columns import ColumnLanes
 from ..plane.laws import interface_law
-from ..plane.packing import Packed, face_fields, lane_fields, pack_column
+from ..plane.packing import face_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.toes import centroids_above, point_toes
 from .block_stack import BlockStack
@@ -106,10 +107,6 @@ class RigidBlock(SteppedDrums):
                 )
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
-
-    def kind(self, column: Column) -> Topology:
-        """Which contacts there are: columns alike in that share blocks of lanes."""
-        return Topology.of(column)
 
     def law(self, linked: bool) -> Law:
         """The law of the joints, for columns with links or without."""
