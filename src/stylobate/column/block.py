@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -174,6 +174,7 @@ class Block(Outlined):
         return self.properties[1]
 
 
+@lru_cache(maxsize=64)
 def ground_block(level: float) -> Block:
     """The ground of a level [m], a half-plane, as a fixed block without ends."""
     far = FAR_AWAY
