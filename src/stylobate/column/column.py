@@ -156,17 +156,8 @@ class Column(Stack, Structure):
         for i, (drum, shape) in enumerate(zip(self.drums, self.shapes, strict=True)):
             place, angle = (float(at.centroid[i, 0]), float(at.centroid[i, 1])), float(at.lean[i] + at.tilt[i])
             pose = None if space is None else (turn @ space.centroid[i], turn @ space.axes[i])
-            fields = (
-                f"drum {i + 1}",
-                shape,
-                float(self.masses[i]),
-                float(self.inertias[i]),
-                place,
-                angle,
-                slope,
-                float(at.lean[i]),
-                pose,
-            )
+            what = f"drum {i + 1}", shape, float(self.masses[i]), float(self.inertias[i])
+            fields = *what, place, angle, slope, float(at.lean[i]), pose
             found.append(StandingDrum(*fields, drum=drum, found=self.as_found.of(i + 1)))
         return tuple(found)
 
