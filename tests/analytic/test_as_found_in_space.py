@@ -11,7 +11,7 @@ import stylobate as st
 from stylobate.column import Column
 from stylobate.column.files import write_column
 from stylobate.column.found_geometry import uplift_accelerations
-from stylobate.column.found_in_space import space_geometry, space_load
+from stylobate.column.found_in_space import inside_overlap, space_geometry, space_load, upward
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.motion import Motion
@@ -169,3 +169,36 @@ def test_out_of_equilibrium_and_out_of_the_plane_are_refused_in_one_sentence(tmp
         st.simulate(twice, STILL, DistinctElement3D())
     column = found(5.0, 1.0)
     assert Column.from_toml(write_column(column, tmp_path / "c.toml")) == column
+
+
+def test_the_barrier_as_found_is_that_of_the_statics():
+    """Each joint's nearest edge from the place of its load, as statics have both; on a slope, with chips and pretension."""
+    from stylobate.kernels.dem3d.standing_found import lowest_found
+    from stylobate.models.dem3d.verdict import found_numbers, numbers_for
+
+    drums = (
+        st.FoundDrum(1, chip_left=0.03, chip_azimuth=70.0),
+        st.FoundDrum(2, offset=0.02, offset_azimuth=40.0, tilt=0.6, tilt_azimuth=100.0, turn=10.0),
+        st.FoundDrum(3, tilt=-0.5, turn=-20.0),
+    )
+    bar = st.Bar(
+        joint=2, at=(0.05, 0.02), shear_stiffness=1e7, axial_stiffness=2e7, axial_capacity=4e4, pretension=500.0
+    )
+    for links in ((), (bar,)):
+        column = COLUMN.replace(as_found=st.AsFound(drums, 1.0, 30.0), links=links)
+        at, up, n = space_geometry(column), upward(column), column.n
+        found, pull, against, high = found_numbers(column)
+        stand = numbers_for(column, np.zeros(n))
+        turns = np.concatenate(([0.0], at.turned))
+        lowest, low = lowest_found(found, stand, pull, np.zeros((n, 2)), turns, against, column.gravity, False)
+        assert low == pytest.approx(high, rel=1e-12)
+        barriers = []
+        for j in range(n):
+            load, mass = space_load(column, at, j), column.masses[j:]
+            level = at.frame[j, :, 2] @ up
+            place = at.origin[j] + at.frame[j, :, :2] @ load.place
+            inside = inside_overlap(column, at, j, load.place)
+            height = (mass @ at.centroid[j:] / mass.sum() - place) @ up + inside * math.sqrt(1.0 - level**2)
+            weight = column.gravity * mass.sum() * level
+            barriers.append(weight * (math.hypot(inside * level, height) - height))
+        assert lowest == pytest.approx(min(barriers), rel=1e-9)

@@ -118,10 +118,13 @@ def test_the_ledger_of_a_chipped_column_closes():
 
 def test_what_stands_for_good_knows_the_smaller_support():
     """The barrier of a rigid chipped prism is that of its nearest edge, m g (√(H² + b²) − H)."""
-    from stylobate.models.dem3d.verdict import found_barrier, numbers_for
+    from stylobate.kernels.dem3d.standing_found import lowest_found
+    from stylobate.models.dem3d.verdict import found_numbers, numbers_for
 
     column, height = prism(**CHIPS), 0.5 * HEIGHT
-    rigid = found_barrier(column, space_geometry(column), numbers_for(column, np.zeros(1)))
+    drums, pull, up, _ = found_numbers(column)
+    still = np.zeros((1, 2)), np.zeros(2)
+    rigid = lowest_found(drums, numbers_for(column, np.zeros(1)), pull, *still, up, column.gravity, False)[0]
     weight = column.mass * column.gravity
     assert rigid == pytest.approx(weight * (math.hypot(height, DEEP - 0.03) - height), rel=1e-9)
     at = space_geometry(column)

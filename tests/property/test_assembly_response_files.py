@@ -29,7 +29,7 @@ def joints(draw):
 def assemblies(draw):
     """A stack of convex blocks, some with a law of their own, on a ground or on a fixed block."""
     if draw(some.integers(0, 4)) == 0:
-        return of_column(preset("paper-12-drums"), [(2.0, 0.3)] if draw(some.booleans()) else [])
+        return of_column(preset("paper-12-drums"))
     blocks, z = [], 0.0
     for i in range(draw(some.integers(1, 4))):
         height, width, lean = (draw(some.floats(0.1, 3.0)) for _ in range(3))

@@ -149,7 +149,11 @@ def test_models_without_links_refuse_them() -> None:
 @pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=lambda model: model.name)
 def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> None:
     """64 bytes, in every row of a record: vectors across two lines made dowels cost a fifth more."""
-    types = model.law(linked=True).types if isinstance(model, st.DistinctElement2D) else model.record_types(links=1)
+    types = (
+        model.law(linked=True).types
+        if isinstance(model, st.DistinctElement2D)
+        else model.record_types("circular", linked=True)
+    )
     for one in types.values() if isinstance(types, dict) else types:
         if not any(field.subdtype for field, *_ in one.fields.values()):
             continue  # numbers that all lanes share

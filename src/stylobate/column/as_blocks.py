@@ -4,63 +4,28 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from ..errors import check_range
 from .assembly import Assembly
-from .block import FAR_AWAY, Block
+from .block import Block
 from .column import Column
-from .found_geometry import Geometry, drum_outline, geometry
+from .found_geometry import Geometry, geometry
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
 
 
-def of_column(column: Column, steps: Sequence[tuple[float, float]] = ()) -> Assembly:
-    """A column as it stands as an assembly: the base is body 0, drum i is body i; in axes along and normal to the base.
-
-    Parameters
-    ----------
-    column : Column
-    steps : sequence of (float, float)
-        Width and height of the fixed steps under the column, from the top down [m]; the ground lies below the last.
-        None: the base is a half-plane.
-    """
+def of_column(column: Column) -> Assembly:
+    """A column as it stands as an assembly: the base is body 0, drum i is body i; in axes along and normal to the base."""
     column.must_carry_on_whole_faces("an assembly of blocks")
-    blocks, level = [], 0.0
-    for i, (width, height) in enumerate(steps):
-        width = check_range(f"width of step {i + 1}", width, 0.0, FAR_AWAY, unit="m", open_low=True)
-        height = check_range(f"height of step {i + 1}", height, 0.0, FAR_AWAY, unit="m", open_low=True)
-        blocks.append(_box(f"step {i + 1}", width, level - height, level))
-        level -= height
-    drums, at = [], geometry(column)
-    for i, drum in enumerate(column.drums):
-        c, s = math.cos(at.lean[i]), math.sin(at.lean[i])
-        corners = drum_outline(column, i) @ np.array([[c, s], [-s, c]]) + at.centroid[i]
-        # the depth of the bed: a round drum's mean thickness across its width
-        depth = drum.mean_depth if not drum.circular else 0.25 * math.pi * drum.mean_width
-        drums.append(
-            Block(
-                tuple((float(x), float(z)) for x, z in corners),
-                drum.density,
-                f"drum {i + 1}",
-                depth,
-                surface=column.joints[i],
-                solid=(drum.mass, drum.inertia, float(at.centroid[i, 0]), float(at.centroid[i, 1])),
-            )
-        )
-    if not steps:
-        return Assembly(tuple(drums), column.joints[0], column.name, column.gravity, 0.0)
-    # body 0 is what the column stands on; the ground and further steps come after the drums
-    far = _box("ground", 2.0 * FAR_AWAY, level - FAR_AWAY, level)
-    return Assembly((blocks[0], *drums, *blocks[1:], far), column.joints[0], column.name, column.gravity, None)
-
-
-def _box(name: str, width: float, low: float, high: float) -> Block:
-    b = 0.5 * width
-    return Block(((-b, low), (b, low), (b, high), (-b, high)), 0.0, name, fixed=True)
+    drums = []
+    for drum, body, surface in zip(column.drums, column.bodies[1:], column.joints, strict=True):
+        corners = tuple((float(x), float(z)) for x, z in body.outline)
+        solid = (body.mass, body.inertia, *body.place)
+        drums.append(Block(corners, drum.density, body.name, body.shape.depth, surface=surface, solid=solid))
+    return Assembly(tuple(drums), column.joints[0], column.name, column.gravity, 0.0)
 
 
 def links_of_column(

@@ -168,7 +168,24 @@ class Assembly(Structure):
         left, right = upper.side(joint.upper_face)
         above = face_between(left, right, upper.origin, upper=False)
         area = min(block.depth for block in (lower, upper) if not block.fixed)
-        return FacePair(joint.lower, joint.upper, below, above, joint.law, area, 1.0)
+        sides = joint.lower_face, joint.upper_face
+        return FacePair(joint.lower, joint.upper, below, above, joint.law, area, 1.0, sides)
+
+    @property
+    def surfaces(self) -> tuple[Joint, ...]:
+        """Of every body, the law of its contacts, other than joints, with those before it."""
+        return tuple(block.surface or self.joint for block in self.bodies)
+
+    @property
+    def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
+        """Other laws of such contacts: overrides, and of what is linked what the links make of it."""
+        numbers = {block.name: i for i, block in enumerate(self.bodies)}
+        told = [(numbers[one], numbers[other], law) for one, other, law in self.overrides]
+        found = [(min(i, h), max(i, h), law) for i, h, law in told]
+        for link in self.placed_links:
+            i, h = sorted((link.lower, link.upper))
+            found.append((i, h, self.law_between(self.bodies[i], self.bodies[h])))
+        return tuple(found)
 
     @cached_property
     def _contacts(self) -> tuple[tuple[FaceJoint, ...], set[int]]:

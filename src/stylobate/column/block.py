@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import InputError, OutOfRangeWarning, check_range
 from .drum import DENSITIES, LENGTHS
 from .joint import Joint
-from .shapes import Prism
+from .shapes import Outlined, Prism
 
 MAX_VERTICES = 24
 
@@ -25,7 +25,7 @@ FAR_AWAY = 1.0e4
 
 
 @dataclass(frozen=True)
-class Block:
+class Block(Outlined):
     """A rigid block: a convex polygon of constant thickness.
 
     Parameters
@@ -136,7 +136,7 @@ class Block:
     @property
     def shape(self) -> Prism:
         """The polygon from its origin, in its thickness."""
-        return Prism(self.corners - self.origin, self.depth)
+        return Prism(self.polygon, self.depth)
 
     @property
     def place(self) -> tuple[float, float]:
@@ -149,6 +149,21 @@ class Block:
         return 0.0
 
     @property
+    def lean(self) -> float:
+        """Of the axes that its faces are told in [rad]."""
+        return 0.0
+
+    @property
+    def outline(self) -> np.ndarray:
+        """Corners as it stands [m], shape (k, 2)."""
+        return self.corners
+
+    @cached_property
+    def polygon(self) -> np.ndarray:
+        """Corners from its origin [m], shape (k, 2)."""
+        return self.corners - self.origin
+
+    @property
     def mass(self) -> float:
         """[kg]"""
         return self.properties[0]
@@ -158,19 +173,8 @@ class Block:
         """About the centroid [kg m²]."""
         return self.properties[1]
 
-    @property
-    def size(self) -> float:
-        """Larger side of the box around the block [m]."""
-        return float(np.ptp(self.corners, axis=0).max())
 
-    @property
-    def thickness(self) -> float:
-        """Smallest distance between two parallels that hold the block [m]."""
-        side = np.roll(self.corners, -1, axis=0) - self.corners
-        inward = np.stack((-side[:, 1], side[:, 0]), axis=1) / np.hypot(side[:, 0], side[:, 1])[:, None]
-        return float(((self.corners[None] - self.corners[:, None]) @ inward[:, :, None]).max(axis=1).min())
-
-
+@lru_cache(maxsize=64)
 def ground_block(level: float) -> Block:
     """The ground of a level [m], a half-plane, as a fixed block without ends."""
     far = FAR_AWAY

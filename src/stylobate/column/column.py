@@ -20,7 +20,7 @@ from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
 from .faces import Face, FacePair
-from .found_geometry import check_as_found, geometry, uplift_accelerations
+from .found_geometry import StandingDrum, check_as_found, geometry, uplift_accelerations
 from .found_in_space import base_axes, smallest_uplift, space_geometry
 from .joint import Joint, without_unsaid
 from .links.in_column import place_in_column
@@ -31,7 +31,7 @@ from .materials import material
 from .plausible import shape_doubts
 from .shapes import Shape, shape_of
 from .stack import Stack
-from .structure import Body, Standing, Structure
+from .structure import Body, Structure
 
 MAX_DRUMS = 200
 
@@ -156,7 +156,9 @@ class Column(Stack, Structure):
         for i, (drum, shape) in enumerate(zip(self.drums, self.shapes, strict=True)):
             place, angle = (float(at.centroid[i, 0]), float(at.centroid[i, 1])), float(at.lean[i] + at.tilt[i])
             pose = None if space is None else (turn @ space.centroid[i], turn @ space.axes[i])
-            found.append(Standing(f"drum {i + 1}", shape, drum.mass, drum.inertia, place, angle, slope, pose))
+            what = f"drum {i + 1}", shape, float(self.masses[i]), float(self.inertias[i])
+            fields = *what, place, angle, slope, float(at.lean[i]), pose
+            found.append(StandingDrum(*fields, drum=drum, found=self.as_found.of(i + 1)))
         return tuple(found)
 
     @cached_property
@@ -177,18 +179,39 @@ class Column(Stack, Structure):
     @cached_property
     def face_pairs(self) -> tuple[FacePair, ...]:
         """Each joint, between the upper face of what is below and what chips leave of the lower face of the drum."""
-        found = []
+        found, face = [], 2  # the upper one of the base among its sides, counter-clockwise from the lower left
         pressed = zip(self.joint_laws, self.joint_areas.tolist(), self.joint_widths.tolist(), strict=True)
         for i, (drum, cosine, sine, how) in enumerate(zip(self.drums, *self._turns, pressed)):
             one, half, high = self.as_found.of(i + 1), 0.5 * drum.bottom_width, drum.centroid_height
             ends = half - one.chip_left - high * sine, half - one.chip_right + high * sine
-            found.append(FacePair(i, i + 1, self.upper_faces[i], Face((1.0, 0.0), high * cosine, *ends), *how))
+            left, right = one.chip_left > 0.0, one.chip_right > 0.0
+            above = Face((1.0, 0.0), high * cosine, *ends)
+            found.append(FacePair(i, i + 1, self.upper_faces[i], above, *how, (face, int(left))))
+            face = 2 + left + right
         return tuple(found)
 
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, at their places in the column as built, in their order."""
         return place_in_column(self, self.links, self.name) if self.links else ()
+
+    def link_ends(self, link: PlacedLink) -> tuple[np.ndarray, np.ndarray, tuple[float, float]]:
+        """Places of a link on its two bodies in the axes of their faces [m], shape (3,), and in which direction it slips.
+
+        What crosses a joint lies on the lower face of its upper drum; a line is as drawn in the axes of its drums.
+        """
+        (low, high), i = link.arms, link.upper - 1
+        lower, upper = (self.upper_faces[body].direction for body in (link.lower, link.upper))
+        if link.straight:
+            return _turned(low, *lower), _turned(high, *upper), lower
+        foot = self.drums[i].centroid_height * self._turns[1][i]  # of the centroid, to the left of the face's middle
+        place = np.array([link.high[0] + foot, link.high[1], -self.face_pairs[i].above.height])
+        return _turned(low, *lower), place, lower
+
+    @property
+    def surfaces(self) -> tuple[Joint, ...]:
+        """Of every body, the law of its contacts, other than joints, with those before it."""
+        return self.joints[0], *self.joints
 
     @cached_property
     def joint_laws(self) -> tuple[Joint, ...]:
@@ -383,3 +406,8 @@ class Column(Stack, Structure):
     def __hash__(self) -> int:
         """As of its values; many runs ask for the numbers of one column again and again."""
         return self._hash
+
+
+def _turned(place: np.ndarray, c: float, s: float) -> np.ndarray:
+    """A place [m], shape (3,), turned in the plane by an angle of this cosine and sine."""
+    return np.array([c * place[0] - s * place[2], place[1], s * place[0] + c * place[2]])

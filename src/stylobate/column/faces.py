@@ -32,6 +32,7 @@ class FacePair(NamedTuple):
     """A joint: the upper face of the body ``lower`` and the lower face of the body ``upper``, by their numbers.
 
     ``area`` [m²] is that of the contact over a ``width`` [m] of it, so that stiffnesses per area become those per width.
+    ``sides`` are the faces among the sides of the polygons of the two bodies, by the number of the corner they start at.
     """
 
     lower: int
@@ -41,6 +42,7 @@ class FacePair(NamedTuple):
     law: Joint
     area: float
     width: float
+    sides: tuple[int, int]
 
 
 def face_between(left: np.ndarray, right: np.ndarray, origin: tuple[float, float], *, upper: bool) -> Face:

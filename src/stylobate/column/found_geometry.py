@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from ..constants import DEGREE
 from ..errors import InputError
+from .as_found import FoundDrum
+from .drum import Drum
 from .found_in_space import inside_overlap, space_geometry, space_load
 from .links.loads import pull_on_part
 from .shapes import CHIP_SLOPE
+from .structure import Standing, Structure
 
 if TYPE_CHECKING:
     from .column import Column
@@ -72,10 +77,10 @@ def geometry(column: Column, offsets: np.ndarray | None = None) -> Geometry:
     return Geometry(foot, tilt, lean, origins, centroids, low, high)
 
 
-def gravity_vector(column: Column) -> np.ndarray:
+def gravity_vector(structure: Structure) -> np.ndarray:
     """Acceleration of gravity along and normal to the base [m/s²], shape (2,)."""
-    slope = column.as_found.base_tilt * DEGREE
-    return -column.gravity * np.array([math.sin(slope), math.cos(slope)])
+    slope = structure.as_found.base_tilt * DEGREE
+    return -structure.gravity * np.array([math.sin(slope), math.cos(slope)])
 
 
 class JointLoad(NamedTuple):
@@ -214,20 +219,25 @@ def _check_joint(column: Column, j: int, normal: float, shear: float, beyond: fl
         )
 
 
-def drum_outline(column: Column, i: int) -> np.ndarray:
-    """Corners of drum i = 0 … n−1, counter-clockwise from the lower left, from its centroid [m], shape (k, 2).
+@dataclass(frozen=True, eq=False, kw_only=True)
+class StandingDrum(Standing):
+    """A drum that stands in a column: its faces are told in axes along and normal to its lower one, inclined by ``lean``."""
 
-    The axes are along and normal to its lower face.
-    """
-    drum, one = column.drums[i], column.as_found.of(i + 1)
-    tilt = one.tilt * DEGREE
-    c, s = math.cos(tilt), math.sin(tilt)
-    half, high = 0.5 * drum.top_width, drum.height
-    top = {side: np.array([c * side * half - s * high, s * side * half + c * high]) for side in (-1, 1)}
-    corners = []
-    for side, chip in ((-1, one.chip_left), (1, one.chip_right)):
-        edge = np.array([side * 0.5 * drum.bottom_width, 0.0])
-        flank = edge + min(CHIP_SLOPE * chip / drum.height, 0.5) * (top[side] - edge)
-        face = edge - (side * chip, 0.0)
-        corners += [face] if chip == 0.0 else [flank, face] if side < 0 else [face, flank]
-    return np.array([*corners, top[1], top[-1]]) - drum.centroid_height * np.array([-s, c])
+    drum: Drum
+    found: FoundDrum
+
+    @cached_property
+    def polygon(self) -> np.ndarray:
+        """Corners from its centroid in these axes, counter-clockwise from the lower left [m], shape (k, 2)."""
+        drum, one = self.drum, self.found
+        tilt = one.tilt * DEGREE
+        c, s = math.cos(tilt), math.sin(tilt)
+        half, high = 0.5 * drum.top_width, drum.height
+        top = {side: np.array([c * side * half - s * high, s * side * half + c * high]) for side in (-1, 1)}
+        corners = []
+        for side, chip in ((-1, one.chip_left), (1, one.chip_right)):
+            edge = np.array([side * 0.5 * drum.bottom_width, 0.0])
+            flank = edge + min(CHIP_SLOPE * chip / drum.height, 0.5) * (top[side] - edge)
+            face = edge - (side * chip, 0.0)
+            corners += [face] if chip == 0.0 else [flank, face] if side < 0 else [face, flank]
+        return np.array([*corners, top[1], top[-1]]) - drum.centroid_height * np.array([-s, c])

@@ -45,12 +45,7 @@ def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
     return np.eye(3) + math.sin(angle) * skew + (1.0 - math.cos(angle)) * skew @ skew
 
 
-def space_geometry(
-    column: Column,
-    closing: np.ndarray | None = None,
-    slip: np.ndarray | None = None,
-    twist: np.ndarray | None = None,
-) -> SpaceGeometry:
+def space_geometry(column: Column, closing: np.ndarray | None = None) -> SpaceGeometry:
     """Where a column's drums and joints are.
 
     Parameters
@@ -59,9 +54,6 @@ def space_geometry(
     closing : array, optional
         Gap of each joint in the middle of the drum's face [m], and its rotation about the joint's first and second axis
         [rad], shape (n, 3); closed without either if left out.
-    slip, twist : array, optional
-        What each drum has moved in the axes of the drum below [m], and turned on it [rad], since it was found; shapes
-        (n, 2) and (n,).
     """
     n = column.n
     frames, beds = np.empty((n, 3, 3)), np.empty((n, 3, 3))
@@ -74,8 +66,6 @@ def space_geometry(
         one = column.as_found.of(i + 1)
         azimuth = one.offset_azimuth * DEGREE
         offset = one.offset * np.array([math.cos(azimuth), math.sin(azimuth)])
-        if slip is not None:
-            offset = offset + rotation(up, turned)[:2, :2] @ slip[i]
         gap, first, second = (0.0, 0.0, 0.0) if closing is None else closing[i]
         out.frame[i], out.origin[i], out.offset[i] = frame, origin, offset
         middle = origin + frame @ (*offset, gap)
@@ -85,7 +75,7 @@ def space_geometry(
         azimuth = one.tilt_azimuth * DEGREE
         lean = rotation(np.array([math.sin(azimuth), -math.cos(azimuth), 0.0]), one.tilt * DEGREE)
         frame = frame @ lean
-        turned += one.turn * DEGREE + (0.0 if twist is None else float(twist[i]))
+        turned += one.turn * DEGREE
         spin = rotation(up, turned)
         out.turned[i], out.axes[i], out.bed[i] = turned, frame @ spin, spin.T @ lean.T @ spin
         out.centroid[i] = middle + drum.centroid_height * frame[:, 2]

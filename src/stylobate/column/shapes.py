@@ -20,6 +20,27 @@ CHIP_SLOPE = 1.5
 SAME = 10
 
 
+class Outlined:
+    """What has an outline as it stands."""
+
+    @property
+    def outline(self) -> np.ndarray:
+        """Corners as it stands, along and normal to the base [m], shape (k, 2)."""
+        raise NotImplementedError
+
+    @property
+    def size(self) -> float:
+        """Larger side of the box around it [m]."""
+        return float(np.ptp(self.outline, axis=0).max())
+
+    @property
+    def thickness(self) -> float:
+        """Smallest distance between two parallels that hold it [m]."""
+        side = np.roll(self.outline, -1, axis=0) - self.outline
+        inward = np.stack((-side[:, 1], side[:, 0]), axis=1) / np.hypot(side[:, 0], side[:, 1])[:, None]
+        return float(((self.outline[None] - self.outline[:, None]) @ inward[:, :, None]).max(axis=1).min())
+
+
 class Mesh(NamedTuple):
     """A closed surface of flat faces: vertices [m], shape (m, 3); vertex numbers of each face, counter-clockwise outside."""
 
@@ -50,6 +71,11 @@ class CircularFrustum:
     def outline(self) -> np.ndarray:
         """Corners (x, z) of what is seen along y [m], shape (4, 2)."""
         return _trapezium(self.bottom, self.top, self.height, self.centroid)
+
+    @property
+    def depth(self) -> float:
+        """Mean thickness across the width [m]."""
+        return 0.25 * math.pi * (0.5 * (self.bottom + self.top))
 
     def mesh(self, around: int = 32) -> Mesh:
         """The surface."""
@@ -82,6 +108,11 @@ class RectangularFrustum:
         """Corners (x, z) of what is seen along y [m], shape (4, 2)."""
         return _trapezium(self.bottom[0], self.top[0], self.height, self.centroid)
 
+    @property
+    def depth(self) -> float:
+        """Mean thickness [m]."""
+        return 0.5 * (self.bottom[1] + self.top[1])
+
     def mesh(self, around: int = 32) -> Mesh:
         """The surface; it has no circles."""
         del around
@@ -107,6 +138,11 @@ class Chipped:
     def outline(self) -> np.ndarray:
         """Corners (x, z) of what is seen along y [m], shape (k, 2)."""
         return hull(self.mesh(128).vertices[:, [0, 2]])
+
+    @property
+    def depth(self) -> float:
+        """Mean thickness of the whole drum [m]."""
+        return self.whole.depth
 
     def mesh(self, around: int = 32) -> Mesh:
         """The surface: the faces of the whole drum in their order, then those of the chips."""
@@ -184,6 +220,11 @@ class ConvexSolid:
         """Corners (x, z) of what is seen along y [m], shape (k, 2)."""
         return hull(np.asarray(self.vertices)[:, [0, 2]])
 
+    @property
+    def depth(self) -> float:
+        """Largest thickness [m]."""
+        return float(np.ptp(np.asarray(self.vertices)[:, 1]))
+
     def mesh(self, around: int = 32) -> Mesh:
         """The surface, in triangles."""
         del around
@@ -198,7 +239,7 @@ class ConvexSolid:
         return Mesh(points, tuple(faces))
 
 
-#: What every shape gives to those who draw it: ``outline``, seen along y, and ``mesh()``, its surface.
+#: What every shape gives: ``outline``, seen along y, ``depth`` along it, and ``mesh()``, its surface.
 Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid
 
 #: Shapes of drums.

@@ -17,9 +17,10 @@ import numpy as np
 from ..errors import InputError
 from .as_found import AS_BUILT, AsFound
 from .faces import FacePair
+from .joint import Joint
 from .links.link import Link
 from .links.placed import PlacedLink
-from .shapes import Shape, hull
+from .shapes import Outlined, Shape, hull
 
 
 class Body(Protocol):
@@ -29,6 +30,11 @@ class Body(Protocol):
     these axes to the base, counter-clockwise [rad]. ``mass`` [kg], ``inertia`` about the centroid in the plane [kg m²].
     What is ``fixed`` moves with the ground: it has neither, and its origin is that of space. ``corners`` is its outline seen
     along y, horizontally and upward [m], shape (k, 2).
+
+    What is in contact in the plane is ``polygon``, its corners counter-clockwise from its place, in the axes in which its
+    faces are told; they are inclined to the base by ``lean`` [rad]. ``outline`` is the same as it stands, along and normal
+    to the base; ``size`` and ``thickness`` are the larger side of the box around it, and the smallest distance of two
+    parallels that hold it [m].
     """
 
     @property
@@ -47,10 +53,20 @@ class Body(Protocol):
     def fixed(self) -> bool: ...
     @cached_property
     def corners(self) -> np.ndarray: ...
+    @property
+    def lean(self) -> float: ...
+    @cached_property
+    def polygon(self) -> np.ndarray: ...
+    @property
+    def outline(self) -> np.ndarray: ...
+    @property
+    def size(self) -> float: ...
+    @property
+    def thickness(self) -> float: ...
 
 
 @dataclass(frozen=True, eq=False)
-class Standing:
+class Standing(Outlined):
     """A body that can move; see :class:`Body`.
 
     Parameters
@@ -65,6 +81,8 @@ class Standing:
         [rad]
     slope : float
         Of the base in the plane, counter-clockwise [rad].
+    lean : float
+        Of the axes that its faces are told in [rad].
     in_space : (array, array), optional
         Centroid [m] and axes as columns, in axes of which z is upward, of a body that leans out of the plane.
     """
@@ -76,6 +94,7 @@ class Standing:
     place: tuple[float, float]
     angle: float = 0.0
     slope: float = 0.0
+    lean: float = 0.0
     in_space: tuple[np.ndarray, np.ndarray] | None = None
 
     @property
@@ -90,6 +109,16 @@ class Standing:
             centroid, axes = self.in_space
             return hull((self.shape.mesh().vertices @ axes.T + centroid)[:, [0, 2]])
         return self.shape.outline @ _turn(self.slope + self.angle) + np.array(self.place) @ _turn(self.slope)
+
+    @cached_property
+    def polygon(self) -> np.ndarray:
+        """Corners from its place, in these axes [m], shape (k, 2)."""
+        return self.shape.outline
+
+    @property
+    def outline(self) -> np.ndarray:
+        """Corners as it stands, along and normal to the base [m], shape (k, 2)."""
+        return self.polygon @ _turn(self.lean) + np.array(self.place)
 
 
 def _turn(angle: float) -> np.ndarray:
@@ -139,6 +168,20 @@ class Structure:
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, at their places, in their order."""
+        return ()
+
+    def link_ends(self, link: PlacedLink) -> tuple[np.ndarray, np.ndarray, tuple[float, float]]:
+        """Places of a link on its two bodies in the axes of their faces [m], shape (3,), and in which direction it slips."""
+        return *link.arms, link.along
+
+    @property
+    def surfaces(self) -> tuple[Joint, ...]:
+        """Of every body, the law of its contacts, other than joints, with those before it."""
+        raise NotImplementedError
+
+    @property
+    def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
+        """Other laws of such contacts: two bodies, the lower number first."""
         return ()
 
     @property

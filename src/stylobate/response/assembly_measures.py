@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..column.assembly import Assembly, Block, FaceJoint, separation
+from ..column.structure import Structure
 from ..outcome import Outcome, classify
 from .collapse import FELL, Collapse, Touch
 from .histories import Histories
@@ -135,9 +136,9 @@ def fallen_since(assembly: Assembly, z: np.ndarray, rotation: np.ndarray) -> dic
     return {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
 
 
-def lowest_standing(assembly: Assembly, z: np.ndarray) -> np.ndarray:
+def lowest_standing(structure: Structure, z: np.ndarray) -> np.ndarray:
     """Height below which the centroid of each body has fallen, from that at the start [m], shape (N,)."""
-    return z - DROP * np.array([np.ptp(block.corners, axis=0).min() for block in assembly.bodies])
+    return z - DROP * np.array([np.ptp(body.outline, axis=0).min() for body in structure.bodies])
 
 
 def have_fallen(lowest: np.ndarray, z: np.ndarray, turned: np.ndarray) -> np.ndarray:
@@ -146,34 +147,34 @@ def have_fallen(lowest: np.ndarray, z: np.ndarray, turned: np.ndarray) -> np.nda
 
 
 def first_touch(
-    assembly: Assembly, time: np.ndarray, x: np.ndarray, z: np.ndarray, rotation: np.ndarray, when: float
+    structure: Structure, time: np.ndarray, x: np.ndarray, z: np.ndarray, rotation: np.ndarray, when: float
 ) -> Touch:
     """What touched first of what is not joined: the closest two bodies in the first recorded state after it.
 
     Parameters
     ----------
-    assembly : Assembly
+    structure : Structure
     time : array
         [s], shape (T,)
     x, z, rotation : array
-        Poses of ``assembly.bodies`` [m], [rad], shape (T, N).
+        Poses of its bodies [m], [rad], shape (T, N).
     when : float
         When a contact of bodies without a joint was first seen [s].
     """
     k = min(int(np.searchsorted(time, when)), len(time) - 1)
     outlines = []
-    for i, block in enumerate(assembly.bodies):
+    for i, body in enumerate(structure.bodies):
         c, s = math.cos(rotation[k, i]), math.sin(rotation[k, i])
-        outlines.append((block.corners - block.origin) @ np.array([[c, s], [-s, c]]) + (x[k, i], z[k, i]))
+        outlines.append((body.outline - body.place) @ np.array([[c, s], [-s, c]]) + (x[k, i], z[k, i]))
     if not all(np.isfinite(corners).all() for corners in outlines):
         return Touch(when)
     low, high = (np.array([end(corners, axis=0) for corners in outlines]) for end in (np.min, np.max))
     gap = np.maximum(low[:, None] - high[None], low[None] - high[:, None]).max(axis=2)  # of the boxes, one way or other
-    joined = {frozenset((joint.lower, joint.upper)) for joint in assembly.joints}
-    near = NEAR * min(block.size for block in assembly.bodies)
+    joined = {frozenset((joint.lower, joint.upper)) for joint in structure.face_pairs}
+    near = NEAR * min(body.size for body in structure.bodies)
     best, found = math.inf, None
     for i, j in np.argwhere(np.triu(gap < near, 1)).tolist():
-        one, other = assembly.bodies[i], assembly.bodies[j]
+        one, other = structure.bodies[i], structure.bodies[j]
         if frozenset((i, j)) in joined or (one.fixed and other.fixed):
             continue
         apart = separation(outlines[i], outlines[j])

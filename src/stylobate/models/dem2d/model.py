@@ -19,26 +19,18 @@ from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, RunOptions
-from ..drums.joints import contact_points, joint_stiffnesses
+from ..drums.bodies import Topology, body_fields
+from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
 from ..drums.links import link_stiffness, with_links
+from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..plane.assemblies import AssemblyNumbers, expected_step, measures_of_assemblies, run_assembly
 from ..plane.block import Law
 from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
 from ..plane.laws import point_law
-from ..plane.links import bonds, links_at_rest
 from ..plane.loose import Contacts
-from ..plane.packing import (
-    Packed,
-    Topology,
-    damping,
-    drum_fields,
-    joint_fields,
-    lane_fields,
-    one_lane,
-    top_face,
-)  # fmt: skip
+from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
@@ -129,10 +121,6 @@ class DistinctElement2D(SteppedDrums):
         return (1.0 if self.damped else 0.5) * self.points * super().cost(drums)
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
-
-    def kind(self, column: Column) -> Topology:
-        """Which contacts there are: columns alike in that share blocks of lanes."""
-        return Topology.of_column(column)
 
     def law(self, linked: bool) -> Law:
         """The law of the joints, for columns with links or without."""
@@ -226,7 +214,7 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
     kn, ks = joint_stiffnesses(column, model.block_modulus)
     width, area = column.joint_widths, column.joint_areas
     xi, share = contact_points(column.section, model.points)
-    drums, shear = drum_fields(column, column.joint_weights / (kn * area)), np.zeros((column.n, model.points))
+    drums, shear = body_fields(column, column.joint_weights / (kn * area)), np.zeros((column.n, model.points))
     if column.as_found or column.pretensioned:
         found, shear = found_start(column, kn * area / width, xi, share)
         drums |= found
@@ -234,17 +222,10 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
         state, shear = _settled(column, model)
         drums |= state
     joint = joint_fields(column, kn, ks) | {"fs": shear}
-    lane = lane_fields(column) | {"xi": xi, "sh": share}
-    lane["damp"] = damping(model.damped, model.stiffness_damping, model.mass_damping)
     types = point_law(model.points, model.damped, 1, bool(column.links)).types
-    records = {
-        "body": one_lane(types["body"], column.n + 1, drums),
-        "joint": one_lane(types["joint"], column.n, joint),
-        "lane": one_lane(types["lane"], 1, lane),
-        "link": links_at_rest(column, drums),
-    }
-    toes = point_toes(column, kn, float(share[-1]))
-    return Packed(records, bonds(column), model.step_for(column), toes, top_face(column))
+    damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
+    fields = drums, joint, lane_fields(column, damp, model.points)
+    return pack_column(column, types, fields, model.step_for(column), point_toes(column, kn, float(share[-1])))
 
 
 #: Residual acceleration at which a column has settled [m/s²], and the most chunks of steps for it.

@@ -1,4 +1,4 @@
-"""Records of bodies in space over lanes: the engine's arrays, the list of their contacts, and what a lane reads as."""
+"""Records of bodies in space over lanes, and what a lane reads as."""
 
 from __future__ import annotations
 
@@ -7,78 +7,27 @@ from typing import Any
 
 import numpy as np
 
-from ...kernels.run_codes import CHUNK, LANES
 from ...kernels.shared.records import STATE
-from ..shared.lanes import aligned_zeros, in_rows, with_copies
-
-#: Records of which every lane has its own numbers from the start.
-OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
+from ..drums.bodies import Topology
+from ..drums.records import LaneRecords
 
 
-class Records:
-    """Records of bodies of which each stands on the one below, in lanes, as the engine takes them.
+class Records(LaneRecords):
+    """Records of bodies of which each stands on the one below; others as for :class:`LaneRecords`.
 
     Parameters
     ----------
     kernel : module
         Of the engine.
-    types : dict of dtype
-        Of the records (``kernels/dem3d/records.py``).
-    bodies : int
-        The base among them; every one has a contact with the one below.
-    joints : int
-        Rows of the records of joints: as many as these contacts, or those of a body's vertices.
-    links : int
-        Their contacts follow, :meth:`join_links`.
     """
 
-    def __init__(self, kernel: Any, types: Mapping[str, np.dtype], bodies: int, joints: int, links: int = 0) -> None:
+    def __init__(self, kernel: Any, types: Mapping[str, np.dtype], topology: Topology, joints: int) -> None:
+        super().__init__(types, topology, joints, spare=1)  # for what all loads of a body add up to
         self.kernel = kernel
-        contacts = bodies - 1 + links
-        rows = {
-            "body": bodies, "joint": joints, "load": contacts + 2, "link": links, "bond": links, "ground": CHUNK + 1,
-            "span": bodies, "hold": joints if links else 0, "pair": contacts, "touch": 2 * contacts,
-        }  # fmt: skip
-        arrays = (aligned_zeros(rows.get(name, 1), types[name]) for name in STATE[:-1])
-        self.state: tuple[Any, ...] = (*arrays, bodies - 1)
-        (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
-         self.pair, self.span, self.touch, _) = self.state  # fmt: skip
-        self.rows = {name: in_rows(getattr(self, name), LANES) for name in OF_A_LANE}
-        self.pair["lower"][: bodies - 1] = np.arange(bodies - 1)
-        self.pair["upper"][: bodies - 1] = np.arange(1, bodies)
-        self._list(bodies - 1)
-
-    def join_links(self, links: Any) -> None:
-        """Write what links are in all lanes, and list their contacts behind those of the joints."""
-        for name, values in links.bond.items():
-            self.bond[name] = values
-        first = len(self.body) - 1
-        self.pair["lower"][first:], self.pair["upper"][first:] = links.lower, links.upper
-        self._list(len(self.pair))
-
-    def _list(self, count: int) -> None:
-        """List the first contacts body by body; the last load is one of nothing."""
-        from ...kernels.shared.contacts import list_contacts
-
-        list_contacts(self.pair, count, len(self.load) - 1, self.span, self.touch)
-
-    # -- numbers of a lane ---------------------------------------------------------------------------------------
-
-    def fill(self, lane: int, /, **records: Mapping[str, Any]) -> None:
-        """Write fields of some records into a lane."""
-        for record, fields in records.items():
-            array = getattr(self, record)
-            for name, values in fields.items():
-                array[name][..., lane] = values
-
-    def taken(self, lane: int) -> dict[str, np.ndarray]:
-        """All numbers of a lane, for :meth:`put`."""
-        return {name: rows[:, lane].copy() for name, rows in self.rows.items()}
 
     def put(self, lane: int, numbers: Mapping[str, np.ndarray]) -> None:
         """Write all numbers of a lane."""
-        for name, rows in self.rows.items():
-            rows[:, lane] = numbers[name]
+        super().put(lane, numbers)
         if "near" in (self.lane.dtype.names or ()):
             self.look_at_all_vertices()
 
@@ -89,10 +38,6 @@ class Records:
         self.lane["count"] = len(every)
 
     # -- looks at a lane, which change nothing that matters ------------------------------------------------------
-
-    def now(self, *others: str) -> tuple[Any, ...]:
-        """A state of copies of all records that a look at the forces changes, and of some others."""
-        return with_copies(self.state, *others)
 
     def energies(self, lane: int, dt: float, base: np.ndarray, state: tuple[Any, ...] | None = None) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].

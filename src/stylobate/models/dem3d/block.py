@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -14,39 +14,15 @@ from ...response import Collapse, Measures
 from ...response.collapse import OVERTURNED, SLID_OFF
 from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
-from ..drums.runs import CALLS_PER_RUN, LaneRuns
-from ..drums.whole_steps import whole_steps
+from ..drums.records import Packed
+from ..drums.runs import LaneRuns
 from ..shared.lanes import in_rows
 from .arrays import Records
-from .packing import Packed
+from .specimen import FreeBody
+from .stack import Stack
 
-
-class Bodies(Protocol):
-    """What stacked drums and a single body in a block of lanes do each in their own way."""
-
-    def check_start(self, structure: Any, start: Any) -> None:
-        """Refuse a start that is not one for them."""
-        ...
-
-    def take_pose(self, records: Records, lane: int, structure: Any, start: Any) -> None:
-        """Put what stands in a lane where a run starts from."""
-        ...
-
-    def top(self, records: Records, lane: int) -> np.ndarray:
-        """Place of the top along the base [m], shape (2,)."""
-        ...
-
-    def foot(self, records: Records, lane: int, structure: Any) -> np.ndarray:
-        """Place of the middle of the lowest face [m], shape (3,)."""
-        ...
-
-    def stays(self, packed: Packed, records: Records, lane: int, structure: Any, energy: float) -> bool:
-        """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
-        ...
-
-    def lost(self, collapse: Collapse, structure: Any) -> str:
-        """What has come down, in words."""
-        ...
+#: What stacked drums and a single body do each in their own way.
+Bodies = Stack | FreeBody
 
 
 class SpaceBlock(LaneRuns):
@@ -72,45 +48,23 @@ class SpaceBlock(LaneRuns):
         *,
         planar: bool = False,
     ) -> None:
-        super().__init__(pack, (records.lane, records.feed, records.watch, records.link), options, cost)
+        super().__init__(pack, records, options, cost)
         self.records, self.bodies, self.planar = records, bodies, planar
-        self.packed: dict[int, Packed] = {}
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
-    def load(self, lane: int, case: Case) -> None:
-        """Start a case in a lane."""
-        self.cases[lane] = case
-        packed, motion, records = self.pack(case.column), case.motion, self.records
-        self.packed[lane] = packed
-        records.put(lane, packed.lane)
-        dt, chunks = whole_steps(motion, self.options.tail, packed.step)
-        steps = chunks * self.chunk
-        records.lane["dt"][0, lane] = self.dt[lane] = dt
-        if packed.links is not None:
-            records.join_links(packed.links)
-            records.link["dt"][:, lane] = dt
-        feed, watch = self.feed[0], self.watch[0]
-        watch["follow"][lane] = self.options.until_end
-        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
-        feed["ratio"][lane] = dt / motion.dt
-        feed["factor"][lane] = motion.factor
-        feed["last"][lane] = motion.steps - 1
+    def stand(self, lane: int, case: Case) -> None:
+        """Note how the base of a lane moves."""
+        motion, feed, watch = case.motion, self.feed[0], self.watch[0]
         along, high = motion.samples**2, 0.0
-        feed["x"][lane] = motion.samples.ctypes.data
         if motion.y_samples is not None:
-            feed["y"][lane] = motion.y_samples.ctypes.data
             along = along + motion.y_samples**2
         if motion.z_samples is not None:
-            feed["z"][lane] = motion.z_samples.ctypes.data
             high = float(np.abs(motion.z_samples).max()) * abs(motion.factor)
         flat = math.sqrt(float(along.max())) * abs(motion.factor)
         level, slope = float(feed["r"][8, lane]), math.hypot(feed["r"][2, lane], feed["r"][5, lane])
         watch["amax"][lane] = flat + slope * high
         watch["vmax"][lane] = level * high + slope * flat
-        self.steps[lane] = steps
-        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
-        self.begin(lane)
 
     def check_start(self, column: Any) -> None:
         """Refuse a start that is not one for what stands in the block."""
@@ -176,14 +130,6 @@ class SpaceBlock(LaneRuns):
                 a[c] = sample_one(address, last, place, BEFORE) * case.motion.factor
         return feed["r"][:, lane].reshape(3, 3) @ a
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        return self.records.energies(lane, float(self.dt[lane]), self.ground_acceleration(lane))
-
-    def residual_acceleration(self, lane: int) -> float:
-        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
-        return self.records.acceleration(lane)
-
     def top(self, lane: int) -> np.ndarray:
         """Displacement of the top along the base [m], shape (2,)."""
         return self.bodies.top(self.records, lane) - [self.watch[name][0, lane] for name in ("sx", "sy")]
@@ -219,14 +165,6 @@ class SpaceBlock(LaneRuns):
             residual_twist_per_joint=tuple(twist.tolist()),
         )
         return self.measures(lane, slips, float(np.hypot(*self.top(lane))), lean, space)
-
-    def widths(self, lane: int) -> np.ndarray:
-        """Widths that openings and slips are measured by [m], shape (n,)."""
-        return self.packed[lane].widths
-
-    def barrier(self, lane: int) -> float:
-        """Lowest energy that overturns what stands in a lane [J]."""
-        return self.packed[lane].barrier
 
     def stays(self, lane: int, energy: float) -> bool:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from ...column.as_found import FoundDrum
 from ...column.found_in_space import SpaceGeometry, SpaceLoad, space_geometry, space_load
 from ...errors import InputError
 from ...kernels.shared.records import JOINT
+from ..drums.bodies import Topology
 from .arrays import Records
 from .packing import CORNERS
 
@@ -164,7 +165,7 @@ class _Contact:
     ) -> None:
         n = column.n
         self.column, self.cornered = column, column.section != "circular"
-        self.records = records = Records(kernel, types, n + 1, n)
+        self.records = records = Records(kernel, types, replace(Topology.of(column), links=()), n)
         self.drum, self.joint, lane = records.body, records.joint, records.lane
         for array, values in zip((self.drum, self.joint, lane), fields, strict=True):
             for name, value in values.items():

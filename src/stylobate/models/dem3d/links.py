@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import space_geometry
-from ...kernels.shared.link_records import NUMBERS, SHARED
 from ..drums.links import acting, hold_of, law_fields
 
 
-class SpaceLinks(NamedTuple):
-    """Links of a column: their bodies, and fields of ``bond`` and of a lane of ``link`` that are not 0, shapes (m, …)."""
-
-    lower: np.ndarray
-    upper: np.ndarray
-    bond: dict[str, np.ndarray]
-    link: dict[str, np.ndarray]
-
-
-def space_links(column: Column, drum: dict[str, np.ndarray]) -> SpaceLinks | None:
-    """Links of a column in space whose drums stand as these fields of the kernel's records say."""
+def link_fields(column: Column, drum: dict[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """Fields of the links of a column in space that are not 0, whose drums stand as these fields of the records say."""
     links = acting(column)
     if not links:
-        return None
+        return {}
     joint, line, ends = np.zeros((len(links), 3)), np.zeros(len(links)), np.zeros((2, len(links), 3))
     axes = np.stack([np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
     centroids, foot = (np.stack([drum[a + c] for c in "xyz"], axis=-1) for a in ("", "f"))
@@ -40,8 +29,7 @@ def space_links(column: Column, drum: dict[str, np.ndarray]) -> SpaceLinks | Non
             continue
         ends[1, m] = foot[up] + beds[up - 1] @ (*link.high[:2], 0.0)
         joint[m] = axes[low].T @ (centroids[up] + axes[up] @ ends[1, m] - centroids[low]) - (0.0, 0.0, drum["ht"][low])
-    laws = {name[1:]: values for name, values in law_fields(links).items()}
-    shared = {name: laws[name] for name in (*NUMBERS.split(), *SHARED.split()) if name in laws}
+    laws = law_fields(links)
     pretension = np.array([one.pretension for one in links])
     start = np.where(laws["line"] > 0, line, joint[:, 2])
     stretch = np.where(laws["ka"] > 0.0, pretension / np.where(laws["ka"] > 0.0, laws["ka"], 1.0), 0.0)
@@ -58,5 +46,4 @@ def space_links(column: Column, drum: dict[str, np.ndarray]) -> SpaceLinks | Non
         "when": np.full(len(links), -1),
         "whole": np.array([hold_of(column, one) for one in links]),
     }
-    own |= {f"{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}
-    return SpaceLinks(np.array([one.lower for one in links]), np.array([one.upper for one in links]), shared, own)
+    return own | {f"{end}{c}": ends[e][:, i] for e, end in enumerate("ab") for i, c in enumerate("xyz")}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -19,8 +19,10 @@ from ...motion import Motion
 from ...response import Response
 from ..base import RunOptions
 from ..drums.barriers import lowest_barrier
-from ..drums.joints import joint_stiffnesses
-from ..drums.links import kind_of, link_stiffness, with_beds_alone, with_links
+from ..drums.bodies import Topology
+from ..drums.joints import damping_rows, joint_stiffnesses
+from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
+from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
@@ -28,8 +30,8 @@ from ..shared.toes import bed_toes, point_toes, rim_toes
 from .arrays import Records
 from .block import SpaceBlock
 from .found_start import found_start
-from .links import space_links
-from .packing import Packed, chipped, damping_rows, drum_fields, joint_fields, lane_fields, pack_column
+from .links import link_fields
+from .packing import chipped, drum_fields, joint_fields, lane_fields, pack_column
 from .restitution import damping_for
 from .specimen import FreeBody, pack_specimen, rows_for, top_frequency
 from .stability import highest_frequency
@@ -48,6 +50,25 @@ SPECIMEN, RING, CHIPPED = "specimen", "ring", "chipped"
 
 #: On what the bodies of a section stand, as the kernels' records are told; others by the law of contact.
 FACES = {SPECIMEN: "vertex", "rectangular": "corner", RING: "ring", CHIPPED: "chip"}
+
+#: The contacts of a single body: with the base.
+ALONE = Topology(2, ((0, 1),), stack=1)
+
+
+class Kind(NamedTuple):
+    """What shares blocks of lanes.
+
+    Parameters
+    ----------
+    topology : Topology
+    section : str
+    rows : int
+        Of the records of joints.
+    """
+
+    topology: Topology
+    section: str
+    rows: int
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -207,33 +228,30 @@ class DistinctElement3D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kind(self, column: Any) -> tuple:
-        """Columns of one kind share blocks of lanes: number of drums, section and links; specimens with as many rows."""
+    def kind(self, column: Any) -> Kind:
+        """Columns of one kind share blocks of lanes; specimens with as many rows."""
         if column.stack is None:
-            return rows_for(column), SPECIMEN
+            return Kind(ALONE, SPECIMEN, rows_for(column))
         section = RING if column.on_rings else CHIPPED if chipped(column) else column.section
-        return (column.n, section, *kind_of(column))
+        return Kind(Topology.of(column), section, column.n)
 
     def kernel(self) -> Any:
         """Module of kernels."""
         return importlib.import_module("...kernels.dem3d.step", __package__)
 
-    def record_types(self, section: str = "circular", links: int = 0) -> dict[str, np.dtype]:
-        """Record types of the kernel's arrays, for bodies of a section and for so many links."""
+    def record_types(self, section: str, linked: bool = False) -> dict[str, np.dtype]:
+        """Record types of the kernel's arrays, for bodies of a section, with links or without."""
         damped = self.damped or section == SPECIMEN
-        return types(FACES.get(section, self.law), damped, self.rolling_resistance > 0.0, links > 0)
+        return types(FACES.get(section, self.law), damped, self.rolling_resistance > 0.0, linked)
 
     def pack(self, column: Any) -> Packed:
         """A column or a specimen as the kernel wants it."""
         return _pack_specimen(column, self) if column.stack is None else _pack(column, self)
 
-    def records(self, kind: tuple) -> Records:
+    def records(self, kind: Kind) -> Records:
         """Empty records of the kernel for what is of a kind."""
-        rows, section, *tied = kind
-        links = tied[0] if tied else 0
-        types = self.record_types(section, links)
-        bodies, joints = (2, rows) if section == SPECIMEN else (rows + 1, rows)
-        return Records(self.kernel(), types, bodies, joints, links)
+        types = self.record_types(kind.section, bool(kind.topology.links))
+        return Records(self.kernel(), types, kind.topology, kind.rows)
 
     def stable_step(self, column: Any) -> float:
         """Largest stable time step of the closed column [s]."""
@@ -241,12 +259,11 @@ class DistinctElement3D(SteppedDrums):
             return stable_step(top_frequency(column), self.stiffness_damping)
         return _stable_step(column, self)
 
-    def block_for(self, kind: tuple, options: RunOptions) -> SpaceBlock:
+    def block_for(self, kind: Kind, options: RunOptions) -> SpaceBlock:
         """A block of lanes for what is of a kind."""
-        rows, section, *_ = kind
-        if section == SPECIMEN:
-            return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.cost(rows // 32))
-        bodies, cost = Stack(planar=self.planar), self.cost(rows)
+        if kind.section == SPECIMEN:
+            return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.cost(kind.rows // 32))
+        bodies, cost = Stack(planar=self.planar), self.cost(kind.rows)
         return SpaceBlock(self.records(kind), bodies, self.pack, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:
@@ -271,14 +288,14 @@ def _pack(column: Column, model: DistinctElement3D) -> Packed:
     kind = model.kind(column)
     if column.as_found or column.pretensioned:
         found, friction = found_start(
-            column, model.kernel(), model.record_types(kind[1]), (drums, joints, lane), closure
+            column, model.kernel(), model.record_types(kind.section), (drums, joints, lane), closure
         )
         drums, joints = drums | found, joints | friction
-    links = space_links(column, drums)
-    numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, Stack(planar=model.planar).top)
+    links, top = link_fields(column, drums), Stack(planar=model.planar).top
+    numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, top)
     law = model.law if column.section == "circular" else "corners"
     stand = numbers_for(column, TOES[law](column, kn * shares_left(column)))
-    return Packed(numbers, model.step_for(column), column.joint_widths, lowest_barrier(column), stand, links)
+    return Packed(numbers, bonds(column), model.step_for(column), column.joint_widths, lowest_barrier(column), stand)
 
 
 @lru_cache(maxsize=4096)

@@ -3,61 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import base_axes, space_geometry, upward
-from ...kernels.dem3d.records import ALPHA, BETA, CHIPS, RINGS
-from ...kernels.run_codes import RUNNING
+from ...kernels.dem3d.records import CHIPS, RINGS
+from ..drums.bodies import body_fields
+from ..drums.records import UNSEEN
 from .arrays import Records
-from .links import SpaceLinks
-
-
-@dataclass(frozen=True)
-class Packed:
-    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
-
-    Parameters
-    ----------
-    lane : dict of str to array
-        All numbers of a lane, see :meth:`Records.taken`.
-    step : float
-        Time step [s].
-    widths : array
-        Widths that openings and slips are measured by [m], shape (n,).
-    barrier : float
-        Lowest energy that overturns it [J].
-    stand : array
-        Its numbers for the verdict: of a column in ``kernels/dem3d/standing.py``, of a body least heights by tilt [m].
-    links : SpaceLinks, optional
-    axes : array, optional
-        Axes that histories tell, in those of the records; of a body, shape (3, 3).
-    """
-
-    lane: dict[str, np.ndarray]
-    step: float
-    widths: np.ndarray
-    barrier: float
-    stand: np.ndarray
-    links: SpaceLinks | None = None
-    axes: np.ndarray | None = None
-
-
-def start_watch(records: Records, top: np.ndarray) -> None:
-    """Let the first lane be looked at from the start: nothing has happened; ``top`` is where the top stands [m]."""
-    fields = dict.fromkeys(("when", "which", "wide"), -1.0)
-    records.fill(0, watch=fields | {"status": RUNNING, "sx": top[0], "sy": top[1]})
 
 
 def pack_column(
     records: Records,
     column: Column,
     fields: tuple[dict[str, np.ndarray], dict[str, np.ndarray], dict[str, Any]],
-    links: SpaceLinks | None,
+    links: Mapping[str, np.ndarray],
     top: Callable[[Records, int], np.ndarray],
 ) -> dict[str, np.ndarray]:
     """Numbers of a lane with a column, from the fields of its drums, joints and lane; ``records`` are empty ones.
@@ -68,8 +31,8 @@ def pack_column(
     records.fill(0, body=body | {"a" + c: body["k" + c] for c in "xyz"}, joint=joint, lane=lane)
     _, slip, twist = records.joints(0)
     records.fill(0, joint={"ox": slip[:, 0], "oy": slip[:, 1], "ot": twist, "tw": twist})
-    records.fill(0, feed={"r": base_axes(column).T.ravel()}, link={} if links is None else links.link)
-    start_watch(records, top(records, 0))
+    records.fill(0, feed={"r": base_axes(column).T.ravel()}, link=links)
+    records.fill(0, watch=UNSEEN | dict(zip(("sx", "sy"), top(records, 0), strict=True)))
     return records.taken(0)
 
 
@@ -83,7 +46,7 @@ LEAST = 1e-9
 def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     """Fields of the drums that are not 0, or that links need, the base first: upright, at rest, each joint closed by
     ``closure`` [m], shape (n,)."""
-    n = column.n + 1
+    n, plane = column.n + 1, body_fields(column, closure)
     centroid = np.array([drum.centroid_height for drum in column.drums])
     axial = np.array([drum.axial_inertia for drum in column.drums])
     zero, one = np.zeros(n), np.ones(n)
@@ -99,13 +62,10 @@ def drum_fields(column: Column, closure: np.ndarray) -> dict[str, np.ndarray]:
     axes = {axis + c: one if "ijk".index(axis) == "xyz".index(c) else zero for axis in "ijk" for c in "xyz"}
     return (
         axes
+        | {name: plane[name] for name in ("x", "z", "m", "im")}
         | {
-            "x": zero,
             "y": zero,
-            "z": on_base(column.centroid_heights - np.cumsum(closure)),
-            "m": on_base(column.masses),
-            "im": on_base(1.0 / column.masses),
-            "ia": on_base(1.0 / column.inertias),
+            "ia": plane["ii"],
             "ic": on_base(1.0 / axial - 1.0 / column.inertias),
             "ib": on_base(np.where(cross == column.inertias, 0.0, 1.0 / cross - 1.0 / column.inertias)),
             "fx": zero,
@@ -202,10 +162,3 @@ def lane_fields(
         "roll": rolling_resistance,
         "free": 0.0 if planar else 1.0,
     }
-
-
-def damping_rows(damped: bool, stiffness_damping: float, mass_damping: float) -> np.ndarray:
-    """Rows of a lane's ``damp``, without local damping; one row of nothing where nothing is damped."""
-    rows = np.zeros(3)
-    rows[BETA], rows[ALPHA] = stiffness_damping, mass_damping
-    return rows if damped else np.zeros(1)

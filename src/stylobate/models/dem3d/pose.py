@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 
@@ -107,20 +106,3 @@ def _rolling_force(
     given = np.cross(arm, mass * (gravity * up - centripetal)) - np.cross(omega, inertia @ omega)
     turning = np.linalg.solve(matrix, given)
     return mass * (gravity * up - np.cross(turning, arm) - centripetal)
-
-
-def sink(drum: np.ndarray, lane: int, force: float, carried: Callable[[], float]) -> None:
-    """Lower the whole column in a lane until the base, which now carries ``carried()``, carries a force [N]."""
-    z = drum["z"][1:, lane].copy()
-
-    def carried_at(depth: float) -> float:
-        drum["z"][1:, lane] = z - depth
-        return carried()
-
-    low, high = 0.0, 1e-12
-    while carried_at(high) < force:
-        high *= 2.0
-    while high - low > 1e-15 and carried_at(0.5 * (low + high)) != force:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried_at(middle) < force else (low, middle)
-    carried_at(high)

@@ -12,11 +12,12 @@ from ...column.specimen import Specimen
 from ...errors import InputError
 from ...response import Collapse
 from ...response.poses import rotation_matrices
+from ..drums.joints import damping_rows
+from ..drums.records import UNSEEN, Packed
 from ..shared.stable_step import highest_frequency
 from ..start import Toss
 from .arrays import Records
 from .lying import lying, potential, turned
-from .packing import Packed, damping_rows, start_watch
 
 #: Vertices of a block's lanes are made up to a multiple of this: specimens of about the same size share a block.
 ROUND_UP = 64
@@ -135,11 +136,11 @@ def pack_specimen(records: Records, specimen: Specimen, damping: tuple[float, fl
     for c, place in zip("xyz", bodies.foot(records, 0, specimen), strict=True):  # the base's record keeps how it stood
         for name in (c, *(axis + c for axis in "ijk")):
             records.body[name][0, 0] = place if name == c else records.body[name][1, 0]
-    start_watch(records, bodies.top(records, 0))
+    records.fill(0, watch=UNSEEN | dict(zip(("sx", "sy"), bodies.top(records, 0), strict=True)))
     least = height_barrier(specimen)
     lowest = specimen.mass * specimen.gravity * (least.max() - rest.height)
     width = np.array([math.sqrt(rest.area)])
-    return Packed(records.taken(0), step, width, max(lowest, 0.0), least, axes=axes.T)
+    return Packed(records.taken(0), records.bond, step, width, max(lowest, 0.0), least, axes.T)
 
 
 def _turn(records: Records, lane: int, turn: np.ndarray) -> None:

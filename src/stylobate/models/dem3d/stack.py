@@ -10,11 +10,11 @@ from ...column import Column
 from ...kernels.shared.records import LANE
 from ...response import Collapse
 from ...response.collapse import what_is_lost
+from ..drums.records import Packed, sink
 from ..start import check_in_plane, check_takes_pose
 from .arrays import Records
-from .packing import Packed
-from .pose import placed, sink
-from .verdict import stands_for_good
+from .pose import placed
+from .verdict import found_numbers
 
 
 class Stack:
@@ -46,7 +46,7 @@ class Stack:
             records.kernel.forces(state)
             return float(records.load["f"][0, 2, lane])
 
-        sink(records.body, lane, force, carried)
+        sink(records.body["z"], lane, force, carried)
 
     def top(self, records: Records, lane: int) -> np.ndarray:
         """Place of the middle of the topmost face along the base [m], shape (2,)."""
@@ -58,8 +58,22 @@ class Stack:
         return records.places(lane)[0] + records.axes(lane)[0] @ records.vectors(lane, "fx fy fz")[0]
 
     def stays(self, packed: Packed, records: Records, lane: int, structure: Column, energy: float) -> bool:
-        """Whether the column in a lane with so much energy above that at rest [J] stands for good."""
-        return stands_for_good(structure, records, lane, energy, packed.stand, walks=not self.planar)
+        """Whether the column in a lane with so much energy above that at rest [J] stands for good. Eq. (V1), in space.
+
+        A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
+        (``kernels/dem3d/standing.py``). Walking without slip costs nothing, so that no bound by energy is a proof; the
+        margin is measured, see the theory page.
+        """
+        from ...kernels.dem3d.standing import stands
+        from ...kernels.dem3d.standing_found import stands_as_found
+
+        _, slip, _ = records.joints(lane)
+        walks, of_lane = not self.planar, (records.body, records.joint, records.lane, lane)
+        if not structure.as_found:
+            return bool(stands(packed.stand, slip, energy, structure.gravity, walks, *of_lane))
+        found, pull, up, high = found_numbers(structure)
+        numbers = found, packed.stand, pull, slip, energy, high, up, structure.gravity, walks
+        return bool(stands_as_found(*numbers, *of_lane))
 
     def lost(self, collapse: Collapse, structure: Column) -> str:
         """What has come down, in words."""

@@ -1,4 +1,4 @@
-"""Does a column in space that stands now stand for good? What the energy that is left in it could still do."""
+"""Numbers of a column in space for the law of whether it stands for good."""
 
 from __future__ import annotations
 
@@ -9,52 +9,45 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import SpaceGeometry, inside_overlap, space_geometry, space_load, upward
+from ...column.found_in_space import rotation, space_geometry, upward
 from ...constants import DEGREE
 from ..shared.toes import centroids_above
-from .arrays import Records
-
-
-def stands_for_good(
-    column: Column, records: Records, lane: int, energy: float, stand: np.ndarray, walks: bool = True
-) -> bool:
-    """Whether a column that no input shakes any more can neither overturn nor slide apart. Eq. (V1), in space.
-
-    Parameters
-    ----------
-    column : Column
-    records : Records
-        In which the column is.
-    lane : int
-    energy : float
-        Kinetic, gravitational and elastic energy above that of the column at rest [J].
-    stand : array
-        See :func:`numbers_for`.
-    walks : bool
-        A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
-        (``kernels/dem3d/standing.py``). Walking without slip costs nothing, so that no bound by energy is a proof; the
-        margin is measured, see the theory page.
-    """
-    from ...kernels.dem3d.standing import centroids_inside, stands, turns_of
-
-    _, slip, _ = records.joints(lane)
-    body, joint, of_lane = records.body, records.joint, records.lane
-    if not column.as_found:
-        return bool(stands(stand, slip, energy, column.gravity, walks, body, joint, of_lane, lane))
-    if not centroids_inside(body, joint, of_lane, lane):
-        return False
-    twist = np.diff(np.unwrap(turns_of(body, lane)))
-    twist -= [column.as_found.of(i + 1).turn * DEGREE for i in range(column.n)]
-    flat = space_geometry(column, slip=slip, twist=twist)
-    # what sliding down a slope has set free is not there any more to fall back on
-    lower = _height_as_found(column) - float(column.masses @ flat.centroid @ upward(column))
-    return bool(energy + max(lower * column.gravity, 0.0) < found_barrier(column, flat, stand, walks))
 
 
 @lru_cache(maxsize=4096)
-def _height_as_found(column: Column) -> float:
-    """Mass times the height of all drums as they were found [kg m]."""
-    return float(column.masses @ space_geometry(column).centroid @ upward(column))
+def found_numbers(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
+    """Numbers of a column as found for the law, see ``kernels/dem3d/standing_found.py``: of its drums, and of pretensioned
+    links; the direction against gravity [-], and mass times height of all drums as they were found [kg m]."""
+    from ...kernels.dem3d.standing_found import FOUND_TYPE, PULL_TYPE
+
+    at, up, drums = space_geometry(column), upward(column), column.drums
+    one: Any = np.zeros(column.n, FOUND_TYPE)
+    one["frame"], (one["x"], one["y"]) = at.frame, at.offset.T
+    one["own"] = [
+        axes @ rotation(np.array([0.0, 0.0, 1.0]), -turn) for axes, turn in zip(at.axes, at.turned, strict=True)
+    ]
+    one["low"], one["high"] = np.transpose([(drum.centroid_height, drum.height) for drum in drums])
+    for name in ("disc", "under", "right", "left", "back", "front", "wide", "deep"):
+        one[name] = math.inf
+    half, deep = (np.array([0.5 * getattr(drum, name) for drum in drums]) for name in ("bottom_width", "depth"))
+    left, right, front, back = np.transpose([column.as_found.of(i + 1).chips for i in range(column.n)])
+    if column.section == "circular":
+        cut = left + right > 0.0
+        one["disc"], one["under"][1:] = half, [0.5 * drum.top_width for drum in drums[:-1]]
+        one["left"][cut], one["right"][cut] = (half - left)[cut], (half - right)[cut]
+    else:
+        one["left"], one["right"], one["front"], one["back"] = half - left, half - right, deep - front, deep - back
+        one["wide"][1:] = [0.5 * drum.top_width for drum in drums[:-1]]
+        one["deep"][1:] = [0.5 * drum.upper_depth for drum in drums[:-1]]
+    one["towards"] = [column.as_found.of(i + 1).chip_azimuth * DEGREE for i in range(column.n)]
+    one["level"] = np.minimum(at.frame[:, :, 2] @ up, 1.0)
+    one["rough"] = np.tan(np.maximum(np.arctan(column.friction) - np.arccos(one["level"]), 0.0))
+    links = [link for link in column.placed_links if link.pretension]
+    pull: Any = np.zeros(len(links), PULL_TYPE)
+    for k, link in zip(pull, links, strict=True):
+        k["lower"], k["upper"], k["line"], k["force"] = link.lower, link.upper, link.straight, link.pretension
+        k["a"], k["b"] = link.arms
+    return one, pull, up, float(column.masses @ at.centroid @ up)
 
 
 def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:
@@ -73,32 +66,3 @@ def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:
     stand["weight"], stand["moment"] = column.joint_weights, column.joint_weights * 0.5 * column.joint_widths
     stand["over"] = centroids_above(column)
     return stand
-
-
-def found_barrier(column: Column, flat: SpaceGeometry, stand: np.ndarray, walks: bool = False) -> float:
-    """As ``lowest_barrier`` of the law for a column as found, its drums put down flat where they are; a lower bound [J].
-
-    On a joint that slopes by γ the nearest edge is b cos γ away across gravity, and may lie b sin γ lower; friction is what
-    the slope leaves of it.
-    """
-    from ...kernels.dem3d.standing import WALK
-    from ...kernels.shared.overturning import barrier
-
-    up = upward(column)
-    level = np.minimum(flat.frame[:, :, 2] @ up, 1.0)
-    slope = np.arccos(level)
-    friction = np.array([math.tan(max(math.atan(one) - s, 0.0)) for one, s in zip(column.friction, slope, strict=True)])
-    lowest = math.inf
-    for j in range(column.n):
-        mass = column.masses[j:]
-        load = space_load(column, flat, j)
-        inside = inside_overlap(column, flat, j, load.place) if load.normal > 0.0 else 0.0
-        if inside <= 0.0:
-            return 0.0
-        inside *= 1.0 - WALK if walks and j else 1.0
-        place = flat.origin[j] + flat.frame[j, :, :2] @ load.place
-        height = float((mass @ flat.centroid[j:] / mass.sum() - place) @ up) + inside * math.sin(slope[j])
-        weight = column.gravity * float(mass.sum()) * level[j]
-        loose = friction[max(j, 1) :].min(initial=math.inf)
-        lowest = min(lowest, barrier(stand, j, inside * level[j], height, loose, weight))
-    return lowest

@@ -1,4 +1,4 @@
-"""Joints between drums: their stiffness per area, and their contact points."""
+"""Joints between drums: their stiffness per area, their contact points, and what is damped."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ import math
 
 import numpy as np
 
-from ...column import Column
+from ...column.structure import Structure
 
 
-def joint_stiffnesses(column: Column, block_modulus: float | None) -> tuple[np.ndarray, np.ndarray]:
-    """Normal and shear stiffness per area of each joint [N/m³], with the stone in series if its modulus is given.
+def joint_stiffnesses(structure: Structure, block_modulus: float | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Normal and shear stiffness per area of each joint [N/m³]; with a column's stone in series if its modulus is given.
 
     1/k_n′ = 1/k_n + h/2E of the drum above + h/2E of the drum below (the base is rigid); k_s keeps its ratio to k_n.
     Eq. (D2).
     """
-    kn = np.array([joint.normal_stiffness for joint in column.joint_laws])
-    ks = np.array([joint.shear_stiffness for joint in column.joint_laws])
+    laws = [pair.law for pair in structure.face_pairs]
+    kn, ks = (np.array([getattr(law, name) for law in laws]) for name in ("normal_stiffness", "shear_stiffness"))
     if block_modulus is None:
         return kn, ks
-    half = 0.5 * column.heights / block_modulus
+    half = 0.5 * structure.must_be("column").heights / block_modulus
     soft = 1.0 / (1.0 / kn + half + np.concatenate(([0.0], half[:-1])))
     return soft, ks * soft / kn
 
@@ -40,3 +40,8 @@ def contact_points(section: str, points: int) -> tuple[np.ndarray, np.ndarray]:
     weight = 0.5 * (weight + weight[::-1]) / (1.0 - inner**2)
     end = 0.5 * (total - weight.sum())
     return np.concatenate(([-1.0], inner, [1.0])), np.concatenate(([end], weight, [end])) / total
+
+
+def damping_rows(damped: bool, stiffness_damping: float, mass_damping: float) -> np.ndarray:
+    """Rows of a lane's ``damp``, without local damping; one row of nothing where nothing is damped."""
+    return np.array([stiffness_damping, mass_damping, 0.0]) if damped else np.zeros(1)

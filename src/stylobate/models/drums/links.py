@@ -11,48 +11,59 @@ import numpy as np
 
 from ...column import Column
 from ...column.links.placed import PlacedLink
+from ...column.structure import Structure
+from ...kernels.shared.link_records import BOND_TYPE, NUMBERS, SHARED
 from ...response import Histories, LinkHistories, LinkMeasures
 from ..shared.stable_step import highest_frequency
 
 
-def acting(column: Column) -> tuple[PlacedLink, ...]:
+def acting(structure: Structure) -> tuple[PlacedLink, ...]:
     """Links that do anything besides lowering friction."""
-    return tuple(one for one in column.placed_links if one.acts)
-
-
-def kind_of(column: Column) -> tuple[Any, ...]:
-    """What tells whose links can share a block of lanes: how many act, and all of them; nothing where none acts."""
-    count = len(acting(column))
-    return (count, column.links) if count else ()
+    return tuple(one for one in structure.placed_links if one.acts)
 
 
 def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
-    """Whom each link holds and by which numbers, as the fields of its record, each of shape (m,)."""
+    """By which numbers each link holds, as the fields of ``bond`` and ``link``, each of shape (m,)."""
 
     def of(name: str) -> np.ndarray:
         return np.array([getattr(one, name) for one in links], dtype=float)
 
     straight, stiffness, axial = np.array([one.straight for one in links]), of("shear_stiffness"), of("axial_stiffness")
-    failure = [one.failure for one in links]
+    failure, across = [one.failure for one in links], [one.axial_failure for one in links]
+    clamps = np.array([one.lies == "side" for one in links])
     return {
-        "mlow": np.array([one.lower for one in links]),
-        "mup": np.array([one.upper for one in links]),
-        "mline": straight.astype(int),
-        "mten": ((axial > 0.0) & ~straight).astype(int),
-        "mnear": np.ones(len(links), dtype=int),
-        "mks": stiffness,
-        "my": slip_at(of("shear_capacity"), stiffness),
-        "mcr": np.array([float(one == "crushing") for one in failure]),
-        "mbr": np.array([float(one == "brittle") for one in failure]),
-        "mdeep": of("lift"),
-        "mreach": of("reach"),
-        "mus": of("ultimate_slip"),
-        "mc": of("damping"),
-        "mka": axial,
-        "mfa": of("axial_capacity"),
-        "mua": of("ultimate_elongation"),
-        "mgap": of("clearance"),
+        "line": straight.astype(int),
+        "ten": ((axial > 0.0) & ~straight).astype(int),
+        "both": (clamps & (axial > 0.0)).astype(int),
+        "near": np.ones(len(links), dtype=int),
+        "ks": stiffness,
+        "y": slip_at(of("shear_capacity"), stiffness),
+        "cr": np.array([float(one == "crushing") for one in failure]),
+        "br": np.array([float(one == "brittle") for one in failure]),
+        "deep": of("lift"),
+        "reach": of("reach"),
+        "us": of("ultimate_slip"),
+        "c": of("damping"),
+        "ya": slip_at(of("axial_capacity"), axial),
+        "cra": np.array([float(one == "crushing") for one in across]),
+        "bra": np.array([float(one == "brittle") for one in across]),
+        "ka": axial,
+        "fa": of("axial_capacity"),
+        "ua": of("ultimate_elongation"),
+        "gap": of("clearance"),
+        "back": of("clearance"),
     }
+
+
+def bonds(structure: Structure) -> np.ndarray:
+    """What the links of a structure are in all lanes."""
+    links = acting(structure)
+    records = np.zeros(len(links), BOND_TYPE)
+    if links:
+        laws = law_fields(links)
+        for name in (*NUMBERS.split(), *SHARED.split()):
+            records[name] = laws[name]
+    return records
 
 
 def slip_at(capacity: np.ndarray, stiffness: np.ndarray) -> np.ndarray:

@@ -19,10 +19,11 @@ from ..base import Case, RunOptions
 from ..shared import ledger, quiet
 from ..shared.lanes import longest_piece
 from ..start import check_takes_pose
-from .barriers import lowest_barrier
 from .histories import ledger_imbalance
 from .links import acting, link_measures, link_snapshot
 from .pretension import held_at_start, set_free, without_tension
+from .records import LaneRecords, Packed
+from .whole_steps import whole_steps
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100
@@ -35,18 +36,16 @@ class LaneRuns:
     ----------
     pack : callable
         Gives the numbers of a column.
-    records : tuple of array
-        Of the engine: ``lane``, ``feed``, ``watch`` and ``link``.
+    records : LaneRecords
     options : RunOptions
     cost : float
         About what a step of a run costs [s].
     """
 
-    def __init__(
-        self, pack: Callable[[Any], Any], records: tuple[Any, Any, Any, Any], options: RunOptions, cost: float
-    ) -> None:
-        self.pack, self.options = pack, options
-        self.lane, self.feed, self.watch, self.link = records
+    def __init__(self, pack: Callable[[Any], Any], records: LaneRecords, options: RunOptions, cost: float) -> None:
+        self.pack, self.arrays, self.options = pack, records, options
+        self.lane, self.feed, self.watch, self.link = records.lane, records.feed, records.watch, records.link
+        self.packed: dict[int, Packed] = {}
         self.lanes, self.chunk, self.tied = LANES, CHUNK, len(self.link) > 0
         self.watch["status"] = FREE
         self.dt = np.zeros(self.lanes)
@@ -65,12 +64,16 @@ class LaneRuns:
         """Let the kernel take so many chunks of steps."""
         raise NotImplementedError
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+    def ground_acceleration(self, lane: int) -> Any:
+        """Acceleration of the base in its own axes now [m/s²]."""
         raise NotImplementedError
 
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """The same as if the column stood there without its pretension; ``bare`` is that column."""
+        raise NotImplementedError
+
+    def stand(self, lane: int, case: Case) -> None:
+        """Note how a column stands in a lane, and how its base moves."""
         raise NotImplementedError
 
     def take_pose(self, lane: int, column: Any, start: Any) -> None:
@@ -93,15 +96,26 @@ class LaneRuns:
         """Whether what stands in a lane with so much energy above that at rest [J] stands for good."""
         raise NotImplementedError
 
-    def widths(self, lane: int) -> np.ndarray:
-        """Widths that openings and slips are measured by [m], shape (n,)."""
-        return self.column(lane).joint_widths
-
-    def barrier(self, lane: int) -> float:
-        """Lowest energy that overturns what stands in a lane [J]."""
-        return lowest_barrier(self.column(lane))
-
     # -- how a run begins ----------------------------------------------------------------------------------------
+
+    def load(self, lane: int, case: Case) -> None:
+        """Start a case in a lane."""
+        self.cases[lane] = case
+        packed = self.packed[lane] = self.pack(case.column)
+        self.arrays.put(lane, packed.lane)
+        dt, chunks = whole_steps(case.motion, self.options.tail, packed.step)
+        steps, feed = chunks * self.chunk, self.feed[0]
+        self.lane["dt"][0, lane] = self.dt[lane] = dt
+        if self.tied:
+            self.arrays.bond[...] = packed.bond
+            self.link["dt"][:, lane] = dt
+        self.watch["follow"][0, lane] = self.options.until_end
+        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
+        self.arrays.feed_motion(lane, case.motion, dt)
+        self.stand(lane, case)
+        self.steps[lane] = steps
+        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
+        self.begin(lane)
 
     def begin(self, lane: int) -> None:
         """Take the start's pose, if there is one; velocities half a step before the start, and the energy there.
@@ -186,9 +200,17 @@ class LaneRuns:
         free = 0.0  # what pretension has given away is not missing from the motion
         if self.tied:
             free = set_free(self.column(lane), self.link["ft"][:, lane], float(self.pressed[lane]))
-        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.barrier(lane)
+        return float(change[1] + change[2] + change[3]) + free < quiet.AT_REST * self.packed[lane].barrier
 
     # -- what it tells -------------------------------------------------------------------------------------------
+
+    def energies(self, lane: int) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
+        return self.arrays.energies(lane, float(self.dt[lane]), self.ground_acceleration(lane))
+
+    def residual_acceleration(self, lane: int) -> float:
+        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
+        return self.arrays.acceleration(lane)
 
     def column(self, lane: int) -> Any:
         """The column, or the body, in a lane."""
@@ -253,13 +275,13 @@ class LaneRuns:
         since : array, optional
             Change of the ledger since the start [J], shape (6,); that of the lane if left out.
         """
-        watch = self.watch[0]
+        watch, packed = self.watch[0], self.packed[lane]
         status, when = watch["status"][lane], int(watch["when"][lane])
         step, dt = int(self.feed["step"][0, lane]), float(self.dt[lane])
         change = self.energies(lane) - self.start[lane] if since is None else since
-        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), self.barrier(lane))
+        imbalance = ledger_imbalance(change, float(watch["wmax"][lane]), self.begun(lane, change), packed.barrier)
         failed = status == FAILED or bool(ledger.out_of_balance(imbalance))
-        widths = self.widths(lane)
+        widths = packed.widths
         outcome = classify(
             status == COLLAPSED, failed, float(watch["open"][lane] / widths.min()), float((slips / widths).max())
         )

@@ -16,6 +16,7 @@ from ..base import Case, Model, RunOptions
 from ..shared.lanes import Riders, run_alike
 from ..shared.soft_joints import check_sinking, check_step_resolves
 from ..shared.stable_step import chosen_step
+from .bodies import Topology
 from .histories import histories
 from .whole_steps import whole_steps
 
@@ -70,10 +71,6 @@ class SteppedDrums(Model):
         """Largest stable time step of the closed column [s]."""
         raise NotImplementedError
 
-    def kind(self, column: Any) -> Any:
-        """What tells which columns can share a block of lanes."""
-        raise NotImplementedError
-
     def block_for(self, kind: Any, options: RunOptions) -> Any:
         """A block of lanes for columns of a kind."""
         raise NotImplementedError
@@ -83,6 +80,10 @@ class SteppedDrums(Model):
         return 1.2e-7 * drums
 
     # -- shared --------------------------------------------------------------------------------------------------
+
+    def kind(self, column: Any) -> Any:
+        """What tells which columns can share a block of lanes: which contacts there are."""
+        return Topology.of(column)
 
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse joints of a stack that are too soft, and a step that is unstable or passes over the motion."""

@@ -18,11 +18,11 @@ from ...motion import Motion
 from ...response import Measures, Response
 from ...response.assembly_measures import first_touch, have_fallen, lowest_standing, recorded_blocks
 from ..base import Case, RunOptions, refuse_endless, refuse_long_histories
-from ..drums.links import link_histories, link_measures, with_links
+from ..drums.links import acting, link_histories, link_measures, with_links
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step, highest_frequency, stable_step
-from .links import acting_between, stiffness_between
+from .links import stiffness_between
 from .loose import COST_STANDING, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
 
 
@@ -63,7 +63,7 @@ def step_for(engine: Loose, numbers: AssemblyNumbers) -> float:
     InputError
         The step asked for is unstable.
     """
-    name = repr(engine.assembly.name)
+    name = repr(engine.structure.name)
     return min(
         chosen_step(stable_step_of(engine), numbers.step_factor, numbers.time_step, name),
         engine.motion.duration / CHUNK,
@@ -149,7 +149,7 @@ def run_assembly(
         steps=engine.steps,
         model=numbers.name,
         touched=touched,
-        links=link_measures(acting_between(assembly), engine.records.link, 0, engine.dt),
+        links=link_measures(acting(assembly), engine.records.link, 0, engine.dt),
         held=link_histories(states) if recorded else None,
         provenance={
             "restitution": restitution,
@@ -168,7 +168,7 @@ def follow(engine: Loose, options: RunOptions, recorded: bool = True) -> tuple[l
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     keep = engine.state if recorded else engine.pose
     states, still = [keep()], False
-    lowest, rotation = lowest_standing(engine.assembly, states[0]["z"]), states[0]["rotation"]
+    lowest, rotation = lowest_standing(engine.structure, states[0]["z"]), states[0]["rotation"]
     fallen, since = np.zeros(len(rotation), dtype=bool), 0.0
     while not engine.failed:
         left = engine.chunks - engine.steps // CHUNK
@@ -240,7 +240,7 @@ def stable_step_of(loose: Loose) -> float:
                     row[3 * number : 3 * number + 3] = sign * np.array([*along, arm[0] * along[1] - arm[1] * along[0]])
                 stiffness += stiff * (hi - lo) * share * np.outer(row, row)
     omega = highest_frequency(stiffness, np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel())
-    for i, block in enumerate(loose.assembly.bodies):
+    for i, block in enumerate(loose.structure.bodies):
         if not block.fixed:
             # between two others on its longest face
             side = np.roll(block.corners, -1, axis=0) - block.corners
@@ -255,4 +255,4 @@ def stable_step_of(loose: Loose) -> float:
             )
     inverse = np.stack((body["im"], body["im"], body["ii"]), axis=1).ravel()
     beta = float(records.lane["damp"][0, BETA, 0])
-    return stable_step(*with_links(stiffness_between(loose.assembly, inverse), omega, beta))
+    return stable_step(*with_links(stiffness_between(loose.structure, inverse), omega, beta))

@@ -4,16 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from ...kernels.run_codes import CHUNK, RUNNING
 from ...kernels.shared.records import STATE
 from ...motion import Motion
+from ..drums.bodies import Topology
+from ..drums.records import LaneRecords
 from ..shared.ground import along_base
-from ..shared.lanes import aligned_zeros, in_rows, with_copies
-from .packing import Packed, Topology
 
 
 class Law(NamedTuple):
@@ -33,54 +32,19 @@ class Law(NamedTuple):
     ledger: Callable[..., None]
 
 
-class Records:
-    """Records of bodies of one topology in lanes, as the engine takes them.
+class Records(LaneRecords):
+    """Records of bodies in the plane; others as for :class:`LaneRecords`.
 
     Parameters
     ----------
     law : Law
-    topology : Topology
-    spare : int
-        Contacts that a search may add.
     """
 
     def __init__(self, law: Law, topology: Topology, spare: int = 0) -> None:
         from ...kernels.plane import step
 
-        self.law, self.topology, self.step = law, topology, step
-        self.lanes = int(law.types["body"]["x"].shape[0])
-        contacts = len(topology.joints) + len(topology.links)
-        rows = {
-            "body": topology.bodies, "joint": len(topology.joints), "load": contacts + spare + 1,
-            "link": len(topology.links), "bond": len(topology.links), "lane": 1, "ground": CHUNK + 1, "feed": 1, "watch": 1,
-            "hold": topology.stack if topology.links else 0, "pair": contacts + spare, "span": topology.bodies,
-            "touch": 2 * (contacts + spare),
-        }  # fmt: skip
-        arrays = (
-            aligned_zeros(rows[name], law.types[name]) if rows[name] else np.zeros(0, law.types[name])
-            for name in STATE[:-1]
-        )
-        self.state: tuple[Any, ...] = (*arrays, topology.stack)
-        (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
-         self.pair, self.span, self.touch, _) = self.state  # fmt: skip
-        for k, (lower, upper) in enumerate((*topology.joints, *topology.links)):
-            self.pair[k] = lower, upper
-        self.span["fixed"][list(topology.fixed)] = 1
-        self.contacts = contacts
-        self.forget_pairs()
-
-    def forget_pairs(self) -> None:
-        """Let the bodies have the contacts of joints and links alone, whatever a search has found."""
-        from ...kernels.shared.contacts import list_contacts
-
-        list_contacts(self.pair, self.contacts, len(self.load) - 1, self.span, self.touch)
-
-    def put(self, lane: int, packed: Packed) -> None:
-        """Write the numbers of a run into a lane: of all records that differ from lane to lane."""
-        for name, values in packed.lane.items():
-            if len(values):
-                in_rows(getattr(self, name), self.lanes)[:, lane] = in_rows(values, 1)[:, 0]
-        self.bond[...] = packed.bond
+        super().__init__(law.types, topology, len(topology.joints), spare)
+        self.law, self.step = law, step
 
     def forces(self, lane: int) -> tuple[np.ndarray, ...]:
         """Force along x and z [N] and moment [N m] on every body in its present position, on a copy; shapes (N,)."""
@@ -90,17 +54,13 @@ class Records:
         body = state[STATE.index("body")]
         return tuple(body[name][:, lane] for name in ("fx", "fz", "mo"))
 
-    def now(self) -> tuple[Any, ...]:
-        """A state of copies of all records that a look at the forces changes."""
-        return with_copies(self.state)
-
-    def energies(self, lane: int, dt: float, ground: tuple[float, float]) -> np.ndarray:
+    def energies(self, lane: int, dt: float, base: tuple[float, float]) -> np.ndarray:
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
         state = self.now()  # the forces at the present positions, as the next step will find them
         state[STATE.index("lane")]["dt"][0, lane] = dt
         self.law.gather(state)
         out = np.empty(6)
-        self.law.ledger(state, ground[0], ground[1], dt, lane, out)
+        self.law.ledger(state, base[0], base[1], dt, lane, out)
         return out
 
     def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
@@ -125,28 +85,13 @@ class Records:
         return np.maximum(self.joint["bl"][:, lane], self.joint["br"][:, lane])
 
 
-def feed_motion(records: Records, lane: int, motion: Motion, dt: float, slope: float) -> None:
-    """Let a lane's base move with a motion, taken along a slope [rad], in steps of dt [s]."""
-    feed, watch = records.feed[0], records.watch[0]
-    x, z = motion.samples, motion.z_samples
-    feed["x"][lane] = x.ctypes.data
-    feed["z"][lane] = 0 if z is None else z.ctypes.data
-    feed["last"][lane] = len(x) - 1
-    feed["ratio"][lane] = dt / motion.dt
-    feed["factor"][lane] = motion.factor
+def slope_base(records: Records, lane: int, motion: Motion, slope: float) -> None:
+    """Let a lane's base move along a slope [rad], and note the largest accelerations across gravity and along it."""
+    feed, watch, z = records.feed[0], records.watch[0], motion.z_samples
     feed["bc"][lane], feed["bs"][lane] = math.cos(slope), math.sin(slope)
     peak_z = 0.0 if z is None else float(np.abs(z).max()) * abs(motion.factor)
     watch["amax"][lane] = motion.pga * math.cos(slope) + peak_z * abs(math.sin(slope))
     watch["vmax"][lane] = motion.pga * abs(math.sin(slope)) + peak_z * math.cos(slope)
-
-
-def clear_watch(records: Records, lane: int, follow: bool) -> None:
-    """Let a lane be looked at from the start: nothing has happened."""
-    watch = records.watch[0]
-    in_rows(records.watch, records.lanes)[:, lane] = 0
-    watch["status"][lane] = RUNNING
-    watch["follow"][lane] = follow
-    watch["when"][lane] = watch["which"][lane] = watch["wide"][lane] = -1
 
 
 def base_acceleration(records: Records, lane: int, motion: Motion, time: float) -> tuple[float, float]:

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ...column import Column
-from ...column.as_blocks import of_column
-from ...column.found_geometry import drum_outline
-from ...constants import DEGREE
 from ...kernels.run_codes import CHUNK, COLLAPSED, FAILED, RUNNING
 from ...motion import Motion
 from ...response import Collapse, Histories, Measures, Response
@@ -20,10 +16,9 @@ from ...response.collapse import SLID_OFF
 from ...response.mechanism import find_mechanism
 from ..base import Case, RunOptions
 from ..drums.histories import histories
-from .blocks import topology_of
 from .columns import ColumnLanes
-from .loose import CORNER, ENDLESS, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
-from .packing import OF_BODY, Topology
+from .loose import ENDLESS, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
+from .packing import OF_BODY
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +53,6 @@ def follow(
     motion: Motion,
     numbers: FollowedColumn,
     options: RunOptions,
-    steps: Sequence[tuple[float, float]] = (),
 ) -> Response:
     """One run of a column in which drums may strike one another and the ground.
 
@@ -73,10 +67,8 @@ def follow(
     options : RunOptions
         A run goes on after its collapse with ``until_end``, and after the motion until everything lies still with
         ``until_rest``.
-    steps : sequence of (float, float)
-        Width and height of the steps under the column, from the top down [m]; a half-plane if none.
     """
-    run = _ColumnRun(column, motion, numbers, options, steps)
+    run = _ColumnRun(column, motion, numbers, options)
     engine = run.engine
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     residual = engine.residual_acceleration()
@@ -91,14 +83,7 @@ def follow(
 class _ColumnRun:
     """A column in the lanes as long as only neighbours can touch, in the engine of assemblies from there on."""
 
-    def __init__(
-        self,
-        column: Column,
-        motion: Motion,
-        numbers: FollowedColumn,
-        options: RunOptions,
-        steps: Sequence[tuple[float, float]],
-    ) -> None:
+    def __init__(self, column: Column, motion: Motion, numbers: FollowedColumn, options: RunOptions) -> None:
         self.column, self.motion, self.name, self.options = column, motion, numbers.name, options
         self.restitution = numbers.restitution
         if self.restitution is None:
@@ -106,18 +91,9 @@ class _ColumnRun:
         self.block = block = numbers.block
         block.load(0, Case(column, motion))
         duration = motion.duration + options.tail
-        assembly = of_column(column, steps)
-        topology = replace(topology_of(assembly, column.n), links=Topology.of_column(column).links)
-        self.engine = engine = Loose(assembly, numbers.contacts, motion, duration, self.restitution, topology)
-        joint, lanes = engine.records.joint, block.records
-        if steps:
-            lanes.joint["wl"][0, 0] = lanes.joint["wr"][0, 0] = joint["wl"][0, 0]
-        corner = engine.search[CORNER]
-        for i in range(column.n):
-            first, count = engine.shape["first"][i + 1], engine.shape["count"][i + 1]
-            corner[first : first + count] = drum_outline(column, i)
-        engine.law[:, 1 : column.n + 1, :2] = numbers.bed
-        engine.start(numbers.step, column.as_found.base_tilt * DEGREE)
+        self.engine = engine = Loose(column, numbers.contacts, motion, duration, self.restitution)
+        engine.law[:, 1:, :2] = numbers.bed
+        engine.start(numbers.step)
         self.loose, self.ahead = False, 0
         self.take_over()
         self.start = block.start[0].copy()
@@ -125,9 +101,9 @@ class _ColumnRun:
 
     def take_over(self) -> None:
         """State of the lanes into the engine: the numbers of the lanes to the last bit, not those of the drawing."""
-        there, here, n = self.block.records, self.engine.records, self.column.n
+        there, here = self.block.records, self.engine.records
         for name in OF_BODY:
-            here.body[name][: n + 1, 0] = there.body[name][:, 0]
+            here.body[name][:, 0] = there.body[name][:, 0]
         for name in there.joint.dtype.names or ():
             if name not in ("dn", "ds") or there.joint[name].shape[1] == here.joint[name].shape[1]:
                 here.joint[name][..., 0] = there.joint[name][..., 0]
@@ -143,9 +119,9 @@ class _ColumnRun:
 
     def give_back(self) -> None:
         """State of the engine into the lanes, where it is looked at."""
-        there, here, n = self.block.records, self.engine.records, self.column.n
+        there, here = self.block.records, self.engine.records
         for name in OF_BODY:
-            there.body[name][:, 0] = here.body[name][: n + 1, 0]
+            there.body[name][:, 0] = here.body[name][:, 0]
         tied = ((here.link, there.link),) if len(there.link) else ()
         for one, other in ((here.watch, there.watch), *tied):
             for name in one.dtype.names or ():
@@ -244,16 +220,15 @@ class _ColumnRun:
 
     def collapse(self, found: Histories) -> Collapse:
         """The collapse, with what touched first."""
-        engine, n = self.engine, self.column.n
         lost, when = self.block.collapse(0), self.touched_at
         if when is None:
             return lost
-        bodies = engine.assembly.bodies
+        bodies = self.column.bodies
         poses = np.zeros((3, len(found.time), len(bodies)))
-        poses[:2] = np.array([block.origin for block in bodies]).T[:, None]
-        poses[:, :, 1 : n + 1] += (found.drum_x, found.drum_z, found.drum_rotation)
+        poses[:2] = np.array([body.place for body in bodies]).T[:, None]
+        poses[:, :, 1:] += (found.drum_x, found.drum_z, found.drum_rotation)
         x, z, rotation = poses
-        return replace(lost, touched=first_touch(engine.assembly, found.time, x, z, rotation, when))
+        return replace(lost, touched=first_touch(self.column, found.time, x, z, rotation, when))
 
     def measures(self, last: dict[str, Any], found: Histories) -> Measures:
         """Measures of the run; peaks end with a collapse, as in the lanes."""

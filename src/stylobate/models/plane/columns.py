@@ -12,13 +12,13 @@ from ...constants import DEGREE
 from ...response import Collapse, Measures
 from ...response.collapse import in_plane
 from ..base import Case, RunOptions
-from ..drums.runs import CALLS_PER_RUN, LaneRuns
-from ..drums.whole_steps import whole_steps
+from ..drums.bodies import Topology
+from ..drums.records import Packed
+from ..drums.runs import LaneRuns
 from ..start import check_in_plane
-from .block import Law, Records, base_acceleration, clear_watch, feed_motion
-from .packing import Packed, Topology
-from .pose import leans_right, placed, sink
-from .standing import stands_for_good
+from .block import Law, Records, base_acceleration, slope_base
+from .pose import leans_right, placed, sink_in
+from .standing import numbers_for
 
 
 class ColumnLanes(LaneRuns):
@@ -41,47 +41,29 @@ class ColumnLanes(LaneRuns):
         self, law: Law, pack: Callable[[Column], Packed], topology: Topology, options: RunOptions, cost: float
     ) -> None:
         self.records = records = Records(law, topology)
-        super().__init__(pack, (records.lane, records.feed, records.watch, records.link), options, cost)
+        super().__init__(pack, records, options, cost)
         self.slip = np.zeros((self.lanes, topology.stack))
         self.stood = np.zeros((self.lanes, 2, topology.stack))
 
     # -- how a run begins ----------------------------------------------------------------------------------------
 
-    def load(self, lane: int, case: Case) -> None:
-        """Start a case in a lane."""
-        self.cases[lane] = case
-        column, motion = case
-        packed, records = self.pack(column), self.records
-        records.put(lane, packed)
-        dt, chunks = whole_steps(motion, self.options.tail, packed.step)
-        steps = chunks * self.chunk
-        records.lane["dt"][0, lane] = dt
-        if self.tied:
-            records.link["dt"][:, lane] = dt
-        clear_watch(records, lane, self.options.until_end)
-        feed_motion(records, lane, motion, dt, column.as_found.base_tilt * DEGREE)
-        feed, watch, body = self.feed[0], self.watch[0], records.body
-        feed["step"][lane], feed["end"][lane] = self.spans.begin(lane, case, dt, steps)
-        for name, value in packed.top.items():
-            watch[name][lane] = value
-        self.slip[lane] = records.joint_state(lane)[1]
+    def stand(self, lane: int, case: Case) -> None:
+        """Note how a column stands in a lane, and how its base moves."""
+        slope_base(self.records, lane, case.motion, case.column.as_found.base_tilt * DEGREE)
+        body = self.records.body
+        self.slip[lane] = self.records.joint_state(lane)[1]
         self.stood[lane] = body["x"][1:, lane], body["z"][1:, lane]
-        watch["stood"][lane] = self.top(lane)
-        self.dt[lane] = dt
-        self.steps[lane] = steps
-        self.chunks_per_call = max(1, chunks // CALLS_PER_RUN)
-        self.begin(lane)
+        self.watch["stood"][0, lane] = self.top(lane)
 
     def take_pose(self, lane: int, column: Column, start: Any) -> None:
         """Tilt a column that stands in a lane."""
         check_in_plane(start, "a model in the plane")
         records = self.records
         fields, (push, lift) = placed(start, records, lane, column.gravity)
-        for name, values in fields.items():
-            records.body[name][:, lane] = values
+        records.fill(lane, body=fields)
         records.joint["fs"][0, :, lane] = 0.0
         records.joint["fs"][0, -1 if leans_right(start) else 0, lane] = push
-        sink(records, lane, lift)
+        sink_in(records, lane, lift)
 
     def step(self, chunks: int) -> None:
         """Let the kernel take so many chunks of steps."""
@@ -89,9 +71,10 @@ class ColumnLanes(LaneRuns):
 
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """Ledger as if the column stood in a lane without its pretension; ``bare`` is that column [J]."""
-        records = Records(self.records.law, Topology.of_column(bare))
-        records.put(0, self.pack(bare))
-        records.feed[...] = self.feed
+        records = Records(self.records.law, Topology.of(bare))
+        packed = self.pack(bare)
+        records.put(0, packed.lane)
+        records.bond[...], records.feed[...] = packed.bond, self.feed
         return records.energies(0, float(self.dt[lane]), self.ground_acceleration(lane))
 
     def half_a_step_back(self, lane: int) -> None:
@@ -124,14 +107,6 @@ class ColumnLanes(LaneRuns):
         b, w = self.records.body[-1], self.watch[0]
         return float(b["x"][lane] - (b["s"][lane] * w["tc"][lane] + b["c"][lane] * w["ts"][lane]) * w["th"][lane])
 
-    def energies(self, lane: int) -> np.ndarray:
-        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
-        return self.records.energies(lane, float(self.dt[lane]), self.ground_acceleration(lane))
-
-    def residual_acceleration(self, lane: int) -> float:
-        """Largest acceleration of a drum in its present position without input; of its edge, where it turns [m/s²]."""
-        return self.records.acceleration(lane)
-
     def snapshot(self, lane: int) -> dict[str, Any]:
         """Everything that a history keeps of the present state."""
         body = self.records.body
@@ -160,9 +135,23 @@ class ColumnLanes(LaneRuns):
         return self.records.joint_state(lane)[1] - self.slip[lane]
 
     def stays(self, lane: int, energy: float) -> bool:
-        """Whether the column in a lane with so much energy above that at rest [J] stands for good."""
-        column = self.column(lane)
-        return stands_for_good(column, self.records, lane, self.slips(lane), energy, self.pack(column).toes)
+        """Whether a column that no input shakes any more can neither overturn nor slide apart.
+
+        Two conditions, Eq. (V1). As the column is, the centroid of every part stands within its contact: it is on the near
+        side of every barrier. And the energy is below the lowest barrier of the column put down flat with its present
+        offsets: overturning as one body about the nearer end of the contact, m g (R − H); where some joint above is so
+        slippery that it slides first, tan φ below the sine of the critical angle, sliding and lifting together:
+        m g [tan φ b − H (1 − √(1 − tan² φ))]. On a slope H and b are measured along and across gravity, and friction is what
+        the slope of the joint leaves of it. Soft joints give, and the barrier is lower by that.
+        """
+        from ...kernels.plane.standing import stands
+
+        column, records = self.column(lane), self.records
+        numbers, offsets = numbers_for(column)
+        stand, slope = numbers.copy(), column.as_found.base_tilt * DEGREE
+        stand["toe"] = self.packed[lane].stand
+        where = records.body, records.joint, lane
+        return bool(stands(stand, offsets + self.slips(lane), column.gravity, slope, energy, *where))
 
     def collapse(self, lane: int) -> Collapse:
         """The collapse of a lane: what is lost turns about the joint that is widest open, there or higher up."""

@@ -8,21 +8,25 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ...column.assembly import Assembly
+from ...column.structure import Structure
+from ...constants import DEGREE
 from ...errors import OutOfRangeWarning
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
 from ...motion import Motion
-from ..drums.links import link_snapshot
+from ..drums.bodies import Topology, body_fields
+from ..drums.joints import damping_rows, joint_stiffnesses
+from ..drums.links import bonds, link_snapshot
+from ..drums.records import UNSEEN
 from ..drums.whole_steps import whole_steps
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
-from .block import Records, base_acceleration, clear_watch, feed_motion
-from .blocks import bed_laws, fill_bodies, fill_joints, fill_shapes, topology_of
+from .beds import bed_laws, fill_hands, fill_shapes
+from .block import Records, base_acceleration, slope_base
 from .laws import point_law
-from .links import links_between
-from .packing import Topology, lane_of
+from .links import links_at_rest
+from .packing import joint_fields, lane_fields
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
 CALM = 0.02
@@ -56,9 +60,6 @@ COST, COST_STANDING = 2e-7, 5e-8
 #: A step that is never reached: who follows a run says when it ends.
 ENDLESS = 2**62
 
-#: Where the corners are in a search.
-CORNER = 3
-
 #: Skin of the boxes of the contact search, as a share of the smallest block.
 SKIN = 0.1
 
@@ -84,7 +85,7 @@ class Loose:
 
     Parameters
     ----------
-    assembly : Assembly
+    structure : Structure
     contacts : Contacts
     motion : Motion
     duration : float
@@ -92,42 +93,37 @@ class Loose:
     restitution : float
         Share of the closing speed that contacts of the bed give back: 1 is elastic. Joints have none while the ground
         moves, and in a column that may still stand: what they lose, they lose by sliding.
-    topology : Topology, optional
-        Of the assembly, if it is a column that is looked at; its links are then taken over with it.
     """
 
     def __init__(
-        self, assembly: Assembly, contacts: Contacts, motion: Motion, duration: float, restitution: float = 1.0,
-        topology: Topology | None = None,
-    ) -> None:  # fmt: skip
+        self, structure: Structure, contacts: Contacts, motion: Motion, duration: float, restitution: float = 1.0
+    ) -> None:
         from ...kernels.plane import links as ties
         from ...kernels.plane import loose as kernel
 
-        self.kernel, self.ties, self.assembly, self.motion = kernel, ties, assembly, motion
-        bodies, points = assembly.bodies, contacts.points
+        self.kernel, self.ties, self.structure, self.motion = kernel, ties, structure, motion
+        bodies, topology = structure.bodies, Topology.of(structure)
         n = len(bodies)
-        topology = topology or topology_of(assembly)
-        spare = n * (n - 1) // 2
-        self.records = Records(point_law(points, True, 1, bool(topology.links)), topology, spare)
-        records = self.records
+        law = point_law(contacts.points, True, 1, bool(topology.links))
+        self.records = records = Records(law, topology, spare=n * (n - 1) // 2)
         now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
-        fill_bodies(records.body, assembly)
-        corner = fill_shapes(shape, assembly)
-        fill_joints(records.joint, hand, assembly)
+        lane = lane_fields(structure, damping_rows(True, *contacts[1:]), contacts.points)
+        records.fill(
+            0, body=body_fields(structure), joint=joint_fields(structure, *joint_stiffnesses(structure)), lane=lane
+        )
+        corner = fill_shapes(shape, structure)
+        fill_hands(hand, structure)
         joined = np.full((n, n), -1, dtype=np.int64)
         for j, (lower, upper) in enumerate(topology.joints):
             joined[lower, upper] = j
-        if assembly.links:
-            records.bond[...], records.link[...] = links_between(assembly)
+        records.bond[...], records.link[...] = bonds(structure), links_at_rest(structure, records.body)
         self.pretension, self.clearance = records.link["ft"].copy(), records.link["gap"].copy()
-        for name, value in lane_of(assembly.gravity, contacts).items():
-            records.lane[name][0, ..., 0] = value
         e = restitution
         now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
         now["touched"], now["finer"] = -1, FINER
-        now["skin"] = SKIN * min(block.size for block in bodies if not block.fixed)
+        now["skin"] = SKIN * min(body.size for body in bodies if not body.fixed)
         self.now, self.hand, self.shape = now, hand, shape
-        self.law, self.memory = bed_laws(assembly), np.zeros((n, n, 3))
+        self.law, self.memory = bed_laws(structure), np.zeros((n, n, 3))
         real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
         self.search: tuple[Any, ...] = (
@@ -137,16 +133,18 @@ class Loose:
         self.dt, self.duration, self.safe = 0.0, duration, 0
         self.stood_at, self.stood_since = np.full((3, n), np.inf), 0.0
         # a body below this level has left the model: it falls without end and does not count as moving
-        corners = np.concatenate([block.corners for block in bodies])
+        corners = np.concatenate([body.outline for body in bodies])
         self.lowest_level = float(corners[:, 1].min()) - 2.0 * float(np.ptp(corners, axis=0).max())
 
-    def start(self, step: float, slope: float = 0.0) -> None:
+    def start(self, step: float) -> None:
         """Set the step and the velocities half a step before the start, of bodies that do not move yet."""
         self.dt, self.chunks = whole_steps(self.motion, self.duration - self.motion.duration, step)
         self.now["dt"] = self.now["last"] = self.records.lane["dt"][0] = self.dt
         self.look = max(1, int(AHEAD[0] / (CHUNK * self.dt)))
-        clear_watch(self.records, 0, True)
-        feed_motion(self.records, 0, self.motion, self.dt, slope)
+        self.records.watch[...] = 0
+        self.records.fill(0, watch=UNSEEN | {"follow": True})
+        self.records.feed_motion(0, self.motion, self.dt)
+        slope_base(self.records, 0, self.motion, self.structure.as_found.base_tilt * DEGREE)
         self.records.feed["end"] = ENDLESS
         self.renew_pairs()
         self._push()
@@ -154,7 +152,7 @@ class Loose:
     def begin_links(self) -> None:
         """Let the links be free of force where the bodies are now, but for their pretension."""
         records = self.records
-        if self.assembly.links:
+        if len(records.link):
             records.link["ft"], records.link["gap"] = self.pretension, self.clearance
             records.link["back"] = self.clearance
             self.ties.begin(records.body, records.joint, records.link, records.bond, records.pair)
@@ -323,10 +321,10 @@ class Loose:
             It is no longer small beside the thinnest block.
         """
         depth = float(self.now["deepest"][0])
-        thin = min((block.thickness, block.name) for block in self.assembly.bodies if not block.fixed)
+        thin = min((body.thickness, body.name) for body in self.structure.bodies if not body.fixed)
         if depth > DEEPEST * thin[0]:
             warnings.warn(
-                f"blocks of {self.assembly.name!r} entered each other by {1000.0 * depth:.3g} mm, and {thin[1]!r} is "
+                f"blocks of {self.structure.name!r} entered each other by {1000.0 * depth:.3g} mm, and {thin[1]!r} is "
                 f"{1000.0 * thin[0]:.3g} mm thick; its impacts mean little: raise normal_stiffness.",
                 OutOfRangeWarning,
                 stacklevel=4,

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from ...kernels.shared.records import LANE
+from ..drums.records import sink
 from ..start import Start
 from .block import Records
 
@@ -61,22 +62,13 @@ def leans_right(start: Start) -> bool:
     return math.cos(start.azimuth) > 0.0
 
 
-def sink(records: Records, lane: int, force: float) -> None:
+def sink_in(records: Records, lane: int, force: float) -> None:
     """Lower the whole column in a lane until the base carries a force [N]."""
     state = records.now()
     state[LANE]["dt"][0, lane] = 0.0
-    height = records.body["z"]
-    z = height[1:, lane].copy()
 
-    def carried(depth: float) -> float:
-        height[1:, lane] = z - depth
+    def carried() -> float:
         records.law.gather(state)
         return float(records.load["fz"][0, lane])
 
-    low, high = 0.0, 1e-12
-    while carried(high) < force:
-        high *= 2.0
-    while high - low > 1e-15 and carried(0.5 * (low + high)) != force:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if carried(middle) < force else (low, middle)
-    carried(high)
+    sink(records.body["z"], lane, force, carried)

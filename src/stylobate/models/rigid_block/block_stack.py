@@ -10,7 +10,7 @@ import numpy as np
 
 from ...column import Column, Joint
 from ...column.drum import section_area, section_second_moment
-from ...column.found_geometry import drum_outline, geometry
+from ...column.found_geometry import geometry
 from ...constants import DEGREE
 from ...constants import g as STANDARD_GRAVITY
 from ...errors import InputError, check_range
@@ -143,15 +143,14 @@ class BlockStack:
         share = width / column.joint_widths
         power = 2.0 if column.section == "circular" else 1.0
         area, second = column.joint_areas * share**power, column.joint_second_moments * share ** (power + 2.0)
-        upper, lower, outlines = np.empty((n, 2)), np.empty((n, 2)), []
+        upper, lower = np.empty((n, 2)), np.empty((n, 2))
+        outlines = tuple(body.outline for body in column.bodies[1:])
         for i, drum in enumerate(column.drums):
             one = column.as_found.of(i + 1)
             under = 0.5 * column.drums[i - 1].top_width if i else BASE_REACH
             half = 0.5 * drum.bottom_width
             upper[i] = one.offset - half + one.chip_left, one.offset + half - one.chip_right
             lower[i] = -under, under
-            c, s = along[i]
-            outlines.append(at.centroid[i] + drum_outline(column, i) @ np.array([[c, s], [-s, c]]))
         top = 0.5 * (outlines[-1][-1] + outlines[-1][-2])
         return cls(
             mass=column.masses,
@@ -166,7 +165,7 @@ class BlockStack:
             lower_reach=lower - middle[:, None],
             top=top,
             gravity=column.gravity,
-            outlines=tuple(outlines),
+            outlines=outlines,
             slope=column.as_found.base_tilt * DEGREE,
             links=stack_links(column),
             **_stiffness(column.joint_laws, area, second, column.friction),

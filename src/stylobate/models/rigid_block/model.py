@@ -13,22 +13,15 @@ from ...errors import InputError, check_range
 from ...kernels.run_codes import LANES
 from ...motion import Motion
 from ..base import RunOptions
+from ..drums.bodies import Topology, body_fields
+from ..drums.joints import damping_rows
 from ..drums.links import link_stiffness, with_links
+from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..plane.block import Law
 from ..plane.columns import ColumnLanes
 from ..plane.laws import interface_law
-from ..plane.links import bonds, links_at_rest
-from ..plane.packing import (
-    Packed,
-    Topology,
-    damping,
-    drum_fields,
-    face_fields,
-    lane_fields,
-    one_lane,
-    top_face,
-)  # fmt: skip
+from ..plane.packing import face_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.toes import centroids_above, point_toes
 from .block_stack import BlockStack
@@ -115,10 +108,6 @@ class RigidBlock(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def kind(self, column: Column) -> Topology:
-        """Which contacts there are: columns alike in that share blocks of lanes."""
-        return Topology.of_column(column)
-
     def law(self, linked: bool) -> Law:
         """The law of the joints, for columns with links or without."""
         return interface_law(self.compressive_strength is not None, self.damped, LANES, linked)
@@ -141,7 +130,6 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
     n, area = column.n, column.joint_areas
     kn, km, ks = joint_stiffness(column)
     strength = model.compressive_strength
-    drums = drum_fields(column, column.joint_weights / kn)
     joint = face_fields(column) | {
         "kn": kn,
         "km": km,
@@ -151,15 +139,10 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
         "crush": np.zeros((n, 1)) if strength is None else np.repeat((1.0 / (strength * area))[:, None], 2, 1),
         "chi": np.ones(n),
     }
-    lane = lane_fields(column) | {"damp": damping(model.damped, model.stiffness_damping, model.mass_damping)}
     types = interface_law(strength is not None, model.damped, 1, bool(column.links)).types
-    records = {
-        "body": one_lane(types["body"], n + 1, drums),
-        "joint": one_lane(types["joint"], n, joint),
-        "lane": one_lane(types["lane"], 1, lane),
-        "link": links_at_rest(column, drums),
-    }
-    return Packed(records, bonds(column), model.step_for(column), _toes(column, strength), top_face(column))
+    damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
+    fields = body_fields(column, column.joint_weights / kn), joint, lane_fields(column, damp)
+    return pack_column(column, types, fields, model.step_for(column), _toes(column, strength))
 
 
 def _toes(column: Column, strength: float | None) -> np.ndarray:

@@ -1,0 +1,158 @@
+"""Records of bodies in lanes, as the engines in the plane and in space take them: arrays, contacts, numbers of a lane."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...kernels.run_codes import CHUNK, RUNNING
+from ...kernels.shared.records import STATE
+from ...motion import Motion
+from ..shared.lanes import aligned_zeros, in_rows, with_copies
+from .bodies import Topology
+
+#: Records of which every lane has its own numbers from the start.
+OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
+
+#: What a lane is looked at with from the start: nothing has happened.
+UNSEEN = {"status": RUNNING, "when": -1, "which": -1, "wide": -1}
+
+
+@dataclass(frozen=True)
+class Packed:
+    """One run's lane of the records that differ from lane to lane, before it begins, and what its verdict needs.
+
+    Parameters
+    ----------
+    lane : dict of str to array
+        All numbers of a lane, see :meth:`LaneRecords.taken`.
+    bond : array
+        Records of what links are in all lanes.
+    step : float
+        Time step [s].
+    widths : array
+        Widths that openings and slips are measured by [m], shape (n,).
+    barrier : float
+        Lowest energy that overturns it [J].
+    stand : array
+        For the verdict: of a column in the plane what its joints give with their load on their edge [J], shape (n,), in
+        space its numbers in ``kernels/dem3d/standing.py``; of a body least heights by tilt [m].
+    axes : array, optional
+        Axes that histories tell, in those of the records; of a body, shape (3, 3).
+    """
+
+    lane: dict[str, np.ndarray]
+    bond: np.ndarray
+    step: float
+    widths: np.ndarray
+    barrier: float
+    stand: np.ndarray
+    axes: np.ndarray | None = None
+
+
+class LaneRecords:
+    """Records of bodies of one topology in lanes.
+
+    Parameters
+    ----------
+    types : mapping of str to dtype
+        Of the records by their names in ``kernels/shared/records.py``.
+    topology : Topology
+    joints : int
+        Rows of the records of joints: as many as there are, or those of a body's vertices.
+    spare : int
+        Contacts that a search may add.
+    """
+
+    def __init__(self, types: Mapping[str, np.dtype], topology: Topology, joints: int, spare: int = 0) -> None:
+        self.topology, self.lanes = topology, int(types["body"]["x"].shape[0])
+        contacts, links = (*topology.joints, *topology.links), len(topology.links)
+        room = len(contacts) + spare
+        rows = {
+            "body": topology.bodies, "joint": joints, "load": room + 1, "link": links, "bond": links, "ground": CHUNK + 1,
+            "hold": topology.stack if links else 0, "pair": room, "span": topology.bodies, "touch": 2 * room,
+        }  # fmt: skip
+        arrays = (
+            aligned_zeros(rows.get(name, 1), types[name]) if rows.get(name, 1) else np.zeros(0, types[name])
+            for name in STATE[:-1]
+        )
+        self.state: tuple[Any, ...] = (*arrays, topology.stack)
+        (self.body, self.joint, self.load, self.link, self.bond, self.lane, self.ground, self.feed, self.watch, self.hold,
+         self.pair, self.span, self.touch, _) = self.state  # fmt: skip
+        self.rows = {name: in_rows(getattr(self, name), self.lanes) for name in OF_A_LANE}
+        for k, (lower, upper) in enumerate(contacts):
+            self.pair[k] = lower, upper
+        self.span["fixed"][list(topology.fixed)] = 1
+        self.contacts = len(contacts)
+        self.forget_pairs()
+
+    def forget_pairs(self) -> None:
+        """Let the bodies have the contacts of joints and links alone, whatever a search has found."""
+        from ...kernels.shared.contacts import list_contacts
+
+        list_contacts(
+            self.pair, self.contacts, len(self.load) - 1, self.span, self.touch
+        )  # the last load is of nothing
+
+    def fill(self, lane: int, /, **records: Mapping[str, Any]) -> None:
+        """Write fields of some records into a lane."""
+        for record, fields in records.items():
+            array = getattr(self, record)
+            for name, values in fields.items():
+                array[name][..., lane] = values
+
+    def taken(self, lane: int) -> dict[str, np.ndarray]:
+        """All numbers of a lane, for :meth:`put`."""
+        return {name: rows[:, lane].copy() for name, rows in self.rows.items()}
+
+    def put(self, lane: int, numbers: Mapping[str, np.ndarray]) -> None:
+        """Write all numbers of a lane."""
+        for name, rows in self.rows.items():
+            rows[:, lane] = numbers[name]
+
+    def feed_motion(self, lane: int, motion: Motion, dt: float) -> None:
+        """Let a lane's base move with a motion, in steps of dt [s]."""
+        feed = self.feed[0]
+        for name, samples in (("x", motion.samples), ("y", motion.y_samples), ("z", motion.z_samples)):
+            if samples is not None and name in (self.feed.dtype.names or ()):
+                feed[name][lane] = samples.ctypes.data
+        feed["last"][lane] = motion.steps - 1
+        feed["ratio"][lane], feed["factor"][lane] = dt / motion.dt, motion.factor
+
+    def energies(self, lane: int, dt: float, base: Any) -> np.ndarray:
+        """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J].
+
+        With the forces at the present positions, as the next step will find them; ``base`` is the acceleration of the base.
+        """
+        raise NotImplementedError
+
+    def acceleration(self, lane: int) -> float:
+        """Largest acceleration of a body in its present position without input; of its edge, where it turns [m/s²]."""
+        raise NotImplementedError
+
+    def now(self, *others: str) -> tuple[Any, ...]:
+        """A state of copies of all records that a look at the forces changes, and of some others."""
+        return with_copies(self.state, *others)
+
+
+def sink(height: np.ndarray, lane: int, force: float, carried: Callable[[], float]) -> None:
+    """Lower a whole column in a lane until the base, which now carries ``carried()``, carries a force [N].
+
+    ``height`` is that of its bodies [m], the base first.
+    """
+    z = height[1:, lane].copy()
+
+    def carried_at(depth: float) -> float:
+        height[1:, lane] = z - depth
+        return carried()
+
+    low, high = 0.0, 1e-12
+    while carried_at(high) < force:
+        high *= 2.0
+    while high - low > 1e-15 and carried_at(0.5 * (low + high)) != force:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if carried_at(middle) < force else (low, middle)
+    carried_at(high)
