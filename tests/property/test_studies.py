@@ -13,9 +13,7 @@ import pytest
 import stylobate as st
 from stylobate.analysis.studies import StudyResult, write_table
 from stylobate.campaign import digests
-from stylobate.campaign.kept import KEY
-from stylobate.campaign.ledger import Ledger
-from stylobate.campaign.plan import RUNS_FILE
+from stylobate.campaign.ledger import RUNS_FILE, Ledger
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
 from stylobate.column.files import load_column
@@ -89,7 +87,7 @@ def test_a_case_is_what_simulate_many_computes():
 def test_runs_of_another_law_are_never_mixed_in(tmp_path, monkeypatch):
     st.run_study(study(), tmp_path)
     assert st.run_study(study(tail=1.0), tmp_path).computed == 4
-    monkeypatch.setattr(digests, "source_digest", lambda: "another law")
+    monkeypatch.setattr(digests, "laws", lambda: ("another law",))
     assert st.run_study(study(), tmp_path).computed == 4
 
 
@@ -118,7 +116,7 @@ def test_several_processes_on_one_folder_run_nothing_twice_and_all_of_them_end(f
     out.mkdir()
     command = [sys.executable, "-c", "from stylobate.cli.main import main; main()", "study", "run", "--json"]
     command += ["--threads", "1", folder / "study.toml", "--out", out]
-    with closing(Ledger(out / RUNS_FILE, KEY)) as first:  # a process at work, which has made some of the runs
+    with closing(Ledger(out / RUNS_FILE)) as first:  # a process at work, which has made some of the runs
         for number in range(50):
             first.record(
                 int(whole.plan.digests.keys[number]), {"case": whole.plan.digests[number], **whole.rows[number]}

@@ -6,13 +6,14 @@ bisection would return one of many boundaries.
 
 from __future__ import annotations
 
+import time
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..campaign.runner import Progress, Stopped, run_campaign
+from ..campaign.runs import Progress, Request, run_all
 from ..campaign.twins import the_twins
 from ..column import Column
 from ..column.scatter import Scatter
@@ -194,24 +195,18 @@ def critical_amplitude(
     if as_is == 0.0:
         raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
     cases = own = Cases(len(amplitudes), lambda number: Case(column, motion.scaled(amplitudes[number] / as_is)))
-    key = {"column": column.digest, "motion": motion.digest, "as_is": as_is, "amplitudes": amplitudes.tolist()}
     count = len(amplitudes)
     drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
     if drawn is not None:
         columns = [column, *drawn.columns]
         cases = Cases(len(columns) * count, lambda i: Case(columns[i // count], own[i % count].motion))
-        key |= drawn.key
         model = model.paced(column)
-    quiet = share_of([motion], whole)
-    result = run_campaign(
-        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
-    )
-    if result.interrupted:
-        raise Stopped(result.rows.finished, len(cases), ledger)
-    record = as_is if nominal is None else None
-    population = None if drawn is None else CriticalPopulation.of(amplitudes, result.rows[count:], drawn, record)
-    rows = result.rows[:count]
-    return CriticalAmplitude(column, motion, model.name, amplitudes, rows, result.wall_time, record, population)
+    started = time.perf_counter()
+    request = Request.of(cases, model, tail=tail, quiet=share_of([motion], whole))
+    rows = run_all(request, threads=threads, progress=progress, ledger=ledger)
+    wall, record = time.perf_counter() - started, as_is if nominal is None else None
+    population = None if drawn is None else CriticalPopulation.of(amplitudes, rows[count:], drawn, record)
+    return CriticalAmplitude(column, motion, model.name, amplitudes, rows[:count], wall, record, population)
 
 
 def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.runner import Progress, Stopped, run_campaign
+from ..campaign.runs import Progress, Request, run_all
 from ..campaign.twins import the_twins
 from ..column import Column
 from ..column.scatter import Scatter
@@ -184,28 +185,19 @@ def critical_suite(
         return Case(columns[rest // count], motions[record].scaled_to_pga(float(amplitudes[rest % count])))
 
     cases = Cases(len(motions) * each, case)
-    key = {
-        "column": column.digest,
-        "motions": [motion.digest for motion in motions],
-        "amplitudes": amplitudes.tolist(),
-    }
     if drawn is not None:
-        key |= drawn.key
         model = model.paced(column)
-    quiet = share_of(motions, whole)
-    campaign = run_campaign(
-        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
-    )
-    if campaign.interrupted:
-        raise Stopped(campaign.rows.finished, len(cases), ledger)
+    started = time.perf_counter()
+    request = Request.of(cases, model, tail=tail, quiet=share_of(motions, whole))
+    rows = run_all(request, threads=threads, progress=progress, ledger=ledger)
     results = []
     for i, motion in enumerate(motions):
-        some = campaign.rows[i * each : (i + 1) * each]
+        some = rows[i * each : (i + 1) * each]
         population = None if drawn is None else CriticalPopulation.of(amplitudes, some[count:], drawn, motion.pga)
         results.append(
             CriticalAmplitude(column, motion, model.name, amplitudes, some[:count], 0.0, motion.pga, population)
         )
-    return CriticalSuite(tuple(results), campaign.wall_time)
+    return CriticalSuite(tuple(results), time.perf_counter() - started)
 
 
 def _row(one: CriticalAmplitude) -> dict[str, Any]:
