@@ -26,11 +26,11 @@ def filled(path, runs=100):
 
 def rows(path):
     with closing(Ledger(path)):  # one that is damaged is mended here
-        return dict(rows_in(path, range(500)))
+        return dict(rows_in(path, lambda number: True))
 
 
 def test_a_run_is_on_disk_within_a_second_though_no_other_follows(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     with closing(Ledger(path)) as book:
         book.record(7, ROW)
         deadline = time.monotonic() + 60.0
@@ -44,7 +44,7 @@ def test_a_run_is_on_disk_within_a_second_though_no_other_follows(tmp_path):
 def test_a_large_batch_is_written_before_its_time(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "COMMIT_INTERVAL", 1e6)
     monkeypatch.setattr(module, "BATCH", 10)
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     with closing(Ledger(path)) as book:
         for number in range(10):
             book.record(number, ROW)
@@ -55,7 +55,7 @@ def test_a_large_batch_is_written_before_its_time(tmp_path, monkeypatch):
 
 
 def test_the_file_is_open_to_readers_while_runs_come_in(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     with closing(Ledger(path)) as book:
         for number in range(50):
             book.record(number, ROW)
@@ -65,14 +65,14 @@ def test_the_file_is_open_to_readers_while_runs_come_in(tmp_path):
 
 
 def test_rows_come_back_to_the_bit(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 3)
     assert rows(path) == {n: ROW | {"n": n, "note": "x" * 400} for n in range(3)}
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["progress.sqlite"]
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["runs.sqlite"]
 
 
 def test_a_second_process_is_refused_in_one_sentence(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     script = (
         "from stylobate.campaign.ledger import Ledger\n"
         f"try:\n    Ledger({str(path)!r})\n"
@@ -113,7 +113,7 @@ def test_what_else_is_called_like_one_of_an_earlier_version_is_left_alone(tmp_pa
 
 
 def test_a_full_disk_is_one_sentence_and_what_was_written_stays(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 20)
     book = Ledger(path)
     pages = book._file.execute("PRAGMA page_count").fetchone()[0]
@@ -141,20 +141,31 @@ def test_a_line_proves_its_campaign_its_number_and_its_row():
 
 
 def test_a_row_that_was_changed_is_left_out(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 5)
     with closing(sqlite3.connect(path)) as file, file:
         file.execute("UPDATE runs SET line = replace(line, 'rocked', 'collapsed') WHERE number = 3")
     assert list(rows(path)) == [0, 1, 2, 4]
 
 
+@pytest.mark.parametrize("change", ["line = CAST(line AS BLOB)", "number = 77"])
+def test_a_row_that_sqlite_no_longer_finds_is_found_in_the_bytes(tmp_path, change):
+    path = tmp_path / "runs.sqlite"
+    filled(path, 5)
+    whole = rows(path)
+    with closing(sqlite3.connect(path)) as file, file:
+        file.execute(f"UPDATE runs SET {change} WHERE number = 2")
+    with pytest.warns(DamagedFileWarning, match="5 of its finished runs are whole and are used"):
+        assert rows(path) == whole
+
+
 def test_half_a_ledger_gives_its_whole_rows(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 400)
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
-    with pytest.warns(DamagedFileWarning, match=r"kept as progress\.sqlite\.damaged-1, and \d+ of its finished runs"):
+    with pytest.warns(DamagedFileWarning, match=r"kept as runs\.sqlite\.damaged-1, and \d+ of its finished runs"):
         found = rows(path)
     assert 150 < len(found) < 250
-    assert (tmp_path / "progress.sqlite.damaged-1").read_bytes() == data[: len(data) // 2]
+    assert (tmp_path / "runs.sqlite.damaged-1").read_bytes() == data[: len(data) // 2]
     assert rows(path) == found  # sound again

@@ -14,6 +14,7 @@ import stylobate as st
 from stylobate.analysis.studies import StudyResult, write_table
 from stylobate.campaign import digests
 from stylobate.campaign.ledger import RUNS_FILE, Ledger
+from stylobate.campaign.runs import Request
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
 from stylobate.column.files import load_column
@@ -82,6 +83,31 @@ def test_a_case_is_what_simulate_many_computes():
     again = st.simulate_many(COLUMN, [PULSE.scaled(level) for level in (1.0, 2.0, 3.0, 6.0)], st.HousnerBlock())
     assert table["peak_top_displacement_m"].tolist() == again["peak_top_displacement_m"].tolist()
     assert table["outcome"].tolist() == again["outcome"].tolist()
+
+
+@pytest.mark.filterwarnings("ignore::stylobate.errors.LeftOutWarning")
+def test_a_plan_tells_its_cases_as_any_other_request_does(tmp_path):
+    """By what acts and what stands: not by names, nor by the components that the model leaves out."""
+    some = study(realisations=2)
+    again = Request.of([some.case(number) for number in range(some.size)], some.models[0])
+    assert again.digests.digests.tolist() == some.plan().digests.digests.tolist()
+    aside = PULSE.replace(name="another", ay=0.3 * PULSE.samples)
+    renamed = st.Study([COLUMN.replace(name="another")], [aside], some.models, some.levels, realisations=2)
+    assert renamed.plan().digests.digests.tolist() == some.plan().digests.digests.tolist()
+    for other in (
+        study(realisations=2, seed=1),
+        study(realisations=2, tail=1.0),
+        study(1.0, 2.0, 3.0, 6.1, realisations=2),
+    ):
+        assert other.plan().digests.digests.tolist() != some.plan().digests.digests.tolist()
+
+
+def test_what_is_to_be_said_of_runs_is_said_of_those_in_the_ledger_too(tmp_path):
+    aside = PULSE.replace(ay=0.3 * PULSE.samples)
+    for made in (4, 0):
+        with pytest.warns(st.errors.LeftOutWarning):
+            found = st.run_study(st.Study([COLUMN], [aside], [st.HousnerBlock()], (1.0, 2.0, 3.0, 6.0)), tmp_path)
+        assert found.computed == made
 
 
 def test_runs_of_another_law_are_never_mixed_in(tmp_path, monkeypatch):

@@ -13,7 +13,7 @@ import sqlite3
 import threading
 import warnings
 import weakref
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
@@ -56,6 +56,9 @@ _SOUND_FILE = (
     sqlite3.SQLITE_CANTOPEN,
     sqlite3.SQLITE_NOMEM,
 )
+
+#: Rows that are no line of text, or not at the number that their line tells behind its checksum.
+MISPLACED = "typeof(line) <> 'text' OR number <> CAST(substr(line, 18) AS INTEGER)"
 
 #: A ledger and what SQLite keeps beside it.
 ENDINGS = ("", "-wal", "-shm")
@@ -228,7 +231,8 @@ def connect(path: Path) -> sqlite3.Connection:
             raise Damaged(" ".join(said.split()))
         file.execute("PRAGMA journal_mode = WAL")
         found = file.execute("SELECT key, sum FROM campaign").fetchall()
-        file.execute("SELECT number, line FROM runs LIMIT 1").fetchall()
+        if file.execute(f"SELECT count(*) FROM runs WHERE {MISPLACED}").fetchone()[0]:
+            raise Damaged("what it holds of a run is not what is held of that run")
         if len(found) != 1 or hashlib.sha256(str(found[0][0]).encode()).hexdigest() != found[0][1]:
             raise Damaged("what it says of itself is not whole")
     except sqlite3.Error as error:
@@ -296,16 +300,17 @@ def _key_of(path: Path) -> str | None:
     return None
 
 
-def rows_in(path: str | Path, numbers: Iterable[int]) -> Iterator[tuple[int, dict]]:
-    """(number, row) of those of the runs that a ledger holds; another process may be at work on it.
+def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple[int, dict]]:
+    """(number, row) of the runs in a ledger whose numbers are wanted; another process may be at work on it.
 
     Rows without a valid checksum are left out; a file that is missing, or no ledger, holds none.
     """
     with closing(_opened(path)) as file, suppress(sqlite3.Error):
-        for number in numbers:
-            for (line,) in file.execute("SELECT line FROM runs WHERE number = ?", (number,)):
-                if (found := salvage.read_line(line, SEAL)) is not None:
-                    yield found
+        for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
+            number = salvage.number_of(line)
+            found = None if number is None or not wanted(number) else salvage.read_line(line, SEAL)
+            if found is not None:
+                yield found
 
 
 def asked_in(path: str | Path) -> bytes:

@@ -15,6 +15,7 @@ import numpy as np
 from ..models.base import Case, Cases, Model
 from ..own_files import digest as digest_of_file
 from ..response.rows import Rows
+from ..simulate import check_cases
 from .digests import Digests, Hasher
 from .executor import compute
 from .ledger import Ledger, finished_runs_in, rows_in
@@ -125,9 +126,10 @@ class Runs:
         todo[digests.doubles] = False
         for numbers, model, quiet in request.groups:
             left = numbers[todo[numbers]]
-            if not len(left):
+            if not len(left):  # what is to be said of them is said again
+                check_cases(_some(request.cases, numbers), model, tail=request.tail, quiet=quiet)
                 continue
-            some = Cases(len(left), lambda index, left=left: request.cases[int(left[index])])
+            some = _some(request.cases, left)
             with closing(compute(some, model, tail=request.tail, quiet=quiet, threads=threads)) as finished:
                 for index, measures in finished:
                     yield from self._keep(digests, int(left[index]), measures.row())
@@ -203,11 +205,15 @@ class Runs:
 
 def known(ledger: Path, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
     """(number, row) of the cases that a ledger holds; those of other requests and other laws in it are passed over."""
-    for key, row in rows_in(ledger, map(int, np.unique(digests.keys))):
+    for key, row in rows_in(ledger, digests.numbers):
         digest = row.pop("case", None)
         for number in digests.numbers(key):
             if digest == digests[number]:
                 yield number, row
+
+
+def _some(cases: Sequence[Case], numbers: np.ndarray) -> Cases:
+    return Cases(len(numbers), lambda index: cases[int(numbers[index])])
 
 
 def run_all(
