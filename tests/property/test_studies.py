@@ -1,5 +1,6 @@
 """Studies: nothing is computed twice or mixed; the table is the same to the bit (after kills: ``fuzz/studies.py``)."""
 
+import importlib
 import json
 import math
 import subprocess
@@ -100,6 +101,27 @@ def test_a_plan_tells_its_cases_as_any_other_request_does(tmp_path):
         study(1.0, 2.0, 3.0, 6.1, realisations=2),
     ):
         assert other.plan().digests.digests.tolist() != some.plan().digests.digests.tolist()
+
+
+OWN = """
+import stylobate as st
+class Own(st.HousnerBlock):
+    name = "own"
+    def taken(self, motion):
+        return super().taken(motion)
+"""
+
+
+def test_a_model_of_ones_own_whose_source_has_changed_is_another_law(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    found = []
+    for source in (OWN, OWN, f"{OWN}        # another"):
+        (tmp_path / "own_model.py").write_text(source)
+        monkeypatch.delitem(sys.modules, "own_model", raising=False)
+        importlib.invalidate_caches()
+        some = st.Study([COLUMN], [PULSE], [importlib.import_module("own_model").Own()])
+        found.append(some.plan().digests[0])
+    assert found[0] == found[1] != found[2]
 
 
 def test_what_is_to_be_said_of_runs_is_said_of_those_in_the_ledger_too(tmp_path):

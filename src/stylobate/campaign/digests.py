@@ -10,6 +10,7 @@ import json
 from collections.abc import Sequence
 from functools import cache, cached_property
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -24,14 +25,14 @@ from ..version import __version__
 #: Bytes of a digest.
 LENGTH = 16
 
-#: Rooms of the package whose sources are the laws by which a run is made and measured.
-ROOMS = ("column", "kernels", "models", "response")
+#: This package, and the rooms of it whose sources are the laws by which a run is made and measured.
+PACKAGE, ROOMS = Path(__file__).parents[1], ("column", "kernels", "models", "response")
 
 
 @cache
 def laws() -> tuple[str, ...]:
     """Digests of the sources by which runs are made: no run of other laws is ever taken for one of these."""
-    return tuple(source_digest(Path(__file__).parents[1] / room) for room in ROOMS)
+    return tuple(source_digest(PACKAGE / room) for room in ROOMS)
 
 
 class Hasher:
@@ -45,7 +46,7 @@ class Hasher:
     """
 
     def __init__(self, model: Model, tail: float) -> None:
-        law = [model.name, model.parameters(), tail, __version__, *laws()]
+        law = [model.name, model.parameters(), tail, __version__, *laws(), *_sources_of(type(model))]
         self._head, self._model = json.dumps(law, sort_keys=True, default=str), model
         self._samples: dict[tuple, tuple[Motion, str]] = {}
 
@@ -92,6 +93,13 @@ def digest_of_samples(motion: Motion) -> str:
 def samples_of(motion: Motion) -> tuple:
     """What scaled copies of a motion share, as long as one of them lives."""
     return id(motion.samples), id(motion.y_samples), id(motion.z_samples), motion.dt
+
+
+def _sources_of(model: type) -> list[str]:
+    """Digests of the files of a model's methods that are none of this package: such laws are not in :data:`ROOMS`."""
+    methods = [one for kind in model.__mro__ for one in vars(kind).values() if isinstance(one, FunctionType)]
+    files = {Path(one.__code__.co_filename) for one in methods}
+    return sorted(digest_of_file(one) for one in files if one.is_file() and not one.is_relative_to(PACKAGE))
 
 
 class Digests:
