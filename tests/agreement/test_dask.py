@@ -25,7 +25,7 @@ from stylobate.campaign.cluster import on_cluster
 from stylobate.campaign.executor import compute
 from stylobate.campaign.hand_out import HandOut
 from stylobate.campaign.local_workers import started
-from stylobate.campaign.runner import run_campaign
+from stylobate.campaign.runs import Request, run_all
 from stylobate.campaign.stream import Stream
 from stylobate.cli.main import call
 from stylobate.models.base import Case, Cases, RunOptions
@@ -55,10 +55,9 @@ def test_rows_are_those_of_threads_to_the_bit(cluster, tmp_path):
     motions = [st.harmonic(0.8, 1.0, 2.0), *(one.replace(ax=one.samples[:300], ay=None, az=None) for one in records)]
     columns = [st.preset("paper-monolithic"), st.preset("paper-12-drums")]
     cases = Cases(60, lambda n: Case(columns[n % 3 == 0], motions[n % len(motions)].scaled(0.3 + 0.05 * n)))
-    on_workers = run_campaign(cases, st.DistinctElement2D(), quiet=0.1, ledger=tmp_path / "runs.sqlite")
-    assert not on_workers.interrupted
+    on_workers = run_all(Request.of(cases, st.DistinctElement2D(), quiet=0.1), ledger=tmp_path / "runs.sqlite")
     by_threads = {number: one.row() for number, one in simulate_iter(cases, st.DistinctElement2D(), quiet=0.1)}
-    assert list(map(repr, on_workers.rows)) == [repr(by_threads[number]) for number in range(60)]
+    assert list(map(repr, on_workers)) == [repr(by_threads[number]) for number in range(60)]
 
 
 def test_a_killed_worker_is_replaced_and_its_chunks_are_computed_again(cluster):
@@ -66,8 +65,8 @@ def test_a_killed_worker_is_replaced_and_its_chunks_are_computed_again(cluster):
     [pid] = cluster.run(os.getpid).values()
     cases = Cases(60, lambda n: Case(COLUMN, MOTION.scaled(1.0 + n)))
     kill.start()
-    found = run_campaign(cases, Poisonous(0.05))
-    assert [row["peak_top_displacement_m"] for row in found.rows] == [1.0 + n for n in range(60)]
+    found = run_all(Request.of(cases, Poisonous(0.05)))
+    assert [row["peak_top_displacement_m"] for row in found] == [1.0 + n for n in range(60)]
     assert list(cluster.run(os.getpid).values()) != [pid]
 
 

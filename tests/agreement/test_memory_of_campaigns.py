@@ -7,12 +7,10 @@ from collections import deque
 from contextlib import closing
 
 import numpy as np
-import pytest
 
 import stylobate as st
 from stylobate.campaign.ledger import Ledger
-from stylobate.campaign.others import Others
-from stylobate.campaign.runner import finished_runs, full_key, run_campaign
+from stylobate.campaign.runs import Request, Runs, run_all
 from stylobate.models.base import Case, Cases, Model
 from stylobate.models.shared.lanes import WINDOW, run_alike
 from stylobate.outcome import Outcome
@@ -78,44 +76,36 @@ def cases(count):
     return Cases(count, lambda number: ONE)
 
 
+def distinct(count):
+    return Cases(count, lambda number: Case(COLUMN, MOTION.scaled(1.0 + number)))
+
+
 def test_a_campaign_keeps_the_bytes_of_its_numbers():
     def work(count):
         yield
-        yield run_campaign(cases(count), Instant())
+        yield run_all(Request.of(cases(count), Instant()))
 
     # ten numbers and a step count of eight bytes each, two truths, two texts, a byte for each that there is a value;
     # beside it some hundreds of results that wait for the caller, more or fewer of them as the threads take turns
     assert bytes_per_case(work, 2 * WINDOW, 6 * WINDOW) < 200.0
 
 
-def test_a_stream_of_runs_keeps_nothing_and_one_that_goes_on_a_bit_for_each(tmp_path):
+def test_a_stream_of_runs_keeps_their_digests_and_one_that_goes_on_no_more(tmp_path):
     left = 200
     row = AtOnce().collect(0).row()
 
     def work(count):
         ledger = tmp_path / f"{count}.sqlite"
-        with closing(Ledger(ledger, full_key(Instant(), 0.0, {"quiet": 0.0}), count)) as book:
+        request = Request.of(distinct(count), Instant())
+        with closing(Ledger(ledger)) as book:
             for number in range(count - left):
-                book.record(number, row)
+                book.record(int(request.digests.keys[number]), {"case": request.digests[number], **row})
         yield
-        yield deque(finished_runs(cases(count), Instant(), ledger=ledger), maxlen=0)
+        with closing(Runs(ledger)) as runs:
+            yield deque(runs.run(Request.of(distinct(count), Instant())), maxlen=0)
 
-    assert bytes_per_case(work, WINDOW, 6 * WINDOW) < 1.0
-
-
-def test_what_is_left_of_a_campaign_is_found_again():
-    stream = np.random.default_rng(3)
-    for count, known in ((1, 0), (9, 3), (4095, 4000), (30_000, 29_000), (30_000, 5), (8192, 8192)):
-        others = Others(range(count))
-        out = stream.permutation(count)[:known]
-        assert all(others.leave_out(int(number)) for number in out)
-        assert not any(others.leave_out(int(number)) for number in [*out[:5], -1, count])
-        want = np.setdiff1d(np.arange(count), out)
-        assert len(others) == len(want)
-        assert [others.number(index) for index in range(len(want))] == want.tolist() == list(others)
-        for beyond in (-1, len(want)):
-            with pytest.raises(IndexError):
-                others.number(beyond)
+    # a digest of 16 bytes, its number and its place, while they are sorted each twice, and whether it is known
+    assert bytes_per_case(work, WINDOW, 6 * WINDOW) < 100.0
 
 
 ROWS = [

@@ -19,7 +19,7 @@ from stylobate.analysis.probability import (
 from stylobate.analysis.replicates import collapse_probability
 from stylobate.analysis.step_sensitivity import compare_steps, halved_step
 from stylobate.analysis.verdicts import collapse_interval, share_collapsed, wilson_interval
-from stylobate.campaign import runner
+from stylobate.campaign import runs
 from stylobate.column import preset
 from stylobate.column.imperfections import Imperfection, imperfect_columns
 
@@ -164,7 +164,7 @@ def test_phase_starts_the_sine_elsewhere_and_shares_its_samples():
 def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
     column = preset("paper-monolithic")
     whole = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4)
-    asked, real = [], runner.compute
+    asked, real = [], runs.compute
 
     def stopping(cases, *args, **kwargs):
         asked.append(len(cases))
@@ -173,14 +173,14 @@ def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
                 raise KeyboardInterrupt
             yield item
 
-    monkeypatch.setattr(runner, "compute", stopping)
+    monkeypatch.setattr(runs, "compute", stopping)
     first = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4, out=tmp_path)
     assert not first.complete
     assert first.summary()["not_run"] == 23
     second = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4, out=tmp_path)
     assert asked == [32, 23]
     np.testing.assert_array_equal(second.peaks, whole.peaks)
-    assert {path.name for path in tmp_path.iterdir()} == {"probability.nc", "probability.csv"}
+    assert {path.name for path in tmp_path.iterdir()} == {"probability.nc", "probability.csv", "runs.sqlite"}
 
 
 def test_half_of_a_step_is_half_and_the_verdicts_are_counted():

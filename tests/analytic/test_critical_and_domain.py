@@ -14,7 +14,7 @@ import stylobate as st
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.compare import compare_domains
 from stylobate.analysis.critical import amplitude_grid
-from stylobate.analysis.domain import PROGRESS_FILE
+from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.column.presets import preset
 from stylobate.models.base import Model
 from stylobate.response import Measures
@@ -182,18 +182,15 @@ def test_an_interrupt_keeps_what_is_finished_and_the_same_call_goes_on(tmp_path)
     again = domain(out=tmp_path)
     assert Threshold.runs == 26
     assert again.rows == whole.rows
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["domain.csv", "domain.nc"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["domain.csv", "domain.nc", RUNS_FILE]
 
 
-def test_unfinished_runs_of_another_campaign_are_not_mixed_in(tmp_path):
-    Threshold.stop_after = 10
+def test_runs_of_another_domain_are_not_mixed_in(tmp_path):
     domain(out=tmp_path)
-    Threshold.runs, Threshold.stop_after = 0, None
     for change in ({"model": Threshold(limit=0.3)}, {"duration": 5.0}, {"tail": 1.0}):
-        with pytest.raises(st.InputError, match="another campaign"):
-            domain(**change, out=tmp_path)
-    assert Threshold.runs == 0
-    assert (tmp_path / PROGRESS_FILE).exists()
+        Threshold.runs = 0
+        assert domain(**change, out=tmp_path).rows == domain(**change).rows
+        assert Threshold.runs == 2 * 36
 
 
 def test_a_killed_campaign_goes_on(tmp_path):
@@ -216,11 +213,11 @@ here["domain"](out={str(tmp_path)!r}, progress=killed)
 
 def test_a_file_that_is_no_ledger_is_set_aside(tmp_path):
     text = "not a database, and long enough to be looked at as one\n" * 20
-    (tmp_path / PROGRESS_FILE).write_text(text)
-    with pytest.warns(st.errors.DamagedFileWarning, match="kept as progress.sqlite.damaged-1"):
+    (tmp_path / RUNS_FILE).write_text(text)
+    with pytest.warns(st.errors.DamagedFileWarning, match="kept as runs.sqlite.damaged-1"):
         found = domain(out=tmp_path)
     assert found.complete
-    assert (tmp_path / f"{PROGRESS_FILE}.damaged-1").read_text() == text
+    assert (tmp_path / f"{RUNS_FILE}.damaged-1").read_text() == text
     with pytest.raises(st.InputError, match="does not exist"):
         domain(out=tmp_path / "none")
 

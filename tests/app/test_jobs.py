@@ -122,13 +122,13 @@ def test_the_end_of_a_job_is_the_last_word(tmp_path, asked, monkeypatch):
 
 def test_a_domain_is_a_study_file(fresh, asked, tmp_path):
     """What is kept of a domain is what the command line takes, and says the same."""
-    from stylobate.campaign.study import read_study
+    from stylobate.campaign.grid import read_grid
 
     grid = {"frequencies": "0.5:2:4", "amplitudes": "0.1g:0.4g:3", "duration": "3s", "tail": "1s"}
     domain = asked | {"kind": "domain", "motion": None, "settings": {"points": "3"}} | grid
     job = fresh.post("/api/jobs", json=domain).json()
     assert job["commands"] == ["stylobate domain study.toml --out=result"]
-    study = read_study(tmp_path / "jobs" / job["id"] / "study.toml")
+    study = read_grid(tmp_path / "jobs" / job["id"] / "study.toml")
     assert (study.frequencies.tolist(), study.duration, study.tail) == ([0.5, 1.0, 1.5, 2.0], 3.0, 1.0)
     assert (study.column.n, study.model.name, study.model.parameters()["points"]) == (3, "dem2d", 3)
     for wrong, field in (

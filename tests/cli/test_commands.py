@@ -128,6 +128,7 @@ def test_critical_states_its_grid_and_how_verdicts_alternate(command, tmp_path):
         "asked-critical.json",
         "critical.png",
         "critical.svg",
+        "runs.sqlite",
     }
     # The critical run, alone, collapses; the one below it does not.
     for amplitude, collapsed in ((0.25, True), (0.2, False)):
@@ -157,8 +158,9 @@ def test_domain_counts_cells_and_writes_table_file_and_figure(command, tmp_path)
     assert (result["cells"], result["runs"]) == (12, 12)
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 12
     names = {path.name for path in tmp_path.glob("[!.]*")}
-    assert names == {"domain.nc", "domain.csv", "domain.png", "domain.svg", "domain.json", "asked-domain.json"}
-    assert sorted(result["files"]) == sorted(str(tmp_path / name) for name in names)
+    results = {"domain.nc", "domain.csv", "domain.png", "domain.svg", "domain.json", "asked-domain.json"}
+    assert names == results | {"runs.sqlite"}
+    assert sorted(result["files"]) == sorted(str(tmp_path / name) for name in results)
     text = command("domain", "paper-monolithic", *DOMAIN)
     assert f"{result['collapsed']} of 12 cells collapse" in text
 
@@ -187,7 +189,8 @@ def test_compare_models_under_one_motion_and_over_a_domain(command, tmp_path):
     assert peaks[1] == pytest.approx(peaks[0], rel=0.03)
     names = {path.name for path in (tmp_path / "motion").glob("[!.]*")}
     histories = {"response-housner.nc", "response-dem2d.nc"}
-    assert names == histories | {"comparison.csv", "comparison.png", "comparison.svg", "asked-compare.json"}
+    results = {"comparison.csv", "comparison.png", "comparison.svg", "asked-compare.json"}
+    assert names == histories | results | {"runs.sqlite"}
     grid = ["--frequencies", "0.5:2:2", "--amplitudes", "0.1g:0.5g:3", "--duration", "4s"]
     result = command(
         "compare", "paper-monolithic", "--models", "housner,dem2d", *grid, "--json", "--set", "housner.restitution=0.9"

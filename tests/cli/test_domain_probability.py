@@ -26,8 +26,9 @@ def test_replicates_give_counts_table_file_and_figure(capsys, tmp_path):
     }  # fmt: skip
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 60
     names = {path.name for path in tmp_path.glob("[!.]*")}
-    assert names == {f"probability.{end}" for end in ("nc", "csv", "png", "svg", "json")} | {"asked-domain.json"}
-    assert sorted(result["files"]) == sorted(str(tmp_path / name) for name in names)
+    results = {f"probability.{end}" for end in ("nc", "csv", "png", "svg", "json")} | {"asked-domain.json"}
+    assert names == results | {"runs.sqlite"}
+    assert sorted(result["files"]) == sorted(str(tmp_path / name) for name in results)
 
 
 def test_a_person_is_told_how_wide_the_doubt_is(capsys):

@@ -72,7 +72,7 @@ def test_tables_pictures_and_the_keys_that_were_promised(tmp_path, capsys):
     assert found["granite"]["SP1"]["brier"] < 0.26
     for name in ("granite_tests.csv", "granite_verdicts.png", "granite_reliability.svg", "experiments.json"):
         assert (out / name).is_file()
-    assert not list(out.glob("*.sqlite*"))
+    assert [path.name for path in out.glob("*.sqlite*")] == ["runs.sqlite"]
 
 
 def refuse_inertia(specimens, motions, rows):
@@ -139,7 +139,7 @@ def test_odd_options_are_refused(tmp_path, capsys):
 
 def test_it_goes_on_from_its_ledger(tmp_path):
     granite(tmp_path)
-    found, ledger, seen = study.read(tmp_path), tmp_path / "progress.sqlite", []
+    found, ledger, seen = study.read(tmp_path), tmp_path / "runs.sqlite", []
     assert found.granite is not None
     from stylobate_studies.experiments import granite as room
 

@@ -175,7 +175,7 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
     )  # fmt: skip
     assert (found["records"], found["runs"], found["unit"]) == (10, 80, "m/s")
     assert found["measures"][0]["beta"] < found["measures"][-1]["beta"]
-    assert not list(out.glob("progress*"))
+    assert [path.name for path in out.glob("*.sqlite*")] == ["runs.sqlite"]
     for im in ((), ("--im", "pga")):
         curve = said(capsys, "fragility", out, *im, "--json")
         assert curve["method"] == "records"

@@ -141,7 +141,7 @@ def test_a_suite_is_a_table_a_figure_and_the_files_that_were_not_used(command, f
     assert result["verdicts"] == {"paper-monolithic": {"collapsed": 1, "stands": 1}}
     assert set(result["refused"]) == {"README.txt"}
     assert {path.name for path in out.glob("[!.]*")} == {
-        "suite.csv", "suite.json", "suite.png", "suite.svg", "asked-suite.json"}  # fmt: skip
+        "suite.csv", "suite.json", "suite.png", "suite.svg", "asked-suite.json", "runs.sqlite"}  # fmt: skip
     assert set(INTENSITIES) <= set(result["runs"][0])
     motions = [st.read_motion(folder / name) for name in ("strong.csv", "weak.csv")]
     with pytest.warns(OutOfRangeWarning, match="second horizontal component"):
@@ -188,7 +188,8 @@ def test_critical_over_a_folder_of_records(command, folder, tmp_path):
     assert result["runs"] == 14  # six amplitudes of each, and each as it is
     assert [row["record"] for row in result["records"]] == ["strong.csv", "weak.csv"]
     names = {path.name for path in (tmp_path / "out").glob("[!.]*")}
-    assert names == {"critical.csv", "critical.json", "critical.png", "critical.svg", "runs.csv", "asked-critical.json"}
+    results = {"critical.csv", "critical.json", "critical.png", "critical.svg", "runs.csv", "asked-critical.json"}
+    assert names == results | {"runs.sqlite"}
     # Each record alone has the same answer; of all of them, the lowest counts, and the highest.
     alone = [command(*arguments[:5], folder / row["record"], *grid, "--json") for row in result["records"]]
     assert [row["critical_g"] for row in result["records"]] == [one["critical_g"] for one in alone]
@@ -202,7 +203,7 @@ def test_run_over_a_folder_of_records(command, folder, tmp_path):
     result = command(*RUN, "--motion", folder, "--out", tmp_path / "out", "--json")
     assert [run["outcome"] for run in result["runs"]] == ["collapsed", "at_rest"]
     assert set(result["refused"]) == {"README.txt"}
-    assert {path.name for path in (tmp_path / "out").glob("[!.]*")} == {"strong.csv", "weak.csv"}
+    assert {path.name for path in (tmp_path / "out").glob("[!.]*")} == {"strong.csv", "weak.csv", "runs.sqlite"}
     assert json.loads((tmp_path / "out" / "weak.csv" / "run.json").read_text()) == result["runs"][1]
 
 

@@ -81,7 +81,7 @@ def test_what_is_finished_is_kept_and_the_same_command_goes_on(name, records, co
     assert counted["runs"] == runs - 2
     for path in whole.glob("*.csv"):
         assert (out / path.name).read_bytes() == path.read_bytes()
-    assert not list(out.glob("progress*"))
+    assert [path.name for path in out.glob("*.sqlite*")] == ["runs.sqlite"]
     counted.update(runs=0, stop=2)
     assert call(command) == 130
     assert f"interrupted after 2 of {runs} runs; nothing is kept: with --out DIR" in capsys.readouterr().err
@@ -108,7 +108,7 @@ def test_a_folder_of_records_goes_on_with_the_next(records, tmp_path, capsys, mo
     assert call(command) == 0
     assert len(made) == 1
     assert capsys.readouterr().out.count("record-") >= 3
-    assert {path.name for path in out.glob("[!.]*")} == {f"record-{k}.csv" for k in range(3)}
+    assert {path.name for path in out.glob("[!.]*")} == {*(f"record-{k}.csv" for k in range(3)), "runs.sqlite"}
 
 
 def test_a_comparison_goes_on_with_the_next_model(tmp_path, capsys, monkeypatch):
@@ -139,7 +139,7 @@ def test_a_comparison_goes_on_with_the_next_model(tmp_path, capsys, monkeypatch)
     assert len(made) == 1
     tables = [pandas.read_csv(tmp_path / one / "comparison.csv").drop(columns="wall_s") for one in ("whole", "out")]
     assert tables[0].equals(tables[1])
-    assert not list((tmp_path / "out").glob("progress*"))
+    assert [path.name for path in (tmp_path / "out").glob("*.sqlite*")] == ["runs.sqlite"]
 
 
 def test_columns_do_not_rewrite_the_file_they_read(tmp_path, monkeypatch, capsys):

@@ -17,7 +17,7 @@ import stylobate as st
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.domain import Domain
 from stylobate.atomic import output_folder, replacing
-from stylobate.campaign.ledger import finished_runs_in
+from stylobate.campaign.ledger import APPLICATION, RUNS_FILE, finished_runs_in
 from stylobate.cli.main import call
 from stylobate.errors import DamagedFileWarning
 from stylobate.own_files import LIST, own_files
@@ -67,7 +67,7 @@ def test_everything_is_written(made):
     assert len(pandas.read_csv(folder / "tables" / "cases.csv")) == 2 * 2 * 4
     assert len(list((folder / "data").glob("*/domain.nc"))) == 2 * (4 + 2 + 3 + 2 + len(GRIDS.variants) + 4) + 4
     assert len(list((folder / "data").glob("*/probability.nc"))) == 2 + 2 + 2 * 3
-    assert not list((folder / "data").rglob("*.sqlite*"))
+    assert [path.name for path in (folder / "data").rglob("*.sqlite*")] == [RUNS_FILE]
 
 
 def test_every_sentence_has_a_verdict(made):
@@ -190,6 +190,15 @@ def test_pieces_of_another_version_are_computed_anew_and_what_is_not_ours_stays(
         assert {path.name for path in data.iterdir()} == {"study.json", "mine.nc", ".env-local.sh", "edited.csv"}
 
 
+def test_unfinished_runs_of_an_earlier_version_are_refused(tmp_path):
+    for data in claimed(tmp_path / "study"):
+        (data / "domain-a").mkdir()
+        (data / "domain-a" / "progress.sqlite").write_bytes(bytes(68) + APPLICATION.to_bytes(4) + bytes(28))
+        (data / "mine.sqlite").write_bytes(b"no ledger")
+    with pytest.raises(st.InputError, match=r"domain-a.progress\.sqlite keeps unfinished runs of an earlier version"):
+        check_folder(tmp_path / "study")
+
+
 def test_a_foreign_folder_is_refused_and_nothing_in_it_is_touched(tmp_path, capsys):
     home = tmp_path / "home"
     (home / "data" / "repo").mkdir(parents=True)
@@ -245,6 +254,7 @@ def test_histories_go_on_in_the_middle(made, monkeypatch):
     place = folder / "data" / f"{name}.nc"
     before = xarray.load_dataset(place, engine="h5netcdf")
     place.unlink()
+    (folder / "data" / RUNS_FILE).unlink()
     real, asked = pieces.simulate, []
 
     def simulate(*args, **kwargs):
@@ -256,12 +266,16 @@ def test_histories_go_on_in_the_middle(made, monkeypatch):
     monkeypatch.setattr(pieces, "simulate", simulate)
     with pytest.raises(KeyboardInterrupt):
         run_study(folder, True, 1, grids=GRIDS)
-    kept = finished_runs_in(folder / "data" / f"{name}.sqlite")
+    kept = finished_runs_in(folder / "data" / RUNS_FILE)
     assert 2 <= kept <= 3  # the others of the pool may have come in
     run_study(folder, True, 1, grids=GRIDS)
     assert len(asked) <= 3 + 4 - kept + 1
     xarray.testing.assert_identical(before, xarray.load_dataset(place, engine="h5netcdf"))
-    assert not list((folder / "data").rglob("*.sqlite*"))
+    place.unlink()
+    asked.clear()
+    run_study(folder, True, 1, grids=GRIDS)
+    assert asked == []  # the ledger has them all
+    xarray.testing.assert_identical(before, xarray.load_dataset(place, engine="h5netcdf"))
 
 
 def test_the_table_in_markdown_says_how_it_was_made_and_what_its_verdicts_mean(made):

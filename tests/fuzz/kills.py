@@ -2,7 +2,7 @@
 
 A try kills one command once to three times, then lets it end. At most a second of finished runs may be lost at each kill,
 the tables must be those of the command that nobody killed, and other people's files in the folder as they were. How long
-signals took to end the command is told as a distribution.
+signals took to end the command is told as a distribution. No run that was kept is made again.
 """
 
 from __future__ import annotations
@@ -20,6 +20,8 @@ import time
 from contextlib import closing
 from pathlib import Path
 
+from stylobate.campaign.ledger import RUNS_FILE
+
 from .target import Fault, Target, Tried
 
 #: The command line, and a note of each run that it has finished, before it is kept.
@@ -28,7 +30,6 @@ import os, sys, time
 from stylobate.cli import signals
 signals.listen()
 import stylobate.campaign.ledger as ledger
-import stylobate.analysis.replicates, stylobate.campaign.runner
 notes, record = os.open(sys.argv.pop(1), os.O_WRONLY | os.O_APPEND | os.O_CREAT), ledger.Ledger.record
 def noted(self, number, row):
     os.write(notes, f"{time.time()} {number} {os.path.abspath(self.path)}\\n".encode())
@@ -95,9 +96,10 @@ def one(rng: random.Random, folder: Path) -> Tried:
             raise Fault(f"{name}: {foreign} is not as it was")
     if tables(out) != whole:
         raise Fault(f"{name}: after {signals} another table")
-    left = [
-        path.name for path in out.rglob("*") if path.name not in FOREIGN and path.suffix in (".sqlite", ".sqlite-wal")
-    ]
+    made = [line.split(" ", 2)[1] for line in (folder / "notes").read_text().splitlines()]
+    if len(set(made)) < len(made):
+        raise Fault(f"{name}: {len(made) - len(set(made))} runs that were kept were made again after {signals}")
+    left = [path.name for path in out.rglob("*.sqlite*") if path.name != RUNS_FILE]
     left += [path.name for path in out.rglob(".*") if path.name not in (*FOREIGN, ".stylobate-files")]
     if left:
         raise Fault(f"{name}: {left} were left over after {signals}")

@@ -19,8 +19,7 @@ from contextlib import closing, suppress
 from pathlib import Path
 
 from stylobate.analysis.studies import StudyResult
-from stylobate.campaign.ledger import finished_runs_in
-from stylobate.campaign.plan import RUNS_FILE
+from stylobate.campaign.ledger import RUNS_FILE, finished_runs_in
 
 from .kills import end, kill, lost, start
 from .target import Fault, Target, Tried

@@ -1,5 +1,6 @@
-"""The ledger of a campaign: written in time, held by one process, and damaged in every way."""
+"""The ledger of a folder: written in time, held by one process, and damaged in every way."""
 
+import hashlib
 import sqlite3
 import subprocess
 import sys
@@ -10,28 +11,27 @@ import pytest
 
 import stylobate as st
 from stylobate.campaign import ledger as module
-from stylobate.campaign.ledger import Ledger, discard, finished_runs_in
+from stylobate.campaign.ledger import Ledger, finished_runs_in, rows_in
 from stylobate.campaign.salvage import read_line, write_line
 from stylobate.errors import DamagedFileWarning, StylobateError
 
-KEY = {"column": "a digest", "amplitudes": [0.1, 0.2]}
 ROW = {"outcome": "rocked", "peak_top_displacement_m": 0.12345678901234567, "collapse_time_s": None}
 
 
-def filled(path, runs=100, key=KEY):
-    with closing(Ledger(path, key, runs)) as book:
+def filled(path, runs=100):
+    with closing(Ledger(path)) as book:
         for number in range(runs):
             book.record(number, ROW | {"n": number, "note": "x" * 400})
 
 
-def rows(path, key=KEY):
-    with closing(Ledger(path, key)) as book:
-        return dict(book.rows())
+def rows(path):
+    with closing(Ledger(path)):  # one that is damaged is mended here
+        return dict(rows_in(path, lambda number: True))
 
 
 def test_a_run_is_on_disk_within_a_second_though_no_other_follows(tmp_path):
-    path = tmp_path / "progress.sqlite"
-    with closing(Ledger(path, KEY)) as book:
+    path = tmp_path / "runs.sqlite"
+    with closing(Ledger(path)) as book:
         book.record(7, ROW)
         deadline = time.monotonic() + 60.0
         started = time.monotonic()
@@ -44,8 +44,8 @@ def test_a_run_is_on_disk_within_a_second_though_no_other_follows(tmp_path):
 def test_a_large_batch_is_written_before_its_time(tmp_path, monkeypatch):
     monkeypatch.setattr(module, "COMMIT_INTERVAL", 1e6)
     monkeypatch.setattr(module, "BATCH", 10)
-    path = tmp_path / "progress.sqlite"
-    with closing(Ledger(path, KEY)) as book:
+    path = tmp_path / "runs.sqlite"
+    with closing(Ledger(path)) as book:
         for number in range(10):
             book.record(number, ROW)
         deadline = time.monotonic() + 60.0
@@ -55,8 +55,8 @@ def test_a_large_batch_is_written_before_its_time(tmp_path, monkeypatch):
 
 
 def test_the_file_is_open_to_readers_while_runs_come_in(tmp_path):
-    path = tmp_path / "progress.sqlite"
-    with closing(Ledger(path, KEY)) as book:
+    path = tmp_path / "runs.sqlite"
+    with closing(Ledger(path)) as book:
         for number in range(50):
             book.record(number, ROW)
             with closing(sqlite3.connect(path, timeout=5.0)) as reader:
@@ -65,45 +65,57 @@ def test_the_file_is_open_to_readers_while_runs_come_in(tmp_path):
 
 
 def test_rows_come_back_to_the_bit(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 3)
     assert rows(path) == {n: ROW | {"n": n, "note": "x" * 400} for n in range(3)}
-    assert sorted(one.name for one in tmp_path.iterdir()) == ["progress.sqlite"]
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["runs.sqlite"]
 
 
 def test_a_second_process_is_refused_in_one_sentence(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     script = (
         "from stylobate.campaign.ledger import Ledger\n"
-        f"try:\n    Ledger({str(path)!r}, {KEY!r})\n"
+        f"try:\n    Ledger({str(path)!r})\n"
         "except Exception as error:\n    print(type(error).__name__, error)\n"
     )
-    with closing(Ledger(path, KEY)):
+    with closing(Ledger(path)):
         with pytest.raises(st.InputError, match="another process is at work on it; wait for its end"):
-            Ledger(path, KEY)
+            Ledger(path)
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
         assert done.stdout.startswith("InputError ")
         assert done.stdout.count("\n") == 1
-        discard(path)  # held: stays
-        assert path.exists()
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert done.stdout == ""
 
 
-def test_another_campaign_is_refused_and_never_told_to_be_deleted(tmp_path):
-    path = tmp_path / "progress.sqlite"
-    filled(path)
-    before = path.read_bytes()
-    with pytest.raises(st.InputError, match="another campaign") as refused:
-        Ledger(path, {"column": "another"})
-    assert "delete" not in str(refused.value)
-    assert path.read_bytes() == before
+@pytest.mark.parametrize("name", ["runs.sqlite", "progress.sqlite", "progress-half-step.sqlite"])
+def test_a_ledger_of_an_earlier_version_is_refused_in_one_sentence_and_stays_as_it_was(tmp_path, monkeypatch, name):
+    """What it says of itself is that of one command; its runs have their places there as numbers."""
+    old = '{"column": "a digest", "frequencies": [1.0]}'
+    monkeypatch.setattr(module, "KEY", old)
+    monkeypatch.setattr(module, "SEAL", hashlib.sha256(old.encode()).hexdigest())
+    filled(tmp_path / name)
+    monkeypatch.undo()
+    before = (tmp_path / name).read_bytes()
+    with pytest.raises(
+        st.InputError, match=f"{name} keeps unfinished runs of an earlier version.*choose another folder"
+    ):
+        Ledger(tmp_path / "runs.sqlite")
+    assert {path.name for path in tmp_path.iterdir()} == {name}
+    assert (tmp_path / name).read_bytes() == before
+
+
+def test_what_else_is_called_like_one_of_an_earlier_version_is_left_alone(tmp_path):
+    (tmp_path / "progress.sqlite").write_bytes(b"mine")
+    filled(tmp_path / "runs.sqlite", 1)
+    assert rows(tmp_path / "runs.sqlite") == {0: ROW | {"n": 0, "note": "x" * 400}}
+    assert (tmp_path / "progress.sqlite").read_bytes() == b"mine"
 
 
 def test_a_full_disk_is_one_sentence_and_what_was_written_stays(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 20)
-    book = Ledger(path, KEY)
+    book = Ledger(path)
     pages = book._file.execute("PRAGMA page_count").fetchone()[0]
     book._file.execute(f"PRAGMA max_page_count = {pages}")  # SQLite's own answer to a disk without room
     for number in range(20, 500):
@@ -129,37 +141,31 @@ def test_a_line_proves_its_campaign_its_number_and_its_row():
 
 
 def test_a_row_that_was_changed_is_left_out(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 5)
     with closing(sqlite3.connect(path)) as file, file:
         file.execute("UPDATE runs SET line = replace(line, 'rocked', 'collapsed') WHERE number = 3")
     assert list(rows(path)) == [0, 1, 2, 4]
 
 
-def test_what_is_no_ledger_is_never_discarded(tmp_path):
-    path = tmp_path / "progress.sqlite"
-    for content in (b"", b"mine", b"SQLite format 3\x00" + bytes(84)):
-        path.write_bytes(content)
-        discard(path)
-        assert path.read_bytes() == content
-    path.unlink()
-    with closing(sqlite3.connect(path)) as file:
-        file.execute("CREATE TABLE mine (x)")
-    discard(path)
-    assert path.exists()
-    path.unlink()
-    filled(path, 1)
-    discard(path)
-    assert list(tmp_path.iterdir()) == []
+@pytest.mark.parametrize("change", ["line = CAST(line AS BLOB)", "number = 77"])
+def test_a_row_that_sqlite_no_longer_finds_is_found_in_the_bytes(tmp_path, change):
+    path = tmp_path / "runs.sqlite"
+    filled(path, 5)
+    whole = rows(path)
+    with closing(sqlite3.connect(path)) as file, file:
+        file.execute(f"UPDATE runs SET {change} WHERE number = 2")
+    with pytest.warns(DamagedFileWarning, match="5 of its finished runs are whole and are used"):
+        assert rows(path) == whole
 
 
 def test_half_a_ledger_gives_its_whole_rows(tmp_path):
-    path = tmp_path / "progress.sqlite"
+    path = tmp_path / "runs.sqlite"
     filled(path, 400)
     data = path.read_bytes()
     path.write_bytes(data[: len(data) // 2])
-    with pytest.warns(DamagedFileWarning, match=r"kept as progress\.sqlite\.damaged-1, and \d+ of its finished runs"):
+    with pytest.warns(DamagedFileWarning, match=r"kept as runs\.sqlite\.damaged-1, and \d+ of its finished runs"):
         found = rows(path)
     assert 150 < len(found) < 250
-    assert (tmp_path / "progress.sqlite.damaged-1").read_bytes() == data[: len(data) // 2]
+    assert (tmp_path / "runs.sqlite.damaged-1").read_bytes() == data[: len(data) // 2]
     assert rows(path) == found  # sound again

@@ -1,5 +1,6 @@
 """Studies: nothing is computed twice or mixed; the table is the same to the bit (after kills: ``fuzz/studies.py``)."""
 
+import importlib
 import json
 import math
 import subprocess
@@ -13,9 +14,8 @@ import pytest
 import stylobate as st
 from stylobate.analysis.studies import StudyResult, write_table
 from stylobate.campaign import digests
-from stylobate.campaign.kept import KEY
-from stylobate.campaign.ledger import Ledger
-from stylobate.campaign.plan import RUNS_FILE
+from stylobate.campaign.ledger import RUNS_FILE, Ledger
+from stylobate.campaign.runs import Request
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
 from stylobate.column.files import load_column
@@ -86,10 +86,56 @@ def test_a_case_is_what_simulate_many_computes():
     assert table["outcome"].tolist() == again["outcome"].tolist()
 
 
+@pytest.mark.filterwarnings("ignore::stylobate.errors.LeftOutWarning")
+def test_a_plan_tells_its_cases_as_any_other_request_does(tmp_path):
+    """By what acts and what stands: not by names, nor by the components that the model leaves out."""
+    some = study(realisations=2)
+    again = Request.of([some.case(number) for number in range(some.size)], some.models[0])
+    assert again.digests.digests.tolist() == some.plan().digests.digests.tolist()
+    aside = PULSE.replace(name="another", ay=0.3 * PULSE.samples)
+    renamed = st.Study([COLUMN.replace(name="another")], [aside], some.models, some.levels, realisations=2)
+    assert renamed.plan().digests.digests.tolist() == some.plan().digests.digests.tolist()
+    for other in (
+        study(realisations=2, seed=1),
+        study(realisations=2, tail=1.0),
+        study(1.0, 2.0, 3.0, 6.1, realisations=2),
+    ):
+        assert other.plan().digests.digests.tolist() != some.plan().digests.digests.tolist()
+
+
+OWN = """
+import stylobate as st
+class Own(st.HousnerBlock):
+    name = "own"
+    def taken(self, motion):
+        return super().taken(motion)
+"""
+
+
+def test_a_model_of_ones_own_whose_source_has_changed_is_another_law(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    found = []
+    for source in (OWN, OWN, f"{OWN}        # another"):
+        (tmp_path / "own_model.py").write_text(source)
+        monkeypatch.delitem(sys.modules, "own_model", raising=False)
+        importlib.invalidate_caches()
+        some = st.Study([COLUMN], [PULSE], [importlib.import_module("own_model").Own()])
+        found.append(some.plan().digests[0])
+    assert found[0] == found[1] != found[2]
+
+
+def test_what_is_to_be_said_of_runs_is_said_of_those_in_the_ledger_too(tmp_path):
+    aside = PULSE.replace(ay=0.3 * PULSE.samples)
+    for made in (4, 0):
+        with pytest.warns(st.errors.LeftOutWarning):
+            found = st.run_study(st.Study([COLUMN], [aside], [st.HousnerBlock()], (1.0, 2.0, 3.0, 6.0)), tmp_path)
+        assert found.computed == made
+
+
 def test_runs_of_another_law_are_never_mixed_in(tmp_path, monkeypatch):
     st.run_study(study(), tmp_path)
     assert st.run_study(study(tail=1.0), tmp_path).computed == 4
-    monkeypatch.setattr(digests, "source_digest", lambda: "another law")
+    monkeypatch.setattr(digests, "laws", lambda: ("another law",))
     assert st.run_study(study(), tmp_path).computed == 4
 
 
@@ -118,7 +164,7 @@ def test_several_processes_on_one_folder_run_nothing_twice_and_all_of_them_end(f
     out.mkdir()
     command = [sys.executable, "-c", "from stylobate.cli.main import main; main()", "study", "run", "--json"]
     command += ["--threads", "1", folder / "study.toml", "--out", out]
-    with closing(Ledger(out / RUNS_FILE, KEY)) as first:  # a process at work, which has made some of the runs
+    with closing(Ledger(out / RUNS_FILE)) as first:  # a process at work, which has made some of the runs
         for number in range(50):
             first.record(
                 int(whole.plan.digests.keys[number]), {"case": whole.plan.digests[number], **whole.rows[number]}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
@@ -10,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..campaign.ledger import Ledger
-from ..campaign.runner import Stopped, full_key
+from ..campaign.digests import Digests, Hasher
+from ..campaign.grid import grid_axis
+from ..campaign.runs import Runs, Stopped
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Case, Model
@@ -19,7 +21,7 @@ from ..motion import Motion, harmonic
 from ..response import Response, load_response
 from ..simulate import check_cases, simulate
 from . import verdicts as v
-from .domain import Domain, collapse_domain, grid_axis
+from .domain import Domain, collapse_domain
 
 if TYPE_CHECKING:
     import pandas
@@ -115,10 +117,9 @@ def compare_models(
     progress : callable, optional
         Called with (finished, all).
     ledger : path, optional
-        File that says which runs are finished: a call that was stopped goes on from there. It stays for the caller to
-        remove.
+        File that says which runs are finished: a call that was stopped goes on from there.
     files : sequence of path
-        With a ledger, one per model: each response is saved there as soon as it is finished.
+        With a ledger, one per model in its folder: each response is saved there as soon as it is finished.
 
     Raises
     ------
@@ -128,31 +129,26 @@ def compare_models(
     _at_least_one(models)
     _refuse([Case(column, motion)], models, tail)
     names = _labels(models, labels)
-    key = {"column": column.digest, "motion": motion.digest, "output_interval": output_interval, "compared": names}
-    key["models"] = [[model.name, model.parameters()] for model in models]
-    book = None if ledger is None else Ledger(ledger, full_key(models[0], tail, key), len(models))
-    responses: list[Response] = []
+    what = {"response": [column.digest, motion.name, motion.digest, output_interval]}
+    each = [Hasher(model, tail).of_product([what, name], __file__) for model, name in zip(models, names, strict=True)]
+    responses: dict[int, Response] = {}
+
+    def make(number: int) -> dict:
+        found = simulate(column, motion, models[number], tail=tail, output_interval=output_interval)
+        responses[number] = found
+        return {"files": [found.save(files[number]).name]} if ledger is not None else {}
+
     try:
-        known = dict(book.rows()) if book else {}
-        for number, model in enumerate(models):
-            if number in known and files[number].is_file():
-                found = load_response(files[number])
-            else:
-                found = simulate(column, motion, model, tail=tail, output_interval=output_interval)
-                if book:
-                    found.save(files[number])
-                    book.record(number, {"file": files[number].name})
-            responses.append(found)
-            if progress:
-                progress(len(responses), len(models))
+        with closing(Runs(ledger)) as runs:
+            products = runs.products(Digests.of(each), make)
+            for done, (number, _) in enumerate(products, 1):
+                if number not in responses:
+                    responses[number] = load_response(files[number])
+                if progress:
+                    progress(done, len(models))
     except KeyboardInterrupt:
-        if book:
-            book.close()
         raise Stopped(len(responses), len(models), ledger) from None
-    finally:
-        if book:
-            book.close()
-    return Comparison(responses, names)
+    return Comparison([responses[number] for number in range(len(models))], names)
 
 
 def compare_domains(
@@ -166,13 +162,12 @@ def compare_domains(
     tail: float = 0.0,
     threads: int | None = None,
     progress: Callable[[int, int], None] | None = None,
-    ledgers: Sequence[str | Path | None] | None = None,
+    ledger: str | Path | None = None,
 ) -> DomainComparison:
     """One domain through several models; parameters as in :func:`stylobate.collapse_domain`.
 
-    ``labels`` are what the models are called, their names by default. ``progress`` counts the runs of all models;
-    ``ledgers``, one per model, keep finished runs and stay for the caller to remove. An interrupt (Ctrl-C) is passed on, as
-    :class:`~stylobate.campaign.runner.Stopped`: half a comparison is none.
+    ``labels`` are what the models are called, their names by default. ``progress`` counts the runs of all models. An
+    interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runs.Stopped`: half a comparison is none.
     """
     _at_least_one(models)
     most = float(grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²").max())
@@ -186,7 +181,6 @@ def compare_domains(
             if progress:
                 progress(i * cells + done, len(models) * cells)
 
-        ledger = None if ledgers is None else ledgers[i]
         domain = collapse_domain(
             column,
             model,
@@ -199,9 +193,7 @@ def compare_domains(
             ledger=ledger,
         )
         if not domain.complete:
-            raise Stopped(
-                i * cells + len(domain.rows) - domain.counts[v.NOT_RUN], len(models) * cells, *(ledgers or ())
-            )
+            raise Stopped(i * cells + domain.rows.finished, len(models) * cells, ledger)
         domains.append(domain)
     return DomainComparison(domains, _labels(models, labels))
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..campaign.runner import Progress, Stopped, run_campaign
+from ..campaign.runs import Progress, Request, run_all
 from ..campaign.twins import Twins, the_twins
 from ..column import Column
 from ..column.scatter import Scatter
@@ -279,7 +280,7 @@ def sweep(
     progress : callable, optional
         Called with (finished, all).
     ledger : path, optional
-        File that keeps finished runs: a call that was stopped goes on from there. It stays for the caller to remove.
+        File that keeps finished runs, for good.
     """
     for motion, as_is, _ in shaken:
         if as_is == 0.0:
@@ -303,27 +304,18 @@ def sweep(
         return Case(stands, motion.scaled_to_pga(size) if recorded else motion.scaled(size / as_is))
 
     cases = Cases(int(ends[-1]), case)
-    key: dict[str, Any] = {
-        "column": column.digest,
-        "motions": [[motion.digest, as_is] for motion, as_is, _ in shaken],
-        "amplitudes": [one.tolist() for one in own],
-    }
     if drawn is not None:
-        key |= drawn.key | {"twin_amplitudes": [one.tolist() for one in theirs]}
         model = model.paced(column)
-    quiet = share_of([motion for motion, *_ in shaken], whole)
-    campaign = run_campaign(
-        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
-    )
-    if campaign.interrupted:
-        raise Stopped(campaign.rows.finished, len(cases), ledger)
+    started = time.perf_counter()
+    request = Request.of(cases, model, tail=tail, quiet=share_of([motion for motion, *_ in shaken], whole))
+    finished = run_all(request, threads=threads, progress=progress, ledger=ledger)
     results = []
     for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):
-        rows, record = campaign.rows[int(end - count) : int(end)], one.as_is if one.recorded else None
+        rows, record = finished[int(end - count) : int(end)], one.as_is if one.recorded else None
         known = rows[: len(amplitudes)], rows[len(amplitudes) :]
         population = None if drawn is None else CriticalPopulation.of(spread, known[1], drawn, record)
         results.append(CriticalAmplitude(column, one.motion, model.name, amplitudes, known[0], 0.0, record, population))
-    return results, campaign.wall_time
+    return results, time.perf_counter() - started
 
 
 def _with_own(grid: np.ndarray, one: Shaken) -> np.ndarray:

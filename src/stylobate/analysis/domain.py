@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,13 +12,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import store
-from ..campaign.ledger import PROGRESS_FILE, discard
-from ..campaign.runner import Progress, run_campaign
+from ..campaign.grid import HarmonicGrid
+from ..campaign.ledger import RUNS_FILE
+from ..campaign.runs import Progress, Stopped, run_all
 from ..column import Column
 from ..constants import g
-from ..errors import InputError, check_range
-from ..models.base import Case, Cases, Model
-from ..motion import harmonic
+from ..errors import InputError
+from ..models.base import Model
 from ..outcome import Outcome
 from ..response.rows import Rows
 from ..version import __version__
@@ -26,9 +27,6 @@ from . import verdicts as v
 if TYPE_CHECKING:
     import pandas
     import xarray
-
-#: Largest number of cells.
-MAX_CELLS = 1_000_000
 
 _GRIDS = {
     "collapse_time_s": ("s", "time at which the collapse became certain"),
@@ -259,10 +257,10 @@ def collapse_domain(
     progress : callable, optional
         Called with (finished, all).
     out : path, optional
-        Folder that keeps finished runs (``progress.sqlite``) until the domain is complete; a call with the same folder
-        and the same input goes on from there. When it is complete, ``domain.nc`` and ``domain.csv`` are written there.
+        Folder that keeps finished runs (``runs.sqlite``), for good: what it holds is not computed again. When the domain is
+        complete, ``domain.nc`` and ``domain.csv`` are written there.
     ledger : path, optional
-        Instead of ``out``: the file that keeps finished runs, for a caller that writes the domain, and removes it then.
+        The file that keeps finished runs, if it is not that in ``out``.
 
     Returns
     -------
@@ -274,19 +272,19 @@ def collapse_domain(
     InputError
         An impossible grid, a folder that cannot be used, or input that the model refuses.
     """
-    f = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
-    a = grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
-    if len(f) * len(a) > MAX_CELLS:
-        raise InputError(f"the domain has {len(f)} × {len(a)} cells; allowed is up to {MAX_CELLS}: give fewer.")
-    # One sine per frequency; its scaled copies share the samples.
-    units = [harmonic(float(one), 1.0, duration) for one in f]
-    cases = Cases(len(f) * len(a), lambda cell: Case(column, units[cell // len(a)].scaled(float(a[cell % len(a)]))))
+    axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
+    grid = HarmonicGrid(column, model, *axes, duration, tail)
+    f, a = grid.frequencies, grid.amplitudes
     key = {"column": column.digest, "frequencies": f.tolist(), "amplitudes": a.tolist(), "duration": float(duration)}
-    if out is not None:
-        ledger = Path(out) / PROGRESS_FILE
+    if out is not None and ledger is None:
+        ledger = Path(out) / RUNS_FILE
     if ledger is not None and not Path(ledger).parent.is_dir():
         raise InputError(f"folder {Path(ledger).parent} does not exist; create it first.")
-    result = run_campaign(cases, model, tail=tail, threads=threads, progress=progress, ledger=ledger, key=key)
+    started = time.perf_counter()
+    try:
+        rows = run_all(grid.request(), threads=threads, progress=progress, ledger=ledger)
+    except Stopped as stopped:
+        rows = stopped.rows
     provenance = {
         **key,
         "column": column.to_dict(),
@@ -297,27 +295,11 @@ def collapse_domain(
         "tail": tail,
         "version": __version__,
     }
-    domain = Domain(column, model.name, f, a, result.rows, result.wall_time, provenance)
+    domain = Domain(column, model.name, f, a, rows, time.perf_counter() - started, provenance)
     if out is not None and domain.complete:
         domain.save(Path(out) / "domain.nc")
         domain.save(Path(out) / "domain.csv")
-        discard(Path(out) / PROGRESS_FILE)
     return domain
-
-
-def grid_axis(name: str, values: Sequence[float] | np.ndarray, low: float, high: float, unit: str) -> np.ndarray:
-    """One side of a grid, checked: finite, inside (low, high], rising; shape (values,)."""
-    try:
-        axis = np.array(values, dtype=float)
-    except (TypeError, ValueError):
-        raise InputError(f"{name} are not an array of numbers; give them in {unit}.") from None
-    if axis.ndim != 1 or axis.size == 0:
-        raise InputError(f"{name} have the shape {axis.shape}; give at least one value in one row [{unit}].")
-    for value in axis:
-        check_range(f"one of the {name}", value, low, high, unit=unit, open_low=True)
-    if (np.diff(axis) <= 0.0).any():
-        raise InputError(f"{name} must rise from value to value; sort them and leave doubles out.")
-    return axis
 
 
 def cell_edges(centres: np.ndarray) -> np.ndarray:

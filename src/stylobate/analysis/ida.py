@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..campaign.digests import Digests, Hasher
-from ..campaign.kept import Kept
-from ..campaign.runner import Progress, Stopped
+from ..campaign.runs import Progress, Request, Runs, Stopped
 from ..column import Column
 from ..column.scatter import Scatter
 from ..errors import InputError, OutOfRangeWarning, check_range
@@ -145,15 +143,13 @@ def ida(
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
-    hasher, quiet = Hasher(model, tail), share_of(taken, whole)
+    quiet = share_of(taken, whole)
     try:
-        with closing(Kept(None if ledger is None else Path(ledger), total)) as kept:
+        with closing(Runs(ledger)) as kept:
             while asked := [(one, new) for one in traces for new in wanted(one)]:
                 cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
-                group = np.arange(len(cases)), model, quiet
-                making = kept.run(cases, Digests(hasher.of_cases(cases, quiet)), [group], tail=tail, threads=threads)
                 rows: list[dict] = [{}] * len(cases)
-                with closing(making) as finished:
+                with closing(kept.run(Request.of(cases, model, tail=tail, quiet=quiet), threads)) as finished:
                     for number, row in finished:
                         rows[number] = row
                         done += 1

@@ -15,17 +15,16 @@ from typing import Any
 
 import numpy as np
 
-from ..campaign.ledger import PROGRESS_FILE, discard
-from ..campaign.runner import Progress, finished_runs
+from ..campaign.grid import MAX_CELLS, grid_axis
+from ..campaign.ledger import RUNS_FILE
+from ..campaign.runs import Progress, Request, Runs
 from ..column import Column
 from ..column.imperfections import Imperfection, imperfect_columns
 from ..errors import InputError, as_typed, check_range
 from ..models.base import Case, Model
 from ..motion import Motion, harmonic
-from ..response import Measures
 from ..version import __version__
 from . import verdicts as v
-from .domain import MAX_CELLS, grid_axis
 from .probability import CollapseProbability
 
 #: Largest number of variations, and of runs in all.
@@ -50,6 +49,7 @@ def collapse_probability(
     threads: int | None = None,
     progress: Progress | None = None,
     out: str | Path | None = None,
+    ledger: str | Path | None = None,
 ) -> CollapseProbability:
     """Run many slightly different columns under harmonic base motions of all frequencies and amplitudes.
 
@@ -66,7 +66,10 @@ def collapse_probability(
     confidence : float
         Level of the intervals.
     out : path, optional
-        Folder that keeps finished runs until all are there, and then holds ``probability.nc`` and ``probability.csv``.
+        Folder that keeps finished runs (``runs.sqlite``), for good, and when all are there holds ``probability.nc`` and
+        ``probability.csv``.
+    ledger : path, optional
+        The file that keeps finished runs, if it is not that in ``out``.
 
     Returns
     -------
@@ -107,18 +110,20 @@ def collapse_probability(
         "imperfection": dataclasses.asdict(size),
         "seed": seed,
     }
-    ledger = None if out is None else Path(out) / PROGRESS_FILE
-    if ledger is not None and not ledger.parent.is_dir():
-        raise InputError(f"folder {ledger.parent} does not exist; create it first.")
+    if out is not None and ledger is None:
+        ledger = Path(out) / RUNS_FILE
+    if ledger is not None and not Path(ledger).parent.is_dir():
+        raise InputError(f"folder {Path(ledger).parent} does not exist; create it first.")
     codes = np.full(len(cases), v.VERDICTS.index(v.NOT_RUN), dtype=np.int8)
     peaks = np.full(len(cases), np.nan, dtype=np.float32)
     done = 0
     try:
-        runs = finished_runs(cases, model, tail=tail, threads=threads, ledger=ledger, key=key, keep=_kept)
-        with closing(runs) as finished:
-            for index, kept in finished:
-                codes[index] = v.VERDICTS.index(kept["verdict"])
-                peaks[index] = np.nan if kept["peak"] is None else kept["peak"]
+        request = Request.of(cases, model, tail=tail)
+        with closing(Runs(ledger)) as runs, closing(runs.run(request, threads)) as finished:
+            for index, row in finished:
+                codes[index] = v.VERDICTS.index(v.verdict(row))
+                peak = row["peak_top_displacement_m"]
+                peaks[index] = peak if np.isfinite(peak) else np.nan
                 done += 1
                 if progress:
                     progress(done, len(cases))
@@ -139,10 +144,9 @@ def collapse_probability(
         column, model.name, f, a, codes.reshape(shape), peaks.reshape(shape), size, seed, confidence,
         time.perf_counter() - started, provenance,
     )  # fmt: skip
-    if ledger is not None and found.complete:
-        found.save(ledger.parent / "probability.nc")
-        found.save(ledger.parent / "probability.csv")
-        discard(ledger)
+    if out is not None and found.complete:
+        found.save(Path(out) / "probability.nc")
+        found.save(Path(out) / "probability.csv")
     return found
 
 
@@ -186,11 +190,6 @@ def _sine(frequency: float, duration: float, start: float, aside: float) -> Moti
     angle = 2.0 * np.pi * (np.arange(unit.steps) * unit.dt * frequency + start)
     lateral = -aside * np.cos(angle) if aside else None
     return unit.replace(acceleration=np.sin(angle), lateral=lateral)
-
-
-def _kept(measures: Measures) -> dict:
-    peak = measures.peak_top_displacement
-    return {"verdict": v.verdict(measures.row()), "peak": float(peak) if np.isfinite(peak) else None}
 
 
 def _whole(name: str, value: Any, low: int, high: int) -> int:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..campaign.cases import Study
-from ..campaign.runner import Progress
+from ..campaign.runs import Progress
 from ..column import Column
 from ..column.scatter import Scatter
 from ..errors import InputError

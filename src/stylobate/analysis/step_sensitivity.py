@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..campaign.runner import Progress, Stopped
+from ..campaign.runs import Progress, Stopped
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
@@ -63,14 +63,12 @@ def compare_steps(
 ) -> StepComparison:
     """Run a domain under the model's step and under half of it; parameters as in :func:`stylobate.collapse_domain`.
 
-    ``domain`` is the one under the model's own step, where that is known already; ``ledger`` keeps finished runs with the
-    half step and stays for the caller to remove. An interrupt (Ctrl-C) is passed on, as
-    :class:`~stylobate.campaign.runner.Stopped`.
+    ``domain`` is the one under the model's own step, where that is known already; ``ledger`` keeps finished runs. An
+    interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runs.Stopped`.
     """
     finest = harmonic(float(np.max(frequencies)), 1.0, duration)
     pair = [] if domain is None else [domain]
-    both = [(model, None), (halved_step(model, column, finest), ledger)]
-    for one, keeping in both[len(pair) :]:
+    for one in (model, halved_step(model, column, finest))[len(pair) :]:
         found = collapse_domain(
             column,
             one,
@@ -80,10 +78,10 @@ def compare_steps(
             tail=tail,
             threads=threads,
             progress=progress,
-            ledger=keeping,
+            ledger=ledger,
         )
         if not found.complete:
-            raise Stopped(len(found.rows) - found.counts[v.NOT_RUN], len(found.rows), keeping)
+            raise Stopped(len(found.rows) - found.counts[v.NOT_RUN], len(found.rows), ledger)
         pair.append(found)
     return StepComparison(*pair)
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Mapping
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,9 +13,9 @@ import numpy as np
 
 from ..atomic import replacing
 from ..campaign.cases import Study
-from ..campaign.engine import run_cases
-from ..campaign.plan import RUNS_FILE, Plan
-from ..campaign.runner import Progress
+from ..campaign.ledger import RUNS_FILE, finished_runs_in
+from ..campaign.plan import Plan
+from ..campaign.runs import Progress, Runs, Stopped, its_turn
 from ..errors import InputError
 from ..models.base import Case
 from ..models.shared.quiet import share_of
@@ -105,6 +107,9 @@ def run_study(
 ) -> StudyResult:
     """Run a study; what its folder holds already is not computed again.
 
+    One process at a time computes in a folder: it uses this machine's cores, and an SQLite ledger with several writers must
+    not leave it. Another one waits, reads along, and goes on with what is missing when the first has ended or was killed.
+
     Parameters
     ----------
     study : Study
@@ -129,8 +134,20 @@ def run_study(
     folder = None if out is None else Path(out)
     if folder is not None and not folder.is_dir():
         raise InputError(f"folder {folder} does not exist; create it first.")
-    found = run_cases(study, folder, threads=threads, progress=progress, waiting=waiting)
-    return StudyResult(found.plan, found.rows, found.wall_time, found.computed)
+    started, plan = time.perf_counter(), study.plan()
+    ledger = None if folder is None else folder / RUNS_FILE
+    turn = None if ledger is None else its_turn(ledger, len(plan), progress, waiting)
+    try:
+        with closing(Runs(ledger, turn)) as runs:
+            if folder is not None:
+                plan.save(folder)
+            rows = runs.rows(study.request(plan), threads, progress)
+    except Stopped:
+        raise
+    except KeyboardInterrupt:  # while another process was at work
+        done = 0 if ledger is None else min(finished_runs_in(ledger), len(plan))
+        raise Stopped(done, len(plan), ledger) from None
+    return StudyResult(plan, rows, time.perf_counter() - started, runs.made)
 
 
 def _refuse(study: Study) -> None:

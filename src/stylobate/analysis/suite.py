@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..campaign.cases import RELATIVE, must_be_alike
-from ..campaign.runner import Progress, Stopped, run_campaign
+from ..campaign.runs import Progress, Request, run_all
 from ..campaign.twins import the_twins
 from ..column.scatter import Scatter
 from ..column.structure import Structure
@@ -124,22 +124,16 @@ def suite_table(
     own = len(cases)
     drawn = [the_twins(column, model, replicates, scatter, seed) for column in stands] if replicates else []
     cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
-    key = {"columns": [one.digest for one in stands], "motions": [one.digest for one in motions]}
-    key |= drawn[0].key if drawn else {}
-    quiet = share_of(motions, whole)
-    found = run_campaign(
-        cases, model, tail=tail, quiet=quiet, threads=threads, progress=progress, ledger=ledger, key=key
-    )
-    if found.interrupted:
-        raise Stopped(found.rows.finished, len(cases), ledger)
-    for i, (case, row, line) in enumerate(zip(cases[:own], found.rows, rows, strict=False)):
+    request = Request.of(cases, model, tail=tail, quiet=share_of(motions, whole))
+    found = run_all(request, threads=threads, progress=progress, ledger=ledger)
+    for i, (case, row, line) in enumerate(zip(cases[:own], found, rows, strict=False)):
         if row is not None:
             line |= row | {"verdict": verdict(row), "model": model.name}
             if (width := case.column.base_width) is not None:
                 line["peak_top_over_base_width"] = row["peak_top_displacement_m"] / width
         if drawn:
             some = drawn[i // len(motions)]
-            of_twins = [one for one in found.rows[own + i * replicates : own + (i + 1) * replicates] if one is not None]
+            of_twins = [one for one in found[own + i * replicates : own + (i + 1) * replicates] if one is not None]
             line |= Population(some.columns, tuple(of_twins), some.scatter, seed, some.left_out).columns
     return pandas.DataFrame(rows)
 

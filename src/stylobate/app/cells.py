@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import csv
-import hashlib
-import sqlite3
 from collections.abc import Iterator
-from contextlib import closing, suppress
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..analysis.verdicts import verdict
-from ..campaign.ledger import PROGRESS_FILE
-from ..campaign.salvage import read_line
+from ..campaign.ledger import RUNS_FILE, asked_in, rows_in
 from .asked import RESULT
 
 
@@ -27,7 +26,7 @@ def new_cells(folder: Path, known: set[int]) -> list[list[Any]]:
         Numbers of the cells that the caller has; what is returned is added to it.
     """
     table = folder / RESULT / "domain.csv"
-    found = _in_table(table) if table.is_file() else _in_ledger(folder / RESULT / PROGRESS_FILE)
+    found = _in_table(table) if table.is_file() else _in_ledger(folder / RESULT / RUNS_FILE, known)
     new = [one for one in found if one[0] not in known]
     known.update(one[0] for one in new)
     return new
@@ -39,19 +38,11 @@ def _in_table(path: Path) -> Iterator[list[Any]]:
             yield [number, row["verdict"], _number(row["peak_top_displacement_m"])]
 
 
-def _in_ledger(path: Path) -> Iterator[list[Any]]:
-    if not path.is_file():
-        return
-    with (
-        suppress(sqlite3.Error),  # the ledger is made, or removed, at this moment
-        closing(sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro", uri=True, timeout=0.2)) as file,
-    ):
-        (key,) = file.execute("SELECT key FROM campaign").fetchone()
-        campaign = hashlib.sha256(str(key).encode()).hexdigest()
-        for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
-            if (found := read_line(line, campaign)) is not None:
-                number, row = found
-                yield [number, verdict(row), _number(row.get("peak_top_displacement_m"))]
+def _in_ledger(path: Path, known: set[int]) -> Iterator[list[Any]]:
+    asked = np.frombuffer(asked_in(path), dtype=np.int64).tolist()
+    cells = {number: cell for cell, number in enumerate(asked) if cell not in known}
+    for number, row in rows_in(path, cells.__contains__):
+        yield [cells[number], verdict(row), _number(row.get("peak_top_displacement_m"))]
 
 
 def _number(value: Any) -> float | None:

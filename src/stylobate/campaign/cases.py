@@ -14,16 +14,16 @@ from ..column import Column
 from ..column.scatter import Scatter, usual_scatter
 from ..column.structure import Structure
 from ..errors import InputError, check_range
-from ..models.base import Case, Model
+from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
 from ..motion.intensity_specs import IntensityMeasure, told, told_powers
 from ..motion.orientation import record_of
 from ..version import __version__
-from .digests import LENGTH, Digests, Hasher, digest_of_samples, samples_of
-from .kept import Group
+from .digests import LENGTH, Digests, Hasher, samples_of
 from .plan import Plan
+from .runs import Group, Request
 from .twins import the_twins
 
 #: Most cases of a study.
@@ -145,12 +145,12 @@ class Study:
     def plan(self) -> Plan:
         """What is run, as plain data with the digest of every case."""
         sizes = self.factors * np.array([[motion.factor] for motion in self.motions])
-        each = zip(map(digest_of_samples, self.motions), sizes.tolist(), self.quiet.tolist(), strict=True)
-        ends = [[Hasher.of_motion(samples, size, quiet) for size in some] for samples, some, quiet in each]
+        each = list(zip(self.motions, sizes.tolist(), self.quiet.tolist(), strict=True))
         digests = np.empty((self.size, LENGTH), dtype=np.uint8)
         number = 0
         for model, columns in zip(self.models, self.stands, strict=True):
             hasher = Hasher(model, self.tail)
+            ends = [[hasher.of_motion(motion, size, quiet) for size in some] for motion, some, quiet in each]
             for some in columns:
                 starts = [hasher.of_column(one) for one in some]
                 for motion in ends:
@@ -160,7 +160,11 @@ class Study:
                             number += 1
         return Plan(self._axes(), Digests(digests))
 
-    def groups(self) -> Iterator[Group]:
+    def request(self, plan: Plan) -> Request:
+        """All cases, as the plan of this study tells them."""
+        return Request(Cases(len(plan), self.case), plan.digests, self._groups(), self.tail)
+
+    def _groups(self) -> Iterator[Group]:
         """Cases that run together: of one model and one share of quiet."""
         each = self.size // len(self.models)
         motion = np.arange(each) // (self.shape[3] * self.shape[4]) % self.shape[2]

@@ -1,23 +1,38 @@
-"""What decides a case, as a digest: column as it stands, samples and factor of the motion, model, tail, quiet, laws."""
+"""What decides a case, as a digest: what stands, samples and factor of the motion, model, tail, quiet, laws.
+
+Names decide nothing, and neither do the components of a motion that the model leaves out.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cache, cached_property
+from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 import numpy as np
 
-from ..column import Column
+from ..column.structure import Structure
 from ..kernels.jit import source_digest
 from ..models.base import Case, Model
 from ..motion import Motion
+from ..own_files import digest as digest_of_file
 from ..version import __version__
 
 #: Bytes of a digest.
 LENGTH = 16
+
+#: This package, and the rooms of it whose sources are the laws by which a run is made and measured.
+PACKAGE, ROOMS = Path(__file__).parents[1], ("column", "kernels", "models", "response")
+
+
+@cache
+def laws() -> tuple[str, ...]:
+    """Digests of the sources by which runs are made: no run of other laws is ever taken for one of these."""
+    return tuple(source_digest(PACKAGE / room) for room in ROOMS)
 
 
 class Hasher:
@@ -31,18 +46,28 @@ class Hasher:
     """
 
     def __init__(self, model: Model, tail: float) -> None:
-        law = [model.name, model.parameters(), tail, __version__, source_digest()]
-        self._head = json.dumps(law, sort_keys=True, default=str)
+        law = [model.name, model.parameters(), tail, __version__, *laws(), *_sources_of(type(model))]
+        self._head, self._model = json.dumps(law, sort_keys=True, default=str), model
         self._samples: dict[tuple, tuple[Motion, str]] = {}
 
-    def of_column(self, column: Column) -> Any:
+    def of_column(self, column: Structure) -> Any:
         """The part of a digest that is the column's, to be ended with that of its motion."""
-        return hashlib.sha256(f"{self._head} {column.digest} ".encode())
+        return hashlib.sha256(f"{self._head} {column.nameless_digest} ".encode())
 
-    @staticmethod
-    def of_motion(samples: str, size: float, quiet: float) -> bytes:
-        """The part of a digest that is the motion's: digest of its samples, factor, and share of it that is quiet."""
-        return f"{samples} {quiet!r} {size!r}".encode()
+    def of_motion(self, motion: Motion, size: float, quiet: float) -> bytes:
+        """The part of a digest that is the motion's: digest of its samples, factor, and share of it that is quiet.
+
+        Samples that motions share are read once.
+        """
+        key = samples_of(motion)
+        if key not in self._samples:
+            self._samples[key] = motion, digest_of_samples(self._model.taken(motion))
+        return f"{self._samples[key][1]} {quiet!r} {size!r}".encode()
+
+    def of_product(self, what: Any, maker: str) -> str:
+        """The digest of what is made of a run besides its row: plain values that decide it, and the file that makes it."""
+        said = json.dumps([what, digest_of_file(Path(maker))], sort_keys=True, default=str)
+        return hashlib.sha256(f"{self._head} {said}".encode()).hexdigest()[: 2 * LENGTH]
 
     @staticmethod
     def ended(column: Any, motion: bytes) -> bytes:
@@ -51,14 +76,11 @@ class Hasher:
         found.update(motion)
         return found.digest()[:LENGTH]
 
-    def of_cases(self, cases: Sequence[Case], quiet: float) -> np.ndarray:
-        """Digests of cases one by one, shape (cases, 16); samples that motions share are read once."""
+    def of_cases(self, cases: Sequence[Case], quiet: float = 0.0) -> np.ndarray:
+        """Digests of cases one by one, shape (cases, 16)."""
         found = np.empty((len(cases), LENGTH), dtype=np.uint8)
         for number, (column, motion) in enumerate(cases):
-            key = samples_of(motion)
-            if key not in self._samples:
-                self._samples[key] = motion, digest_of_samples(motion)
-            end = self.of_motion(self._samples[key][1], motion.factor, quiet)
+            end = self.of_motion(motion, motion.factor, quiet)
             found[number] = np.frombuffer(self.ended(self.of_column(column), end), np.uint8)
         return found
 
@@ -71,6 +93,13 @@ def digest_of_samples(motion: Motion) -> str:
 def samples_of(motion: Motion) -> tuple:
     """What scaled copies of a motion share, as long as one of them lives."""
     return id(motion.samples), id(motion.y_samples), id(motion.z_samples), motion.dt
+
+
+def _sources_of(model: type) -> list[str]:
+    """Digests of the files of a model's methods that are none of this package: such laws are not in :data:`ROOMS`."""
+    methods = [one for kind in model.__mro__ for one in vars(kind).values() if isinstance(one, FunctionType)]
+    files = {Path(one.__code__.co_filename) for one in methods}
+    return sorted(digest_of_file(one) for one in files if one.is_file() and not one.is_relative_to(PACKAGE))
 
 
 class Digests:
@@ -91,6 +120,11 @@ class Digests:
     def __getitem__(self, number: int) -> str:
         return self.digests[number].tobytes().hex()
 
+    @classmethod
+    def of(cls, each: Sequence[str]) -> Digests:
+        """Digests that are given as texts."""
+        return cls(np.array([list(bytes.fromhex(one)) for one in each], dtype=np.uint8).reshape(len(each), LENGTH))
+
     @cached_property
     def keys(self) -> np.ndarray:
         """Numbers of the cases in the ledger, from their digests, shape (cases,)."""
@@ -99,17 +133,16 @@ class Digests:
 
     def numbers(self, key: int) -> list[int]:
         """Cases with that number in the ledger: one, or several that are the same."""
-        order, keys = self._order
-        first, last = np.searchsorted(keys, [key, key + 1])
-        return order[first:last].tolist()
+        first, last = np.searchsorted(self.keys, [key, key + 1], sorter=self.order)
+        return self.order[first:last].tolist()
 
     @cached_property
     def doubles(self) -> np.ndarray:
         """Cases that are the same as one before them, as numbers."""
-        order, keys = self._order
-        return order[1:][keys[1:] == keys[:-1]]
+        keys = self.keys[self.order]
+        return self.order[1:][keys[1:] == keys[:-1]]
 
     @cached_property
-    def _order(self) -> tuple[np.ndarray, np.ndarray]:
-        order = np.argsort(self.keys, kind="stable")
-        return order, self.keys[order]
+    def order(self) -> np.ndarray:
+        """Cases by their numbers in the ledger, shape (cases,)."""
+        return np.argsort(self.keys, kind="stable")

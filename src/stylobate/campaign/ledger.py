@@ -1,14 +1,13 @@
-"""The ledger of a campaign: finished runs on disk, so that a campaign that was stopped goes on where it was.
+"""The ledger of a folder: its finished runs on disk, by numbers from the digests of their cases, for good.
 
 An SQLite file in WAL mode. A thread of its own writes what has come in at least every half second, in transactions that
 are open for no longer than the writing. One process at a time holds a ledger. Every row carries a checksum over its
-campaign, its number and itself.
+number and itself.
 """
 
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import sqlite3
 import threading
@@ -24,8 +23,15 @@ from ..errors import DamagedFileWarning, InputError, StylobateError
 from . import salvage
 from .holding import Holding
 
-#: File in an output folder that keeps finished runs until the results are written.
-PROGRESS_FILE = "progress.sqlite"
+#: File in an output folder that keeps finished runs, of whichever commands have made them.
+RUNS_FILE = "runs.sqlite"
+
+#: Files in which versions before this one kept the unfinished runs of a command, by their place in that command.
+FORMER_FILES = "progress*.sqlite"
+
+#: What is written in a ledger about how its runs are told apart, and the seal that it gives to their checksums.
+KEY = '{"keyed by": "digest of the case"}'
+SEAL = hashlib.sha256(KEY.encode()).hexdigest()
 
 #: Runs are on disk at most so long after they have finished [s]; what a killed campaign loses.
 COMMIT_INTERVAL = 0.5
@@ -51,6 +57,9 @@ _SOUND_FILE = (
     sqlite3.SQLITE_NOMEM,
 )
 
+#: Rows that are no line of text, or not at the number that their line tells behind its checksum.
+MISPLACED = "typeof(line) <> 'text' OR number <> CAST(substr(line, 18) AS INTEGER)"
+
 #: A ledger and what SQLite keeps beside it.
 ENDINGS = ("", "-wal", "-shm")
 
@@ -59,45 +68,32 @@ OPEN: weakref.WeakSet[Ledger] = weakref.WeakSet()
 
 
 class Ledger:
-    """Finished runs of one campaign.
+    """Finished runs of a folder.
 
     Parameters
     ----------
     path : str or Path
         Made if it is not there. A file that is damaged, or no ledger, is set aside under a new name with a warning;
-        rows of this campaign that are whole in it are taken over.
-    key : mapping
-        Everything that decides the results. A ledger with another key belongs to another campaign and is refused.
-    total : int
-        Number of runs of the campaign.
+        rows that are whole in it are taken over.
     waiting : callable, optional
         Called again and again while another process holds the ledger, instead of refusing it.
 
     Raises
     ------
     InputError
-        The file is the ledger of another campaign, another process holds it, or nothing can be written there.
+        The folder holds the ledger of an earlier version, another process holds it, or nothing can be written there.
     """
 
-    def __init__(
-        self, path: str | Path, key: Mapping[str, Any], total: int = 0, waiting: Callable[[], object] | None = None
-    ) -> None:
-        self.path, self.total = Path(path), total
-        text = json.dumps(key, sort_keys=True, default=str)
-        self.campaign = hashlib.sha256(text.encode()).hexdigest()
+    def __init__(self, path: str | Path, waiting: Callable[[], object] | None = None) -> None:
+        self.path = Path(path)
         if self.path.is_dir() or not self.path.parent.is_dir():
             raise InputError(
                 f"{self.path} cannot keep the progress: it is a folder, or has none; choose another --out."
             )
+        refuse_former(*(one for one in self.path.parent.glob(FORMER_FILES) if one != self.path))
         self._holding = Holding(self.path, waiting)
         try:
-            self._file, found = self._open(text)
-            if found != text:
-                self._file.close()
-                raise InputError(
-                    f"{self.path} keeps the unfinished runs of another campaign (or of another version); finish that one "
-                    "with its own command, or choose another folder."
-                )
+            self._file = self._open()
         except BaseException:
             self._holding.release()
             raise
@@ -110,14 +106,6 @@ class Ledger:
         self._writer.start()
         OPEN.add(self)
 
-    def rows(self) -> Iterator[tuple[int, dict]]:
-        """(number, row) of the finished runs, those without a valid checksum left out."""
-        with closing(sqlite3.connect(self.path)) as file:  # a second connection: the writer is not disturbed
-            file.text_factory = salvage.text
-            for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
-                if (found := salvage.read_line(line, self.campaign)) is not None:
-                    yield found
-
     def record(self, number: int, row: Mapping[str, Any]) -> None:
         """Keep a finished run: it is on disk within :data:`COMMIT_INTERVAL`.
 
@@ -128,11 +116,17 @@ class Ledger:
         """
         self._check()
         with self._wake:
-            self._pending.append((number, salvage.write_line(number, row, self.campaign)))
+            self._pending.append((number, salvage.write_line(number, row, SEAL)))
             waiting = len(self._pending)
             self._wake.notify()
         if waiting > MOST_WAITING:  # a slow disk is waited for
             self.flush()
+
+    def ask(self, numbers: bytes) -> None:
+        """Say which runs are wanted now, as 64-bit numbers in the order of the request, for whoever reads along."""
+        with self._lock, suppress(sqlite3.Error):  # a convenience: what cannot be written is told of the runs
+            self._file.execute("CREATE TABLE IF NOT EXISTS asked (place INTEGER PRIMARY KEY, numbers BLOB)")
+            self._file.execute("INSERT OR REPLACE INTO asked VALUES (0, ?)", (numbers,))
 
     def flush(self) -> None:
         """Write what has come in, now."""
@@ -150,7 +144,7 @@ class Ledger:
                 self._failure = error
 
     def close(self) -> None:
-        """Write what is open and let go of the file; the campaign can go on from here later.
+        """Write what is open and let go of the file; other runs can be added later.
 
         Raises
         ------
@@ -183,7 +177,7 @@ class Ledger:
                 "there: make room, and the same command goes on from them."
             )
 
-    def _open(self, text: str) -> tuple[sqlite3.Connection, str]:
+    def _open(self) -> sqlite3.Connection:
         taken: list[tuple[int, str]] = []
         if any(os.path.lexists(f"{self.path}{ending}") for ending in ENDINGS):
             try:
@@ -193,7 +187,7 @@ class Ledger:
                     aside = set_aside(self.path, ENDINGS)
                 except OSError as error:
                     raise _cannot(self.path, error.strerror or str(error)) from None
-                taken = salvage.whole_lines(aside, self.campaign)
+                taken = salvage.whole_lines(aside, SEAL)
                 kept = (
                     f"{len(taken)} of its finished runs are whole and are used" if taken else "no run in it is of use"
                 )
@@ -201,7 +195,7 @@ class Ledger:
                 warnings.warn(said, DamagedFileWarning, stacklevel=2)
         try:
             with replacing(self.path) as partial:
-                create(partial, text, taken)
+                create(partial, taken)
             return connect(self.path)
         except (sqlite3.Error, Damaged, OSError) as error:
             raise _cannot(self.path, str(error)) from None
@@ -211,11 +205,13 @@ class Damaged(Exception):
     """A file is no whole ledger; the message says why."""
 
 
-def connect(path: Path) -> tuple[sqlite3.Connection, str]:
-    """Open a ledger and see that it is whole; returns it with the key of its campaign as a text.
+def connect(path: Path) -> sqlite3.Connection:
+    """Open a ledger and see that it is whole.
 
     Raises
     ------
+    InputError
+        It is the ledger of an earlier version.
     Damaged
         It is not whole, or no ledger.
     StylobateError
@@ -235,10 +231,10 @@ def connect(path: Path) -> tuple[sqlite3.Connection, str]:
             raise Damaged(" ".join(said.split()))
         file.execute("PRAGMA journal_mode = WAL")
         found = file.execute("SELECT key, sum FROM campaign").fetchall()
-        file.execute("SELECT number, line FROM runs LIMIT 1").fetchall()
+        if file.execute(f"SELECT count(*) FROM runs WHERE {MISPLACED}").fetchone()[0]:
+            raise Damaged("what it holds of a run is not what is held of that run")
         if len(found) != 1 or hashlib.sha256(str(found[0][0]).encode()).hexdigest() != found[0][1]:
-            raise Damaged("the name of its campaign is not whole")
-        return file, found[0][0]
+            raise Damaged("what it says of itself is not whole")
     except sqlite3.Error as error:
         file.close()
         if getattr(error, "sqlite_errorcode", sqlite3.SQLITE_CORRUPT) & 0xFF in _SOUND_FILE:
@@ -250,9 +246,13 @@ def connect(path: Path) -> tuple[sqlite3.Connection, str]:
     except BaseException:
         file.close()
         raise
+    if found[0][0] != KEY:
+        file.close()
+        raise _former(path)
+    return file
 
 
-def create(path: Path, key: str, lines: list[tuple[int, str]]) -> None:
+def create(path: Path, lines: list[tuple[int, str]]) -> None:
     """Write a new ledger; it is whole when this returns."""
     file = sqlite3.connect(path, isolation_level=None)
     try:
@@ -261,7 +261,7 @@ def create(path: Path, key: str, lines: list[tuple[int, str]]) -> None:
         file.execute("BEGIN")
         file.execute("CREATE TABLE campaign (key TEXT, sum TEXT)")
         file.execute("CREATE TABLE runs (number INTEGER PRIMARY KEY, line TEXT)")
-        file.execute("INSERT INTO campaign VALUES (?, ?)", (key, hashlib.sha256(key.encode()).hexdigest()))
+        file.execute("INSERT INTO campaign VALUES (?, ?)", (KEY, SEAL))
         file.executemany("INSERT OR REPLACE INTO runs VALUES (?, ?)", lines)
         file.execute("COMMIT")
     finally:
@@ -272,65 +272,70 @@ def _cannot(path: Path, why: str) -> StylobateError:
     return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another --out.")
 
 
-def rows_in(path: str | Path, key: Mapping[str, Any]) -> Iterator[tuple[int, dict]]:
-    """(number, row) of the finished runs of a campaign in a ledger that another process may be at work on.
+def refuse_former(*paths: Path) -> None:
+    """Refuse ledgers of versions before this one.
+
+    Raises
+    ------
+    InputError
+        One of the files is such a ledger.
+    """
+    for path in paths:
+        with suppress(OSError), path.open("rb") as file:
+            if file.read(72)[68:] == APPLICATION.to_bytes(4) and _key_of(path) != KEY:
+                raise _former(path)
+
+
+def _former(path: Path) -> InputError:
+    return InputError(
+        f"{path} keeps unfinished runs of an earlier version, which this one cannot tell apart; finish them with that "
+        "version, or choose another folder."
+    )
+
+
+def _key_of(path: Path) -> str | None:
+    place = f"{path.absolute().as_uri()}?mode=ro&immutable=1"  # leaves nothing beside it
+    with suppress(sqlite3.Error), closing(sqlite3.connect(place, uri=True)) as file:
+        return next((key for (key,) in file.execute("SELECT key FROM campaign")), None)
+    return None
+
+
+def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple[int, dict]]:
+    """(number, row) of the runs in a ledger whose numbers are wanted; another process may be at work on it.
 
     Rows without a valid checksum are left out; a file that is missing, or no ledger, holds none.
     """
-    campaign = hashlib.sha256(json.dumps(key, sort_keys=True, default=str).encode()).hexdigest()
-    if not Path(path).is_file():
-        return
-    place = Path(path).absolute().as_uri()
-    for access in ("mode=ro", "mode=ro&immutable=1"):  # the second where the folder cannot be written to either
-        with suppress(sqlite3.Error), closing(sqlite3.connect(f"{place}?{access}", uri=True)) as file:
-            file.text_factory = salvage.text
-            for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
-                if (found := salvage.read_line(line, campaign)) is not None:
-                    yield found
-            return
+    with closing(_opened(path)) as file, suppress(sqlite3.Error):
+        for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
+            number = salvage.number_of(line)
+            found = None if number is None or not wanted(number) else salvage.read_line(line, SEAL)
+            if found is not None:
+                yield found
+
+
+def asked_in(path: str | Path) -> bytes:
+    """Numbers of the runs that were asked for last, see :meth:`Ledger.ask`; none where nobody has asked."""
+    with closing(_opened(path)) as file, suppress(sqlite3.Error):
+        return next((numbers for (numbers,) in file.execute("SELECT numbers FROM asked")), b"")
+    return b""
 
 
 def finished_runs_in(path: str | Path) -> int:
     """Number of runs that a ledger holds; 0 where there is none."""
-    try:
-        file = sqlite3.connect(f"{Path(path).absolute().as_uri()}?mode=ro", uri=True)
-    except sqlite3.Error:
-        return 0
-    try:
+    with closing(_opened(path)) as file, suppress(sqlite3.Error):
         return file.execute("SELECT count(*) FROM runs").fetchone()[0]
-    except sqlite3.Error:
-        return 0
-    finally:
-        file.close()
+    return 0
 
 
-def what_is_kept(done: int, total: int, *ledgers: str | Path | None) -> str:
-    """The sentence after an interrupt; what the ledgers hold counts, not what was reported last."""
-    kept = [Path(one) for one in ledgers if one is not None]
-    if not kept:
-        return f"interrupted after {done} of {total} runs; nothing is kept: with --out DIR it would go on from there."
-    done = sum(finished_runs_in(one) for one in kept)
-    return f"interrupted; {done} of {total} runs are kept in {kept[0].parent}: the same command goes on from there."
-
-
-def discard(path: str | Path) -> None:
-    """Delete a ledger: the campaign is over and its results are elsewhere.
-
-    What is no ledger of this package, or is held by another process, stays.
-    """
-    place = Path(path)
-    if not place.is_file() or place.is_symlink():
-        return
-    try:
-        holding = Holding(place)
-    except StylobateError:
-        return
-    try:
-        connect(place)[0].close()
-    except (Damaged, StylobateError):
-        return
-    else:
-        for ending in reversed(ENDINGS):
-            Path(f"{place}{ending}").unlink(missing_ok=True)
-    finally:
-        holding.release()
+def _opened(path: str | Path) -> sqlite3.Connection:
+    """A ledger to be read; one without anything in it in place of a file that is missing, or no ledger."""
+    place = Path(path).absolute()
+    for access in ("mode=ro", "mode=ro&immutable=1"):  # the second where the folder cannot be written to either
+        if place.is_file():
+            file = sqlite3.connect(f"{place.as_uri()}?{access}", uri=True)
+            file.text_factory = salvage.text
+            with suppress(sqlite3.Error):
+                file.execute("SELECT number FROM runs LIMIT 1").fetchone()
+                return file
+            file.close()
+    return sqlite3.connect(":memory:")

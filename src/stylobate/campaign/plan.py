@@ -14,13 +14,13 @@ from ..atomic import replacing
 from ..errors import InputError
 from ..response.rows import Rows
 from .digests import Digests
-from .kept import known
+from .runs import known
 
 if TYPE_CHECKING:
     import pandas
 
-#: Files in the folder of a study: its plan, and its finished runs.
-PLAN_FILE, RUNS_FILE = "plan.npz", "runs.sqlite"
+#: File in the folder of a study, beside its finished runs.
+PLAN_FILE = "plan.npz"
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,6 +23,12 @@ def write_line(number: int, row: Mapping[str, Any], campaign: str) -> str:
     return f"{_sum(rest, campaign)} {rest}"
 
 
+def number_of(line: Any) -> int | None:
+    """The number that a line tells, whole or not; None if it tells none."""
+    told = line.split(" ", 2)[1:2] if isinstance(line, str) else []
+    return int(told[0]) if told and told[0].isdecimal() else None
+
+
 def read_line(line: Any, campaign: str) -> tuple[int, dict] | None:
     """Number and row of a line; None if it is not whole, or of another campaign."""
     if not isinstance(line, str):

@@ -23,7 +23,7 @@ from ..motion.request import MotionRequest
 from ..motion.specs import parse_acceleration, parse_time, parse_velocity
 from ..reading import shown
 from .cases import Study
-from .study import read_study
+from .grid import read_grid
 
 
 class MotionsTable(Table):
@@ -139,7 +139,7 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
 
 
 def _of_grid(path: str | Path) -> Study:
-    grid = read_study(path)
+    grid = read_grid(path)
     motions = []
     for frequency, amplitude in product(grid.frequencies, grid.amplitudes):
         unit = harmonic(float(frequency), 1.0, grid.duration)

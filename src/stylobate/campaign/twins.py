@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,11 +25,6 @@ class Twins(NamedTuple):
     scatter: Scatter
     seed: int
     left_out: tuple[str, ...]
-
-    @property
-    def key(self) -> dict[str, Any]:
-        """What they are decided by, as plain values."""
-        return {"replicates": len(self.columns), "scatter": dataclasses.asdict(self.scatter), "seed": self.seed}
 
 
 def the_twins(column: Structure, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:

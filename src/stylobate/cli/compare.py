@@ -128,15 +128,14 @@ def compare(
             console.folder(out, "comparison.csv", "comparison", "asked-compare.json", *each) as folder,
             console.progress("cells") as progress,
         ):
-            ledgers = [console.ledger(folder, _stem(name)) for name in names]
+            ledger = console.ledger(folder)
             domains = compare_domains(
-                stone, chosen, *grid, labels=names, tail=after, threads=count, progress=progress, ledgers=ledgers
+                stone, chosen, *grid, labels=names, tail=after, threads=count, progress=progress, ledger=ledger
             )
             files = [] if folder is None else _write_domains(domains, folder)
             if folder is not None:
                 what = {"structures": [stone], "models": chosen}
                 files.append(console.asked(folder, "compare", **what, labels=names, duration_s=grid[2], tail_s=after))
-            console.done_with(*ledgers)
         table = domains.table
         result |= {"domains": [one.summary() for one in domains.domains], "differences": table.to_dict("records")}
     else:
@@ -155,7 +154,6 @@ def compare(
             if folder is not None:
                 what = {"structures": [stone], "models": chosen, "motions": [shaking]}
                 files.append(console.asked(folder, "compare", **what, labels=names, tail_s=after))
-            console.done_with(ledger)
         runs = [
             response.summary() | {"left_out": o.input_facts(one.taken(shaking))["left_out"]}
             for one, response in zip(chosen, comparison.responses, strict=True)

@@ -175,29 +175,20 @@ def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None
     return output_folder(out, names)
 
 
-def ledger(folder: Path | None, part: str = "") -> Path | None:
-    """Where a command, or a part of it, keeps its finished runs until it has written what it makes of them."""
-    from ..campaign.ledger import PROGRESS_FILE
+def ledger(folder: Path | None) -> Path | None:
+    """Where commands keep the finished runs of a folder."""
+    from ..campaign.ledger import RUNS_FILE
     from . import signals
 
-    place = Path(PROGRESS_FILE)
-    if folder is not None:
-        signals.KEPT.append(f"interrupted; what is finished is kept in {folder}: the same command goes on from there.")
-    return None if folder is None else folder / (place.with_stem(f"{place.stem}-{part}") if part else place)
+    if folder is None:
+        return None
+    signals.KEPT.append(f"interrupted; what is finished is kept in {folder}: the same command goes on from there.")
+    return folder / RUNS_FILE
 
 
 def note(sentence: str) -> None:
     """Say on standard error what a person should know while a command goes on."""
     print(f"stylobate: {sentence}", file=sys.stderr, flush=True)
-
-
-def done_with(*ledgers: Path | None) -> None:
-    """The results are written: the finished runs need no longer be kept apart."""
-    from ..campaign.ledger import discard
-
-    for one in ledgers:
-        if one is not None:
-            discard(one)
 
 
 #: Hears of progress (title, done, all) instead of a bar, where a command is run for somebody else than a terminal.

@@ -115,7 +115,6 @@ def critical(
             what = {"structures": [stone], "models": [how], "motions": [how.taken(shaking)]}
             files.append(console.asked(folder, "critical", **what, tail_s=after))
             summary["files"] = [str(file) for file in files]
-            console.done_with(ledger)
     if as_json:
         console.emit(summary)
     else:
@@ -171,7 +170,6 @@ def over_suite(
             what = {"structures": [column], "models": [model], "motions": taken}
             files.append(console.asked(folder, "critical", **what, tail_s=tail))
             summary["files"] = [str(file) for file in files]
-            console.done_with(ledger)
     if as_json:
         console.emit(summary)
         return

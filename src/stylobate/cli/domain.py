@@ -13,7 +13,7 @@ from . import options as o
 if TYPE_CHECKING:
     from ..analysis.domain import Domain
     from ..analysis.probability import CollapseProbability
-    from ..campaign.study import Study
+    from ..campaign.grid import HarmonicGrid
     from ..column.imperfections import Imperfection
 
 
@@ -65,7 +65,7 @@ def domain(
     interrupted goes on where it was.
     """
     from ..analysis.domain import collapse_domain
-    from ..campaign.runner import Stopped
+    from ..campaign.runs import Stopped
     from . import console
 
     count = o.the_threads(threads)
@@ -84,24 +84,23 @@ def domain(
             )
     o.the_engine(context, dask, count)
     with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain", "asked-domain.json") as folder:
-        ledger, half = console.ledger(folder), console.ledger(folder, "half-step")
+        ledger = console.ledger(folder)
         with console.progress("cells") as progress:
             result = collapse_domain(*_grid(study), tail=study.tail, threads=count, progress=progress, ledger=ledger)
         if not result.complete:
-            raise Stopped(len(result.rows) - result.counts["not run"], len(result.rows), ledger)
+            raise Stopped(result.rows.finished, len(result.rows), ledger)
         summary = result.summary()
         if half_step:
             from ..analysis.step_sensitivity import compare_steps
 
             with console.progress("cells, half step") as progress:
                 pair = compare_steps(
-                    *_grid(study), domain=result, tail=study.tail, threads=count, progress=progress, ledger=half
+                    *_grid(study), domain=result, tail=study.tail, threads=count, progress=progress, ledger=ledger
                 )
             summary["half_step"] = pair.summary()
         files = [] if folder is None else write(result, folder, summary)
         if folder is not None:
             files.append(asked(folder, study))
-        console.done_with(ledger, half)
     if as_json:
         console.emit(summary | {"files": [str(file) for file in files]})
         return
@@ -111,7 +110,7 @@ def domain(
         print(f"With half of the time step {step['differing']} of {step['comparable']} verdicts are different ones.")
 
 
-def asked(folder: Path, study: Study) -> Path:
+def asked(folder: Path, study: HarmonicGrid) -> Path:
     """What was asked for, beside the results."""
     from . import console
 
@@ -132,10 +131,10 @@ def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
     ]
 
 
-def run_probability(study: Study, population: dict, threads: int, out: Path | None, as_json: bool) -> None:
+def run_probability(study: HarmonicGrid, population: dict, threads: int, out: Path | None, as_json: bool) -> None:
     """The domain with many variations in every cell."""
     from ..analysis.replicates import collapse_probability
-    from ..campaign.runner import Stopped
+    from ..campaign.runs import Stopped
     from . import console
 
     with console.folder(
@@ -254,8 +253,8 @@ def _study(
     tail: str | None,
     settings: list[str] | None,
     project: str | None,
-) -> Study:
-    from ..campaign.study import Study, is_study, read_study
+) -> HarmonicGrid:
+    from ..campaign.grid import HarmonicGrid, is_grid, read_grid
     from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
 
@@ -268,13 +267,13 @@ def _study(
         "--set": settings,
         "--project": project,
     }
-    if Path(what).is_file() and is_study(what):
+    if Path(what).is_file() and is_grid(what):
         for option, value in given.items():
             if value:
                 raise InputError(f"{what} is a study file and {option} is given as well; state it in the file.")
-        return read_study(what)
+        return read_grid(what)
     column = o.the_column(what, project)
-    return Study(
+    return HarmonicGrid(
         column,
         o.the_model(model or "dem2d", settings),
         frequency_range(_needed("--frequencies", frequencies, "0.33:4:24")),
@@ -284,7 +283,7 @@ def _study(
     )
 
 
-def _grid(study: Study) -> tuple[Any, ...]:
+def _grid(study: HarmonicGrid) -> tuple[Any, ...]:
     """Column, model, frequencies, amplitudes and duration, as the analyses of a grid take them."""
     return study.column, study.model, study.frequencies, study.amplitudes, study.duration
 

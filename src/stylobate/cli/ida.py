@@ -119,7 +119,6 @@ def ida(
             what = {"structures": [stone], "models": [how], "motions": taken, "runs": found.runs}
             files.append(console.asked(folder, "ida", **what, im=measure.name, edp=edp, tail_s=after))
             console.write_summary(result, files, folder / "ida.json")
-            console.done_with(ledger)
     if as_json:
         console.emit(result)
         return

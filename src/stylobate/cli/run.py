@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -160,35 +161,37 @@ def each_record(
     drawn: Drawn = FIGURES,
 ) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
-    from ..campaign.ledger import Ledger
-    from ..campaign.runner import Stopped, full_key
+    from ..campaign.digests import Digests, Hasher
+    from ..campaign.runs import Runs, Stopped
     from . import console
 
-    key = {"structure": stone.digest, "motions": [one.digest for one in motions], **asked}
-    summaries, places = [], []
+    places: list[Path | None] = []
     for one in motions:
         places.append(None if out is None else out / safe_name(one.name, places))
+    hasher = Hasher(model, asked["tail"])
+    each = [
+        hasher.of_product(
+            {"run": [stone.digest, one.name, one.digest, place and place.name], "drawn": drawn, **asked}, __file__
+        )
+        for one, place in zip(motions, places, strict=True)
+    ]
+
+    def make(number: int) -> dict[str, Any]:
+        summary = conclude(follow, stone, motions[number], model, places[number], True, drawn)
+        files = {} if out is None else {"files": [str(Path(file).relative_to(out)) for file in summary["files"]]}
+        return {"summary": json.loads(console.as_json(summary)), **files}
+
+    summaries: dict[int, dict] = {}
     with console.folder(out) as folder:
         ledger = console.ledger(folder)
-        book = None if ledger is None else Ledger(ledger, full_key(model, asked["tail"], key), len(motions))
         try:
-            known = dict(book.rows()) if book else {}
-            for number, (one, place) in enumerate(zip(motions, places)):
-                summary = known.get(number)
-                if summary is None or not all(Path(file).is_file() for file in summary["files"]):
-                    summary = conclude(follow, stone, one, model, place, True, drawn)
-                    if book:
-                        book.record(number, json.loads(console.as_json(summary)))
-                summaries.append(summary)
+            with closing(Runs(ledger)) as runs:
+                for number, row in runs.products(Digests.of(each), make):
+                    files = {} if out is None else {"files": [str(out / name) for name in row["files"]]}
+                    summaries[number] = row["summary"] | files
         except KeyboardInterrupt:
-            if book:
-                book.close()
             raise Stopped(len(summaries), len(motions), ledger) from None
-        finally:
-            if book:
-                book.close()
-        console.done_with(ledger)
-    return summaries
+    return [summaries[number] for number in range(len(motions))]
 
 
 def conclude(

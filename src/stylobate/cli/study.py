@@ -63,7 +63,8 @@ def run(
 def status(directory: StudyFolder, as_json: o.Json = False) -> None:
     """How far a study is; it may be running."""
     from ..analysis.studies import StudyResult
-    from ..campaign.plan import PLAN_FILE, RUNS_FILE
+    from ..campaign.ledger import RUNS_FILE
+    from ..campaign.plan import PLAN_FILE
     from . import console
 
     result = StudyResult.in_folder(directory)

@@ -133,7 +133,6 @@ def suite(
             what = {"structures": stones, "models": [how], "motions": taken}
             files.append(console.asked(folder, "suite", **what, against=against, tail_s=after))
             result["files"] = [str(file) for file in files]
-            console.done_with(ledger)
     if as_json:
         console.emit(result)
         return

@@ -320,4 +320,13 @@ class Structure:
     @cached_property
     def digest(self) -> str:
         """SHA-256 of :meth:`to_dict`."""
-        return hashlib.sha256(json.dumps(self.to_dict(), sort_keys=True).encode()).hexdigest()
+        return _digest(self.to_dict())
+
+    @cached_property
+    def nameless_digest(self) -> str:
+        """The same without the structure's own name: what stands, whatever it is called."""
+        return _digest({key: value for key, value in self.to_dict().items() if key != "name"})
+
+
+def _digest(plain: dict) -> str:
+    return hashlib.sha256(json.dumps(plain, sort_keys=True).encode()).hexdigest()

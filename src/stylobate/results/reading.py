@@ -10,7 +10,8 @@ from typing import Any
 from ..analysis.domain import Domain
 from ..analysis.probability import CollapseProbability
 from ..analysis.studies import StudyResult
-from ..campaign.plan import PLAN_FILE, RUNS_FILE
+from ..campaign.ledger import RUNS_FILE
+from ..campaign.plan import PLAN_FILE
 from ..errors import InputError, OutOfRangeWarning
 from ..motion import Motion
 from ..motion.readers import read_motion

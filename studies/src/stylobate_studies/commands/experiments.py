@@ -67,22 +67,15 @@ def experiments(
         raise InputError(f"--calibration is {calibration!r}; allowed are on, off.")
     workers, found = o.the_threads(threads), study.read(folder)
     with console.folder(out, *WRITES) as place:
-        parts: dict[str, Path | None] = {}
-
-        def ledger(part: str) -> Path | None:
-            parts[part] = console.ledger(place, part)
-            return parts[part]
-
         results = study.compute(
             found,
             realisations=int(realisations),
             calibrate=calibration == "on",
             threads=workers,
             bars=console.progress,
-            ledgers=ledger,
+            ledger=console.ledger(place),
         )
         files = [] if place is None else _write(results, found, place, films)
-        console.done_with(*parts.values())
     if as_json:
         console.emit(results.summary | {"files": [str(file) for file in files]})
         return

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import hashlib
 import itertools
 import math
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from stylobate.campaign.ledger import Ledger
-from stylobate.campaign.runner import Progress, Stopped, full_key
+from stylobate.campaign.digests import Digests, Hasher
+from stylobate.campaign.runs import Progress, Runs, Stopped
 from stylobate.constants import g
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.start import Toss
@@ -20,7 +21,6 @@ from stylobate.motion import Motion
 from stylobate.response.poses import rotation_matrices
 from stylobate.simulate import simulate, thread_count
 
-from . import choices as c
 from .cube_files import HALF, Recorded, cube
 
 #: Change of velocity between two frames, beyond gravity, that is an impact [m/s]; frames that belong to one; frames from
@@ -109,6 +109,12 @@ def compare(toss: Recorded, friction: float, restitution: float) -> dict[str, An
     return row
 
 
+def facts(toss: Recorded) -> list[Any]:
+    """What a recorded toss is told from others by, as plain values."""
+    states = hashlib.sha256(toss.position.tobytes() + toss.orientation.tobytes()).hexdigest()
+    return [toss.name, toss.dt, len(toss.position), states]
+
+
 def run(
     tosses: Sequence[Recorded],
     settings: Sequence[tuple[float, float]],
@@ -128,34 +134,22 @@ def run(
 
     todo = list(itertools.product(range(len(settings)), range(len(tosses))))
     rows: dict[int, dict] = {}
-    key = {
-        "experiment": "cube",
-        "settings": [list(one) for one in settings],
-        "stiffness": c.CUBE_STIFFNESS,
-        "tosses": [[one.name, float(one.position.sum()), float(one.orientation.sum())] for one in tosses],
-    }
-    book = Ledger(ledger, full_key(MODEL, LONGER, key), len(todo)) if ledger is not None else None
-    pool = ThreadPoolExecutor(thread_count(threads))
+    hasher, recorded = Hasher(MODEL, LONGER), [facts(toss) for toss in tosses]
+    each = [hasher.of_product([cube(*settings[s]).digest, recorded[t]], __file__) for s, t in todo]
+
+    def make(number: int) -> dict[str, Any]:
+        setting, toss = todo[number]
+        return compare(tosses[toss], *settings[setting])
+
+    wanted, count = Digests.of(each), thread_count(threads)
     try:
-        rows |= dict(book.rows()) if book else {}
-        left = [number for number in range(len(todo)) if number not in rows]
-
-        def one(number: int) -> tuple[int, dict]:
-            setting, toss = todo[number]
-            return number, compare(tosses[toss], *settings[setting])
-
-        for number, row in pool.map(one, left):
-            rows[number] = row
-            if book:
-                book.record(number, row)
-            if progress:
-                progress(len(rows), len(todo))
+        with closing(Runs(ledger)) as runs, closing(runs.products(wanted, make, count)) as finished:
+            for number, row in finished:
+                rows[number] = row
+                if progress:
+                    progress(len(rows), len(todo))
     except KeyboardInterrupt:
         raise Stopped(len(rows), len(todo), ledger) from None
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
-        if book:
-            book.close()
     n = len(tosses)
     return [pandas.DataFrame([rows[s * n + i] for i in range(n)]) for s in range(len(settings))]
 

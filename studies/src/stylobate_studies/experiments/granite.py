@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from stylobate.campaign.runner import Progress, Stopped, run_campaign
+from stylobate.campaign.runs import Progress, Request, run_all
 from stylobate.column.specimen import Specimen
 from stylobate.constants import g
 from stylobate.models.base import Case
@@ -105,17 +105,9 @@ def run(
         if key not in motions:
             motions[key] = motion_of(test, found[v].azimuth)
     cases = [Case(found[v].body, motions[test.number, found[v].azimuth]) for v, test in pairs]
-    key = {
-        "experiment": "granite",
-        "bodies": [one.body.digest for one in found],
-        "azimuths": [one.azimuth for one in found],
-        "motions": [motion_of(test, 0.0).digest for test in granite.tests],
-    }
-    campaign = run_campaign(cases, DistinctElement3D(), threads=threads, progress=progress, ledger=ledger, key=key)
-    if campaign.interrupted:
-        raise Stopped(sum(row is not None for row in campaign.rows), len(cases), ledger)
+    made = run_all(Request.of(cases, DistinctElement3D()), threads=threads, progress=progress, ledger=ledger)
     rows = []
-    for (v, test), row in zip(pairs, campaign.rows):
+    for (v, test), row in zip(pairs, made):
         assert row is not None
         rows.append({"variant": v, "kind": found[v].kind, "specimen": found[v].name, "test": test.number} | _kept(row))
     return pandas.DataFrame(rows)

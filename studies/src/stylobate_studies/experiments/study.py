@@ -9,7 +9,7 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-from stylobate.campaign.runner import Progress
+from stylobate.campaign.runs import Progress
 from stylobate.errors import InputError
 from stylobate.version import __version__
 
@@ -88,7 +88,7 @@ def compute(
     calibrate: bool = True,
     threads: int | None = None,
     bars: Bars,
-    ledgers: Callable[[str], Path | None],
+    ledger: Path | None,
 ) -> Results:
     """Compute and score everything that was found.
 
@@ -102,14 +102,14 @@ def compute(
     threads : int, optional
     bars : callable
         Progress by title.
-    ledgers : callable
-        Where a part keeps its finished runs.
+    ledger : path, optional
+        Where finished runs are kept.
     """
     out = Results()
     if found.granite and found.granite.tests and found.granite.scans:
-        _granite(found.granite, realisations, calibrate, threads, bars, ledgers, out)
+        _granite(found.granite, realisations, calibrate, threads, bars, ledger, out)
     if found.cube and found.cube.tosses:
-        _cube(found.cube, calibrate, threads, bars, ledgers, out)
+        _cube(found.cube, calibrate, threads, bars, ledger, out)
     out.summary |= {
         "refused": found.refused,
         "choices": [one._asdict() for one in c.CHOICES],
@@ -121,13 +121,19 @@ def compute(
 
 
 def _granite(
-    tests: Granite, realisations: int, calibrate: bool, threads: int | None, bars: Bars, ledgers: Any, out: Results
+    tests: Granite,
+    realisations: int,
+    calibrate: bool,
+    threads: int | None,
+    bars: Bars,
+    ledger: Path | None,
+    out: Results,
 ) -> None:
     import pandas
 
     found = granite.variants(tests, realisations, calibrate)
     with bars("boulders") as progress:
-        runs = granite.run(tests, found, threads=threads, progress=progress, ledger=ledgers("granite"))
+        runs = granite.run(tests, found, threads=threads, progress=progress, ledger=ledger)
     table = granite.tests_table(tests, runs)
     out.tables["granite_tests"] = table
     out.tables["granite_half"] = granite.half_table(table)
@@ -160,14 +166,14 @@ def _granite(
         )
 
 
-def _cube(tosses: Tosses, calibrate: bool, threads: int | None, bars: Bars, ledgers: Any, out: Results) -> None:
+def _cube(tosses: Tosses, calibrate: bool, threads: int | None, bars: Bars, ledger: Path | None, out: Results) -> None:
     with bars("tosses") as progress:
         (table,) = cube.run(
             tosses.tosses,
             [(c.CUBE_FRICTION, c.CUBE_RESTITUTION)],
             threads=threads,
             progress=progress,
-            ledger=ledgers("cube"),
+            ledger=ledger,
         )
     out.tables["cube_tosses"] = table
     out.summary["cube"] = cube.scores(table) | {"friction": c.CUBE_FRICTION, "restitution": c.CUBE_RESTITUTION}
@@ -176,11 +182,11 @@ def _cube(tosses: Tosses, calibrate: bool, threads: int | None, bars: Bars, ledg
         return
     grid = [(mu, e) for mu in c.CUBE_FRICTION_GRID for e in c.CUBE_RESTITUTION_GRID]
     with bars("tosses, a third of them") as progress:
-        tables = cube.run(third, grid, threads=threads, progress=progress, ledger=ledgers("cube-third"))
+        tables = cube.run(third, grid, threads=threads, progress=progress, ledger=ledger)
     best = min(range(len(grid)), key=lambda k: cube.badness(tables[k]))
     rest = [one for number, one in enumerate(tosses.tosses) if number % 3]
     with bars("tosses, the rest of them") as progress:
-        (tested,) = cube.run(rest, [grid[best]], threads=threads, progress=progress, ledger=ledgers("cube-rest"))
+        (tested,) = cube.run(rest, [grid[best]], threads=threads, progress=progress, ledger=ledger)
     names = {one.name for one in rest}
     out.tables["cube_calibrated"] = tested
     out.summary["cube"]["calibration"] = {

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from stylobate.atomic import replacing, set_aside
-from stylobate.campaign.ledger import discard
+from stylobate.campaign.ledger import refuse_former
 from stylobate.column import preset
 from stylobate.column.presets import PRESETS
 from stylobate.errors import DamagedFileWarning, InputError
@@ -34,7 +34,8 @@ def check_folder(folder: Path) -> None:
     Raises
     ------
     InputError
-        It is neither new nor empty nor the folder of a study, or something in it was changed by somebody else.
+        It is neither new nor empty nor the folder of a study, something in it was changed by somebody else, or it holds
+        unfinished runs of an earlier version.
     """
     if not os.path.lexists(folder):
         return
@@ -48,6 +49,7 @@ def check_folder(folder: Path) -> None:
     for room in ROOMS:
         if (folder / room).is_symlink():
             raise InputError(f"{folder / room} is a link to another folder; choose another --out.")
+    refuse_former(*folder.glob("data/*.sqlite"), *folder.glob("data/*/*.sqlite"))
     for path in own:
         if path.relative_to(own.folder).parts[0] != "data" and os.path.lexists(path):
             own.check(path)
@@ -86,9 +88,6 @@ def claim(own: OwnFiles, grids: c.Grids) -> None:
     for path in own:
         if path.is_relative_to(data):
             own.remove(path)
-    for path in (*data.glob("*.sqlite"), *data.glob("*/*.sqlite")):
-        if not path.parent.is_symlink():
-            discard(path)
     with replacing(place) as partial:
         partial.write_text(json.dumps({"grids": grid, "code": code}, indent=1, sort_keys=True), encoding="utf-8")
 

@@ -8,11 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from stylobate.atomic import replacing
+from stylobate.campaign.ledger import RUNS_FILE
+from stylobate.campaign.runs import Request, run_all
 from stylobate.column.imperfections import Imperfection, imperfect_columns
 from stylobate.constants import g
+from stylobate.models.base import Case
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.motion import harmonic
-from stylobate.simulate import simulate_many
 
 from . import cases as c
 from .folder import is_ready
@@ -36,7 +38,7 @@ def literature_piece(data: Path) -> dict[str, dict[str, list[float]]]:
     """Peaks, residuals and verdicts of the populations, by name."""
     place = data / "literature.json"
     if not is_ready(place):
-        found = {population_name(*asked): _population(*asked) for asked in ASKED}
+        found = {population_name(*asked): _population(*asked, data / RUNS_FILE) for asked in ASKED}
         with replacing(place) as partial:
             partial.write_text(json.dumps(found), encoding="utf-8")
     return json.loads(place.read_text(encoding="utf-8"))
@@ -48,12 +50,13 @@ def population_name(name: str, law: str, across: float) -> str:
     return f"{what}, {law}" + (f", {across:.0%} across".replace("%", " %") if across else ", nothing across")
 
 
-def _population(name: str, law: str, across: float) -> dict[str, list[float]]:
+def _population(name: str, law: str, across: float, ledger: Path) -> dict[str, list[float]]:
     frequency, amplitude, duration, tail = SHAKING
     columns = imperfect_columns(c.paper_column(name, "circular"), Imperfection.of_size(WITHIN), NUMBER, 0)
     beside = (frequency, across * amplitude, 0.5 * np.pi) if across else None
     motion = harmonic(frequency, amplitude, duration, across=beside)
-    rows = simulate_many(list(columns), [motion] * NUMBER, DistinctElement3D(law=law), tail=tail)
+    cases = [Case(column, motion) for column in columns]
+    rows = run_all(Request.of(cases, DistinctElement3D(law=law), tail=tail), ledger=ledger)
     asked = {
         "collapsed": "collapsed",
         "peak": "peak_top_displacement_m",
@@ -61,4 +64,4 @@ def _population(name: str, law: str, across: float) -> dict[str, list[float]]:
         "across": "peak_top_y_m",
         "residual": "residual_top_displacement_m",
     }
-    return {key: [float(value) for value in rows[column]] for key, column in asked.items()}
+    return {key: rows.floats(column).tolist() for key, column in asked.items()}

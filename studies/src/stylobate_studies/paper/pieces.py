@@ -1,6 +1,6 @@
 """Pieces of the study as files: each is computed once, and a study that was stopped goes on with the next.
 
-A piece is written whole when it is finished; until then its finished runs are kept.
+A piece is written whole when it is finished; the runs of all pieces are kept in one ledger beside them.
 """
 
 from __future__ import annotations
@@ -8,8 +8,6 @@ from __future__ import annotations
 import base64
 import json
 import time
-from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import closing
 from itertools import product
 from pathlib import Path
@@ -23,8 +21,9 @@ from stylobate.analysis.domain import Domain, collapse_domain, grid_coordinates
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.analysis.replicates import collapse_probability
 from stylobate.atomic import replacing
-from stylobate.campaign.ledger import PROGRESS_FILE, Ledger, discard
-from stylobate.campaign.runner import Progress, full_key
+from stylobate.campaign.digests import Digests, Hasher
+from stylobate.campaign.ledger import RUNS_FILE
+from stylobate.campaign.runs import Progress, Runs
 from stylobate.column import Column, preset
 from stylobate.column.imperfections import Imperfection
 from stylobate.constants import g
@@ -50,10 +49,10 @@ def domain_piece(
     """A domain; ``grid`` is (frequencies, amplitudes, duration)."""
     place = folder / "domain.nc"
     if is_ready(place):
-        discard(folder / PROGRESS_FILE)  # left over if the process was killed after the result was written
         return Domain.load(place)
     folder.mkdir(exist_ok=True)
-    found = collapse_domain(column, model, *grid, tail=tail, threads=threads, progress=progress, out=folder)
+    keeping = {"out": folder, "ledger": folder.parent / RUNS_FILE}
+    found = collapse_domain(column, model, *grid, tail=tail, threads=threads, progress=progress, **keeping)
     if not found.complete:
         raise KeyboardInterrupt
     return found
@@ -66,12 +65,12 @@ def population_piece(
     """The same domain for slightly different columns, 1 % in geometry, friction and stiffness by default."""
     place = folder / POPULATION
     if is_ready(place):
-        discard(folder / PROGRESS_FILE)
         return CollapseProbability.load(place)
     folder.mkdir(exist_ok=True)
+    keeping = {"out": folder, "ledger": folder.parent / RUNS_FILE}
     found = collapse_probability(
         column, model, *grid, replicates=replicates, imperfection=imperfection, tail=tail, threads=threads,
-        progress=progress, out=folder,
+        progress=progress, **keeping,
     )  # fmt: skip
     if not found.complete:
         raise KeyboardInterrupt
@@ -86,7 +85,6 @@ def histories_piece(
 
     place = data / f"{slug('histories', name, label)}.nc"
     if is_ready(place):
-        discard(place.with_suffix(".sqlite"))
         return store.read(place, "study histories")
     column, model = preset(name), c.MODELS[label]
     end = c.DURATION + tail
@@ -97,14 +95,14 @@ def histories_piece(
     facts = {one: np.full(shape, np.nan) for one in ("collapse_time", "peak_top", "peak_base")}
     flags = np.zeros(shape, dtype=np.int8)
 
-    def run(number: int) -> tuple[int, dict]:
-        i, j = cells[number]
-        motion = harmonic(c.FREQUENCIES[i], c.AMPLITUDES[j], c.DURATION)
-        response = simulate(column, motion, model, tail=tail, output_interval=0.02)
+    motions = [harmonic(c.FREQUENCIES[i], c.AMPLITUDES[j], c.DURATION) for i, j in cells]
+
+    def make(number: int) -> dict[str, Any]:
+        response = simulate(column, motions[number], model, tail=tail, output_interval=0.02)
         h, m = response.histories, response.measures
         given = {"base": h.base_displacement, "top": h.top_displacement, "ground": h.ground_displacement}
         drawn = {key: np.interp(time, h.time, values, right=np.nan) for key, values in given.items()}
-        return number, {
+        return {
             **{key: base64.b64encode(values.astype("<f4").tobytes()).decode() for key, values in drawn.items()},
             "collapse_time": float(m.collapse_time),
             "peak_top": float(m.peak_top_displacement),
@@ -119,15 +117,10 @@ def histories_piece(
             values[cells[number]] = row[key]
         flags[cells[number]] = row["verdict"]
 
-    ledger = place.with_suffix(".sqlite")
-    what = {"histories": column.digest, "cells": [c.FREQUENCIES.tolist(), c.AMPLITUDES.tolist(), c.DURATION]}
-    with closing(Ledger(ledger, full_key(model, tail, what), len(cells))) as book:
-        known = dict(book.rows())
-        for number, row in known.items():
-            keep(number, row)
-        todo = [number for number in range(len(cells)) if number not in known]
-        for done, (number, row) in enumerate(_in_threads(run, todo, threads), len(known) + 1):
-            book.record(number, row)
+    hasher = Hasher(model, tail)
+    each = Digests.of([hasher.of_product([column.digest, motion.digest], __file__) for motion in motions])
+    with closing(Runs(data / RUNS_FILE)) as runs, closing(runs.products(each, make, threads)) as finished:
+        for done, (number, row) in enumerate(finished, 1):
             keep(number, row)
             if progress:
                 progress(done, len(cells))
@@ -140,21 +133,7 @@ def histories_piece(
     attributes = {"column": name, "model": label, "version": __version__, "note": note, "duration_s": c.DURATION}
     data_set = xarray.Dataset(variables, coordinates, attributes)
     store.write(data_set, "study histories", place)
-    discard(ledger)
     return data_set
-
-
-def _in_threads(run: Callable[[int], tuple[int, dict]], todo: list[int], threads: int) -> Iterator[tuple[int, dict]]:
-    """Results as they are finished; the first one alone, which compiles what all of them share."""
-    if not todo:
-        return
-    yield run(todo[0])
-    pool = ThreadPoolExecutor(threads)
-    try:
-        for one in as_completed([pool.submit(run, number) for number in todo[1:]]):
-            yield one.result()
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def cost_piece(data: Path) -> dict[str, float]:

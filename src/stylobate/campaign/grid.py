@@ -1,8 +1,8 @@
-"""Study files (TOML): a column, a model and the grid of a domain, so that a campaign can be repeated by name."""
+"""A grid of harmonic motions, the request of a domain, and its file (TOML), so that it can be repeated by name."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,15 +13,20 @@ from ..column import Column
 from ..column.files import load_column
 from ..column.toml import Table, parse_toml, read_table
 from ..errors import InputError, as_typed, check_range
-from ..models.base import Model
+from ..models.base import Case, Cases, Model
 from ..models.registry import make_model
+from ..motion import harmonic
 from ..motion.ranges import amplitude_range, frequency_range
 from ..motion.specs import parse_acceleration, parse_frequency
 from ..reading import shown
+from .runs import Request
+
+#: Largest number of cells.
+MAX_CELLS = 1_000_000
 
 
-class StudyTable(Table):
-    """A study file."""
+class GridTable(Table):
+    """A study file of a grid."""
 
     column: str
     model: str
@@ -33,19 +38,24 @@ class StudyTable(Table):
 
 
 @dataclass(frozen=True, eq=False)
-class Study:
-    """What a study file asks for.
+class HarmonicGrid:
+    """A column under harmonic motions of all frequencies and amplitudes.
 
     Parameters
     ----------
     column : Column
     model : Model
     frequencies : array
-        [Hz]
+        [Hz], shape (F,), rising.
     amplitudes : array
-        [m/s²]
+        [m/s²], shape (A,), rising.
     duration, tail : float
         Length of each motion, and time to go on after it [s].
+
+    Raises
+    ------
+    InputError
+        An impossible grid.
     """
 
     column: Column
@@ -55,25 +65,43 @@ class Study:
     duration: float = 10.0
     tail: float = 0.0
 
+    def __post_init__(self) -> None:
+        f = grid_axis("frequencies", self.frequencies, 1e-3, 1e3, "Hz")
+        a = grid_axis("amplitudes", self.amplitudes, 0.0, 1e4, "m/s²")
+        if len(f) * len(a) > MAX_CELLS:
+            raise InputError(f"the domain has {len(f)} × {len(a)} cells; allowed is up to {MAX_CELLS}: give fewer.")
+        object.__setattr__(self, "frequencies", f)
+        object.__setattr__(self, "amplitudes", a)
 
-def is_study(path: str | Path) -> bool:
-    """Whether a TOML file is a study, not a column: it names a column, a model or a grid."""
+    def request(self) -> Request:
+        """Its cases, frequency by frequency; motions of one frequency share their samples."""
+        a = self.amplitudes
+        units = [harmonic(float(one), 1.0, self.duration) for one in self.frequencies]
+
+        def case(cell: int) -> Case:
+            return Case(self.column, units[cell // len(a)].scaled(float(a[cell % len(a)])))
+
+        return Request.of(Cases(len(units) * len(a), case), self.model, tail=self.tail)
+
+
+def is_grid(path: str | Path) -> bool:
+    """Whether a TOML file is a study of a grid, not a column: it names a column, a model or a grid."""
     return not {"column", "model", "frequencies", "amplitudes"}.isdisjoint(parse_toml(path))
 
 
-def read_study(path: str | Path) -> Study:
-    """Read a study file; the path of a column file in it starts from the study file's folder.
+def read_grid(path: str | Path) -> HarmonicGrid:
+    """Read a study file of a grid; the path of a column file in it starts from the study file's folder.
 
     Raises
     ------
     InputError
         The file cannot be read or does not describe a study; the message names the file, the key and the remedy.
     """
-    table = read_table(path, StudyTable)
+    table = read_table(path, GridTable)
     beside = Path(path).parent / table.column
     settings = {key: str(value) for key, value in (table.set or {}).items()}
     try:
-        return Study(
+        return HarmonicGrid(
             column=load_column(beside if beside.is_file() else table.column),
             model=make_model(table.model, settings),
             frequencies=_values("frequencies", table.frequencies, frequency_range, parse_frequency, unit="Hz"),
@@ -83,6 +111,21 @@ def read_study(path: str | Path) -> Study:
         )
     except InputError as error:
         raise InputError(f"{shown(path)}: {error}") from None
+
+
+def grid_axis(name: str, values: Sequence[float] | np.ndarray, low: float, high: float, unit: str) -> np.ndarray:
+    """One side of a grid, checked: finite, inside (low, high], rising; shape (values,)."""
+    try:
+        axis = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InputError(f"{name} are not an array of numbers; give them in {unit}.") from None
+    if axis.ndim != 1 or axis.size == 0:
+        raise InputError(f"{name} have the shape {axis.shape}; give at least one value in one row [{unit}].")
+    for value in axis:
+        check_range(f"one of the {name}", value, low, high, unit=unit, open_low=True)
+    if (np.diff(axis) <= 0.0).any():
+        raise InputError(f"{name} must rise from value to value; sort them and leave doubles out.")
+    return axis
 
 
 def _values(

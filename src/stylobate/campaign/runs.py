@@ -1,0 +1,282 @@
+"""Runs that are wanted: those that the ledger of a folder holds, whoever made them, and the others as they finish."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..models.base import Case, Cases, Model
+from ..own_files import digest as digest_of_file
+from ..response.rows import Rows
+from ..simulate import check_cases
+from .digests import Digests, Hasher
+from .executor import compute
+from .ledger import Ledger, finished_runs_in, rows_in
+
+#: Called with (finished runs, all runs) whenever a run finishes.
+Progress = Callable[[int, int], None]
+
+#: Cases that run together: their numbers, their model, and the share below which their motions are quiet.
+Group = tuple[np.ndarray, Model, float]
+
+#: (number of the run, its row).
+Finished = Generator[tuple[int, dict[str, Any]], None, None]
+
+#: Time between two looks at a ledger that another process is at work on [s].
+LOOK = 0.25
+
+
+@dataclass(frozen=True, eq=False)
+class Request:
+    """Cases that are wanted.
+
+    Parameters
+    ----------
+    cases : sequence of Case
+        Asked for one by one, so that it can make them as they are needed.
+    digests : Digests
+        What decides each of them.
+    groups : iterable of Group
+        Together all cases.
+    tail : float
+        Time to go on after each motion has ended [s].
+    """
+
+    cases: Sequence[Case]
+    digests: Digests
+    groups: Iterable[Group]
+    tail: float = 0.0
+
+    @classmethod
+    def of(cls, cases: Sequence[Case], model: Model, *, tail: float = 0.0, quiet: float = 0.0) -> Request:
+        """Cases of one model; parameters as in :func:`stylobate.simulate.simulate_iter`."""
+        digests = Digests(Hasher(model, tail).of_cases(cases, quiet))
+        return cls(cases, digests, [(np.arange(len(cases)), model, quiet)], tail)
+
+    def __len__(self) -> int:
+        return len(self.cases)
+
+
+class Stopped(KeyboardInterrupt):
+    """Runs were interrupted; the message says what is kept of them.
+
+    Parameters
+    ----------
+    done, total : int
+        Finished runs, and all.
+    ledger : path, optional
+        Where the finished ones are kept.
+    rows : Rows, optional
+        The finished ones.
+    """
+
+    def __init__(self, done: int, total: int, ledger: str | Path | None = None, rows: Rows | None = None) -> None:
+        said = f"interrupted after {done} of {total} runs; nothing is kept: with --out DIR it would go on from there."
+        if ledger is not None:
+            kept = f"{done} of {total} runs are kept in {Path(ledger).parent}"
+            said = f"interrupted; {kept}: the same command goes on from there."
+        super().__init__(said)
+        self.rows = Rows(total) if rows is None else rows
+
+
+class Runs:
+    """Runs, and the ledger that keeps them.
+
+    Parameters
+    ----------
+    ledger : path, optional
+        File that keeps every finished run for good; without it nothing is kept.
+    waiting : callable, optional
+        Called again and again while another process holds the ledger, instead of refusing it.
+
+    Attributes
+    ----------
+    made, kept : int
+        Runs that were made here, and those of the requests that are finished, these among them.
+    """
+
+    def __init__(self, ledger: str | Path | None, waiting: Callable[[], object] | None = None) -> None:
+        self.path = None if ledger is None else Path(ledger)
+        self.made = self.kept = 0
+        self._book = None if self.path is None else Ledger(self.path, waiting)
+
+    def close(self) -> None:
+        """Write what is open and let go of the ledger."""
+        if self._book:
+            self._book.close()
+
+    def run(self, request: Request, threads: int | None = None) -> Finished:
+        """(number, row) of every case, with the keys of ``Measures.row()``: first those that the ledger holds.
+
+        Cases with the same digest are run once.
+        """
+        digests = request.digests
+        todo = np.ones(len(digests), dtype=bool)
+        for number, row in self._known(digests):
+            todo[number] = False
+            self.kept += 1
+            yield number, row
+        todo[digests.doubles] = False
+        for numbers, model, quiet in request.groups:
+            left = numbers[todo[numbers]]
+            if not len(left):  # what is to be said of them is said again
+                check_cases(_some(request.cases, numbers), model, tail=request.tail, quiet=quiet)
+                continue
+            some = _some(request.cases, left)
+            with closing(compute(some, model, tail=request.tail, quiet=quiet, threads=threads)) as finished:
+                for index, measures in finished:
+                    yield from self._keep(digests, int(left[index]), measures.row())
+
+    def rows(self, request: Request, threads: int | None = None, progress: Progress | None = None) -> Rows:
+        """Rows of all cases.
+
+        Raises
+        ------
+        Stopped
+            Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
+        """
+        rows = Rows(len(request))
+        if progress:
+            progress(0, len(request))
+        try:
+            with closing(self.run(request, threads)) as finished:
+                for done, (number, row) in enumerate(finished, 1):
+                    rows[number] = row
+                    if progress:
+                        progress(done, len(request))
+        except KeyboardInterrupt:
+            done = rows.finished if self.path is None else self.kept
+            raise Stopped(done, len(request), self.path, rows) from None
+        return rows
+
+    def products(self, digests: Digests, make: Callable[[int], dict[str, Any]], threads: int = 1) -> Finished:
+        """(number, row) of runs that come to more than their measures, made one by one: first those that the ledger holds.
+
+        Parameters
+        ----------
+        digests : Digests
+            Of what decides each of them, see :meth:`~stylobate.campaign.digests.Hasher.of_product`.
+        make : callable
+            Makes the row of a number, of plain values; its ``files`` are names of files beside the ledger that belong to
+            it: a row whose files are not as they were written is made again.
+        threads : int
+            At work at the same time, after the first run, which compiles what all of them share.
+        """
+        todo = set(range(len(digests)))
+        for number, row in self._known(digests):
+            if all(self._sum_of(name) == written for name, written in row.get("files", {}).items()):
+                todo.remove(number)
+                self.kept += 1
+                yield number, row
+        todo.difference_update(digests.doubles.tolist())
+        for number, row in _in_threads(make, sorted(todo), threads):
+            files = {"files": {name: self._sum_of(name) for name in row["files"]}} if "files" in row else {}
+            yield from self._keep(digests, number, row | files)
+
+    def _known(self, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
+        if self._book is None or self.path is None:
+            return
+        self._book.ask(digests.keys.tobytes())
+        yield from known(self.path, digests)
+
+    def _keep(self, digests: Digests, number: int, row: dict[str, Any]) -> Finished:
+        key = int(digests.keys[number])
+        alike = digests.numbers(key)
+        if self._book:
+            self._book.record(key, {"case": digests[number], **row})
+        self.made += len(alike)
+        self.kept += len(alike)
+        for one in alike:
+            yield one, row
+
+    def _sum_of(self, name: str) -> str | None:
+        if self.path is None:
+            return None
+        place = self.path.parent / name
+        return digest_of_file(place) if place.is_file() else None
+
+
+def known(ledger: Path, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
+    """(number, row) of the cases that a ledger holds; those of other requests and other laws in it are passed over."""
+    for key, row in rows_in(ledger, digests.numbers):
+        digest = row.pop("case", None)
+        for number in digests.numbers(key):
+            if digest == digests[number]:
+                yield number, row
+
+
+def _some(cases: Sequence[Case], numbers: np.ndarray) -> Cases:
+    return Cases(len(numbers), lambda index: cases[int(numbers[index])])
+
+
+def run_all(
+    request: Request,
+    *,
+    threads: int | None = None,
+    progress: Progress | None = None,
+    ledger: str | Path | None = None,
+) -> Rows:
+    """Run what the ledger does not hold yet.
+
+    Parameters
+    ----------
+    request : Request
+    threads : int, optional
+        All cores by default.
+    progress : callable, optional
+        Called with (finished, all).
+    ledger : path, optional
+        File that keeps finished runs, for good.
+
+    Returns
+    -------
+    Rows
+        One per case in their order, with the keys of ``Measures.row()``.
+
+    Raises
+    ------
+    Stopped
+        Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
+    """
+    with closing(Runs(ledger)) as runs:
+        return runs.rows(request, threads, progress)
+
+
+def its_turn(
+    ledger: Path, total: int, progress: Progress | None, waiting: Callable[[], None] | None
+) -> Callable[[], None]:
+    """What is done while another process is at work on the ledger: it is told once, and followed."""
+    told: list[bool] = []
+
+    def look() -> None:
+        if waiting and not told:
+            waiting()
+        told.append(True)
+        if progress:
+            progress(min(finished_runs_in(ledger), total), total)
+        time.sleep(LOOK)
+
+    return look
+
+
+def _in_threads(make: Callable[[int], dict[str, Any]], todo: list[int], threads: int) -> Finished:
+    """Results as they are finished; the first one alone, which compiles what all of them share."""
+    if threads == 1:
+        yield from ((number, make(number)) for number in todo)
+        return
+    for number in todo[:1]:
+        yield number, make(number)
+    pool = ThreadPoolExecutor(threads)
+    try:
+        jobs = {pool.submit(make, number): number for number in todo[1:]}
+        for job in as_completed(jobs):
+            yield jobs[job], job.result()
+    finally:
+        pool.shutdown(cancel_futures=True)
