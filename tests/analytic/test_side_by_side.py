@@ -118,7 +118,7 @@ def test_advice_reads_in_one_way(change, conclusion):
     words = {
         STRONGER: "stronger than “as built” against collapse, under",
         WEAKER: "weaker than “as built” against collapse: do not adopt it for safety",
-        NOT_TOLD: "not shown to be stronger than “as built” against collapse, nor weaker: these runs are no ground to",
+        NOT_TOLD: "not shown to be stronger than “as built” against collapse, nor weaker: no ground to",
     }
     assert [each for each, said in words.items() if said in found.advice] == [conclusion]
     assert found.sentence.startswith(found.advice)
@@ -136,7 +136,9 @@ def test_a_measure_is_compared_with_the_column_as_it_stands_today():
 
 def test_what_is_undecided_stands_in_the_advice():
     said = dataclasses.replace(KNOWN, share_low=-0.05, ratio_high=1.1, pairs=27, undecided=13).advice
-    assert said.endswith("; 13 of 40 pairs of runs are undecided, and longer runs may settle them.")
+    assert said.endswith("; 13 of 40 pairs of runs are undecided, and longer runs may settle them).")
+    few = dataclasses.replace(KNOWN, records=3, undecided=13).advice  # longer runs of so few would settle nothing
+    assert few.endswith("3 records and worse in 9; nothing is concluded from fewer than 10 records).")
 
 
 def test_changes_are_told_by_size_and_direction():
@@ -149,7 +151,8 @@ def test_changes_are_told_by_size_and_direction():
     )
     share = f"4 to 30 percentage points lower {both}10 to 20 percentage points lower in these records)."
     assert f"The share that collapses is {share}" in said
-    assert "Of 44 pairs of runs, 3 collapse with “as built” only and 9 with “dowels” only; 4 are undecided." in said
+    assert f"Of 44 pairs of runs under {KNOWN.records} records, 3 collapse with “as built” only and 9 with" in said
+    assert "9 with “dowels” only; 4 are undecided." in said
     across = dataclasses.replace(KNOWN, share_best=0.0, share_worst=0.0, share_low=-0.1, share_high=0.2).basis
     spread = "10 percentage points lower to 20 percentage points higher"
     assert f"is {spread} (95 % interval over records; the same in these records)." in across

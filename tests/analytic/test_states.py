@@ -81,7 +81,7 @@ def test_the_command(tmp_path, capsys):
     assert {"states.csv", "links.csv", "states.png", "states.json", "asked-compare.json"} <= names
     assert call([*base[:5], "--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
     said = capsys.readouterr().out
-    assert "no ground to adopt it for safety (1 record; 10 at least would tell of others)" in said
+    assert "under 1 record and worse in 0; nothing is concluded from fewer than 10 records)" in said
     assert [line.split()[-2:] for line in said.splitlines() if line.strip().startswith("0.9")][-1] == ["%", "-"]
 
 

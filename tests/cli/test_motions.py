@@ -270,6 +270,12 @@ def test_one_record_in_several_directions(command, record, tmp_path):
     critical = command("critical", *RUN[1:], *ways[:4], *grid)
     assert len(critical["records"]) == 2
     assert len(command("suite", "paper-monolithic", record, *RUN[2:], *ways[2:], "--json")["runs"]) == 4
+    plain = tmp_path / "plain.txt"  # which names no azimuth
+    plain.write_text("\n".join(f"{0.01 * k:.2f} {0.1 * np.sin(0.1 * k):.5f}" for k in range(300)))
+    command(
+        "suite", "paper-monolithic", plain, *RUN[2:], *ways[4:], "--unit", "g", "--out", tmp_path / "plain", "--json"
+    )
+    assert not list((tmp_path / "plain").glob("directions*"))
 
 
 def test_conditioning_is_done_in_order_and_said(command, record, tmp_path):

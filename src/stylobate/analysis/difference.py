@@ -115,16 +115,25 @@ class Difference:
             return f"“{self.state}”: stronger {against}, under these motions."
         if self.conclusion == WEAKER:
             return f"“{self.state}”: weaker {against}{': do not adopt it for safety' if measure else ''}."
-        number = f"{self.records} record{'' if self.records == 1 else 's'}"
-        few = f" ({number}; {FEWEST} at least would tell of others)" if self.records < FEWEST else ""
-        if self.undecided:
+        few = f"; nothing is concluded from fewer than {FEWEST} records" if self.records < FEWEST else ""
+        if self.undecided and not few:
             several = "is" if self.undecided == 1 else "are"
             few += f"; {self.undecided} of {self.pairs + self.undecided} pairs of runs {several} undecided, and longer runs"
             few += " may settle them"
+        here = f"it fares better in {self.saved} of {self._number} and worse in {self.harmed}"
         if measure:
-            ground = "these runs are no ground to adopt it for safety"
-            return f"“{self.state}”: not shown to be stronger {against}, nor weaker: {ground}{few}."
-        return f"“{self.state}”: not shown to be weaker or stronger {against}{few}."
+            ground = "no ground to adopt it for safety"
+            return f"“{self.state}”: not shown to be stronger {against}, nor weaker: {ground} ({here}{few})."
+        return f"“{self.state}”: not shown to be weaker or stronger {against} ({here}{few})."
+
+    @property
+    def _number(self) -> str:
+        """How many pairs of runs, and of how many records: the runs of one record are no independent evidence."""
+        pairs, records = (
+            f"{count} {word}{'' if count == 1 else 's'}"
+            for count, word in ((self.pairs + self.undecided, "pair"), (self.records, "record"))
+        )
+        return f"{pairs} of runs under {records}"
 
     def _median(self) -> str:
         if math.isnan(self.ratio):
@@ -135,12 +144,10 @@ class Difference:
         return f"The median intensity of {self.limit_state}{measure} is {change}."
 
     def _pairs(self) -> str:
-        number = self.pairs + self.undecided
-        if not number:
+        if not self.pairs + self.undecided:
             return "No pair of runs could be computed."
         how = "collapse" if self.limit_state == "collapse" else f"exceed {self.limit_state}"
-        pairs = "1 pair" if number == 1 else f"{number} pairs"
-        said = f"Of {pairs} of runs, {self.saved} {how} with “{self.against}” only and {self.harmed} with "
+        said = f"Of {self._number}, {self.saved} {how} with “{self.against}” only and {self.harmed} with "
         said += f"“{self.state}” only"
         said += f"; {self.undecided} {'is' if self.undecided == 1 else 'are'} undecided" if self.undecided else ""
         return said + (f"; {self.failed} more could not be computed." if self.failed else ".")

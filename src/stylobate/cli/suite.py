@@ -126,9 +126,11 @@ def suite(
                 console.write_json(folder / "suite.json", result),
                 *plots.save(plots.draw_suite(table, against), folder / "suite"),
             ]
-            if swept:
-                drawn = plots.draw_directions(compass_of_shares(result["runs"]), f"{', '.join(names)}, {how.name}")
-                files += plots.save(drawn, folder / "directions")
+            compass = compass_of_shares(result["runs"])
+            if swept and len(compass.bearings) > 1:
+                files += plots.save(
+                    plots.draw_directions(compass, f"{', '.join(names)}, {how.name}"), folder / "directions"
+                )
             taken = [how.taken(motion) for motion in records.motions]
             what = {"structures": stones, "models": [how], "motions": taken}
             files.append(console.asked(folder, "suite", **what, against=against, tail_s=after))

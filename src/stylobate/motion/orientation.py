@@ -116,7 +116,9 @@ def beyond_axes(motion: Motion, axes: str) -> dict[str, str]:
         values = motion.components.get(axis)
         if values is not None and axis not in axes:
             where = "" if azimuths.get(axis) is None else f"azimuth {azimuths[axis]:g}°, "
-            found[axis] = f"{word} ({where}peak {float(np.abs(values).max()) / g:.3g} g)"
+            peak = float(np.abs(values).max())
+            more = ", more than along x" if axis == "y" and peak > motion.pga else ""
+            found[axis] = f"{word} ({where}peak {peak / g:.3g} g{more})"
     return found
 
 

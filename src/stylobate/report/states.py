@@ -6,12 +6,21 @@ from typing import Any
 
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER
 from ..analysis.evidence import evidence
+from ..analysis.fragility import FEWEST
 from ..analysis.side_by_side import median_words, shares
+from ..motion.intensity_specs import parse_measure
 from ..percent import percents
 from ..results import Numbers
 from . import numbers as n
 from .page import Item, Note, Points, Rows
 from .pictures import kept
+from .record import known_model
+
+#: What stands before any advice on round columns that were computed in a plane, however many the records.
+ROUND_IN_THE_PLANE = (
+    "Round columns, computed in a plane: in space they can fall under much weaker motions, and what helps here need not "
+    "help there. No measure is to be adopted before a model in space (dem3d) has told the same."
+)
 
 #: How the notes on conclusions stand out.
 LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
@@ -20,6 +29,10 @@ LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
 def advice_notes(result: Numbers) -> list[Item]:
     """The advice on every state, which is read before anything else."""
     found = [(one["advice"], LOOKS[one["conclusion"]]) for one in result.summary["differences"]]
+    models = [known_model(str(one["name"])) for one in result.asked.models] if result.asked is not None else []
+    plane = any(kind is not None and "y" not in kind.axes for kind in models)
+    if plane and any(one.section == "circular" for one in result.structures):
+        found.insert(0, (ROUND_IN_THE_PLANE, LOOKS[NOT_TOLD]))
     return [Note([advice], f"verdict {look}".rstrip()) for advice, look in found]
 
 
@@ -43,19 +56,24 @@ def states_items(result: Numbers) -> list[Item]:
         "The same motions and levels for every state, and the same slightly different columns where these are drawn; runs "
         "that failed in one of them are left out of all. Undecided: the run ended before its verdict was certain; share, "
         "interval and median are with none and with all of them counted in; the interval is over records. A pair of runs is "
-        "undecided where either of them is. A state is the stronger the smaller its share and the higher its median "
-        "intensity."
+        "undecided where either of them is. Shares are of all levels together, as many as were asked for: they compare "
+        "states, and are no probability of collapse."
     )
+    if not all(one["fragility"] for one in s["states"]):
+        caption += f" No curve: all runs of a state end alike, or they are of fewer than {FEWEST} records."
     items.append(Rows(header, body, caption, numbers=True))
     items += _by_level(result)
     banded = next((one["label"] for one in s["states"] if one["fragility"]), None)
     band = "" if banded is None else f", the band that of “{banded}”"
+    left = f"Left: fragility curves{band}; two thin ones where runs are undecided: if all exceeded, and if none did. "
+    right = (
+        "Right: difference of the share, pair by pair; left of zero is better. Thick: undecided runs counted both ways"
+    )
+    wide = any(one["records"] >= FEWEST for one in s["differences"])
     items += kept(
         result.pictures,
         "states",
-        f"Left: fragility curves{band}; two thin ones where runs are undecided: if "
-        "all of them exceeded, and if none did. Right: difference of the share, pair by pair; left of zero is better. "
-        "Thick: undecided runs counted both ways; thin: 95 % interval over records.",
+        f"{left if banded else ''}{right}{'; thin: 95 % interval over records' if wide else ''}.",
     )
     if s["links"]:
         items.append(_links(s["links"]))
@@ -69,9 +87,10 @@ def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
         mine = [one for one in links if one["state"] == state]
         full, broken = (max(mine, key=lambda one: one.get(key, 0)) for key in ("at_capacity", "broken"))
         if full.get("at_capacity", 0):
-            words = f"“{state}”: {full['link']} bore its whole capacity in {full['at_capacity']} of {full['runs']} runs"
-            words += f"; {broken['link']} broke in {broken['broken']}" if broken["broken"] else "; no link broke"
-            said.append(f"{words}. A link at its capacity yields or slips: it is to be looked at after the shaking.")
+            words = f"“{state}”: {full['link']}{', most of all,' * (len(mine) > 1)} was at its capacity in "
+            words += f"{full['at_capacity']} of {full['runs']} runs"
+            words += f"; {broken['link']} broke in {broken['broken']}" if broken["broken"] else ", and none broke"
+            said.append(f"{words}. A link at its capacity yields or slips, and stays so.")
     return said
 
 
@@ -96,8 +115,8 @@ def _by_level(result: Numbers) -> list[Item]:
         found = shares({one.name: one.codes[one.im == level] for one in told}, told[0].records[told[0].im == level])
         words = (f"{one.words} ({one.interval_words})" if one.runs else n.NONE for one in found)
         body.append([f"{level:.4g}", str(found[0].runs), *words])
-    measure, curve = str(table["measure"].iloc[0]), next((one for one in s["states"] if one["fragility"]), None)
-    unit = f" [{curve['fragility']['unit']}]" if curve is not None else ""
+    measure = str(table["measure"].iloc[0])
+    unit = f" [{parse_measure(measure).unit}]" if measure != "factor" else ""
     caption = (
         "Share by level, of the same runs; from which to which where runs are undecided. In brackets its 95 % interval over "
         "records."

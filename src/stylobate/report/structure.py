@@ -33,10 +33,10 @@ def state_section(column: Column, label: str, first: Column, against: str) -> Se
         text = f"Its drums or joints are not those of “{against}”: all of it is listed."
         return Section(f"The state “{label}”", [text, *_column(column)])
     changed = [
-        (column.links != first.links, _number(len(column.links), "link"), _number(len(first.links), "link")),
+        (column.links != first.links, _number(len(column.links), "link"), str(len(first.links) or "none")),
         (column.as_found != first.as_found, *("as found" if one.as_found else "as built" for one in (column, first))),
     ]
-    differs = "; ".join(f"{mine}, there {there}" for changes, mine, there in changed if changes)
+    differs = "; ".join(f"{mine} instead of {other}" for changes, mine, other in changed if changes)
     text = f"Drums and joints are those of “{against}”. What differs: {differs or 'nothing'}."
     return Section(f"The state “{label}”", [text, _elevation(column), *_found_and_links(column)])
 
