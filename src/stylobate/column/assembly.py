@@ -121,7 +121,7 @@ class Assembly(Structure):
         """Law of the contacts of two bodies, the second of which comes later; with what lies between them."""
         law = self._laws.get(frozenset((one.name, other.name))) or other.surface or self.joint
         for numbers in self._beds.get(frozenset((one.name, other.name)), ()):
-            law = numbers.law(law)
+            law = numbers.joint_law(law)
         return law
 
     @cached_property

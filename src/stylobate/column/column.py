@@ -218,7 +218,7 @@ class Column(Stack, Structure):
         laws = list(self.joints)
         for link in self.placed_links:
             if link.joint:
-                laws[link.joint - 1] = link.law(laws[link.joint - 1])
+                laws[link.joint - 1] = link.joint_law(laws[link.joint - 1])
         return tuple(laws)
 
     @cached_property

@@ -107,7 +107,7 @@ def _placed(
 ) -> PlacedLink:
     origins = tuple((0.0, 0.0, float(stack.centroid_heights[body - 1]) if body else 0.0) for body in bodies)
     return PlacedLink(
-        **vars(numbers), name=called, kind=link.kind, lies=link.lies, mark=link.mark,
+        **vars(numbers), name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark,
         lower=bodies[0], upper=bodies[1], low=ends[0], high=ends[1], origins=(origins[0], origins[1]), **more,
     )  # fmt: skip
 

@@ -86,7 +86,7 @@ class Numbers:
     bed_shear_stiffness: float = math.inf
     governs: str = ""
 
-    def law(self, joint: Joint) -> Joint:
+    def joint_law(self, joint: Joint) -> Joint:
         """Law of its joint with what lies in it: with its friction, and its bed in series with the stone's stiffness."""
         if self.friction_coefficient is not None:
             joint = dataclasses.replace(joint, friction_angle=None, friction_coefficient=self.friction_coefficient)
@@ -113,9 +113,13 @@ class Link:
         Names of the two bodies of an assembly that it links; ``ground`` is the ground.
     numbers : Numbers, optional
         What it holds, where that is known: of a link of an assembly that is made, :meth:`in_numbers`.
+
+    Class attributes: ``kind``, its name in files; ``law``, the name of the law by which it acts, which models and statics
+    take or refuse; ``lies`` and ``mark``.
     """
 
     kind: ClassVar[str] = ""
+    law: ClassVar[str] = ""
     lies: ClassVar[Lies] = "joint"
     mark: ClassVar[Mark] = "stroke"
 
@@ -123,6 +127,12 @@ class Link:
     name: str = ""
     between: tuple[str, str] | None = None
     numbers: Numbers | None = None
+
+    def __init_subclass__(cls) -> None:
+        """A kind that names no law has one of its own, which nobody takes until its name is added there."""
+        super().__init_subclass__()
+        if "law" not in vars(cls):
+            cls.law = cls.kind
 
     def __post_init__(self) -> None:
         if self.between is None:

@@ -33,8 +33,8 @@ class PlacedLink(Numbers):
     Parameters
     ----------
     name, kind : str
-    lies, mark : str
-        Where it lies and how it is drawn, as its kind does.
+    law, lies, mark : str
+        By which law it acts, where it lies and how it is drawn, as its kind does.
     lower, upper : int
         Bodies that it links; of a column 0 is the base and i drum i from the bottom, of an assembly their numbers.
     low, high : (float, float, float)
@@ -54,6 +54,7 @@ class PlacedLink(Numbers):
 
     name: str
     kind: str
+    law: str
     lies: Lies
     mark: Mark
     lower: int
