@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import warnings
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
@@ -16,7 +16,7 @@ from ..errors import InputError, OutOfRangeWarning, check_range
 from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
 from .column import GRAVITIES
 from .faces import FacePair, face_between
-from .joint import Joint, without_unsaid
+from .joint import Joint, given
 from .links.in_assembly import in_numbers, place_between
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
@@ -217,8 +217,8 @@ class Assembly(Structure):
 
     def to_dict(self) -> dict:
         """Everything that defines the assembly, as plain values in SI units."""
-        plain = asdict(self, dict_factory=without_unsaid)
-        plain.pop("links")
-        return json.loads(json.dumps(plain)) | (  # lists for tuples, as a file gives them back
+        plain = {name: value for name, value in given(self).items() if name != "links"}
+        plain["blocks"] = [{"surface": None, "solid": None} | given(block) for block in self.blocks]
+        return json.loads(json.dumps(plain, default=given)) | (  # lists for tuples, as a file gives them back
             {"links": [link.to_dict() for link in self.links]} if self.links else {}
         )

@@ -89,12 +89,11 @@ class Numbers:
     def joint_law(self, joint: Joint) -> Joint:
         """Law of its joint with what lies in it: with its friction, and its bed in series with the stone's stiffness."""
         if self.friction_coefficient is not None:
-            joint = dataclasses.replace(joint, friction_angle=None, friction_coefficient=self.friction_coefficient)
+            joint = joint.changed(friction_coefficient=self.friction_coefficient)
         if self.bed_stiffness < math.inf or self.bed_shear_stiffness < math.inf:
             normal = 1.0 / (1.0 / joint.normal_stiffness + 1.0 / self.bed_stiffness)
             shear = 1.0 / (1.0 / joint.shear_stiffness + 1.0 / self.bed_shear_stiffness)
-            friction = {"friction_angle": None, "friction_coefficient": joint.friction_coefficient}
-            joint = dataclasses.replace(joint, normal_stiffness=normal, shear_stiffness=shear, **friction)
+            joint = joint.changed(normal_stiffness=normal, shear_stiffness=shear)
         return joint
 
 
