@@ -48,7 +48,7 @@ class Assembly(Structure):
     overrides : sequence of (str, str, Joint)
         Laws between two blocks by their names, of their joint and wherever else they strike each other.
     links : sequence of Link
-        Clamps, dowels, bars, ties, cores and layers ``between`` two bodies each; kept in numbers.
+        Clamps, dowels, bars, ties, cores, layers and pads ``between`` two bodies each; kept in numbers.
 
     Raises
     ------

@@ -60,7 +60,7 @@ class Column(Stack, Structure):
         Name of the stone and its joints, such as ``marble, worn`` (:mod:`stylobate.column.materials`): how columns like
         this one scatter. Densities and joints are those given above.
     links : sequence of Link
-        Dowels, bars, ties, cores and layers that strengthen it; the closed-form properties know nothing of them.
+        Dowels, bars, ties, cores, layers and pads that strengthen it; the closed-form properties know nothing of them.
 
     Raises
     ------
