@@ -1,6 +1,7 @@
 """The page speaks of its fields: no sentence that it can show names an option of the command line."""
 
 import ast
+import dataclasses
 import re
 import threading
 import time
@@ -12,6 +13,7 @@ import pytest
 import stylobate
 from stylobate.app.job import Job
 from stylobate.app.words import LABELS, doubted, in_page_words, warned
+from stylobate.column.links import COLUMN_KINDS
 from stylobate.errors import OutOfRangeWarning
 
 SOURCE = Path(stylobate.__file__).parent
@@ -119,3 +121,26 @@ def test_every_request_hears_its_own_warnings():
     for one in threads:
         one.join()
     assert heard == {number: [[f"doubt {number}", f"more {number}"]] * 5 for number in range(8)}
+
+
+def lists(name):
+    """Lists by name of an object of lists in the form of a column, with the lists that it takes in."""
+    text = (STATIC / "column.js").read_text(encoding="utf-8")
+    shared = {word: re.findall(r'"(\w+)"', some) for word, some in re.findall(r"\b([A-Z]+) = \[(.*?)\]", text)}
+    body = re.search(rf"const {name} = \{{(.*?)\}};", text, re.DOTALL).group(1)
+    found = {}
+    for kind, some, whole in re.findall(r"(\w+): (?:\[(.*?)\]|([A-Z]+))", body):
+        taken = [key for word in re.findall(r"\.\.\.([A-Z]+)", some) for key in shared[word]]
+        found[kind] = {*re.findall(r'"(\w+)"', some), *taken, *shared.get(whole, ())}
+    return found
+
+
+def test_the_form_of_a_column_knows_every_kind_of_link_by_what_it_has():
+    shown, more = lists("LINKS"), lists("MORE")
+    assert {*shown} == {*more} == {*COLUMN_KINDS}
+    text = (STATIC / "column.js").read_text(encoding="utf-8")
+    words = {*re.findall(r'(\w+): "', re.search(r"const WORDS = \{(.*?)\};", text, re.DOTALL).group(1))}
+    for kind, made in COLUMN_KINDS.items():
+        fields = {one.name for one in dataclasses.fields(made)} - {"between", "numbers", "name"}
+        assert shown[kind] | more[kind] <= fields & words
+        assert not shown[kind] & more[kind]

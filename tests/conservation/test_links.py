@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.column.links import COLUMN_KINDS
 from stylobate.models.base import Case, RunOptions
 
 JOINT = st.Joint(normal_stiffness=5e9, shear_stiffness=2.5e9, friction_coefficient=0.5)
@@ -35,7 +36,15 @@ KINDS: dict[str, tuple[st.Link, ...]] = {
     ),
     "core": (st.Core(axial_stiffness=5e6, pretension=4e3),),
     "layer": (st.Layer(joint=1, friction_coefficient=0.1, shear_stiffness=1e5, shear_capacity=5e3, damping=3e3),),
+    "pad under bars": (
+        st.Pad(joint=1, normal_stiffness=5e9, shear_stiffness=2e9, friction_coefficient=0.3),
+        st.Bar(joint=1, shear_stiffness=1e7, axial_stiffness=2e7),
+    ),
 }
+
+
+def test_every_kind_that_a_column_may_have_is_tried_here() -> None:
+    assert {link.kind for links in KINDS.values() for link in links} == set(COLUMN_KINDS)
 
 
 def run(column: st.Column, model=PLANE, motion: st.Motion = MOTION) -> st.Response:

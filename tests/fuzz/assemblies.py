@@ -14,6 +14,7 @@ import numpy as np
 from stylobate.column.assembly import Assembly
 from stylobate.column.assembly_files import assembly_from_dict, load_structure
 from stylobate.column.column import Column
+from stylobate.column.links import KINDS
 from stylobate.errors import InputError
 from stylobate.motion import harmonic
 from stylobate.simulate import simulate_assembly
@@ -64,16 +65,18 @@ def file(rng: random.Random) -> str:
 
 def link(rng: random.Random, names: list[str], value: Callable[[float, float], str]) -> list[str]:
     """A link between two bodies, now and then one that cannot be."""
-    kind = rng.choice(("clamp", "dowel", "bar", "layer", "tie", "core", "clmp"))
+    kind = rng.choice((*KINDS, "clmp"))
     one, other = rng.choice(names), rng.choice([*names, '"ground"'])
     lines = ["[[link]]", f'kind = "{kind}"', f"between = [{one}, {other}]"]
-    if kind in ("clamp", "tie", "core") or rng.random() < 0.1:
+    if (kind in KINDS and KINDS[kind].lies != "joint") or rng.random() < 0.1:
         lines += [f"{end} = [{value(-1.0, 1.0)}, {value(0.0, 2.0)}]" for end in ("at", "to")]
     if rng.random() < 0.3 and kind != "layer":
         lines += ['material = "titanium"', f"diameter = {value(0.01, 0.05)}", f"embedment = {value(0.05, 0.2)}"]
     else:
         lines += [
-            f"{name} = {value(1e5, 1e8)}" for name in ("axial_stiffness", "shear_stiffness") if rng.random() < 0.8
+            f"{name} = {value(1e5, 1e8)}"
+            for name in ("axial_stiffness", "shear_stiffness", "normal_stiffness")
+            if rng.random() < (0.8 if kind not in KINDS or name in KINDS[kind].known() else 0.1)
         ]
     if rng.random() < 0.3:
         lines.append(

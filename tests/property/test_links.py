@@ -9,8 +9,12 @@ from typing import Any
 import pytest
 
 import stylobate as st
+from stylobate.analysis.limit import limit_analysis
+from stylobate.analysis.limit_directions import limit_in_space
 from stylobate.column.files import column_from_dict, write_column
+from stylobate.column.links import COLUMN_KINDS, KINDS
 from stylobate.column.links.dowel import shear_limits, shear_stiffness
+from stylobate.models.registry import MODELS, model_class
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
 COLUMN = st.Column.tapered(
@@ -26,7 +30,12 @@ ALL_KINDS = (
     st.Tie(at=(0.55, 0.0), to=(0.4, 0.0), diameter=0.02, material="stainless steel", pretension=1e4),
     st.Core(diameter=0.03, material="titanium", to_drum=11),
     st.Layer(joint=1, friction_coefficient=0.05, shear_stiffness=1e5, damping=1e4),
+    st.Pad(joint=5, thickness=0.005, material="lead", friction_angle=30.0),
 )
+
+
+def test_every_kind_that_a_column_may_have_is_tried_here() -> None:
+    assert {one.kind for one in ALL_KINDS} == set(COLUMN_KINDS)
 
 
 def test_a_column_without_links_keeps_its_digest() -> None:
@@ -112,7 +121,7 @@ TITANIUM: dict[str, Any] = {"diameter": 0.04, "embedment": 0.1, "material": "tit
         (lambda: st.Tie(at=(0.6, 0.0), to_drum=40, axial_stiffness=1e6), "the drums are 1 to 12"),
         (lambda: st.Layer(joint=1), "neither friction_coefficient"),
         (lambda: st.Dowel(joint=2, **{"at": (0.1,), "shear_stiffness": 1e6}), "a place in plan"),
-        (lambda: "dowel", "give a Dowel, Bar, Tie, Core or Layer"),
+        (lambda: "dowel", "give a Dowel, Bar, Tie, Core, Layer or Pad"),
     ],
 )
 def test_what_cannot_be_is_said_in_one_sentence(made, said) -> None:
@@ -144,6 +153,30 @@ def test_models_without_links_refuse_them() -> None:
     for model in (st.HousnerBlock(), st.RigidBeam()):
         with pytest.raises(st.InputError, match="knows no links"):
             st.simulate(column, motion, model)
+
+
+class Brake(st.Tie):
+    """A kind of link that nobody computes."""
+
+    kind = "brake"
+
+
+@pytest.mark.parametrize("name", [*MODELS, "limit_analysis", "limit_in_space", "pushover"])
+def test_a_new_kind_is_refused_by_all_until_one_takes_it(name) -> None:
+    """Also where it is a tie in all but its name: nobody may take it for what it lies like."""
+    column = COLUMN.replace(
+        links=[st.Tie(at=(0.55, 0.0), axial_stiffness=1e6), Brake(at=(-0.55, 0.0), axial_stiffness=1e6)]
+    )
+    statics = {"limit_analysis": limit_analysis, "limit_in_space": limit_in_space, "pushover": st.pushover}
+    motion = st.harmonic(frequency=1.0, amplitude=1.0, duration=1.0)
+    refused = r"and '.*' (has a brake, which )?does not; .*leave it out\.$|knows no links"
+    with pytest.raises(st.InputError, match=refused):
+        statics[name](column) if name in statics else model_class(name)().check(column, motion)
+
+
+def test_every_kind_acts_by_a_law_that_a_model_knows() -> None:
+    taken = {law for name in MODELS for law in model_class(name).takes_links}
+    assert {kind.law for kind in KINDS.values()} == taken
 
 
 @pytest.mark.parametrize("model", [st.DistinctElement2D(), st.DistinctElement3D()], ids=lambda model: model.name)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import fields
 from typing import Any
 
+from ..column.joint import Joint
 from ..column.links import KINDS
 
 #: Fields of a drum and of a drum as found; each has a row of its own on the page.
@@ -14,7 +16,7 @@ FOUND = (
     *("offset_azimuth", "tilt_azimuth", "offset", "tilt", "turn"),
     *("chip_left", "chip_right", "chip_front", "chip_back", "chip_azimuth"),
 )
-JOINT = ("normal_stiffness", "shear_stiffness", "friction_angle", "friction_coefficient", "cohesion", "ring_width")
+JOINT = tuple(one.name for one in fields(Joint))
 #: Fields of what is typed for a motion, from comma to comma.
 PARTS = {"harmonic": ("frequency", "amplitude", "duration"), "pulse": ("shape", "frequency", "amplitude")}
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import warnings
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
@@ -16,7 +16,7 @@ from ..errors import InputError, OutOfRangeWarning, check_range
 from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
 from .column import GRAVITIES
 from .faces import FacePair, face_between
-from .joint import Joint, without_unsaid
+from .joint import Joint, given
 from .links.in_assembly import in_numbers, place_between
 from .links.link import Link, Numbers
 from .links.placed import PlacedLink
@@ -48,7 +48,7 @@ class Assembly(Structure):
     overrides : sequence of (str, str, Joint)
         Laws between two blocks by their names, of their joint and wherever else they strike each other.
     links : sequence of Link
-        Clamps, dowels, bars, ties, cores and layers ``between`` two bodies each; kept in numbers.
+        Clamps, dowels, bars, ties, cores, layers and pads ``between`` two bodies each; kept in numbers.
 
     Raises
     ------
@@ -121,7 +121,7 @@ class Assembly(Structure):
         """Law of the contacts of two bodies, the second of which comes later; with what lies between them."""
         law = self._laws.get(frozenset((one.name, other.name))) or other.surface or self.joint
         for numbers in self._beds.get(frozenset((one.name, other.name)), ()):
-            law = numbers.law(law)
+            law = numbers.joint_law(law)
         return law
 
     @cached_property
@@ -217,8 +217,8 @@ class Assembly(Structure):
 
     def to_dict(self) -> dict:
         """Everything that defines the assembly, as plain values in SI units."""
-        plain = asdict(self, dict_factory=without_unsaid)
-        plain.pop("links")
-        return json.loads(json.dumps(plain)) | (  # lists for tuples, as a file gives them back
+        plain = {name: value for name, value in given(self).items() if name != "links"}
+        plain["blocks"] = [{"surface": None, "solid": None} | given(block) for block in self.blocks]
+        return json.loads(json.dumps(plain, default=given)) | (  # lists for tuples, as a file gives them back
             {"links": [link.to_dict() for link in self.links]} if self.links else {}
         )

@@ -14,7 +14,7 @@ from ..errors import InputError, OutOfRangeWarning
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
-from .files import joint_from_dict, load_column
+from .files import load_column
 from .joint import Joint
 from .links import link_from_dict
 from .links.tables import BlockLinkTable, links_between
@@ -37,16 +37,10 @@ class BlockTable(Table):
     surface: JointTable | None = None
 
 
-class BetweenTable(Table):
+class BetweenTable(JointTable):
     """``[[joint_override]]``: the law between two blocks by name; ``ground`` is the ground."""
 
     between: list[str]
-    material: str | None = None
-    normal_stiffness: float | None = None
-    shear_stiffness: float | None = None
-    friction_angle: float | None = None
-    friction_coefficient: float | None = None
-    cohesion: float | None = None
 
 
 class AssemblyTable(Table):
@@ -107,12 +101,12 @@ def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:
         surface, solid = fields["surface"], fields["solid"]
         special = {
             "vertices": tuple(tuple(corner) for corner in fields["vertices"]),
-            "surface": None if surface is None else joint_from_dict(surface),
+            "surface": None if surface is None else Joint(**surface),
             "solid": None if solid is None else tuple(solid),
         }
         blocks.append(Block(**(dict(fields) | special)))
-    overrides = tuple((one, other, joint_from_dict(law)) for one, other, law in data["overrides"])
-    special = {"blocks": tuple(blocks), "joint": joint_from_dict(data["joint"]), "overrides": overrides}
+    overrides = tuple((one, other, Joint(**law)) for one, other, law in data["overrides"])
+    special = {"blocks": tuple(blocks), "joint": Joint(**data["joint"]), "overrides": overrides}
     special["links"] = tuple(link_from_dict(fields) for fields in data.get("links", ()))
     return Assembly(**(dict(data) | special))
 

@@ -22,7 +22,7 @@ from .drum import Drum
 from .faces import Face, FacePair
 from .found_geometry import StandingDrum, check_as_found, geometry, uplift_accelerations
 from .found_in_space import base_axes, smallest_uplift, space_geometry
-from .joint import Joint, without_unsaid
+from .joint import Joint, given
 from .links.in_column import place_in_column
 from .links.link import Link
 from .links.loads import pulls_in_plane
@@ -60,7 +60,7 @@ class Column(Stack, Structure):
         Name of the stone and its joints, such as ``marble, worn`` (:mod:`stylobate.column.materials`): how columns like
         this one scatter. Densities and joints are those given above.
     links : sequence of Link
-        Dowels, bars, ties, cores and layers that strengthen it; the closed-form properties know nothing of them.
+        Dowels, bars, ties, cores, layers and pads that strengthen it; the closed-form properties know nothing of them.
 
     Raises
     ------
@@ -219,7 +219,7 @@ class Column(Stack, Structure):
         laws = list(self.joints)
         for link in self.placed_links:
             if link.joint:
-                laws[link.joint - 1] = link.law(laws[link.joint - 1])
+                laws[link.joint - 1] = link.joint_law(laws[link.joint - 1])
         return tuple(laws)
 
     @cached_property
@@ -337,12 +337,7 @@ class Column(Stack, Structure):
 
     def with_joint(self, **changes) -> Column:
         """A copy with the same change made to every joint, e.g. ``with_joint(friction_angle=10.0)``."""
-        joints = []
-        for joint in self.joints:
-            fields = dataclasses.asdict(joint)
-            del fields["friction_coefficient" if "friction_angle" in changes else "friction_angle"]
-            joints.append(Joint(**(fields | changes)))
-        return self.replace(joints=tuple(joints))
+        return self.replace(joints=tuple(joint.changed(**changes) for joint in self.joints))
 
     def as_prism(self) -> Column:
         """The paper's idealisation: every drum a prism of its mean width."""
@@ -392,10 +387,8 @@ class Column(Stack, Structure):
 
     def to_dict(self) -> dict:
         """Everything that defines the column, as plain values in SI units."""
-        plain = dataclasses.asdict(self, dict_factory=without_unsaid)
-        plain.pop("as_found")
-        plain.pop("links")
-        plain |= {"drums": list(plain["drums"]), "joints": list(plain["joints"])}
+        plain = {name: value for name, value in given(self).items() if name not in ("as_found", "links")}
+        plain |= {name: [given(one) for one in plain[name]] for name in ("drums", "joints")}
         plain |= {"as_found": self.as_found.to_dict()} if self.as_found else {}
         return plain | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
 

@@ -13,7 +13,7 @@ from ..errors import InputError, suggest
 from .as_found import AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
-from .joint import Joint
+from .joint import Joint, given
 from .links import link_from_dict
 from .presets import PRESETS, preset
 
@@ -87,7 +87,7 @@ def _depths(drum: Drum) -> tuple[str, ...]:
 def column_from_dict(data: Mapping[str, Any]) -> Column:
     """The column that :meth:`Column.to_dict` described."""
     drums = tuple(Drum(**fields) for fields in data["drums"])
-    joints = tuple(joint_from_dict(fields) for fields in data["joints"])
+    joints = tuple(Joint(**fields) for fields in data["joints"])
     found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
     as_found = AsFound(
         tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
@@ -96,21 +96,12 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     return Column(drums, joints, data["name"], data["gravity"], as_found, data.get("material"), links)
 
 
-def joint_from_dict(fields: Mapping[str, Any]) -> Joint:
-    """The joint whose fields these are, to the last bit."""
-    # A joint stores friction as angle and as coefficient. Only the form that it was made from reproduces both exactly.
-    for form in ("friction_coefficient", "friction_angle"):
-        joint = Joint(**{key: value for key, value in fields.items() if key != form})
-        if dataclasses.asdict(joint) == {"ring_width": None} | dict(fields):
-            break
-    return joint
-
-
 def _joint_fields(joint: Joint) -> dict[str, float]:
-    fields = dataclasses.asdict(joint)
+    """What a file says of a joint: the form of its friction from which the other follows to the last bit."""
+    fields = given(joint)
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
-    return {key: value for key, value in fields.items() if key != drop and value is not None}
+    return {key: value for key, value in fields.items() if key != drop}
 
 
 def _as_found_fields(found: AsFound) -> dict[str, Any]:

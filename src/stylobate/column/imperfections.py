@@ -10,7 +10,6 @@ import numpy as np
 
 from ..errors import check_range
 from .column import Column
-from .joint import Joint
 
 
 @dataclass(frozen=True)
@@ -119,12 +118,10 @@ def rebuilt(
         for i, drum in enumerate(column.drums)
     )
     joints = tuple(
-        Joint(
+        joint.changed(
             normal_stiffness=joint.normal_stiffness * stiff[i],
             shear_stiffness=joint.shear_stiffness * stiff[i],
             friction_coefficient=joint.tan_phi * rough[i],
-            cohesion=joint.cohesion,
-            ring_width=joint.ring_width,
         )
         for i, joint in enumerate(column.joints)
     )

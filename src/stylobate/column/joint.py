@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +12,9 @@ from ..errors import InputError, as_typed, check_range
 from .drum import LENGTHS
 
 DEFAULT_FRICTION_ANGLE = 35.0
+
+#: The two forms in which a joint holds its friction.
+FRICTION = ("friction_angle", "friction_coefficient")
 
 
 @dataclass(frozen=True)
@@ -24,7 +28,7 @@ class Joint:
     friction_angle : float, optional
         φ [degrees]; 35 if neither angle nor coefficient is given.
     friction_coefficient : float, optional
-        tan φ [-], instead of the angle.
+        tan φ [-], instead of the angle; both are known afterwards.
     cohesion : float
         c [Pa], acts while the joint is in contact.
     ring_width : float, optional
@@ -34,7 +38,7 @@ class Joint:
     Raises
     ------
     InputError
-        A value is not finite or outside its range, or both angle and coefficient are given.
+        A value is not finite or outside its range, or angle and coefficient are not of the same friction.
     """
 
     normal_stiffness: float
@@ -53,20 +57,27 @@ class Joint:
             value = check_range(f"{name} of a joint", getattr(self, name), 1.0, 1e15, unit="N/m³", remedy=remedy)
             object.__setattr__(self, name, value)
         object.__setattr__(self, "cohesion", check_range("cohesion of a joint", self.cohesion, 0.0, 1e9, unit="Pa"))
-        if self.friction_angle is not None and self.friction_coefficient is not None:
+        angle, mu = self.friction_angle, self.friction_coefficient
+        if mu is not None:
+            mu = check_range("friction_coefficient of a joint", mu, 0.0, 1e6 if angle is None else math.inf)
+        if angle is None:
+            angle = DEFAULT_FRICTION_ANGLE if mu is None else math.atan(mu) / DEGREE
+        angle = check_range("friction_angle of a joint", angle, 0.0, 90.0, unit="degrees", open_high=True)
+        if mu is None:
+            mu = math.tan(angle * DEGREE)
+        elif not math.isclose(angle, math.atan(mu) / DEGREE, rel_tol=1e-12, abs_tol=1e-12):
             raise InputError(
                 f"friction_angle = {as_typed(self.friction_angle)} and friction_coefficient = "
                 f"{as_typed(self.friction_coefficient)} are both given; give one of the two."
             )
-        if self.friction_coefficient is not None:
-            mu = check_range("friction_coefficient of a joint", self.friction_coefficient, 0.0, 1e6)
-            object.__setattr__(self, "friction_coefficient", mu)
-            object.__setattr__(self, "friction_angle", math.atan(mu) / DEGREE)
-        else:
-            angle = DEFAULT_FRICTION_ANGLE if self.friction_angle is None else self.friction_angle
-            angle = check_range("friction_angle of a joint", angle, 0.0, 90.0, unit="degrees", open_high=True)
-            object.__setattr__(self, "friction_angle", angle)
-            object.__setattr__(self, "friction_coefficient", math.tan(angle * DEGREE))
+        object.__setattr__(self, "friction_angle", angle)
+        object.__setattr__(self, "friction_coefficient", mu)
+
+    def changed(self, **changes: Any) -> Joint:
+        """A copy with some fields changed; a friction given in one of its two forms takes the place of both."""
+        if changes.keys() & set(FRICTION):
+            changes = dict.fromkeys(FRICTION) | changes
+        return dataclasses.replace(self, **changes)
 
     @property
     def tan_phi(self) -> float:
@@ -75,10 +86,10 @@ class Joint:
         return self.friction_coefficient
 
 
-def without_unsaid(fields: list[tuple[str, Any]]) -> dict[str, Any]:
-    """Fields of a dataclass as a dictionary, less what was added to the description later and is not given.
+def given(described: Any) -> dict[str, Any]:
+    """Fields of a dataclass by name, less those that are None where None is what leaves them out.
 
-    What is not given so leaves the digest of a column what it was.
+    What is added to a description later, and not given, so leaves its digest what it was.
     """
-    later = ("top_depth", "ring_width", "material")
-    return {name: value for name, value in fields if value is not None or name not in later}
+    values = ((field, getattr(described, field.name)) for field in dataclasses.fields(described))
+    return {field.name: value for field, value in values if value is not None or field.default is not None}

@@ -16,7 +16,7 @@ from .column import Column
 from .drum import Drum
 from .found_geometry import geometry, joint_load
 from .found_in_space import Edges, overlap_edges, space_geometry, space_load
-from .links import Link, Tie
+from .links import Line, Link
 
 #: Lengths [m], angles [degrees] and shares of a direction below this are rounding.
 NOTHING = 1e-9
@@ -152,12 +152,11 @@ def _turned(link: Link, turned: np.ndarray, plane: float) -> Link:
         c, s = _exact(own / DEGREE - plane)
         return float(c * point[0] - s * point[1]), float(s * point[0] + c * point[1])
 
-    at = _in_plan(link.at)
-    if isinstance(link, Tie):
+    if isinstance(link, Line):
         upper = len(turned) if link.to_drum is None else link.to_drum
-        to = at if link.to is None else _in_plan(link.to)
-        return dataclasses.replace(link, at=place(at, link.from_drum), to=place(to, upper))
-    return dataclasses.replace(link, at=place(at, getattr(link, "joint", None) or 0))
+        low, high = link.in_plan
+        return dataclasses.replace(link, at=place(low, link.from_drum), to=place(high, upper))
+    return dataclasses.replace(link, at=place(_in_plan(link.at), getattr(link, "joint", None) or 0))
 
 
 def _in_plan(place: tuple[float, ...] | None) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -13,7 +13,7 @@ from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
 from ..errors import InputError, check_range
 from .block import ground_block
-from .joint import Joint
+from .joint import Joint, given
 from .shapes import ConvexSolid
 from .structure import Body, Standing, Structure
 
@@ -107,9 +107,9 @@ class Specimen(Structure):
 
     def to_dict(self) -> dict:
         """Plain values that make the specimen anew."""
-        joint = {
-            name: getattr(self.joint, name) for name in ("normal_stiffness", "shear_stiffness", "friction_coefficient")
-        }
+        default = {one.name: one.default for one in fields(Joint)}
+        joint = {name: value for name, value in given(self.joint).items() if value != default[name]}
+        joint.pop("friction_angle")  # the coefficient tells it
         return {
             "name": self.name,
             "mass": self.mass,

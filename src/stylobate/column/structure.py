@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar, Protocol
@@ -273,17 +274,22 @@ class Structure:
                 "use the model dem2d or dem3d, or leave [as_found] out."
             )
 
-    def must_be_without_links(self, what: str) -> None:
-        """Refuse links where ``what`` knows none.
+    def must_link_by(self, laws: Collection[str], what: str) -> None:
+        """Refuse links whose laws are not among those that ``what`` takes.
 
         Raises
         ------
         InputError
         """
-        if self.links:
+        other = next((link for link in self.links if link.law not in laws), None)
+        if other is not None and not laws:
             raise InputError(
-                f"{what} knows no links, and {self.name!r} has a {self.links[0].kind}; use dem2d or dem3d, or leave "
-                "[[link]] out."
+                f"{what} knows no links, and {self.name!r} has a {other.kind}; use dem2d or dem3d, or leave [[link]] out."
+            )
+        if other is not None:
+            raise InputError(
+                f"{what} knows links that act as a {' or '.join(sorted(laws))}, and {self.name!r} has a {other.kind}, which "
+                "does not; use a model that knows it, or leave it out."
             )
 
     def must_carry_on_whole_faces(self, what: str) -> None:

@@ -11,9 +11,9 @@ from ..errors import InputError, OutOfRangeWarning
 from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
-from .joint import Joint
+from .joint import FRICTION, Joint, given
 from .links.tables import LinkTable, links_of
-from .materials import Material, material
+from .materials import JOINT_VALUES, Material, material
 from .plausible import unit_doubts
 from .toml import Table, checked, parse_toml
 
@@ -33,17 +33,10 @@ class JointTable(Table):
     ring_width: float | None = None
 
 
-class OverrideTable(Table):
+class OverrideTable(JointTable):
     """``[[joint_override]]``: what differs at one joint; joint 1 is the one with the base."""
 
     index: int
-    material: str | None = None
-    normal_stiffness: float | None = None
-    shear_stiffness: float | None = None
-    friction_angle: float | None = None
-    friction_coefficient: float | None = None
-    cohesion: float | None = None
-    ring_width: float | None = None
 
 
 class DrumTable(Table):
@@ -211,20 +204,18 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
             "there is no [joint] table; add one with normal_stiffness and shear_stiffness [N/m³] "
             "and friction_angle [degrees], or name a material."
         )
-    given = {} if table.joint is None else table.joint.model_dump()
-    common = joint_fields(given, stone)
+    joint = Joint(**joint_fields({} if table.joint is None else table.joint.model_dump(), stone))
     density = table.density if table.density is not None or stone is None else stone.density.value
     if table.tapered is not None and table.drum is not None:
         raise InputError("both [tapered] and [[drum]] are given; keep one of the two.")
     if table.section == "circular" and table.depth is not None:
         raise InputError(f"depth is {table.depth:g} m for a circular section; leave it out.")
     name = default_name if table.name is None else table.name
-    joint = Joint(**common)
     overrides: dict[int, Joint] = {}
     for override in table.joint_override or ():
         if override.index in overrides:
             raise InputError(f"joint_override index {override.index} is given twice; keep one of the two.")
-        overrides[override.index] = _overridden(common, override)
+        overrides[override.index] = _overridden(joint, override)
     if table.tapered is not None:
         if density is None:
             raise InputError("key 'density' [kg/m³] is missing; add it above [tapered], or name a material.")
@@ -259,13 +250,12 @@ def _drum(i: int, one: DrumTable, table: ColumnTable, common: float | None) -> D
         raise InputError(f"[[drum]] number {i + 1}: {error}") from None
 
 
-def _overridden(common: dict[str, Any], override: OverrideTable) -> Joint:
-    fields, changes = dict(common), override.model_dump(exclude={"index"}, exclude_none=True)
-    if "friction_angle" in changes or "friction_coefficient" in changes:
-        fields["friction_angle"] = fields["friction_coefficient"] = None
+def _overridden(common: Joint, override: OverrideTable) -> Joint:
+    changes = override.model_dump(exclude={"index"}, exclude_none=True)
     try:
-        if override.material is not None:
-            return Joint(**joint_fields({"ring_width": common.get("ring_width")} | changes, None, "it"))
-        return Joint(**(fields | changes))
+        if override.material is None:
+            return common.changed(**changes)
+        shape = {name: value for name, value in given(common).items() if name not in (*JOINT_VALUES, *FRICTION)}
+        return Joint(**joint_fields(shape | changes, None, "it"))
     except InputError as error:
         raise InputError(f"[[joint_override]] with index {override.index}: {error}") from None

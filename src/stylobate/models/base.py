@@ -97,8 +97,8 @@ class Model:
     ``assumptions`` and ``limits`` in sentences; ``axes`` of the ground motion that the model takes, ``xz`` in a plane;
     ``takes_as_found`` says whether it computes columns that are not as built, ``follows_to_rest`` whether it can go on until
     everything lies still, ``takes_start`` whether it can start from a pose,
-    ``computes`` the shapes of bodies that it knows; ``takes_rings`` whether joints may carry on rings; ``takes_links``
-    whether there may be links; ``carries`` how many columns alike it can take along in a single run at next to no cost.
+    ``computes`` the shapes of bodies that it knows; ``takes_rings`` whether joints may carry on rings; ``takes_links`` by
+    which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost.
     """
 
     name: ClassVar[str] = ""
@@ -112,7 +112,7 @@ class Model:
     follows_to_rest: ClassVar[bool] = False
     takes_start: ClassVar[bool] = False
     takes_rings: ClassVar[bool] = False
-    takes_links: ClassVar[bool] = False
+    takes_links: ClassVar[frozenset[str]] = frozenset()
     carries: ClassVar[int] = 0
 
     def check(self, column: Any, motion: Motion) -> None:
@@ -128,8 +128,7 @@ class Model:
             )
         if not self.takes_rings:
             column.must_carry_on_whole_faces(self.name)
-        if not self.takes_links:
-            column.must_be_without_links(self.name)
+        column.must_link_by(self.takes_links, self.name)
         for axis, values in motion.components.items():
             peak = float(np.abs(values).max())
             if not peak <= LARGEST_ACCELERATION:

@@ -55,7 +55,7 @@ def check_takes_pose(start: Any, column: Any) -> None:
         raise InputError(
             f"a start from a pose takes a column as built, and {column.name!r} is as found; leave one out."
         )
-    column.must_be_without_links("a start from a pose")
+    column.must_link_by((), "a start from a pose")
 
 
 def check_in_plane(start: Start, who: str) -> None:

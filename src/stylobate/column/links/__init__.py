@@ -12,6 +12,7 @@ from .clamp import Clamp
 from .core import Core
 from .dowel import Dowel
 from .layer import Layer
+from .line import Line
 from .link import Link, Numbers, told
 from .pad import Pad
 from .tie import Tie
@@ -23,7 +24,7 @@ KINDS: dict[str, type[Link]] = {one.kind: one for one in (Dowel, Bar, Tie, Core,
 COLUMN_KINDS = {name: one for name, one in KINDS.items() if one.lies != "side"}
 
 __all__ = [
-    "COLUMN_KINDS", "KINDS", "Bar", "Clamp", "Core", "Dowel", "Layer", "Link", "Numbers", "Pad", "Tie", "block_link",
+    "COLUMN_KINDS", "KINDS", "Bar", "Clamp", "Core", "Dowel", "Layer", "Line", "Link", "Numbers", "Pad", "Tie", "block_link",
     "link_from_dict", "told",
 ]  # fmt: skip
 

@@ -35,6 +35,7 @@ class Bar(Dowel):
     """
 
     kind: ClassVar[str] = "bar"
+    law: ClassVar[str] = "dowel"
     mark: ClassVar[Mark] = "anchor"
 
     axial_stiffness: float | None = None

@@ -16,5 +16,6 @@ class Core(Tie):
     """
 
     kind: ClassVar[str] = "core"
+    law: ClassVar[str] = "tie"
     holds_at: ClassVar[tuple[float, float]] = (0.0, 1.0)
     through_stone: ClassVar[bool] = True

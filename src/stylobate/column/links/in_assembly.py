@@ -72,6 +72,7 @@ def _placed(link: Link, bodies: Sequence[Block], joints: Sequence[FaceJoint]) ->
         **numbers,
         name=link.name or f"{link.kind} between {link.between[0]} and {link.between[1]}",
         kind=link.kind,
+        law=link.law,
         lies=link.lies,
         mark=link.mark,
         lower=one,

@@ -11,6 +11,7 @@ import numpy as np
 from ...errors import InputError
 from ..drum import Drum
 from ..stack import Stack
+from .line import Line
 from .link import Link, Site
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, place_all
 
@@ -32,7 +33,7 @@ def place_in_column(stack: Stack, links: Sequence[Link], name: str) -> tuple[Pla
             raise InputError(f"a {link.kind} of a column has no between; give its joint or drums by number.")
         if link.lies == "side":
             raise InputError(f"a {link.kind} holds blocks side by side, of which a column has none; give a bar.")
-        return _in_joint(link, stack) if link.lies == "joint" else _line(link, stack)
+        return _line(link, stack) if isinstance(link, Line) else _in_joint(link, stack)
 
     return place_all(links, name, place)
 
@@ -72,7 +73,7 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
     return _placed(link, numbers, called, stack, (upper, upper + 1), (place, place), joint=link.joint, stroke=half)
 
 
-def _line(link: Any, stack: Stack) -> PlacedLink:
+def _line(link: Line, stack: Stack) -> PlacedLink:
     """What is straight between a drum, or the base, and a drum above it."""
     upper = stack.n if link.to_drum is None else link.to_drum
     if upper > stack.n or link.from_drum >= upper:
@@ -81,7 +82,7 @@ def _line(link: Any, stack: Stack) -> PlacedLink:
         )
     bodies = link.from_drum, upper
     levels = [_level(stack, *end) for end in zip(bodies, link.holds_at, (link.from_height, link.to_height))]
-    low, high = (*link.at, levels[0]), (*(link.at if link.to is None else link.to), levels[1])
+    low, high = ((*place, level) for place, level in zip(link.in_plan, levels, strict=True))
     for drum, end, name in ((link.from_drum, low, "from_height"), (upper, high, "to_height")):
         bottom = float(stack.joint_heights[drum - 1]) if drum else -math.inf
         top = bottom + float(stack.heights[drum - 1]) if drum else 0.0
@@ -93,13 +94,14 @@ def _line(link: Any, stack: Stack) -> PlacedLink:
     length = math.dist(low, high)
     if length < 1e-3:
         raise InputError(f"a {link.kind} has no length: both its ends are at {_place(low)}; move one of them.")
+    numbers = link.held(Site(length))
     if link.through_stone:
-        _check_hole(link, stack, low, high)
+        _check_hole(link, stack, low, high, numbers.diameter)
     else:
         _check_way(link, stack, low, high)
     ends = f"{'the base' if link.from_drum == 0 else f'drum {link.from_drum}'} to drum {upper}"
     called = link.name or f"{link.kind} from {ends}"
-    return _placed(link, link.held(Site(length)), called, stack, bodies, (low, high))
+    return _placed(link, numbers, called, stack, bodies, (low, high))
 
 
 def _placed(
@@ -107,7 +109,7 @@ def _placed(
 ) -> PlacedLink:
     origins = tuple((0.0, 0.0, float(stack.centroid_heights[body - 1]) if body else 0.0) for body in bodies)
     return PlacedLink(
-        **vars(numbers), name=called, kind=link.kind, lies=link.lies, mark=link.mark,
+        **vars(numbers), name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark,
         lower=bodies[0], upper=bodies[1], low=ends[0], high=ends[1], origins=(origins[0], origins[1]), **more,
     )  # fmt: skip
 
@@ -133,13 +135,13 @@ def _check_way(link: Link, stack: Stack, low: Point, high: Point) -> None:
             )
 
 
-def _check_hole(link: Any, stack: Stack, low: Point, high: Point) -> None:
+def _check_hole(link: Line, stack: Stack, low: Point, high: Point, diameter: float) -> None:
     """Refuse a line in a hole that leaves too little stone."""
     for number in range(link.from_drum or 1, (stack.n if link.to_drum is None else link.to_drum) + 1):
         for z in (stack.joint_heights[number - 1], stack.joint_heights[number - 1] + stack.heights[number - 1]):
             share = min(max((float(z) - low[2]) / (high[2] - low[2]), 0.0), 1.0) if high[2] != low[2] else 0.0
             place = tuple(a + share * (b - a) for a, b in zip(low[:2], high[:2], strict=True))
-            inside = _inside_at(stack, number, place, float(z)) - 0.5 * (link.diameter or 0.0)
+            inside = _inside_at(stack, number, place, float(z)) - 0.5 * diameter
             if inside < RIM:
                 raise InputError(
                     f"a {link.kind} leaves {1000.0 * inside:.3g} mm of stone to the rim of drum {number}; at least "

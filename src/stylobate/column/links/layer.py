@@ -32,6 +32,7 @@ class Layer(Link):
     """
 
     kind: ClassVar[str] = "layer"
+    law: ClassVar[str] = "dowel"
     mark: ClassVar[Mark] = "sheet"
 
     joint: int | None = None

@@ -86,15 +86,14 @@ class Numbers:
     bed_shear_stiffness: float = math.inf
     governs: str = ""
 
-    def law(self, joint: Joint) -> Joint:
+    def joint_law(self, joint: Joint) -> Joint:
         """Law of its joint with what lies in it: with its friction, and its bed in series with the stone's stiffness."""
         if self.friction_coefficient is not None:
-            joint = dataclasses.replace(joint, friction_angle=None, friction_coefficient=self.friction_coefficient)
+            joint = joint.changed(friction_coefficient=self.friction_coefficient)
         if self.bed_stiffness < math.inf or self.bed_shear_stiffness < math.inf:
             normal = 1.0 / (1.0 / joint.normal_stiffness + 1.0 / self.bed_stiffness)
             shear = 1.0 / (1.0 / joint.shear_stiffness + 1.0 / self.bed_shear_stiffness)
-            friction = {"friction_angle": None, "friction_coefficient": joint.friction_coefficient}
-            joint = dataclasses.replace(joint, normal_stiffness=normal, shear_stiffness=shear, **friction)
+            joint = joint.changed(normal_stiffness=normal, shear_stiffness=shear)
         return joint
 
 
@@ -113,9 +112,13 @@ class Link:
         Names of the two bodies of an assembly that it links; ``ground`` is the ground.
     numbers : Numbers, optional
         What it holds, where that is known: of a link of an assembly that is made, :meth:`in_numbers`.
+
+    Class attributes: ``kind``, its name in files; ``law``, the name of the law by which it acts, which models and statics
+    take or refuse; ``lies`` and ``mark``.
     """
 
     kind: ClassVar[str] = ""
+    law: ClassVar[str] = ""
     lies: ClassVar[Lies] = "joint"
     mark: ClassVar[Mark] = "stroke"
 
@@ -123,6 +126,12 @@ class Link:
     name: str = ""
     between: tuple[str, str] | None = None
     numbers: Numbers | None = None
+
+    def __init_subclass__(cls) -> None:
+        """A kind that names no law has one of its own, which nobody takes until its name is added there."""
+        super().__init_subclass__()
+        if "law" not in vars(cls):
+            cls.law = cls.kind
 
     def __post_init__(self) -> None:
         if self.between is None:

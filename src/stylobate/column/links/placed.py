@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ...errors import InputError
+from . import COLUMN_KINDS
 from .link import Lies, Link, Mark, Numbers
 
 Point = tuple[float, float, float]
@@ -33,8 +34,8 @@ class PlacedLink(Numbers):
     Parameters
     ----------
     name, kind : str
-    lies, mark : str
-        Where it lies and how it is drawn, as its kind does.
+    law, lies, mark : str
+        By which law it acts, where it lies and how it is drawn, as its kind does.
     lower, upper : int
         Bodies that it links; of a column 0 is the base and i drum i from the bottom, of an assembly their numbers.
     low, high : (float, float, float)
@@ -54,6 +55,7 @@ class PlacedLink(Numbers):
 
     name: str
     kind: str
+    law: str
     lies: Lies
     mark: Mark
     lower: int
@@ -142,7 +144,8 @@ def for_each(links: Sequence[Any], owner: str, do: Callable[[Link], Result]) -> 
     found = []
     for number, link in enumerate(links, 1):
         if not isinstance(link, Link):
-            raise InputError(f"link {number} of {owner!r} is {link!r}; give a Dowel, Bar, Tie, Core or Layer.")
+            *others, last = (kind.__name__ for kind in COLUMN_KINDS.values())
+            raise InputError(f"link {number} of {owner!r} is {link!r}; give a {', '.join(others)} or {last}.")
         try:
             found.append(do(link))
         except InputError as error:

@@ -8,12 +8,13 @@ from typing import ClassVar
 
 from ...errors import InputError
 from .dowel import given
-from .link import LONGEST, STIFFEST, STRONGEST, Lies, Link, Mark, Numbers, Site
+from .line import Line
+from .link import LONGEST, STIFFEST, STRONGEST, Numbers, Site
 from .materials import MATERIALS
 
 
 @dataclass(frozen=True, kw_only=True)
-class Tie(Link):
+class Tie(Line):
     """A tie or strap: straight between a point of one drum (or the base) and one of a drum above it, outside the stone.
 
     Parameters
@@ -38,18 +39,7 @@ class Tie(Link):
     """
 
     kind: ClassVar[str] = "tie"
-    lies: ClassVar[Lies] = "line"
-    mark: ClassVar[Mark] = "line"
-    #: Where its ends are on a drum of which no height is given, as a share of the height: at the far end of all, and here.
-    holds_at: ClassVar[tuple[float, float]] = (0.5, 0.5)
-    #: Whether it runs in a hole through the stone, rather than beside it.
-    through_stone: ClassVar[bool] = False
 
-    to: tuple[float, ...] | None = None
-    from_drum: int = 0
-    to_drum: int | None = None
-    from_height: float | None = None
-    to_height: float | None = None
     diameter: float | None = None
     material: str | None = None
     axial_stiffness: float | None = None
@@ -59,18 +49,6 @@ class Tie(Link):
 
     def _check(self) -> None:
         super()._check()
-        if self.to is not None and self.between is None:
-            self._pair("to")
-        self._number("from_drum", 0)
-        if self.to_drum is not None:
-            self._number("to_drum")
-            if self.to_drum <= self.from_drum:
-                raise InputError(
-                    f"a {self.kind} goes from drum {self.from_drum} to drum {self.to_drum}; the second must be the higher "
-                    "one."
-                )
-        for name in ("from_height", "to_height"):
-            self._range(name, -LONGEST, 1e3, "m")
         self._material(self.material, self.diameter)
         self._range("diameter", 1e-4, 1.0, "m")
         self._range("axial_stiffness", 0.0, STIFFEST, "N/m")

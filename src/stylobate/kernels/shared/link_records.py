@@ -19,7 +19,7 @@ Legend of ``link[m]``, what it is in each lane::
     sx sy          where its upper place stood at the start, along the slip [m]
     px py gap      where it is free of force, along the slip, and its slack there [m]
     back           slack of a clamp along its axis [m]
-    h l0           lift, or length, at the start and where it is free of tension [m]
+    h l0           lift, or length, at the start and where it is free of tension [m]; with ``both`` l0 counts from h
     on out         1 as long as it is whole; 1 while it is out of its hole
     fx fy ft       force against slip, along the slip, and tension [N]
     dx dy          dashpot force [N];  dt  step [s]

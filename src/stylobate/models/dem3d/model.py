@@ -136,7 +136,7 @@ class DistinctElement3D(SteppedDrums):
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid)
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
-    takes_links: ClassVar[bool] = True
+    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
 
     law: str = "rim"
     pivot_friction: float = 1.0

@@ -76,7 +76,7 @@ class RigidBlock(SteppedDrums):
         "A drum touches its neighbours only; what comes down is not followed.",
         "Columns that are not as built are refused, and links with pretension.",
     )
-    takes_links: ClassVar[bool] = True
+    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
 
     compressive_strength: float | None = None
     step_factor: float = 0.2

@@ -12,6 +12,7 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import geometry
 from ...column.links.placed import PlacedLink, Point
+from ...errors import InputError
 
 #: What a link does: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
 SHEAR, CLOSING, LINE = "shear", "closing", "line"
@@ -87,14 +88,25 @@ class Hold(NamedTuple):
 
 
 def holds(links: Sequence[PlacedLink]) -> list[Hold]:
-    """All that links do at rest."""
+    """All that links do at rest.
+
+    Raises
+    ------
+    InputError
+        A link of a law that statics do not know.
+    """
     found = []
     for link in links:
-        if link.straight:
+        if link.law == "tie":
             actions = (LINE,) if link.axial_stiffness > 0.0 else ()
-        else:
+        elif link.law in ("dowel", "pad"):
             actions = (SHEAR,) if link.shear_stiffness > 0.0 else ()
             actions += (CLOSING,) if link.axial_stiffness > 0.0 else ()
+        else:
+            raise InputError(
+                f"the statics of blocks know links that act as a dowel or pad or tie, and {link.name!r} does not; leave it "
+                "out."
+            )
         found += [Hold(link, action) for action in actions]
     return found
 
