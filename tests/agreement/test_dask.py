@@ -76,10 +76,11 @@ def test_the_libraries_of_the_cluster_say_nothing_of_their_own(cluster):
 
 
 def test_a_case_that_kills_its_workers_is_a_run_that_failed(cluster):
-    found = dict(compute([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous()))
-    assert found[0].row()["outcome"] == "rocked"
-    assert found[1].row()["outcome"] == "failed"
-    assert found[1].reason == "the workers that computed it died, each time"
+    for _ in range(2):  # so often that the one who starts the worker again gives up and is replaced
+        found = dict(compute([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous()))
+        assert found[0].row()["outcome"] == "rocked"
+        assert found[1].row()["outcome"] == "failed"
+        assert found[1].reason == "the workers that computed it died, each time"
 
 
 STUDY = """

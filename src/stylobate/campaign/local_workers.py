@@ -94,7 +94,7 @@ def serve(count: int) -> None:
             how["memory_limit"] = None  # nobody measures it ten times a second
             cluster = started(lambda: LocalCluster(n_workers=count, local_directory=place, **how))
         print(cluster.scheduler_address, flush=True)
-        threading.Thread(target=_keep_alive, args=(cluster,), daemon=True).start()
+        threading.Thread(target=_keep_alive, args=(cluster, count), daemon=True).start()
         nothing = os.open(os.devnull, os.O_WRONLY)
         for stream in (1, 2):
             os.dup2(nothing, stream)
@@ -113,11 +113,16 @@ def started(make: Callable[[], Any]) -> Any:
     return make()
 
 
-def _keep_alive(cluster: Any) -> None:
-    """Start again what died while it was being started: its nanny waits for it for ever, and so would the runs."""
+def _keep_alive(cluster: Any, count: int) -> None:
+    """Start again what died while it was being started, for which the runs would wait for ever.
+
+    Either its nanny waits for it as long, or it gives up and leaves the cluster.
+    """
     seen: set[str] = set()
     while True:
         time.sleep(_PATIENCE)
+        if len(cluster.workers) < count:
+            cluster.scale(count)  # what is missing is made anew
         dead = set()
         for nanny in list(cluster.workers.values()):
             if nanny.process is not None and nanny.process.status.name in ("stopped", "failed"):
