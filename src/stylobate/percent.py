@@ -27,5 +27,5 @@ def percent(share: float) -> str:
 
 
 def percents(low: float, high: float) -> str:
-    """From which share to which, as percentages; one where both are the same."""
-    return percent(low) if low == high else f"{whole(low)} to {percent(high)}"
+    """From which share to which, as percentages; one where both are written alike."""
+    return percent(low) if whole(low) == whole(high) else f"{whole(low)} to {percent(high)}"

@@ -91,7 +91,8 @@ def test_static_uplift_of_a_column_on_a_ring():
     assert whole == pytest.approx(0.206104, abs=2e-5)  # the whole face; the largest of 400 slopes
     assert ring == pytest.approx(whole, rel=1e-9)
     slope = 1e-4
-    block = DistinctElement3D(law="bed").block_for((1, "ring"), RunOptions())
+    model = DistinctElement3D(law="bed")
+    block = model.block_for(model.kind(column), RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     arm, depth = lever(5e10, 0.48, column.mass * g, slope, 0.38)
     assert arm > 1.01 * lever(5e10, 0.48, column.mass * g, slope)[0]

@@ -72,7 +72,7 @@ def test_soft_joints_overturn_with_less_energy_in_the_plane_too(points, stiffnes
         block.load(0, Case(column, Motion(1.0, np.zeros(2))))
         energies.append(block.rest[0])
     rigid = in_the_plane(column, np.zeros(1))
-    taken = in_the_plane(column, model.pack(column).toes)
+    taken = in_the_plane(column, model.pack(column).stand)
     assert taken <= max(energies) < rigid
     assert taken > 0.93 * max(energies)
 
@@ -113,7 +113,8 @@ def test_a_column_that_leans_has_not_slipped(column, azimuth):
 def test_slip_of_a_joint_between_unequal_drums():
     """A drum that stands flat has the offset of its middles, whatever its twist; so does one that leans about it."""
     column = round_column(2)
-    block = DistinctElement3D().block_for((2, "circular"), RunOptions())
+    model = DistinctElement3D()
+    block = model.block_for(model.kind(column), RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     c, s = math.cos(0.7), math.sin(0.7)
     for name, value in {"ix": c, "iy": s, "jx": -s, "jy": c}.items():
@@ -143,7 +144,8 @@ def test_a_plate_that_has_sunk_below_its_middle_is_not_lying():
     """Its joint closes by 12 mm, 0.4 of its 30 mm; the base's surface is above its centroid once it is pressed further."""
     column = on_a_plate(0.03, 3.98e6)
     pressed = Motion(0.01, np.zeros(21), az=0.3 * 9.81 * np.sin(np.arange(21) * 0.2))
-    block = DistinctElement3D().block_for((2, "circular"), RunOptions())
+    model = DistinctElement3D()
+    block = model.block_for(model.kind(column), RunOptions())
     block.load(0, Case(column, pressed))
     lowest = float(block.records.body["z"][1, 0])
     while not block.is_over(0):
@@ -163,7 +165,8 @@ def test_twists_count_full_turns():
     column = Column.of_drums(
         [Drum(0.5, 1.0, 1.0, 1600.0, section="circular")], Joint(5e8, 2.5e8, friction_coefficient=0.7)
     )
-    block = DistinctElement3D(pivot_friction=0.0).block_for((1, "circular"), RunOptions())
+    model = DistinctElement3D(pivot_friction=0.0)
+    block = model.block_for(model.kind(column), RunOptions())
     block.load(0, Case(column, Motion(1.0, np.zeros(2))))
     for name, value in {"lz": column.drums[0].axial_inertia * 9.0, "wz": 9.0}.items():
         block.records.body[name][1, 0] = value

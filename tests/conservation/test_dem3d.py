@@ -40,7 +40,8 @@ def unequal() -> Column:
 
 def places(column, motion, **options):
     """Centroids of all drums every 32 steps, shape (T, 3, n), and the times."""
-    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(until_end=True))
+    model = DistinctElement3D(**options)
+    block = model.block_for(model.kind(column), RunOptions(until_end=True))
     block.load(0, Case(column, motion))
     found = []
     while not block.is_over(0):

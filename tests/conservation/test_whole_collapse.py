@@ -47,7 +47,7 @@ def contacts(engine):
     """Depth [m], width [m] and stiffness [N/m³ · m] of every overlap, and the force with which its bed presses [N]."""
     x, z, rotation = (engine.records.body[name][None, :, 0] for name in ("x", "z", "th"))
     recorded = recorded_blocks(
-        engine.assembly, np.zeros(1), x, z, rotation, {}, np.zeros(1), np.zeros(1), at_rest=True, failed=False,
+        engine.structure, np.zeros(1), x, z, rotation, {}, np.zeros(1), np.zeros(1), at_rest=True, failed=False,
         in_equilibrium=True, energy_imbalance=0.0, time_step=1.0, steps=1, model="dem2d", provenance={},
     )  # fmt: skip
     n, found = len(engine.records.body), {}

@@ -18,7 +18,8 @@ def top_after(step: float) -> np.ndarray:
     """Where the top of three drums stands after 0.4 s of a push that goes round, too weak to open a joint [m]."""
     column, time = round_column(3, stiffness=5e8), np.arange(401) * 1e-3
     push = 0.02 * 9.81 * np.sin(0.5 * math.pi * np.minimum(time / 0.2, 1.0)) ** 4
-    block = DistinctElement3D(time_step=step).block_for((3, "circular"), RunOptions())
+    model = DistinctElement3D(time_step=step)
+    block = model.block_for(model.kind(column), RunOptions())
     motion = Motion(1e-3, push * np.cos(20.0 * time), push * np.sin(20.0 * time))
     block.load(0, Case(column, motion))
     while not block.is_over(0):

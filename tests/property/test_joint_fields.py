@@ -65,9 +65,10 @@ def test_both_forms_of_a_friction_are_one_friction() -> None:
         st.Joint(5e10, 2.5e10, 35.0, 0.7)
 
 
-def test_the_file_of_a_specimen_says_all_of_its_joint() -> None:
+def test_a_specimen_refuses_what_its_contact_does_not_have() -> None:
     corners = [(x, y, z) for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.3, 0.3)]
-    joint = st.Joint(5e10, 2.5e10, friction_angle=35.0, cohesion=10.0)
+    joint = st.Joint(5e10, 2.5e10, friction_angle=35.0)
     body = st.Specimen(60.0, (1.0, 1.0, 0.4), corners, joint=joint)
-    assert st.Specimen.from_dict(body.to_dict()).joint.cohesion == 10.0
-    assert {*body.to_dict()["joint"]} == {"normal_stiffness", "shear_stiffness", "friction_coefficient", "cohesion"}
+    assert st.Specimen.from_dict(body.to_dict()).joint.tan_phi == joint.tan_phi
+    with pytest.raises(st.InputError, match=r"has a cohesion of 10 Pa, and a specimen touches at points"):
+        st.Specimen(60.0, (1.0, 1.0, 0.4), corners, joint=joint.changed(cohesion=10.0))

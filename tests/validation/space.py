@@ -39,7 +39,8 @@ def cylinder(diameter: float, height: float, stiffness: float = 5e10, friction: 
 
 def released(column: Column, start: Start, duration: float, every: int = 1, **options) -> tuple[np.ndarray, np.ndarray]:
     """Free motion of a column from a pose: times, and the axes of its lowest drum as columns of matrices, (T, 3, 3)."""
-    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(start=start, until_end=True))
+    model = DistinctElement3D(**options)
+    block = model.block_for(model.kind(column), RunOptions(start=start, until_end=True))
     block.load(0, Case(column, Motion(duration, np.zeros(2))))
     times, axes = [0.0], [block.records.axes(0)[0]]
     while not block.is_over(0):
@@ -94,7 +95,8 @@ def rolling(column: Column, tilt: float, precession: float, spin: float, duratio
 
 def block_of(column: Column, duration: float = 1.0, **options):
     """A block with the column at rest in every lane, for tests that set or read states themselves."""
-    block = DistinctElement3D(**options).block_for((column.n, "circular"), RunOptions(until_end=True))
+    model = DistinctElement3D(**options)
+    block = model.block_for(model.kind(column), RunOptions(until_end=True))
     for lane in range(block.lanes):
         block.load(lane, Case(column, Motion(duration, np.zeros(2))))
     return block

@@ -80,6 +80,11 @@ class Specimen(Structure):
         object.__setattr__(self, "vertices", _hull_vertices(self.vertices))
         if self.joint.ring_width is not None:
             raise InputError(f"the joint of {self.name!r} has a ring_width, and a specimen has no rings; leave it out.")
+        if self.joint.cohesion:
+            raise InputError(
+                f"the joint of {self.name!r} has a cohesion of {self.joint.cohesion:g} Pa, and a specimen touches at points, "
+                "which have no area for it to act on; leave it out."
+            )
         turn = self.resting.turn / DEGREE
         if turn > FARTHEST_TURN:
             raise InputError(
