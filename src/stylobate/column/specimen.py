@@ -82,8 +82,8 @@ class Specimen(Structure):
             raise InputError(f"the joint of {self.name!r} has a ring_width, and a specimen has no rings; leave it out.")
         if self.joint.cohesion:
             raise InputError(
-                f"the joint of {self.name!r} has a cohesion of {self.joint.cohesion:g} Pa, and a specimen touches at points, "
-                "which have no area for it to act on; leave it out."
+                f"the joint of {self.name!r} has a cohesion of {self.joint.cohesion:g} Pa, and a specimen touches at "
+                "points, which have no area for it to act on; leave it out."
             )
         turn = self.resting.turn / DEGREE
         if turn > FARTHEST_TURN:
