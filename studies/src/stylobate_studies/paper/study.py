@@ -197,6 +197,7 @@ def _pieces(
                 data / slug("rival", name, label, section), c.paper_column(name, section), c.MODELS[label], grid,
                 grids.tail, count, None,
             )  # fmt: skip
+    wait()
     found.literature = literature_piece(data)
     found.cost = cost_piece(data)
     for name, section in product(PRESETS, ("rectangular", "circular")):
