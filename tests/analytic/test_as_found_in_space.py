@@ -171,34 +171,77 @@ def test_out_of_equilibrium_and_out_of_the_plane_are_refused_in_one_sentence(tmp
     assert Column.from_toml(write_column(column, tmp_path / "c.toml")) == column
 
 
-def test_the_barrier_as_found_is_that_of_the_statics():
-    """Each joint's nearest edge from the place of its load, as statics have both; on a slope, with chips and pretension."""
+def barrier_of(column, turns=None):
+    """The lowest barrier of a column as found [J], rigid and without walking; its drums turned so far [rad], shape (n,)."""
     from stylobate.kernels.dem3d.standing_found import lowest_found
     from stylobate.models.dem3d.verdict import found_numbers, numbers_for
 
+    found, up, high = found_numbers(column)
+    turned = space_geometry(column).turned if turns is None else turns
+    numbers = found, numbers_for(column, np.zeros(column.n)), np.zeros((column.n, 2)), np.append(0.0, turned), up
+    lowest, low = lowest_found(*numbers, column.section == "rectangular", column.gravity, False)
+    if turns is None:
+        assert low == pytest.approx(high, rel=1e-12)
+    return lowest
+
+
+def test_the_barrier_as_found_is_that_of_the_statics():
+    """Each joint's nearest edge from the place of its weight, as statics have both; on a slope, with chips."""
     drums = (
         st.FoundDrum(1, chip_left=0.03, chip_azimuth=70.0),
         st.FoundDrum(2, offset=0.02, offset_azimuth=40.0, tilt=0.6, tilt_azimuth=100.0, turn=10.0),
         st.FoundDrum(3, tilt=-0.5, turn=-20.0),
     )
-    bar = st.Bar(
-        joint=2, at=(0.05, 0.02), shear_stiffness=1e7, axial_stiffness=2e7, axial_capacity=4e4, pretension=500.0
+    column = COLUMN.replace(as_found=st.AsFound(drums, 1.0, 30.0))
+    at, up = space_geometry(column), upward(column)
+    barriers = []
+    for j in range(column.n):
+        load, mass = space_load(column, at, j), column.masses[j:]
+        level = at.frame[j, :, 2] @ up
+        place = at.origin[j] + at.frame[j, :, :2] @ load.place
+        inside = inside_overlap(column, at, j, load.place)
+        height = (mass @ at.centroid[j:] / mass.sum() - place) @ up + inside * math.sqrt(1.0 - level**2)
+        weight = column.gravity * mass.sum() * level
+        barriers.append(weight * (math.hypot(inside * level, height) - height))
+    assert barrier_of(column) == pytest.approx(min(barriers), rel=1e-9)
+
+
+def test_pretension_raises_no_barrier():
+    """A tie may break: what presses beside the centroid then is the weight alone."""
+    leaning = st.Column.of_drums([st.Drum(4.0, 1.0, 1.0, 2500.0)], st.Joint(5e10, 2.5e10)).replace(
+        as_found=st.AsFound((st.FoundDrum(1, tilt=-12.0),))
     )
-    for links in ((), (bar,)):
-        column = COLUMN.replace(as_found=st.AsFound(drums, 1.0, 30.0), links=links)
-        at, up, n = space_geometry(column), upward(column), column.n
-        found, pull, against, high = found_numbers(column)
-        stand = numbers_for(column, np.zeros(n))
-        turns = np.concatenate(([0.0], at.turned))
-        lowest, low = lowest_found(found, stand, pull, np.zeros((n, 2)), turns, against, column.gravity, False)
-        assert low == pytest.approx(high, rel=1e-12)
-        barriers = []
-        for j in range(n):
-            load, mass = space_load(column, at, j), column.masses[j:]
-            level = at.frame[j, :, 2] @ up
-            place = at.origin[j] + at.frame[j, :, :2] @ load.place
-            inside = inside_overlap(column, at, j, load.place)
-            height = (mass @ at.centroid[j:] / mass.sum() - place) @ up + inside * math.sqrt(1.0 - level**2)
-            weight = column.gravity * mass.sum() * level
-            barriers.append(weight * (math.hypot(inside * level, height) - height))
-        assert lowest == pytest.approx(min(barriers), rel=1e-9)
+    core = st.Core(at=(-0.3, 0.0), axial_stiffness=1e8, axial_capacity=4e5, pretension=2e5)
+    assert barrier_of(leaning.replace(links=(core,))) == barrier_of(leaning) > 0.0
+
+
+@pytest.mark.parametrize("psi", [10.0, 40.0, 60.0])
+def test_a_drum_that_has_turned_takes_its_slope_with_it(psi):
+    """The barrier is that of the column found so: of a wedge, and of what stands off the axis of a drum that has turned."""
+    joint, turn = st.Joint(5e10, 2.5e10), math.radians(psi)
+    drums = [st.Drum(2.0, 1.0, 1.0, 2500.0, "circular")] * 2
+    wedge = st.Column.of_drums(drums, joint)
+    before = wedge.replace(as_found=st.AsFound((st.FoundDrum(1, tilt=-4.0),), 4.0))
+    after = wedge.replace(as_found=st.AsFound((st.FoundDrum(1, tilt=-4.0, tilt_azimuth=psi, turn=psi),), 4.0))
+    assert barrier_of(before, np.array([turn, turn])) == pytest.approx(barrier_of(after), rel=1e-9)
+    stack = st.Column.of_drums([*drums, drums[0]], joint)
+    one, other = st.FoundDrum(2, offset=0.2), st.FoundDrum(3, offset=-0.2)
+    before = stack.replace(as_found=st.AsFound((one, other)))
+    after = stack.replace(
+        as_found=st.AsFound((st.FoundDrum(2, offset=0.2, turn=psi), st.FoundDrum(3, offset=-0.2, offset_azimuth=psi)))
+    )
+    assert barrier_of(before, np.array([0.0, turn, turn])) == pytest.approx(barrier_of(after), rel=1e-9)
+
+
+@pytest.mark.parametrize("psi", [0.0, 20.0, 45.0])
+def test_turned_faces_carry_on_the_corners_that_the_engine_has(psi):
+    """A turned rectangular drum as found has the barrier of the column as built: corners of the upper face on the lower."""
+    from stylobate.kernels.dem3d.standing import lowest_barrier
+    from stylobate.models.dem3d.verdict import numbers_for
+
+    flat = st.Column.of_drums([st.Drum(1.0, 1.0, 1.0, 2500.0, depth=0.3)] * 2, st.Joint(5e10, 2.5e10))
+    column, turns = flat.replace(as_found=st.AsFound((st.FoundDrum(2, offset=1e-12),))), np.radians([0.0, psi])
+    built = lowest_barrier(
+        numbers_for(flat, np.zeros(2)), np.zeros((2, 2)), np.append(0.0, turns), True, flat.gravity, False
+    )
+    assert barrier_of(column, turns) == pytest.approx(built, rel=1e-8)

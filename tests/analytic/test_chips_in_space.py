@@ -122,9 +122,9 @@ def test_what_stands_for_good_knows_the_smaller_support():
     from stylobate.models.dem3d.verdict import found_numbers, numbers_for
 
     column, height = prism(**CHIPS), 0.5 * HEIGHT
-    drums, pull, up, _ = found_numbers(column)
+    drums, up, _ = found_numbers(column)
     still = np.zeros((1, 2)), np.zeros(2)
-    rigid = lowest_found(drums, numbers_for(column, np.zeros(1)), pull, *still, up, column.gravity, False)[0]
+    rigid = lowest_found(drums, numbers_for(column, np.zeros(1)), *still, up, True, column.gravity, False)[0]
     weight = column.mass * column.gravity
     assert rigid == pytest.approx(weight * (math.hypot(height, DEEP - 0.03) - height), rel=1e-9)
     at = space_geometry(column)

@@ -275,12 +275,8 @@ def sweep(
     whole : bool
         Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
         shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
-    threads : int, optional
-        All cores by default.
-    progress : callable, optional
-        Called with (finished, all).
-    ledger : path, optional
-        File that keeps finished runs, for good.
+    threads, progress, ledger
+        As of :func:`stylobate.campaign.runs.run_all`.
     """
     for motion, as_is, _ in shaken:
         if as_is == 0.0:

@@ -132,9 +132,7 @@ def _at(s: Mapping[str, Any], amplitude: float) -> str:
     elif s.get("critical_factor") is not None:
         times = s["critical_factor"] / s["critical_g"]
     words = f"at {amplitude:.4g} g" + (f", {times * amplitude:.3g} times the record" if times else "")
-    own = amplitude == s.get(
-        "first_collapse_g", s.get("critical_g")
-    )  # else it is that of one like it, which went through fewer
+    own = amplitude == s.get("first_collapse_g", s.get("critical_g"))  # those like it went through fewer amplitudes
     looked_at = [one[end] for one in s["alternation"] for end in ("from_g", "to_g")] if own else s["amplitudes_g"]
     if below := max((one for one in looked_at if one < amplitude), default=None):
         return f"{words} (the next below that was looked at is {below:.4g} g)"

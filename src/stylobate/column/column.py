@@ -23,7 +23,7 @@ from .faces import Face, FacePair
 from .found_geometry import StandingDrum, check_as_found, geometry, uplift_accelerations
 from .found_in_space import base_axes, smallest_uplift, space_geometry
 from .joint import Joint, given
-from .links.in_column import place_in_column
+from .links.in_column import ends_on_bodies, place_in_column
 from .links.link import Link
 from .links.loads import pulls_in_plane
 from .links.placed import PlacedLink
@@ -200,13 +200,10 @@ class Column(Stack, Structure):
 
         What crosses a joint lies on the lower face of its upper drum; a line is as drawn in the axes of its drums.
         """
-        (low, high), i = link.arms, link.upper - 1
+        i = link.upper - 1
         lower, upper = (self.upper_faces[body].direction for body in (link.lower, link.upper))
-        if link.straight:
-            return _turned(low, *lower), _turned(high, *upper), lower
         foot = self.drums[i].centroid_height * self._turns[1][i]  # of the centroid, to the left of the face's middle
-        place = np.array([link.high[0] + foot, link.high[1], -self.face_pairs[i].above.height])
-        return _turned(low, *lower), place, lower
+        return ends_on_bodies(link, lower, upper, (foot, -self.face_pairs[i].above.height))
 
     @property
     def surfaces(self) -> tuple[Joint, ...]:
@@ -399,8 +396,3 @@ class Column(Stack, Structure):
     def __hash__(self) -> int:
         """As of its values; many runs ask for the numbers of one column again and again."""
         return self._hash
-
-
-def _turned(place: np.ndarray, c: float, s: float) -> np.ndarray:
-    """A place [m], shape (3,), turned in the plane by an angle of this cosine and sine."""
-    return np.array([c * place[0] - s * place[2], place[1], s * place[0] + c * place[2]])

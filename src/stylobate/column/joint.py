@@ -75,8 +75,10 @@ class Joint:
 
     def changed(self, **changes: Any) -> Joint:
         """A copy with some fields changed; a friction given in one of its two forms takes the place of both."""
-        if changes.keys() & set(FRICTION):
+        if any(changes.get(name) is not None for name in FRICTION):
             changes = dict.fromkeys(FRICTION) | changes
+        else:  # a friction of None is none that is given
+            changes = {name: value for name, value in changes.items() if name not in FRICTION}
         return dataclasses.replace(self, **changes)
 
     @property

@@ -9,10 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..analysis.certainty import chance_words
-from ..analysis.fragility import between
 from ..analysis.ida_curves import median_of
-from ..analysis.risk import years
-from ..analysis.side_by_side import Share, codes_of, median_words, shares
+from ..analysis.side_by_side import codes_of, shares
 from ..analysis.studies import StudyResult
 from ..analysis.suite import suite_shares
 from ..bibliography import cite, cite_run
@@ -35,20 +33,19 @@ from .record import (
     versions_of,
     warnings_of,
 )
+from .risk import fragility_result, risk_result, survival_result
 from .runs import once
 from .shaking import motions_section
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
 from .structure import state_section, structure_section
+from .tables import COUNTED, COUNTED_HOW, MOST, counts_of, open_runs, table
 
 #: Kinds that rest on the runs of another command.
 FROM_RUNS = (Kind.FRAGILITY, Kind.RISK, Kind.SURVIVAL)
 
 #: What the columns like one come to, in a table.
 CHANCE = "columns like it that collapse"
-
-#: Most rows of a table of a result; the CSV file in the folder holds them all.
-MOST = 40
 
 
 def sections_of(result: Result, told: set[str], run: RunResult | None = None) -> list[Section]:
@@ -162,7 +159,7 @@ def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
         ("static acceleration that opens the first joint", f"{float(s['uplift_g']):.4g} g"),
     ]
     text = "The motions are harmonic. They show how the column answers to frequency and amplitude; they are no earthquakes."
-    return (sentence + _open(s), ""), [Facts(pairs), *kept(result.pictures, result.kind.value, caption), text]
+    return (sentence + open_runs(s), ""), [Facts(pairs), *kept(result.pictures, result.kind.value, caption), text]
 
 
 def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -172,14 +169,14 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     keys = ["column", "motion", "factor", "pga_g", "pgv_m_s", "verdict", CHANCE, "peak_top_displacement_m"]
     if "peak_displacement_m" in (runs or [{}])[0]:
         keys[-1] = "peak_displacement_m"
-    body = [[one.label, *_counts_of(one)] for one in found]
+    body = [[one.label, *counts_of(one)] for one in found]
     items: list[Item] = [
         Rows(["column", *COUNTED], body, f"Of the same motions for every column. {COUNTED_HOW}", numbers=True)
     ]
     caption = "One row per motion; all measures are in suite.csv."
     if any(one[CHANCE] for one in rows):
         caption += f" {OF_TWINS}"
-    items.append(_table(rows, keys, caption, "verdict"))
+    items.append(table(rows, keys, caption, "verdict"))
     items += kept(result.pictures, "suite", "Peak response against a measure of the records.")
     items += kept(result.pictures, "directions", "Share of collapses by direction.")
     return (" ".join(one.collapses for one in found), " bad" if any(one.exceeded for one in found) else ""), items
@@ -191,99 +188,19 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
     sentence += f"; {median_of(s)}." if s["capacities"] else "."
     items: list[Item] = [
-        _table(s["capacities"], list(s["capacities"][0])[:6] if s["capacities"] else [], "Capacity under each record.")
+        table(s["capacities"], list(s["capacities"][0])[:6] if s["capacities"] else [], "Capacity under each record.")
     ]
     items += kept(result.pictures, "ida", "Response over the intensity, a curve for each record.")
     if s.get("measures"):
         items.append(
-            _table(
+            table(
                 s["measures"],
                 ["measure", "unit", "beta", "beta_low", "beta_high", "sigma_ln_edp", "records"],
                 "Which measure of the motions tells most: the smaller its dispersion β, the more.",
             )
         )
         items += kept(result.pictures, "measures", "Dispersion of the capacities in each measure.")
-    return (sentence + _open(s), ""), items
-
-
-def _fragility(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    curves = result.summary.get("curves") or [result.summary]
-    one = curves[0]
-    unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
-    limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
-    sentence = (
-        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
-    )
-    if one.get("outside"):
-        sentence = (
-            f"Half of the records bring {one['state']} at {one['im']} {median_words(one)} (95 % interval {limits})."
-        )
-    elif one.get("bracket"):
-        sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
-    for each in curves:
-        each["known of the median"] = median_words(each) if each.get("outside") else None
-        if each.get("undecided") or each.get("failed"):
-            each["median_undecided_both_ways"] = median_words(each)
-    keys = ["name", "im", "levels", "known of the median", "median", "median_low", "median_high"]
-    keys += ["median_undecided_both_ways", "beta", "records", "runs", "undecided", "p_value"]
-    items: list[Item] = [
-        _table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")
-    ]
-    items += kept(result.pictures, "fragility", "Probability over the intensity, with its interval over records.")
-    if float(one.get("p_value") or 1.0) < 0.05:
-        items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
-    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
-    return (sentence + _open(one), ""), items
-
-
-def _risk(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    s = result.summary
-    period = s.get("return_period_y")
-    sentence = f"{s.get('name', 'The column')}: {s.get('state', 'collapse')} " + (
-        f"once in {years(period)} on average." if isinstance(period, float) else "never, under this hazard."
-    )
-    low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
-    known, unit = s.get("fragility") or {}, "" if s.get("unit") in (None, "-") else f" {s['unit']}"
-    if n.NONE not in (low, high):
-        sentence += f" The annual rate lies between {low} and {high} (95 %)."
-    pairs = [
-        ("annual rate [1/year]", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
-        ("hazard", n.plain(s.get("hazard"))),
-        ("intensity", f"{n.plain(s.get('im'))}{unit and f' [{unit.strip()}]'}"),
-    ]
-    if known:
-        median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
-        levels = " to ".join(f"{one:.3g}" for one in known["levels"])
-        pairs += [
-            ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
-            ("dispersion β of the fragility", f"{n.plain(known['beta'])} (95 %: {beta})"),
-            ("intensities of its runs", f"{levels}{unit}"),
-            ("records / runs / exceeded / undecided / failed",
-             " / ".join(str(known[one]) for one in ("records", "runs", "exceeded", "undecided", "failed"))),
-            ("p of its fit", n.plain(known["p_value"])),
-        ]  # fmt: skip
-    items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]
-    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
-    return (sentence, ""), items
-
-
-def _survival(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    s = result.summary
-    keys = [
-        "hazard",
-        "annual_rate",
-        "survival_probability",
-        "survival_probability_low",
-        "survival_probability_high",
-        "weight",
-    ]
-    said = ", ".join(f"{one['hazard']}: {float(one['survival_probability']):.2g}" for one in s["hazards"])
-    sentence = (
-        f"Probability that the column would still stand after {n.plain(s.get('age_y'))} years, by hazard curve: {said}."
-    )
-    items: list[Item] = [_table(s["hazards"], keys, "Hazard curves compared.")]
-    items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
-    return (sentence, ""), items
+    return (sentence + open_runs(s), ""), items
 
 
 def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
@@ -312,7 +229,7 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
         keys = list(rows[0])[:7] if rows else []
     text = "Where models differ, the difference says how far a verdict hangs on the model; none of them is nature."
     return (sentence, ""), [
-        _table(rows, keys, "Measures side by side."),
+        table(rows, keys, "Measures side by side."),
         *kept(result.pictures, "comparison", caption),
         text,
     ]
@@ -332,7 +249,7 @@ def _study(result: StudyFolder) -> tuple[tuple[str, str], list[Item]]:
     items.append(_shares_of_study(result.study))
     for name, response in result.histories.items():
         items.append(picture(plots.draw_filmstrip(response), f"Film strip of the {name} case: {response.sentence}"))
-    return (sentence + _open(s), ""), items
+    return (sentence + open_runs(s), ""), items
 
 
 def _shares_of_study(study: StudyResult) -> Rows:
@@ -344,51 +261,12 @@ def _shares_of_study(study: StudyResult) -> Rows:
     for place, level in enumerate(axes["levels"]):
         each = codes[:, :, :, place].reshape(len(names), -1)
         for (column, model), one in zip(names, shares(dict(enumerate(each)), records)):
-            rows.append([column, model, n.plain(level), *_counts_of(one)])
+            rows.append([column, model, n.plain(level), *counts_of(one)])
     caption = f"Of the cases that are finished and could be computed for every column and model. {COUNTED_HOW}"
     left_out = f" The first {MOST} of {len(rows)} rows." if len(rows) > MOST else ""
     rows.sort(key=lambda row: row[:2])
     header = ["column", "model", f"level ({axes.get('measure')})", *COUNTED]
     return Rows(header, rows[:MOST], caption + left_out, numbers=True)
-
-
-#: Columns of tables of shares, and what they are.
-COUNTED = (
-    "same runs",
-    "records",
-    "collapse",
-    "stand",
-    "undecided",
-    "share that collapses",
-    "95 % interval",
-    "failed or missing",
-)
-COUNTED_HOW = (
-    "The share that collapses is told with none and with all of the undecided counted in; so is its interval, over records, "
-    "each of which counts once."
-)
-
-
-def _counts_of(one: Share) -> list[str]:
-    counts = [one.runs, one.records, one.exceeded, one.not_exceeded, one.undecided]
-    return [*map(str, counts), one.words or n.NONE, one.interval_words or n.NONE, str(one.failed)]
-
-
-def _open(s: dict[str, Any]) -> str:
-    found = [
-        f"{s[one]} runs {word}" for one, word in (("undecided", "are undecided"), ("failed", "failed")) if s.get(one)
-    ]
-    return f" {' and '.join(found)}; they are not counted as collapse." if found else ""
-
-
-def _table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | None = None) -> Rows:
-    there = [key for key in keys if any(row.get(key) not in (None, "") for row in rows)]
-    left_out = f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
-    body = [[n.plain(row.get(key)) for key in there] for row in rows[:MOST]]
-    place = there.index(mark) if mark in there else None
-    looks = {"stands": "good", "collapsed": "bad"}
-    header = [n.named(key) for key in there]
-    return Rows(header, body, caption + left_out, mark=place, looks=looks, numbers=True)
 
 
 _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
@@ -399,9 +277,9 @@ _TELL: dict[Kind, Callable[[Any], tuple[tuple[str, str], list[Item]]]] = {
     Kind.PROBABILITY: _grid,
     Kind.SUITE: _suite,
     Kind.IDA: _ida,
-    Kind.FRAGILITY: _fragility,
-    Kind.RISK: _risk,
-    Kind.SURVIVAL: _survival,
+    Kind.FRAGILITY: fragility_result,
+    Kind.RISK: risk_result,
+    Kind.SURVIVAL: survival_result,
     Kind.COMPARE: _compare,
     Kind.STUDY: _study,
 }

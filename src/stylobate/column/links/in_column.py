@@ -170,3 +170,27 @@ def _within(drum: Drum, width: float, depth: float, place: tuple[float, ...]) ->
 
 def _place(place: tuple[float, ...]) -> str:
     return f"[{', '.join(f'{one:g}' for one in place)}] m"
+
+
+def ends_on_bodies(
+    link: PlacedLink, lower: tuple[float, float], upper: tuple[float, float], foot: tuple[float, float]
+) -> tuple[np.ndarray, np.ndarray, tuple[float, float]]:
+    """Places of a link on its two bodies in the axes of their faces [m], shape (3,), and in which direction it slips.
+
+    Parameters
+    ----------
+    link : PlacedLink
+    lower, upper : tuple of float
+        Directions of the upper faces of the two bodies, as cosine and sine.
+    foot : tuple of float
+        Middle of the lower face of the upper body from its centroid, along the face and normal to it [m].
+    """
+    low, high = link.arms
+    if link.straight:
+        return _turned(low, *lower), _turned(high, *upper), lower
+    return _turned(low, *lower), np.array([link.high[0] + foot[0], link.high[1], foot[1]]), lower
+
+
+def _turned(place: np.ndarray, c: float, s: float) -> np.ndarray:
+    """A place [m], shape (3,), turned in the plane by an angle of this cosine and sine."""
+    return np.array([c * place[0] - s * place[2], place[1], s * place[0] + c * place[2]])

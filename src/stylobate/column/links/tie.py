@@ -19,15 +19,8 @@ class Tie(Line):
 
     Parameters
     ----------
-    at : tuple of float
-        Place of both ends in plan, from the column's axis [m]; between two bodies its end in the first.
-    to : tuple of float, optional
-        Place of the upper end, where it differs; between two bodies its end in the second.
-    from_drum, to_drum : int
-        Drums that it ties; 0 is the base, the upper one is the topmost if left out.
-    from_height, to_height : float, optional
-        Height of its ends above the base [m], of the column as built; half of the drum's height if left out, and 0 at the
-        base.
+    at, to, from_drum, to_drum, from_height, to_height : optional
+        Its ends, as of :class:`~stylobate.column.links.line.Line`; at half of a drum's height where none is given.
     diameter, material : optional
         Give what is left out below; diameter in m.
     axial_stiffness, axial_capacity : float, optional

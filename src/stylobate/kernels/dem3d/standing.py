@@ -58,15 +58,18 @@ def inside_discs(d, x, y, own_x, own_y):
 
 
 @kernel
-def inside_rectangles(d, x, y, own_x, own_y, lower, upper, corners):
-    """The same of two rectangles that are turned by these angles [rad]: of the upper one's corners on the lower one."""
+def inside_rectangles(right, left, back, front, wide, deep, x, y, own_x, own_y, lower, upper, corners):
+    """The same of two rectangles that are turned by these angles [rad]: of the upper one's corners on the lower one.
+
+    The upper one reaches so far from its middle to each side; the lower one has these half widths [m].
+    """
     c, s = math.cos(lower), -math.sin(lower)
     x, y = turned_by(x, y, c, s)
     own_x, own_y = turned_by(own_x, own_y, c, s)
     c, s = math.cos(upper - lower), math.sin(upper - lower)
     for p in range(4):
-        a, b = turned_by(d.along if p < 2 else -d.along, d.across if 0 < p < 3 else -d.across, c, s)
-        corners[p, 0], corners[p, 1] = clamped(own_x + a, d.under), clamped(own_y + b, d.beside)
+        a, b = turned_by(right if p < 2 else -left, back if 0 < p < 3 else -front, c, s)
+        corners[p, 0], corners[p, 1] = clamped(own_x + a, wide), clamped(own_y + b, deep)
     return inside_by(x, y, corners)
 
 
@@ -95,7 +98,10 @@ def lowest_barrier(stand, slip, turns, cornered, gravity, walks):
         x, y = mx / mass - place[j, 0], my / mass - place[j, 1]
         own_x, own_y = place[j + 1, 0] - place[j, 0], place[j + 1, 1] - place[j, 1]
         if cornered:
-            half = inside_rectangles(d, x, y, own_x, own_y, turns[j], turns[j + 1], corners)
+            half = inside_rectangles(
+                d.along, d.along, d.across, d.across, d.under, d.beside, x, y, own_x, own_y, turns[j], turns[j + 1],
+                corners,
+            )  # fmt: skip
         else:
             half = inside_discs(d, x, y, own_x, own_y)
         if half <= 0.0:
@@ -178,4 +184,5 @@ def stands(stand, slip, energy, gravity, walks, body, joint, lane, l):
     """Whether a column as built, with these slips and this energy [J], stands for good: see ``models/dem3d/verdict.py``."""
     if not centroids_inside(body, joint, lane, l):
         return False
-    return energy < lowest_barrier(stand, slip, turns_of(body, l), body[1].px.shape[0] > 1, gravity, walks)
+    lowest = lowest_barrier(stand, slip, turns_of(body, l), body[1].px.shape[0] > 1, gravity, walks)
+    return 0.0 < lowest and energy < lowest

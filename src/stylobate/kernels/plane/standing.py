@@ -66,19 +66,16 @@ def lowest_barrier(stand, gravity, slope):
         # sliding on the base takes no support away: joints between drums count
         if j > 0:
             loose = min(loose, math.tan(max(math.atan(d.rough) - abs(d.lean + slope), 0.0)))
-        half, height = np.inf, 0.0
         for side in range(2):
             place = d.low if side == 0 else d.high
             ax = mx / mass - d.ox - place * math.cos(d.lean)
             az = mz / mass - d.oz - place * math.sin(d.lean)
             # across gravity, from the left and to the right end, and along it
             across = ax * uz - az * ux if side == 0 else az * ux - ax * uz
-            if across < half:
-                half = across
-                height = ax * ux + az * uz
-        if half <= 0.0:
-            return 0.0
-        lowest = min(lowest, barrier(stand, j, half, height, loose, gravity * mass))
+            if across <= 0.0:
+                return 0.0
+            # on a slope the end farther off may be the lower barrier, as it lies lower
+            lowest = min(lowest, barrier(stand, j, across, ax * ux + az * uz, loose, gravity * mass))
     return lowest
 
 
@@ -126,4 +123,5 @@ def stands(stand, offset, gravity, slope, energy, body, joint, l):
     for i in range(stand.shape[0]):
         d = stand[i]
         lower -= d.m * (math.sin(slope) * d.cx + math.cos(slope) * d.cz)
-    return energy + max(gravity * lower, 0.0) < lowest_barrier(stand, gravity, slope)
+    lowest = lowest_barrier(stand, gravity, slope)
+    return 0.0 < lowest and energy + max(gravity * lower, 0.0) < lowest

@@ -71,8 +71,8 @@ class Stack:
         walks, of_lane = not self.planar, (records.body, records.joint, records.lane, lane)
         if not structure.as_found:
             return bool(stands(packed.stand, slip, energy, structure.gravity, walks, *of_lane))
-        found, pull, up, high = found_numbers(structure)
-        numbers = found, packed.stand, pull, slip, energy, high, up, structure.gravity, walks
+        found, up, high = found_numbers(structure)
+        numbers = found, packed.stand, slip, energy, high, up, structure.gravity, walks
         return bool(stands_as_found(*numbers, *of_lane))
 
     def lost(self, collapse: Collapse, structure: Column) -> str:

@@ -9,45 +9,34 @@ from typing import Any
 import numpy as np
 
 from ...column import Column
-from ...column.found_in_space import rotation, space_geometry, upward
+from ...column.found_in_space import space_geometry, upward
 from ...constants import DEGREE
 from ..shared.toes import centroids_above
 
 
 @lru_cache(maxsize=4096)
-def found_numbers(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray, float]:
-    """Numbers of a column as found for the law, see ``kernels/dem3d/standing_found.py``: of its drums, and of pretensioned
-    links; the direction against gravity [-], and mass times height of all drums as they were found [kg m]."""
-    from ...kernels.dem3d.standing_found import FOUND_TYPE, PULL_TYPE
+def found_numbers(column: Column) -> tuple[np.ndarray, np.ndarray, float]:
+    """Numbers of a column as found for the law, see ``kernels/dem3d/standing_found.py``: of its drums; the direction against
+    gravity [-], and mass times height of all drums as they were found [kg m]."""
+    from ...kernels.dem3d.standing_found import FOUND_TYPE
 
     at, up, drums = space_geometry(column), upward(column), column.drums
     one: Any = np.zeros(column.n, FOUND_TYPE)
-    one["frame"], (one["x"], one["y"]) = at.frame, at.offset.T
-    one["own"] = [
-        axes @ rotation(np.array([0.0, 0.0, 1.0]), -turn) for axes, turn in zip(at.axes, at.turned, strict=True)
-    ]
+    one["lean"] = at.bed.transpose(0, 2, 1)
+    below = np.concatenate(([0.0], at.turned[:-1]))  # offsets as found are in axes that do not turn with the drums
+    c, s = np.cos(below), np.sin(below)
+    one["x"], one["y"] = c * at.offset[:, 0] + s * at.offset[:, 1], c * at.offset[:, 1] - s * at.offset[:, 0]
     one["low"], one["high"] = np.transpose([(drum.centroid_height, drum.height) for drum in drums])
-    for name in ("disc", "under", "right", "left", "back", "front", "wide", "deep"):
-        one[name] = math.inf
     half, deep = (np.array([0.5 * getattr(drum, name) for drum in drums]) for name in ("bottom_width", "depth"))
     left, right, front, back = np.transpose([column.as_found.of(i + 1).chips for i in range(column.n)])
     if column.section == "circular":
         cut = left + right > 0.0
-        one["disc"], one["under"][1:] = half, [0.5 * drum.top_width for drum in drums[:-1]]
-        one["left"][cut], one["right"][cut] = (half - left)[cut], (half - right)[cut]
+        one["left"], one["right"] = (np.where(cut, half - chip, math.inf) for chip in (left, right))
+        one["front"] = one["back"] = math.inf
     else:
         one["left"], one["right"], one["front"], one["back"] = half - left, half - right, deep - front, deep - back
-        one["wide"][1:] = [0.5 * drum.top_width for drum in drums[:-1]]
-        one["deep"][1:] = [0.5 * drum.upper_depth for drum in drums[:-1]]
     one["towards"] = [column.as_found.of(i + 1).chip_azimuth * DEGREE for i in range(column.n)]
-    one["level"] = np.minimum(at.frame[:, :, 2] @ up, 1.0)
-    one["rough"] = np.tan(np.maximum(np.arctan(column.friction) - np.arccos(one["level"]), 0.0))
-    links = [link for link in column.placed_links if link.pretension]
-    pull: Any = np.zeros(len(links), PULL_TYPE)
-    for k, link in zip(pull, links, strict=True):
-        k["lower"], k["upper"], k["line"], k["force"] = link.lower, link.upper, link.straight, link.pretension
-        k["a"], k["b"] = link.arms
-    return one, pull, up, float(column.masses @ at.centroid @ up)
+    return one, up, float(column.masses @ at.centroid @ up)
 
 
 def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:

@@ -1,0 +1,93 @@
+"""What follows from the runs of other commands: fragility, risk under a hazard, survival over the years."""
+
+from __future__ import annotations
+
+from ..analysis.fragility import between
+from ..analysis.risk import years
+from ..analysis.side_by_side import median_words
+from ..results import Numbers
+from . import numbers as n
+from .page import Facts, Item, Note
+from .pictures import kept
+from .tables import open_runs, table
+
+
+def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """Median, interval and fit of fragility curves."""
+    curves = result.summary.get("curves") or [result.summary]
+    one = curves[0]
+    unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
+    limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
+    sentence = (
+        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
+    )
+    if one.get("outside"):
+        sentence = (
+            f"Half of the records bring {one['state']} at {one['im']} {median_words(one)} (95 % interval {limits})."
+        )
+    elif one.get("bracket"):
+        sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
+    for each in curves:
+        each["known of the median"] = median_words(each) if each.get("outside") else None
+        if each.get("undecided") or each.get("failed"):
+            each["median_undecided_both_ways"] = median_words(each)
+    keys = ["name", "im", "levels", "known of the median", "median", "median_low", "median_high"]
+    keys += ["median_undecided_both_ways", "beta", "records", "runs", "undecided", "p_value"]
+    items: list[Item] = [table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")]
+    items += kept(result.pictures, "fragility", "Probability over the intensity, with its interval over records.")
+    if float(one.get("p_value") or 1.0) < 0.05:
+        items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
+    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
+    return (sentence + open_runs(one), ""), items
+
+
+def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """How often a year, and what that rests on."""
+    s = result.summary
+    period = s.get("return_period_y")
+    sentence = f"{s.get('name', 'The column')}: {s.get('state', 'collapse')} " + (
+        f"once in {years(period)} on average." if isinstance(period, float) else "never, under this hazard."
+    )
+    low, high = n.plain(s.get("annual_rate_low")), n.plain(s.get("annual_rate_high"))
+    known, unit = s.get("fragility") or {}, "" if s.get("unit") in (None, "-") else f" {s['unit']}"
+    if n.NONE not in (low, high):
+        sentence += f" The annual rate lies between {low} and {high} (95 %)."
+    pairs = [
+        ("annual rate [1/year]", f"{n.plain(s['annual_rate'])} ({low} to {high}, 95 %)"),
+        ("hazard", n.plain(s.get("hazard"))),
+        ("intensity", f"{n.plain(s.get('im'))}{unit and f' [{unit.strip()}]'}"),
+    ]
+    if known:
+        median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
+        levels = " to ".join(f"{one:.3g}" for one in known["levels"])
+        pairs += [
+            ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
+            ("dispersion β of the fragility", f"{n.plain(known['beta'])} (95 %: {beta})"),
+            ("intensities of its runs", f"{levels}{unit}"),
+            ("records / runs / exceeded / undecided / failed",
+             " / ".join(str(known[one]) for one in ("records", "runs", "exceeded", "undecided", "failed"))),
+            ("p of its fit", n.plain(known["p_value"])),
+        ]  # fmt: skip
+    items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]
+    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
+    return (sentence, ""), items
+
+
+def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
+    """The chance of having stood so long, under each hazard curve."""
+    s = result.summary
+    keys = [
+        "hazard",
+        "annual_rate",
+        "survival_probability",
+        "survival_probability_low",
+        "survival_probability_high",
+        "weight",
+    ]
+    said = ", ".join(f"{one['hazard']}: {float(one['survival_probability']):.2g}" for one in s["hazards"])
+    sentence = (
+        f"Probability that the column would still stand after {n.plain(s.get('age_y'))} years, by hazard curve: {said}."
+    )
+    items: list[Item] = [table(s["hazards"], keys, "Hazard curves compared.")]
+    items += kept(result.pictures, "survival", "Probability of having stood, over the years.")
+    return (sentence, ""), items
