@@ -35,10 +35,8 @@ def sentence_of(response: Recorded) -> str:
     return " ".join(words)
 
 
-#: What damps a run in space, by the names of the parameters, and the values with which it does not.
-UNDAMPED = {
-    "stiffness_damping": (0.0,), "mass_damping": (0.0,), "restitution": (None, 1.0), "rolling_resistance": (0.0,)
-}  # fmt: skip
+#: What damps a run in space, by the names of the parameters, and the value with which it does not.
+UNDAMPED = {"stiffness_damping": 0.0, "mass_damping": 0.0, "restitution": 1.0, "rolling_resistance": 0.0}
 
 #: Tilt beyond which a column wobbles, as a share of its slenderness [-].
 WOBBLES = 0.02
@@ -54,11 +52,8 @@ def doubt_of(response: Recorded) -> str:
     slenderness = response.structure.slenderness
     if space is None or slenderness is None or not space.peak_tilt > WOBBLES * slenderness:
         return ""
-    if (
-        "stiffness_damping" not in known
-        or known.get("planar")
-        or any(known.get(name) not in none for name, none in UNDAMPED.items())
-    ):
+    damped = any(known.get(name) not in (None, none) for name, none in UNDAMPED.items())
+    if "stiffness_damping" not in known or known.get("planar") or damped:
         return ""
     return (
         "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall "
