@@ -120,6 +120,18 @@ def test_damaged_compiled_code_is_made_anew_with_a_warning(tmp_path, monkeypatch
         assert said == expected, (suffix, name)
 
 
+def test_a_half_written_file_that_another_process_ends_meanwhile_is_nothing_to_warn_of(tmp_path):
+    # Listed and gone: a link to nothing. One of an hour ago, of a process that was killed, is taken away.
+    listed, abandoned = (tmp_path / f"loop.total.nbc.tmp.{one}" for one in ("listed", "abandoned"))
+    listed.symlink_to(tmp_path / "gone")
+    abandoned.write_bytes(b"half")
+    os.utime(abandoned, (0, 0))
+    files = jit._CacheFiles(str(tmp_path), "loop.total", (0.0, 0))
+    files.save("key", "code")
+    assert files.load("key") == "code"
+    assert not abandoned.exists()
+
+
 def test_a_command_says_that_the_cache_was_damaged_and_gives_its_answer(tmp_path):
     cache = tmp_path / "cache"
     command = [

@@ -17,6 +17,7 @@ import threading
 import time
 import warnings
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -109,8 +110,9 @@ class _CacheFiles(caching.IndexDataCacheFile):
         try:
             super().save(key, data)
             for left in Path(self._cache_path).glob(f"{glob.escape(Path(self._index_path).stem)}.*.tmp.*"):
-                if time.time() - left.stat().st_mtime > ABANDONED:
-                    left.unlink()  # of a process that was killed while it wrote
+                with suppress(FileNotFoundError):  # another process has just finished writing it
+                    if time.time() - left.stat().st_mtime > ABANDONED:
+                        left.unlink()  # of a process that was killed while it wrote
         except OSError as error:
             warnings.warn(
                 f"compiled code cannot be kept in {self._cache_path}: {error}.", DamagedFileWarning, stacklevel=2
