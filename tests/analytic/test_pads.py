@@ -17,6 +17,7 @@ from stylobate.column.assembly_files import assembly_from_dict
 from stylobate.column.files import write_column
 from stylobate.column.links import block_link
 from stylobate.models.base import Case, RunOptions
+from stylobate.models.plane.beds import bed_laws
 from stylobate.simulate import simulate_assembly
 
 MODELS = [st.DistinctElement2D(), st.RigidBlock(), st.DistinctElement3D()]
@@ -161,3 +162,17 @@ def test_a_pad_parts_the_stones() -> None:
         FLAT.replace(links=[pad, pad])
     with pytest.raises(st.InputError, match="give that joint cohesion = 0"):
         FLAT.with_joint(cohesion=1e5).replace(links=[pad])
+
+
+@pytest.mark.parametrize("modulus", [None, 3e10])
+def test_what_has_come_down_lies_on_the_joint_with_its_layer_or_pad_and_on_all_else_without(modulus) -> None:
+    drums = [st.Drum(0.4 + 0.2 * i, 1.0, 1.0, 2500.0) for i in range(3)]
+    links = [st.Layer(joint=2, friction_coefficient=0.05), st.Pad(joint=3, **SOFT)]
+    laws = bed_laws(st.Column.of_drums(drums, JOINT).replace(links=links), modulus)
+    half = [0.0] * 4 if modulus is None else [0.0, *(0.5 * drum.height / modulus for drum in drums)]
+    for upper in (1, 2, 3):
+        for lower in range(upper):
+            padded, friction = (lower, upper) == (2, 3), 0.05 if (lower, upper) == (1, 2) else 2.0
+            bare = (NORMAL, SHEAR) if padded else (2e9, 1e9)
+            normal = 1.0 / (1.0 / bare[0] + half[upper] + half[upper - 1])
+            assert laws[lower, upper] == pytest.approx([normal, bare[1] * normal / bare[0], friction], rel=1e-12)

@@ -95,9 +95,8 @@ class Column(Stack, Structure):
             warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
 
     def _check(self) -> None:
-        object.__setattr__(self, "drums", tuple(self.drums))
-        object.__setattr__(self, "joints", tuple(self.joints))
-        object.__setattr__(self, "links", tuple(self.links))
+        for name in ("drums", "joints", "links"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
         if not 1 <= len(self.drums) <= MAX_DRUMS:
             raise InputError(f"the column has {len(self.drums)} drums; allowed is 1 to {MAX_DRUMS}.")
         if len(self.joints) != len(self.drums):
@@ -109,31 +108,10 @@ class Column(Stack, Structure):
         object.__setattr__(self, "gravity", check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²"))
         if self.material is not None:
             object.__setattr__(self, "material", material(self.material).name)
-        self._check_rings()
+        self.check_rings()
         self.placed_links  # noqa: B018  refuses links that cannot be
         if self.as_found or self.pretensioned:
             check_as_found(self)
-
-    def _check_rings(self) -> None:
-        for j, joint in enumerate(self.joints):
-            if joint.ring_width is None:
-                continue
-            if self.section != "circular":
-                raise InputError(
-                    f"ring_width of joint {j + 1} is {joint.ring_width:g} m, and {self.name!r} has rectangular faces; "
-                    "rings are known for round ones: leave it out."
-                )
-            width = float(self.joint_widths[j])
-            if joint.ring_width > 0.5 * width:
-                raise InputError(
-                    f"ring_width of joint {j + 1} of {self.name!r} is {joint.ring_width:g} m, thicker than its face, "
-                    f"of diameter {width:g} m; allowed is up to {0.5 * width:g} m, or leave it out for a whole face."
-                )
-            if max(self.sunken_widths(j)) >= width:
-                raise InputError(
-                    f"the rings of joint {j + 1} of {self.name!r} do not meet: ring_width = {joint.ring_width:g} m, and one "
-                    f"face is that much wider than the other; make the ring wider."
-                )
 
     # -- as a structure ------------------------------------------------------------------------------------------------
 
@@ -209,6 +187,11 @@ class Column(Stack, Structure):
     def surfaces(self) -> tuple[Joint, ...]:
         """Of every body, the law of its contacts, other than joints, with those before it."""
         return self.joints[0], *self.joints
+
+    @property
+    def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
+        """Of drums in a joint, its law with the layer or pad that lies in it: no other drum meets that."""
+        return tuple((j, j + 1, law) for j, law in enumerate(self.joint_laws))
 
     @cached_property
     def joint_laws(self) -> tuple[Joint, ...]:

@@ -45,17 +45,15 @@ class Geometry(NamedTuple):
         return self.origin[joint] + place * np.array([math.cos(self.lean[joint]), math.sin(self.lean[joint])])
 
 
-def geometry(column: Column, offsets: np.ndarray | None = None) -> Geometry:
+def geometry(column: Column) -> Geometry:
     """Where a column's drums and contacts are.
 
     Parameters
     ----------
     column : Column
-    offsets : array, optional
-        Of the drums along the joints under them [m], shape (n,); as found if left out.
     """
     n, found = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
-    offset = np.array([one.offset for one in found]) if offsets is None else offsets
+    offset = np.array([one.offset for one in found])
     tilt = np.array([one.tilt * DEGREE for one in found])
     lean = np.concatenate(([0.0], np.cumsum(tilt)[:-1]))
     centroid = np.array([drum.centroid_height for drum in column.drums])

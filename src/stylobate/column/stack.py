@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from ..errors import InputError
 from .drum import Drum, section_area, section_second_moment
 from .joint import Joint
 
@@ -17,6 +18,7 @@ class Stack:
     drums: tuple[Drum, ...]
     joints: tuple[Joint, ...]
     gravity: float
+    name: str
 
     @property
     def n(self) -> int:
@@ -74,6 +76,28 @@ class Stack:
         whole = [section_second_moment(self.section, d, self._joint_depth(i)) for i, d in enumerate(self.joint_widths)]
         sunken = [section_second_moment("circular", max(self.sunken_widths(i)), 0.0) for i in range(self.n)]
         return np.array(whole) - sunken
+
+    def check_rings(self) -> None:
+        """Refuse rings of faces that are not round, are as small as the ring, or do not meet."""
+        for j, joint in enumerate(self.joints):
+            if joint.ring_width is None:
+                continue
+            if self.section != "circular":
+                raise InputError(
+                    f"ring_width of joint {j + 1} is {joint.ring_width:g} m, and {self.name!r} has rectangular faces; "
+                    "rings are known for round ones: leave it out."
+                )
+            width = float(self.joint_widths[j])
+            if joint.ring_width > 0.5 * width:
+                raise InputError(
+                    f"ring_width of joint {j + 1} of {self.name!r} is {joint.ring_width:g} m, thicker than its face, "
+                    f"of diameter {width:g} m; allowed is up to {0.5 * width:g} m, or leave it out for a whole face."
+                )
+            if max(self.sunken_widths(j)) >= width:
+                raise InputError(
+                    f"the rings of joint {j + 1} of {self.name!r} do not meet: ring_width = {joint.ring_width:g} m, and one "
+                    f"face is that much wider than the other; make the ring wider."
+                )
 
     def sunken_widths(self, joint: int) -> tuple[float, float]:
         """Diameters of the sunken middles of the face above a joint and of the one below [m]; 0 for none.

@@ -155,16 +155,14 @@ class DistinctElement2D(SteppedDrums):
     @property
     def contacts(self) -> Contacts:
         """Numbers of the contacts, for the engine of assemblies."""
-        return Contacts(self.points, self.stiffness_damping, self.mass_damping)
+        return Contacts(self.points, self.stiffness_damping, self.mass_damping, self.block_modulus)
 
     def followed(self, column: Column, options: RunOptions) -> FollowedColumn:
         """What a column that is followed to the ground is computed with."""
         from ..plane.collapse import FollowedColumn
 
         block = self.block_for(self.kind(column), replace(options, until_end=True))
-        # the bed is as soft as the joints: their springs have the stone in series
-        bed = np.transpose(joint_stiffnesses(column, self.block_modulus))
-        return FollowedColumn(self.name, block, self.contacts, bed, self.step_for(column), self.restitution)
+        return FollowedColumn(self.name, block, self.contacts, self.step_for(column), self.restitution)
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs of columns in lanes, or of assemblies one by one in threads; never of both in one batch."""

@@ -17,6 +17,13 @@ def joint_stiffnesses(structure: Structure, block_modulus: float | None = None) 
     """
     laws = [pair.law for pair in structure.face_pairs]
     kn, ks = (np.array([getattr(law, name) for law in laws]) for name in ("normal_stiffness", "shear_stiffness"))
+    return with_stone(structure, kn, ks, block_modulus)
+
+
+def with_stone(
+    structure: Structure, kn: np.ndarray, ks: np.ndarray, block_modulus: float | None
+) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffnesses per area [N/m³] with the stone of each drum and of the next below in series, along the last axis."""
     if block_modulus is None:
         return kn, ks
     half = 0.5 * structure.must_be("column").heights / block_modulus

@@ -10,6 +10,7 @@ import numpy as np
 from ...column.block import smallest_turn
 from ...column.joint import Joint
 from ...column.structure import Structure
+from ..drums.joints import with_stone
 
 #: Relative rotation from which a joint's faces are a bed like all others [rad].
 LAST_ROTATION = math.radians(50.0)
@@ -37,8 +38,11 @@ def fill_hands(records: Any, structure: Structure) -> None:
         h["width"] = min(pair.below.width, pair.above.width)
 
 
-def bed_laws(structure: Structure) -> np.ndarray:
-    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first."""
+def bed_laws(structure: Structure, block_modulus: float | None) -> np.ndarray:
+    """k_n, k_s [N/m³] and tan φ of the bed between any two bodies, shape (N, N, 3); the pair's lower number first.
+
+    As soft as the joints where their springs have the stone of a column in series.
+    """
     laws = np.empty((len(structure.bodies), len(structure.bodies), 3))
 
     def numbers(law: Joint) -> tuple[float, float, float]:
@@ -48,4 +52,6 @@ def bed_laws(structure: Structure) -> np.ndarray:
         laws[:, i] = numbers(law)
     for i, h, law in structure.laws_of_pairs:
         laws[i, h] = numbers(law)
+    if block_modulus is not None:
+        laws[:, 1:, 0], laws[:, 1:, 1] = with_stone(structure, laws[:, 1:, 0], laws[:, 1:, 1], block_modulus)
     return laws

@@ -32,8 +32,6 @@ class FollowedColumn:
     block : ColumnLanes
         Lanes for the column, that go on after a collapse.
     contacts : Contacts
-    bed : array, shape (n, 2)
-        k_n and k_s of the faces of each drum [N/m³]: as soft as its joint.
     step : float
         Time step [s].
     restitution : float or None
@@ -43,7 +41,6 @@ class FollowedColumn:
     name: str
     block: ColumnLanes
     contacts: Contacts
-    bed: np.ndarray
     step: float
     restitution: float | None
 
@@ -92,7 +89,6 @@ class _ColumnRun:
         block.load(0, Case(column, motion))
         duration = motion.duration + options.tail
         self.engine = engine = Loose(column, numbers.contacts, motion, duration, self.restitution)
-        engine.law[:, 1:, :2] = numbers.bed
         engine.start(numbers.step)
         self.loose, self.ahead = False, 0
         self.take_over()

@@ -73,11 +73,14 @@ class Contacts(NamedTuple):
         Contact points of a joint.
     stiffness_damping, mass_damping : float
         [s], [1/s]
+    block_modulus : float or None
+        Of the stone of a column, in series with its joints [Pa].
     """
 
     points: int
     stiffness_damping: float
     mass_damping: float
+    block_modulus: float | None
 
 
 class Loose:
@@ -107,9 +110,14 @@ class Loose:
         law = point_law(contacts.points, True, 1, bool(topology.links))
         self.records = records = Records(law, topology, spare=n * (n - 1) // 2)
         now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
-        lane = lane_fields(structure, damping_rows(True, *contacts[1:]), contacts.points)
+        lane = lane_fields(
+            structure, damping_rows(True, contacts.stiffness_damping, contacts.mass_damping), contacts.points
+        )
         records.fill(
-            0, body=body_fields(structure), joint=joint_fields(structure, *joint_stiffnesses(structure)), lane=lane
+            0,
+            body=body_fields(structure),
+            joint=joint_fields(structure, *joint_stiffnesses(structure, contacts.block_modulus)),
+            lane=lane,
         )
         corner = fill_shapes(shape, structure)
         fill_hands(hand, structure)
@@ -123,7 +131,7 @@ class Loose:
         now["touched"], now["finer"] = -1, FINER
         now["skin"] = SKIN * min(body.size for body in bodies if not body.fixed)
         self.now, self.hand, self.shape = now, hand, shape
-        self.law, self.memory = bed_laws(structure), np.zeros((n, n, 3))
+        self.law, self.memory = bed_laws(structure, contacts.block_modulus), np.zeros((n, n, 3))
         real = tuple(np.zeros(kernel.MOST) for _ in range(8))
         whole = tuple(np.zeros(kernel.MOST, dtype=np.int64) for _ in range(2))
         self.search: tuple[Any, ...] = (
