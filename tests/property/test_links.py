@@ -174,6 +174,12 @@ def test_a_new_kind_is_refused_by_all_until_one_takes_it(name) -> None:
         statics[name](column) if name in statics else model_class(name)().check(column, motion)
 
 
+def test_a_kind_lies_where_all_lie_that_act_by_its_law() -> None:
+    """Engines compute a straight line by where it lies, and models take it by its law."""
+    with pytest.raises(TypeError, match="Post acts as a dowel, which lies in a joint, and lies in a line"):
+        type("Post", (st.Dowel,), {"law": "dowel", "lies": "line"})
+
+
 def test_every_kind_acts_by_a_law_that_a_model_knows() -> None:
     taken = {law for name in MODELS for law in model_class(name).takes_links}
     assert {kind.law for kind in KINDS.values()} == taken

@@ -17,6 +17,9 @@ LONGEST, STIFFEST, STRONGEST, THICKEST = 100.0, 1e13, 1e10, 1e10
 #: Where a link may lie: in a joint, straight between two points, or in two blocks side by side, which no column has.
 Lies = Literal["joint", "line", "side"]
 
+#: Of each law of links where those lie that act by it, as engines compute it.
+_LIES: dict[str, Lies] = {}
+
 #: How it is drawn: a short stroke through its joint, one that is anchored at its ends, a line, or a sheet along its joint.
 Mark = Literal["stroke", "anchor", "line", "sheet"]
 
@@ -132,6 +135,8 @@ class Link:
         super().__init_subclass__()
         if "law" not in vars(cls):
             cls.law = cls.kind
+        if cls.law and (usual := _LIES.setdefault(cls.law, cls.lies)) != cls.lies:
+            raise TypeError(f"{cls.__name__} acts as a {cls.law}, which lies in a {usual}, and lies in a {cls.lies}.")
 
     def __post_init__(self) -> None:
         if self.between is None:
