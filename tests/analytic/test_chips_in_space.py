@@ -9,6 +9,7 @@ import stylobate as st
 from stylobate.column.found_in_space import inside_overlap, space_geometry
 from stylobate.models.base import Case, RunOptions
 from stylobate.models.dem3d.model import DistinctElement3D
+from stylobate.models.shared.toes import point_toes
 from stylobate.motion import Motion
 from stylobate.plots.solids import surface_of
 from stylobate.response.bodies import bodies_of
@@ -177,3 +178,17 @@ def test_chips_are_drawn(section):
     surface = surface_of(shape)
     assert len(surface.tones) == len(surface.faces)
     assert np.isfinite(surface.normals).all()
+
+
+def test_what_a_chipped_joint_gives_is_bounded_by_what_its_smaller_face_gives():
+    """Of a square face with nine tenths left in each direction: as a whole face of that size under the same moment."""
+
+    def block(width: float, density: float) -> st.Column:
+        return st.Column.of_drums([st.Drum(2.0, width, width, density, depth=width)], JOINT)
+
+    stiffness = np.array([1e9])
+    chips = dict.fromkeys(("chip_left", "chip_right", "chip_front", "chip_back"), 0.05)
+    chipped = block(1.0, 2000.0).replace(as_found=st.AsFound((st.FoundDrum(1, **chips),)))
+    small = point_toes(block(0.9, 2000.0 / 0.81), stiffness, 0.25)
+    # the moment's share of the largest one, squared, is told of the whole face
+    assert point_toes(chipped, stiffness, 0.25) == pytest.approx(small / 0.81, rel=1e-12)

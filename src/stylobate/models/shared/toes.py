@@ -11,6 +11,9 @@ from ...column import Column
 #: The toe's laws are those of a short arc: with this factor they bound what a true one gives.
 SHORT_ARC = 1.05
 
+#: Of the half width of a face that a chip leaves less of, this much is reckoned with [-]: its toe is beyond all barriers.
+LEAST_LEFT = 0.1
+
 
 def rim_toes(column: Column, kn: np.ndarray) -> np.ndarray:
     """By how much gravitational and elastic energy are less with the weight on the edge of each joint than rigidly [J].
@@ -28,18 +31,19 @@ def rim_toes(column: Column, kn: np.ndarray) -> np.ndarray:
     height = centroids_above(column)
     # N = 4/3 k_n (R/2) R √2 e^1.5 / √(R sin α)
     stiffness = (2.0 * np.sqrt(2.0) / 3.0) * kn * radius**2 / np.sqrt(radius * radius / np.hypot(radius, height))
-    return SHORT_ARC * 0.6 * weight * (weight / stiffness) ** (2.0 / 3.0) - _closed(column, kn)
+    return _chipped(column, SHORT_ARC * 0.6 * weight * (weight / stiffness) ** (2.0 / 3.0) - _closed(column, kn))
 
 
 def bed_toes(column: Column, kn: np.ndarray) -> np.ndarray:
     """As :func:`rim_toes`, of joints on an elastic bed; of rings the toe is found from the law itself."""
     if column.on_rings:
-        return np.array([_ring_toe(column, float(kn[j]), j) for j in range(column.n)]) - _closed(column, kn)
+        rings = np.array([_ring_toe(column, float(kn[j]), j) for j in range(column.n)])
+        return _chipped(column, rings - _closed(column, kn))
     weight, radius = column.joint_weights, 0.5 * column.joint_widths
     # N = 8 √2/15 k_n √R e^2.5 / (tan α)^1.5
     steepness = (centroids_above(column) / radius) ** 1.5
     stiffness = (8.0 * np.sqrt(2.0) / 15.0) * kn * np.sqrt(radius) * steepness
-    return SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - _closed(column, kn)
+    return _chipped(column, SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - _closed(column, kn))
 
 
 def _ring_toe(column: Column, kn: float, j: int) -> float:
@@ -87,7 +91,7 @@ def disc_on_bed(kn: float, radius: float, depth: float, slope: float) -> tuple[f
 def point_toes(column: Column, kn: np.ndarray, share: float | np.ndarray) -> np.ndarray:
     """As :func:`rim_toes`, of joints whose edge has a share of the joint's stiffness: a corner, the last of some points."""
     closed = _closed(column, kn)
-    return SHORT_ARC * closed / share - closed
+    return _chipped(column, SHORT_ARC * closed / share - closed)
 
 
 def centroids_above(column: Column) -> np.ndarray:
@@ -95,6 +99,17 @@ def centroids_above(column: Column) -> np.ndarray:
     mass = np.cumsum(column.masses[::-1])[::-1]
     arms = np.cumsum((column.masses * column.centroid_heights)[::-1])[::-1]
     return arms / mass - column.joint_heights
+
+
+def _chipped(column: Column, toes: np.ndarray) -> np.ndarray:
+    """Toes of faces that chips leave smaller: they bound what is given under a moment by its share of the largest, squared.
+
+    That largest one is of the whole face; of what is left it is smaller as its smallest half width is, and the area is
+    smaller by no more than the square of that.
+    """
+    chips = np.array([max(column.as_found.of(i + 1).chips) for i in range(column.n)])
+    left = 1.0 - chips / np.array([0.5 * min(drum.bottom_width, drum.depth) for drum in column.drums])
+    return toes / np.maximum(left, LEAST_LEFT) ** 4
 
 
 def _closed(column: Column, kn: np.ndarray) -> np.ndarray:
