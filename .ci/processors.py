@@ -1,8 +1,8 @@
 """The tests that are sensitive to how a machine rounds, on every machine that this processor can play.
 
 `make test-cpus`: compiled loops for the processor as it is, for any processor of its kind, without and with 512-bit
-vectors; linear algebra with two other kernels. As many at a time as there are cores, for the compiler uses one.
-`--without-default` leaves out what `make test` runs anyway.
+vectors; where it is not as it is, linear algebra with the kernels of another one as well. As many at a time as there are
+cores, for the compiler uses one. `--without-default` leaves out what `make test` runs anyway.
 """
 
 from __future__ import annotations
@@ -16,14 +16,18 @@ from concurrent.futures import ThreadPoolExecutor
 
 import llvmlite.binding as llvm
 
-#: What is set for a compiler target; an empty value sets the variable to nothing, which numba tells from not set.
+#: What is set for the compiler and for linear algebra; an empty value sets the variable to nothing, which numba tells from
+#: not set.
 TARGETS = {
-    "generic": {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": ""},
-    "without AVX-512 (haswell)": {"NUMBA_CPU_NAME": "haswell", "NUMBA_CPU_FEATURES": ""},
+    "generic": {"NUMBA_CPU_NAME": "generic", "NUMBA_CPU_FEATURES": "", "OPENBLAS_CORETYPE": "Nehalem"},
+    "without AVX-512 (haswell)": {
+        "NUMBA_CPU_NAME": "haswell",
+        "NUMBA_CPU_FEATURES": "",
+        "OPENBLAS_CORETYPE": "Haswell",
+    },
     "with AVX-512 (skylake-avx512)": {"NUMBA_CPU_NAME": "skylake-avx512", "NUMBA_CPU_FEATURES": "-prefer-256-bit"},
 }
 NEEDS = {"without AVX-512 (haswell)": ("avx2", "fma"), "with AVX-512 (skylake-avx512)": ("avx512f", "avx512vl")}
-CORES = ("Nehalem", "Haswell")
 
 
 def targets(default: bool) -> dict[str, dict[str, str]]:
@@ -34,16 +38,13 @@ def targets(default: bool) -> dict[str, dict[str, str]]:
         if not default and name.startswith("with AVX-512") and has.get("avx512f"):
             continue  # as `make test` compiles already
         if all(has.get(feature) for feature in NEEDS.get(name, ())):
-            found[name] = settings
+            found[name] = dict(settings)
         else:
             print(f"left out, as this processor cannot run it: {name}", flush=True)
-    if platform.machine().lower() in ("x86_64", "amd64"):
-        found |= {f"OpenBLAS as on {core}": {"OPENBLAS_CORETYPE": core} for core in CORES if core_runs(core, has)}
+    if platform.machine().lower() not in ("x86_64", "amd64"):
+        for settings in found.values():
+            settings.pop("OPENBLAS_CORETYPE", None)
     return found
-
-
-def core_runs(core: str, has: dict[str, bool]) -> bool:
-    return core != "Haswell" or bool(has.get("avx2"))
 
 
 def main(arguments: list[str]) -> int:
