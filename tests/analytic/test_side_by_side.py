@@ -163,9 +163,13 @@ def test_changes_are_told_by_size_and_direction():
 
 
 def test_a_median_is_as_wide_as_what_is_undecided():
-    curve = {"median": 0.92, "unit": "g", "undecided": 0, "failed": 0}
+    curve = {"median": 0.92, "unit": "g", "undecided": 0, "failed": 0, "levels": [0.5, 1.5]}
     assert median_words(curve) == "0.92 g"
+    assert median_words(curve | {"median": 1.7}) == "> 1.5 g"
+    assert median_words(curve | {"median": 0.3}) == "≤ 0.5 g"
     ends = {"if_open_exceed": {"median": 0.8}, "if_open_do_not": {"median": 1.1}}
-    assert median_words(curve | {"undecided": 3} | ends) == "0.8 to 1.1 g"
-    ends["if_open_do_not"]["median"] = None
-    assert median_words(curve | {"undecided": 3} | ends) == "0.8 or more g"
+    open_ = curve | {"undecided": 3} | ends
+    assert median_words(open_) == "0.8 to 1.1 g"
+    assert median_words(open_ | {"if_open_do_not": {"median": None}}) == "0.8 to > 1.5 g"
+    assert median_words(open_ | {"median": 1.6, "if_open_do_not": {"median": 2.0}}) == "0.8 to > 1.5 g"
+    assert median_words(open_ | {"if_open_exceed": {"median": 1.6}, "if_open_do_not": {"median": 2.0}}) == "> 1.5 g"

@@ -145,6 +145,7 @@ def test_a_median_beyond_all_runs_is_none(place, capsys):
     assert one["median"] > one["levels"][1] == 0.4
     assert one["outside"] in one["sentence"]
     assert "lies above all runs (pgv = 0.05 to 0.4 m/s)" in one["outside"]
+    assert "not by runs" in one["outside"]
     text = said(capsys, "fragility", place / "weak.csv", "--im", "pgv").out
     assert "median      > 0.4 m/s (95 %:" in text
     found = said(
@@ -155,6 +156,22 @@ def test_a_median_beyond_all_runs_is_none(place, capsys):
         result = sections_of(read_results([place / folder])[0], set())[0]
         assert any(one["outside"] in note.texts[0] for note in result.items[1:])
         assert "> 0.4 m/s" in str(sections_of(read_results([place / folder])[0], set()))
+    verdict = sections_of(read_results([place / "f"])[0], set())[0].items[0]
+    assert verdict.texts[0].startswith(
+        "The fitted median of collapse (pgv) lies above all runs (0.05 to 0.4 m/s); 95 %"
+    )
+
+
+def test_what_is_undecided_is_told_of_a_median_beyond_all_runs(place, capsys):
+    """Three of eighteen runs at the largest level collapse, which nine undecided ones could raise to two thirds."""
+    ends = {0.2: "stands", 0.3: "stands", 0.4: "undecided"}
+    rows = [f"r{k},{x},{'collapsed' if k < 3 and x > 0.3 else one}" for k in range(12) for x, one in ends.items()]
+    rows += [f"r{k},0.4,stands" for k in range(6)]
+    (place / "open.csv").write_text("\n".join(["record,im,verdict", *rows]) + "\n")
+    one = said(capsys, "fragility", place / "open.csv", "--im", "pgv", "--json")
+    assert one["median"] > 0.4 > one["if_open_exceed"]["median"]
+    low = f"{one['if_open_exceed']['median']:.3g}"
+    assert f"median      {low} to > 0.4 m/s (95 %:" in said(capsys, "fragility", place / "open.csv", "--im", "pgv").out
 
 
 @pytest.fixture

@@ -95,12 +95,10 @@ class Fragility:
         unit = "" if e.unit == "-" else f" {e.unit}"
         if low * (1.0 - CLOSE) <= self.median <= high * (1.0 + CLOSE):
             return ""
-        where, bound, more = (
-            ("above", f"> {high:.3g}", "larger") if self.median > high else ("below", f"≤ {low:.3g}", "smaller")
-        )
+        where, more = ("above", "larger") if self.median > high else ("below", "smaller")
         return (
-            f"the median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}{unit}): it "
-            f"is told by the shape of the curve, and the runs themselves show only {bound}{unit}; give {more} intensities"
+            f"the fitted median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}"
+            f"{unit}): it is told by the shape of the curve, not by runs; give {more} intensities"
         )
 
     def probability(self, im: np.ndarray) -> np.ndarray:

@@ -22,9 +22,10 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
     )
     if one.get("outside"):
-        sentence = (
-            f"Half of the records bring {one['state']} at {one['im']} {median_words(one)} (95 % interval {limits})."
-        )
+        levels = " to ".join(f"{level:.3g}" for level in one["levels"])
+        where = "above" if one["median"] > one["levels"][1] else "below"
+        sentence = f"The fitted median of {one['state']} ({one['im']}) lies {where} all runs ({levels}{unit}); "
+        sentence += f"95 % interval: {limits}."
     elif one.get("bracket"):
         sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
     for each in curves:
