@@ -268,8 +268,8 @@ def fragility(
         Fewer than ten records of which a run is decided; no run that exceeds the state, or none that does not; all runs at
         one intensity; or runs that exceed it no oftener where the intensity is larger: that is no fragility.
     """
-    clusters = np.arange(len(evidence.im)).astype(str).astype(object) if records_are_one else evidence.records
-    used = replace(evidence, records=clusters)
+    clusters = np.arange(len(evidence.im)).astype(str).astype(object)
+    used = replace(evidence, records=clusters, curves=None) if records_are_one else evidence
     _check_number(used, records_are_one)
     how = method or ("records" if evidence.brackets and not records_are_one else "runs")
     codes = evidence.codes

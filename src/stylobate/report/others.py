@@ -187,9 +187,9 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     fell = sum(one.get("collapses_from") is not None for one in s["capacities"])
     sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
     sentence += f"; {median_of(s)}." if s["capacities"] else "."
-    items: list[Item] = [
-        table(s["capacities"], list(s["capacities"][0])[:6] if s["capacities"] else [], "Capacity under each record.")
-    ]
+    rows = [{"motion": one["record"], **one} for one in s["capacities"]]
+    keys = ["motion", "realisation", "stands_until", "collapses_from", "resurrections", "runs", "open"]
+    items: list[Item] = [table(rows, keys, "Capacity under each motion.")]
     items += kept(result.pictures, "ida", "Response over the intensity, a curve for each record.")
     if s.get("measures"):
         items.append(
