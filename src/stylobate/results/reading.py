@@ -31,7 +31,7 @@ MOST_RUNS = 10_000
 #: What a JSON object of each kind must hold; a folder with such an object of other keys was not written by stylobate.
 KEYS = {
     Kind.RUN: ("outcome", "collapsed", "decided", "energy_imbalance"),
-    Kind.CRITICAL: ("runs",),
+    Kind.CRITICAL: ("runs", "lowest_collapse_g", "sentence"),
     Kind.DOMAIN: ("cells", "collapsed"),
     Kind.PROBABILITY: ("cells", "replicates"),
     Kind.PUSHOVER: ("collapse_multiplier_g", "peaked", "curve"),
