@@ -160,7 +160,7 @@ def test_the_report_has_the_shares_of_the_columns_alike():
         f"{share} % of 4 columns like this one have fallen by": at
         for share, at in ((16, "0.3 g"), (50, "0.4 g"), (84, "> 0.5 g"))
     }
-    assert table.body[1] == ["0.3", "1.2", "25 %", "5 %", "70 %"]  # Wilson's interval for 1 of 4
+    assert table.body[1] == ["0.3", "1.2", "25 %", "5 to 70 %"]  # Wilson's interval for 1 of 4
     records = CriticalSuite((over("ssss", ["ssss"]),), 1.0).summary()
     (_, _), (_, table) = critical_result(SimpleNamespace(summary=records, structures=[], pictures={}))
     assert dict(zip(table.header, table.body[0]))["critical 50 [g]"] == "> 0.5"

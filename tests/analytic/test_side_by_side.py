@@ -8,6 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference, reference
+from stylobate.analysis.directions import compass_of_shares
 from stylobate.analysis.evidence import Evidence, evidence
 from stylobate.analysis.fragility import FEWEST, fragility
 from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
@@ -76,6 +77,13 @@ def test_an_interval_of_a_share_is_over_records_however_many_runs_each_has():
     assert open_.interval[0] == pytest.approx(float(wilson_interval(1, 3)[0]), abs=1e-12)
     assert open_.interval[1] == pytest.approx(float(wilson_interval(2, 3)[1]), abs=1e-12)
     assert shares({"a": np.array([FAILED])})[0].interval == (0.0, 1.0)
+
+
+def test_an_interval_over_records_holds_the_share_of_the_runs():
+    """One record of ten with a hundred runs, of which all collapse: their share is 92 %, though nine records stand."""
+    (one,) = shares({"a": np.array([EXCEEDED] * 100 + [NOT_EXCEEDED] * 9)}, ["a"] * 100 + list("bcdefghij"))
+    assert one.low == pytest.approx(100 / 109)
+    assert one.interval == pytest.approx((float(wilson_interval(1, 10)[0]), 100 / 109))
 
 
 def test_directions_of_a_record_are_no_records_of_their_own():
@@ -173,3 +181,15 @@ def test_a_median_is_as_wide_as_what_is_undecided():
     assert median_words(open_ | {"if_open_do_not": {"median": None}}) == "0.8 to > 1.5 g"
     assert median_words(open_ | {"median": 1.6, "if_open_do_not": {"median": 2.0}}) == "0.8 to > 1.5 g"
     assert median_words(open_ | {"if_open_exceed": {"median": 1.6}, "if_open_do_not": {"median": 2.0}}) == "> 1.5 g"
+
+
+def test_a_compass_counts_a_record_once_from_each_direction():
+    """Five columns under one record from the north are one record: Wilson's interval of 1 of 2, not of 5 of 6."""
+    fell = {"outcome": "collapsed", "decided": True, "collapsed": True, "azimuth_deg": 0.0}
+    stood = {"outcome": "rocked", "decided": True, "collapsed": False, "azimuth_deg": 0.0}
+    open_ = stood | {"decided": False, "azimuth_deg": 90.0, "record": "a"}
+    found = compass_of_shares([*[fell | {"record": "a"}] * 5, stood | {"record": "b"}, open_])
+    assert found.bearings.tolist() == [0.0, 90.0]
+    assert found.values[0] == pytest.approx(5 / 6)
+    assert math.isnan(found.values[1])  # nothing is decided there
+    assert found.low[0] == pytest.approx(float(wilson_interval(1, 2)[0]))

@@ -298,7 +298,7 @@ def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
     page.keyboard.press("Tab")
     page.click("#fragility-asked button.primary")
     found = page.locator("#fragility-found")
-    expect(found.locator(".verdict").first).to_contain_text("Half of the records bring collapse", timeout=60_000)
+    expect(found.locator(".verdict").first).to_contain_text("half of the records bring collapse", timeout=60_000)
     expect(found).to_contain_text("of 10 records")
     expect(found).to_contain_text("notes <i>.txt was left out")
     expect(found.locator("canvas[data-curves=ida]")).to_be_visible()

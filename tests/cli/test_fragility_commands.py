@@ -94,6 +94,15 @@ def test_bad_input_is_one_sentence(place, capsys):
         assert why in got.err
         assert got.err.count("\n") == 1
     assert said(capsys, "fragility", few, "--records-are-one", "--json")["records"] == 20
+    text = said(capsys, "fragility", few, "--records-are-one", "--out", place / "alone").out
+    assert "half of the runs bring collapse" in text
+    assert "20 runs, each taken for a record of its own" in text
+    (told,) = read_results([place / "alone"])
+    page = str(sections_of(told, set())[:1] + sections_of(told, set())[-4:])
+    assert "half of the runs bring collapse" in page
+    assert "says nothing about the next earthquake" in page
+    assert "The interval is over runs" in page
+    assert "half of the records" not in page
 
 
 @pytest.mark.parametrize(

@@ -182,7 +182,7 @@ def test_a_verdict_says_when_columns_like_it_do_otherwise():
     found = {"certainty": known, "collapse_interval_low": 0.3, "collapse_interval_high": 0.99}
     said = certainty_sentence(found | {"collapsed": False})
     assert "Of 5 columns like this one, 4 collapse" in said
-    assert "between 30 % and 99 %" in said
+    assert "the probability of collapse is 30 to 99 %, with 95 % confidence" in said
     assert "1 more could not be computed" in said
     assert "take the share, not the single run" in said
     assert "take the share" not in certainty_sentence(found | {"collapsed": True})

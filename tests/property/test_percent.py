@@ -44,7 +44,7 @@ def test_all_who_tell_a_share_tell_the_same():
     population = Population([None] * 40, rows, Scatter(), 0)
     assert percents(share.low, share.high) == share.words == "58 %"
     assert chance_words({f"twins_{key}": value for key, value in population.counts.items()}).startswith("58 % of 40 (")
-    assert f"{whole(population.interval[0])}–{whole(population.interval[1])} %" in population.sentence
+    assert f"(95 %: {percents(*population.interval)})" in population.sentence
     assert population.counts[v.COLLAPSED] == 23
 
 

@@ -56,6 +56,8 @@ class Fragility:
         Largest distance between the points and the curve [-], and the share of sets of runs drawn from the curve that have
         a larger one.
     confidence : float
+    records_are_one : bool
+        Every run counts as a record of its own: ``records`` are runs.
     """
 
     evidence: Evidence
@@ -71,6 +73,21 @@ class Fragility:
     distance: float
     p_value: float
     confidence: float
+    records_are_one: bool = False
+
+    @property
+    def counted(self) -> str:
+        """What counts as independent of one another, and the interval is over, in words."""
+        return "runs" if self.records_are_one else "records"
+
+    @property
+    def warnings(self) -> list[str]:
+        """What must be said beside anything that rests on this curve."""
+        alone = (
+            "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
+            "nothing about the next earthquake"
+        )
+        return [f"{one}." for one in (self.outside, alone * self.records_are_one) if one]
 
     @property
     def median(self) -> float:
@@ -187,15 +204,15 @@ class Fragility:
         if self.outside:
             return f"{e.name}: {self.outside}."
         if self.bracket is None:
-            return f"{e.name}: half of the records bring {where} = {self.median:.3g}{unit}."
+            return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
         low, high = self.bracket
         if low == high:
             return (
                 f"{e.name}: no run below {e.measure} = {low:.4g}{unit} brings {e.state}, and every run above it does."
             )
         return (
-            f"{e.name}: half of the records bring {where} between {low:.4g} and {high:.4g}{unit}: no run up to the one "
-            "brings it, and every run from the other on does."
+            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no run up to "
+            "the one brings it, and every run from the other on does."
         )
 
     def summary(self) -> dict[str, Any]:
@@ -215,6 +232,8 @@ class Fragility:
             "name": e.name,
             "method": self.method,
             "records": self.records,
+            "records_are_one": self.records_are_one,
+            "warnings": self.warnings,
             "runs": len(e.im),
             "exceeded": e.count(EXCEEDED),
             "undecided": e.count(OPEN),
@@ -293,7 +312,7 @@ def fragility(
         used, how, log_median, beta, bootstrap(low, high, owner, samples, rng),
         likelihood_region.region(low, high, number, confidence),
         likelihood_region.dispersions(low, high, number, confidence), bracket,
-        (extremes[0], extremes[1]), points, distance, p_value, confidence,
+        (extremes[0], extremes[1]), points, distance, p_value, confidence, records_are_one,
     )  # fmt: skip
 
 

@@ -37,7 +37,8 @@ class Share:
         That these runs are of.
     interval : (float, float)
         95 % confidence limits of the share over records, each of which counts once however many runs are of it; the lower
-        one as if no undecided run exceeded the state, the upper one as if every one did.
+        one as if no undecided run exceeded the state, the upper one as if every one did. They hold the share of the runs,
+        too, which is another one where records have different numbers of them.
     """
 
     label: str
@@ -127,12 +128,10 @@ def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
     """Confidence limits over records of the share that exceeds, none and all of the undecided counted in."""
     runs = np.bincount(owner)
     there = runs > 0
-    passed = [
-        float((np.bincount(owner, hits, len(runs))[there] / runs[there]).sum())
-        for hits in (codes == EXCEEDED, (codes == EXCEEDED) | (codes == OPEN))
-    ]
-    low, high = (v.wilson_interval(one, there.sum())[k] for k, one in enumerate(passed))
-    return float(low), float(high)
+    hits = [codes == EXCEEDED, np.isin(codes, (EXCEEDED, OPEN))]
+    passed = [float((np.bincount(owner, one, len(runs))[there] / runs[there]).sum()) for one in hits]
+    low, high = (float(v.wilson_interval(one, there.sum())[k]) for k, one in enumerate(passed))
+    return (min(low, float(hits[0].mean())), max(high, float(hits[1].mean()))) if len(codes) else (low, high)
 
 
 def codes_of(verdicts: np.ndarray) -> np.ndarray:

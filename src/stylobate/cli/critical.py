@@ -238,7 +238,6 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
             f"; {percent(share)} of those like it collapse" if share is not None and math.isfinite(share) else ""
         )
     for row in summary["alternation"]:
-        facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = (
-            f"{row['verdict']} ({row['runs']} run{'s' * (row['runs'] > 1)})"
-        )
+        runs = f"{row['runs']} run" + ("" if row["runs"] == 1 else "s")
+        facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = f"{row['verdict']} ({runs})"
     console.say(summary["sentence"], facts, files)

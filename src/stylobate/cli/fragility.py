@@ -168,13 +168,14 @@ def describe(found: Fragility) -> None:
     median = f"{known} (95 %: {between(s['median_low'], s['median_high'])}){open_}"
     limits = between(s["beta_low"], s["beta_high"], digits=2)
     spread = f"not seen in these runs (95 %: {limits})" if s["beta"] is None else f"{s['beta']:.3f} (95 %: {limits})"
+    records = ", each taken for a record of its own" if s["records_are_one"] else f" of {s['records']} records"
     fit = "the points lie as a lognormal curve lets expect" if s["p_value"] >= 0.05 else "a lognormal curve fits badly"
     console.say(
         s["sentence"],
         {
             "median": f"middle {median}" if s["bracket"] and not s["outside"] else median,
             "dispersion": spread,
-            "from": f"{s['runs']} runs of {s['records']} records, {s['exceeded']} exceed; by {s['method']}",
+            "from": f"{s['runs']} runs{records}, {s['exceeded']} exceed; by {s['method']}",
             "fit": f"{fit} (largest distance {s['largest_distance']:.2f}, p = {s['p_value']:.2f})",
         },
     )

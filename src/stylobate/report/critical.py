@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..analysis import verdicts as v
-from ..percent import percent
+from ..percent import percent, percents
 from ..results import Numbers
 from . import numbers as n
 from .page import Facts, Item, Rows
@@ -69,12 +69,12 @@ def _twins(s: dict[str, Any]) -> list[Item]:
         for share in (16, 50, 84)
         if shown.get(name := f"critical_{share}_g") is not None
     ]
-    limits = s["collapse_interval_low"], s["collapse_interval_high"]
+    limits = zip(s["collapse_interval_low"], s["collapse_interval_high"])
     rows = [
-        [f"{a:.4g}", n.plain(factor), *(n.NONE if one is None else percent(one) for one in shares)]
-        for a, factor, *shares in zip(s["amplitudes_g"], scale, s["collapse_probability"], *limits)
+        [f"{a:.4g}", n.plain(factor), n.NONE if share is None else percent(share), percents(*interval)]
+        for a, factor, share, interval in zip(s["amplitudes_g"], scale, s["collapse_probability"], limits)
     ]
-    header = ["amplitude [g]", "factor of the record", "collapse", "95 % from", "to"]
+    header = ["amplitude [g]", "factor of the record", "collapse", "95 % interval"]
     left_out = f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
     return [Facts(pairs), Rows(header, rows[:MOST], f"Columns like this one, by amplitude.{left_out}", numbers=True)]
 

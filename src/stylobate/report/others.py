@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ..analysis.certainty import chance_words
+from ..analysis.certainty import CHANCE, chance_words
 from ..analysis.ida_curves import median_of
 from ..analysis.side_by_side import codes_of, shares
 from ..analysis.studies import StudyResult
@@ -43,9 +43,6 @@ from .tables import COUNTED, COUNTED_HOW, MOST, counts_of, open_runs, table
 
 #: Kinds that rest on the runs of another command.
 FROM_RUNS = (Kind.FRAGILITY, Kind.RISK, Kind.SURVIVAL)
-
-#: What the columns like one come to, in a table.
-CHANCE = "columns like it that collapse"
 
 
 def sections_of(result: Result, told: set[str], run: RunResult | None = None) -> list[Section]:
@@ -114,10 +111,7 @@ def _doubts(result: Result) -> list[str]:
     if result.kind not in FROM_RUNS:
         return []
     curves = result.summary.get("curves") or [result.summary]
-    return [
-        *map(str, result.summary.get("warnings") or ()),
-        *(f"{one['outside']}." for one in curves if one.get("outside")),
-    ]
+    return list(dict.fromkeys(str(text) for one in curves for text in one.get("warnings") or ()))
 
 
 def _scope(kind: Kind) -> str:

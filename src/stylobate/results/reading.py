@@ -39,7 +39,7 @@ KEYS = {
     Kind.STATES: ("state", "states", "differences", "links", "records"),
     Kind.SUITE: ("runs", "verdicts"),
     Kind.IDA: ("runs", "records", "capacities"),
-    Kind.FRAGILITY: ("median", "beta", "im", "state"),
+    Kind.FRAGILITY: ("median", "beta", "im", "state", "sentence"),
     Kind.RISK: ("annual_rate", "return_period_y"),
     Kind.SURVIVAL: ("hazards",),
 }
