@@ -146,7 +146,9 @@ def test_what_is_undecided_stands_in_the_advice():
     said = dataclasses.replace(KNOWN, share_low=-0.05, ratio_high=1.1, pairs=27, undecided=13).advice
     assert said.endswith("; 13 of 40 pairs of runs are undecided, and longer runs may settle them).")
     few = dataclasses.replace(KNOWN, records=3, undecided=13).advice  # longer runs of so few would settle nothing
-    assert few.endswith("3 records and worse in 9; nothing is concluded from fewer than 10 records).")
+    assert few.endswith(
+        "3 records and worse in 9; nothing is concluded from fewer than 10 records; 13 of 53 pairs of runs are undecided)."
+    )
 
 
 def test_changes_are_told_by_size_and_direction():
@@ -193,3 +195,22 @@ def test_a_compass_counts_a_record_once_from_each_direction():
     assert found.values[0] == pytest.approx(5 / 6)
     assert math.isnan(found.values[1])  # nothing is decided there
     assert found.low[0] == pytest.approx(float(wilson_interval(1, 2)[0]))
+
+
+def test_advice_without_pairs_and_of_few_records_says_what_it_is_of():
+    none = difference(runs("as built", *[FAILED] * 12), runs("dowels", *[EXCEEDED] * 12))
+    assert none.advice.endswith("no ground to adopt it for safety (no pair of runs could be computed).")
+    assert none.basis == "No pair of runs could be computed."
+    few = difference(runs("as built", EXCEEDED, OPEN), runs("dowels", EXCEEDED, EXCEEDED)).advice
+    assert "fewer than 10 records; 1 of 2 pairs of runs is undecided)." in few
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [(0.004, "<1 percentage point higher"), (-0.01, "1 percentage point lower"), (0.02, "2 percentage points higher")],
+)
+def test_points_are_counted(change, words):
+    found = dataclasses.replace(
+        difference(runs("a", EXCEEDED), runs("b", EXCEEDED)), share_best=change, share_worst=change
+    )
+    assert f"The share that collapses is {words} in these records." in found.basis

@@ -36,7 +36,7 @@ KEYS = {
     Kind.PROBABILITY: ("cells", "replicates"),
     Kind.PUSHOVER: ("collapse_multiplier_g", "peaked", "curve"),
     Kind.LIMIT: ("collapse_multiplier_g", "active_joints"),
-    Kind.STATES: ("state", "states", "differences", "links", "records"),
+    Kind.STATES: ("state", "states", "differences", "links", "records", "doubt"),
     Kind.SUITE: ("runs", "verdicts"),
     Kind.IDA: ("runs", "records", "capacities"),
     Kind.FRAGILITY: ("median", "beta", "im", "state", "sentence"),
