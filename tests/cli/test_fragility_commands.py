@@ -237,6 +237,14 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
     (out / "runs.csv").write_text((out / "runs.csv").read_text() + "\n")
     said(capsys, "risk", out, "--hazard", hazard, "--out", tmp_path / "again", "--json")
     assert "is not as stylobate wrote it" in str(sections_of(read_results([tmp_path / "again"])[0], set()))
+    for broken in ("{", '{"form": 1, "models": [3]}', '{"form": 99}'):  # what is known is told, and what is not
+        (out / "asked-ida.json").write_text(broken)
+        said(capsys, "fragility", out, "--out", tmp_path / "broken", "--json")
+        (result,) = read_results([tmp_path / "broken"])
+        basis = next(one for one in sections_of(result, set()) if one.title == "What it was computed from")
+        assert dict(basis.items[0].pairs)["runs"] == "80 of 10 records"
+        assert basis.items[1].texts[0].startswith("Not known: ")
+        assert "asked-ida.json" in basis.items[1].texts[0]
 
 
 def test_what_is_not_known_of_a_risk_is_said(place, capsys):

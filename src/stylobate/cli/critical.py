@@ -201,7 +201,7 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
     table = result.table.drop(columns=["bounds", "lowest_collapse_g", "open_below"])
     if result.results[0].population is None:
         table = table.drop(columns="lowest_collapse_factor")
-    if (table["record"] == table["motion"]).all():
+    if table["record"].tolist() == table["motion"].tolist():
         table = table.drop(columns="motion")
     table = table.astype(object).where(table.notna(), math.nan)
     for place, one in enumerate(result.summary()["records"]):
