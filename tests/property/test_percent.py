@@ -58,3 +58,11 @@ def test_nobody_else_rounds_a_share():
         if own.search(line) and "running.done" not in line  # how far a job is, no share of runs
     ]
     assert not found
+
+
+def test_runs_without_a_verdict_are_counted_in_a_sentence():
+    assert (
+        v.open_runs({"undecided": 1, "failed": 2}) == " 1 run is undecided and 2 runs failed: not counted as collapse."
+    )
+    assert v.open_runs({"undecided": 2, "failed": 0}, "left out") == " 2 runs are undecided: left out."
+    assert v.open_runs({"undecided": 0}) == ""

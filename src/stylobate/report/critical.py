@@ -29,7 +29,7 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     records = s.get("records") or []
     pairs = [
         ("runs", n.plain(s["runs"])),
-        ("collapsed / stands", f"{n.plain(s.get('collapsed'))} / {n.plain(s.get('stands'))}"),
+        (" / ".join(v.MADE), " / ".join(n.plain(s.get(one)) for one in v.MADE)),
     ]
     if (own := s.get("as_recorded")) is not None:
         pairs.append(("the record as it is", f"{own['amplitude_g']:.4g} g: {own['verdict']}"))

@@ -13,6 +13,7 @@ from ..analysis.ida_curves import median_of
 from ..analysis.side_by_side import codes_of, shares
 from ..analysis.studies import StudyResult
 from ..analysis.suite import suite_shares
+from ..analysis.verdicts import open_runs
 from ..bibliography import cite, cite_run
 from ..column import Column
 from ..constants import g
@@ -39,7 +40,7 @@ from .shaking import motions_section
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
 from .structure import state_section, structure_section
-from .tables import COUNTED, COUNTED_HOW, MOST, counts_of, open_runs, table
+from .tables import COUNTED, COUNTED_HOW, MOST, counts_of, table
 
 #: Kinds that rest on the runs of another command.
 FROM_RUNS = (Kind.FRAGILITY, Kind.RISK, Kind.SURVIVAL)

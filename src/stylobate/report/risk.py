@@ -8,11 +8,12 @@ from typing import Any
 from ..analysis.fragility import between
 from ..analysis.risk import years
 from ..analysis.side_by_side import median_words
+from ..analysis.verdicts import open_runs
 from ..results import Numbers
 from . import numbers as n
 from .page import Facts, Item, Note
 from .pictures import kept
-from .tables import open_runs, table
+from .tables import table
 
 
 def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -41,7 +42,7 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     if float(one.get("p_value") or 1.0) < 0.05:
         items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
     items.append(_HOLDS.format(_over(one)))
-    return (sentence + open_runs(one), ""), items
+    return (sentence + open_runs(one, "left out of the curve"), ""), items
 
 
 #: What no interval of a fragility holds.
