@@ -82,8 +82,8 @@ class CriticalSuite:
                 factor = math.inf if one.lowest_factor is None else one.lowest_factor
                 found[at] = min(factor, found.get(at, math.inf))
         bearings = sorted(found)
-        like = "" if self.results[0].population is None else " of it or one like it"
-        name = f"factor of the record at the lowest collapse{like} [-]"
+        like = "" if self.results[0].population is None else " or one like it"
+        name = f"lowest factor that collapses it{like} [-]"
         return Compass(np.array(bearings), np.array([found[at] for at in bearings]), name)
 
     @property
