@@ -112,7 +112,7 @@ def test_undecided_and_failed_twins_are_counted_as_neither():
     low, high = found.interval
     # Wilson's limits for 1 of 3 and for 2 of 3
     assert (low, high) == pytest.approx((0.0615, 0.9385), abs=1e-3)
-    assert found.sentence.startswith("Collapses in 1 of 3 columns like this (95 %: 6–94 %); 1 of them are undecided")
+    assert found.sentence.startswith("Collapses in 1 of 3 columns like this (95 %: 6 to 94 %); 1 of them are undecided")
     assert found.sentence.endswith("1 more failed.")
     assert (found.worst, found.median) == (0, 2)
     nothing = population(row("failed"))
@@ -123,7 +123,7 @@ def test_undecided_and_failed_twins_are_counted_as_neither():
 def test_the_interval_of_the_issue():
     # 15 of 30 collapses: Wilson's 95 % interval is 33 to 67 %
     found = population(*[row("collapsed")] * 15, *[row("rocked")] * 15)
-    assert "15 of 30 columns like this (95 %: 33–67 %)" in found.sentence
+    assert "15 of 30 columns like this (95 %: 33 to 67 %)" in found.sentence
 
 
 def test_a_model_of_columns_as_built_leaves_the_offsets_out_and_says_so():

@@ -5,12 +5,14 @@ import math
 import warnings
 
 import numpy as np
+import pandas
 import pytest
 
 import stylobate as st
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.efficiency import which_tells_most
-from stylobate.analysis.evidence import evidence
+from stylobate.analysis.evidence import evidence, intervals
+from stylobate.analysis.fragility import fragility
 from stylobate.analysis.hunt import CLOSE, next_levels
 from stylobate.analysis.ida import ida
 from stylobate.analysis.ida_curves import median_of
@@ -189,3 +191,37 @@ def test_measures_by_name():
     for wrong in ("0.3", "0.3m/s", "-1g", "x"):
         with pytest.raises(InputError, match="level"):
             parse_levels(wrong, parse_measure("pga"))
+
+
+def test_an_undecided_run_below_the_first_collapse_widens_the_capacity(found):
+    rows = pandas.DataFrame({"record": "a", "motion": "a", "realisation": 0, "level": [0.1, 0.2, 0.3, 0.4], "edp": 0.0})
+    rows["verdict"] = [v.STANDS, v.UNDECIDED, v.STANDS, v.COLLAPSED]
+    some = dataclasses.replace(found, runs=rows.rename(columns={"edp": "peak_top_displacement_m"}))
+    (capacity,) = some.capacities.to_dict("records")
+    assert (capacity["stands_until"], capacity["collapses_from"], capacity["open"]) == (0.1, 0.4, 1)
+    fewer = dataclasses.replace(found, runs=some.runs[:3])
+    assert fewer.capacities["stands_until"].tolist() == [0.1]
+
+
+def test_components_and_twins_of_a_record_have_capacities_of_their_own_and_count_once():
+    """Of two components of each record one falls at half of what the other takes; the median lies between the two."""
+    levels, names = [1.0, 2.0, 4.0, 8.0, 16.0], [f"r{k}" for k in range(10)]
+    rows = [
+        {"record": name, "motion": f"{name} {part}", "realisation": 0, "im": x, "hunted": True,
+         "verdict": v.COLLAPSED if x >= falls * (1 + k % 2) else v.STANDS}
+        for k, name in enumerate(names) for part, falls in (("first", 2.0), ("second", 4.0)) for x in levels
+    ]  # fmt: skip
+    told = evidence(pandas.DataFrame(rows))
+    low, high, owner = intervals(told, told.codes, "records")
+    assert len(low) == 20
+    assert np.exp(high[:4]).tolist() == pytest.approx([2.0, 4.0, 4.0, 8.0])
+    assert np.bincount(owner).tolist() == [2] * 10
+    one = fragility(told, samples=50)
+    assert one.records == 10
+    assert one.points.records.tolist() == [10, 10, 10]
+    assert one.points.share == pytest.approx([0.25, 0.75, 1.0])  # of ten records, not of twenty curves
+    pulse = half_sine_pulse(1.0, 0.3 * st.g, 2.0).replace(
+        name="a first component", metadata={"direction": {"record": "a"}}
+    )
+    table = ida(BLOCK, [pulse], st.HousnerBlock(), "pga", levels=[0.1], about={"a": {"magnitude": 6.0}}, threads=1).runs
+    assert table[["record", "motion", "magnitude"]].to_numpy().tolist() == [["a", "a first component", 6.0]]

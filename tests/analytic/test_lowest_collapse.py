@@ -1,5 +1,6 @@
 """The lowest collapse over amplitudes: what is said first is never above what was seen, and bounds are told as bounds."""
 
+import dataclasses
 import json
 import math
 from types import SimpleNamespace
@@ -89,21 +90,65 @@ def test_what_has_no_verdict_is_no_collapse_of_a_column_alike():
     found = over("ssss", ["ussc", "usss"])  # nothing is decided at the first amplitude, so its share is not known
     assert math.isnan(found.population.probability[0])
     assert found.summary()["sentence"].startswith("Of 3 columns, this one and 2 like it, the first falls at 0.5 g")
-    assert sentence(over("usss").summary()).startswith("No amplitude looked at, 0.2 to 0.5 g, collapses the column")
+    assert "; runs below that without a verdict, which may be collapses: 2; of those" in found.summary()["sentence"]
+    assert over("usss").summary()["sentence"].startswith("No amplitude looked at, 0.2 to 0.5 g, surely collapses the")
+    alike = over("ssus", ["sssc", "sssc"]).summary()["sentence"]
+    assert "84 % by 0.5 g. No amplitude looked at, 0.2 to 0.5 g, surely collapses this one; larger ones" in alike
+    assert "0.5 g, collapses this one" in over("ssss", ["sssc", "sssc"]).summary()["sentence"]
+
+
+def test_only_amplitudes_that_stand_bound_what_is_not_seen():
+    assert over("uccc").bounds["all_collapse_above_g"] == "≤ 0.3"
+    assert over("ssus").bounds["all_collapse_above_g"] == "> 0.5"
+    assert over("sssu").bounds["all_collapse_above_g"] == "> 0.4"
+    assert over("uuuu").bounds["all_collapse_above_g"] == "not known"
+    assert over("sssc", ["uscc", "ssss"]).bounds["lowest_collapse_g"] == "≤ 0.4"  # the undecided may be the lowest
+
+
+def test_the_next_lower_amplitude_is_told_of_both_grids():
+    codes = np.array([verdicts("sc"), verdicts("ss")])
+    population = CriticalPopulation(AMPLITUDES[[0, 3]] * st.g, codes, Scatter(), 0, (), RECORD.pga)
+    found = dataclasses.replace(over("sssc"), population=population).summary()
+    both = "(the next below that was looked at is 0.4 g, for those like it 0.2 g)"
+    assert f"first falls at 0.5 g, 2 times the record {both}" in found["sentence"]
+
+
+def test_motions_of_a_record_are_told_apart_from_records_and_what_is_undecided_is_told():
+    both = [RECORD.replace(name=f"a {k}", metadata={"direction": {"record": "a", "azimuth": 90.0 * k}}) for k in (0, 1)]
+    suite = CriticalSuite((over("succ", ["sssc"], both[0]), over("ssss", ["scsu"], both[1])), 1.0)
+    found = suite.summary()
+    assert found["sentence"] == (
+        "1 of 2 motions of 1 record collapse the column at some peak looked at, 0.2 to 0.5 g, 2 it or one like it. Most "
+        "harm: a 1, which collapses it or one like it at 1.2 times the record, 0.3 g, the smallest factor at which any "
+        "does. 1 of 8 runs ended far from rest (a longer --tail decides them); 1 run of those like it ended far from rest "
+        "(a longer --tail decides them): not counted as collapse."
+    )
+    assert (found["lowest_collapse_g"], found["lowest_collapse_factor"]) == pytest.approx((0.3, 1.2))
+    assert suite.compass.values.tolist() == pytest.approx([1.6, 1.2])  # as the sentence, not of the column alone
+    assert suite.runs["record"].tolist() == ["a"] * 8
+    assert suite.runs["motion"].tolist() == ["a 0"] * 4 + ["a 1"] * 4
+    (_, _), (_, table) = critical_result(SimpleNamespace(summary=found, structures=[], pictures={}))
+    shown = [dict(zip(table.header, row)) for row in table.body]
+    assert [one["lowest collapse factor"] for one in shown] == ["1.6", "1.2"]
+    assert [one["undecided"] for one in shown] == ["1", "0"]
+    none = CriticalSuite((over("ssus"), over("ssss", motion=both[1])), 1.0).summary()["sentence"]
+    assert none.startswith("No record surely collapses the column at a peak looked at, 0.2 to 0.5 g. 1 of 8 runs ended")
 
 
 def test_bounds_are_told_as_bounds():
     low = over("cccc", ["cccc", "cccc", "sccc"]).summary()
-    assert low["bounds"] == {"critical_g": "≤ 0.2", "all_collapse_above_g": "≤ 0.2", "critical_factor": "≤ 0.8"}
+    at = dict.fromkeys(("critical_g", "all_collapse_above_g", "lowest_collapse_g"), "≤ 0.2")
+    assert low["bounds"] == at | dict.fromkeys(("critical_factor", "lowest_collapse_factor"), "≤ 0.8")
     assert low["certainty"]["bounds"] == {"critical_16_g": "≤ 0.2", "critical_50_g": "≤ 0.2"}
     assert "16 % at 0.2 g or below" in low["sentence"]
-    suite = CriticalSuite((over("ssss", ["ssss"]), over("sccc", ["cccc"])), 1.0)
+    suite = CriticalSuite((over("ssss", ["ssss"]), over("sccc", ["cccc"], RECORD.replace(name="other.csv"))), 1.0)
     first, second = suite.summary()["records"]
     assert first["bounds"]["critical_50_g"] == "> 0.5"
-    assert second["bounds"] == dict.fromkeys(("critical_16_g", "critical_50_g", "critical_84_g"), "≤ 0.2")
-    assert suite.table["bounds"].tolist()[1] == "critical_16_g ≤ 0.2; critical_50_g ≤ 0.2; critical_84_g ≤ 0.2"
+    shares = dict.fromkeys(("critical_16_g", "critical_50_g", "critical_84_g"), "≤ 0.2")
+    assert second["bounds"] == {"lowest_collapse_g": "≤ 0.2", "lowest_collapse_factor": "≤ 0.8"} | shares
+    assert suite.table["bounds"].tolist()[1].endswith("critical_16_g ≤ 0.2; critical_50_g ≤ 0.2; critical_84_g ≤ 0.2")
     assert "1 of 2 records collapse the column" in (said := sentence_of_suite(suite.summary()))
-    assert "which collapses it or one like it at 0.8 times the record" in said
+    assert "which collapses it or one like it already at 0.8 times the record" in said
 
 
 def test_the_report_has_the_shares_of_the_columns_alike():
@@ -115,7 +160,7 @@ def test_the_report_has_the_shares_of_the_columns_alike():
         f"{share} % of 4 columns like this one have fallen by": at
         for share, at in ((16, "0.3 g"), (50, "0.4 g"), (84, "> 0.5 g"))
     }
-    assert table.body[1] == ["0.3", "1.2", "25 %", "5 %", "70 %"]  # Wilson's interval for 1 of 4
+    assert table.body[1] == ["0.3", "1.2", "25 %", "5 to 70 %"]  # Wilson's interval for 1 of 4
     records = CriticalSuite((over("ssss", ["ssss"]),), 1.0).summary()
     (_, _), (_, table) = critical_result(SimpleNamespace(summary=records, structures=[], pictures={}))
-    assert dict(zip(table.header, table.body[0]))["critical 50 g"] == "> 0.5"
+    assert dict(zip(table.header, table.body[0]))["critical 50 [g]"] == "> 0.5"

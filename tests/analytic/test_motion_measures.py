@@ -29,6 +29,7 @@ from stylobate.motion import (
     significant_duration,
 )
 from stylobate.motion.condition_specs import conditioned
+from stylobate.motion.drift import CURES, KEPT_VELOCITY, cure_of, drift_of
 from stylobate.motion.intensity import displacement_drift, warn_of_drift
 from stylobate.motion.motion import integrate
 from stylobate.motion.readers.registry import sample_motion
@@ -233,6 +234,22 @@ def test_no_conditioning_is_named_where_none_helps():
     with pytest.warns(OutOfRangeWarning, match="take no displacement from it") as seen:  # nothing but an offset
         warn_of_drift(Motion(0.01, np.full(1001, 0.02), name="r", metadata={"file": "r.csv"}))
     assert "--condition" not in str(seen[0].message)
+
+
+def test_no_conditioning_is_named_that_takes_the_shaking_or_is_longer_than_the_record():
+    """A ground that moves for good by half a sine of velocity: all that ends the displacement takes more than a tenth."""
+    time = 0.01 * np.arange(3001)
+    fling = np.where(np.abs(time - 12.5) < 2.5, np.cos(np.pi * (time - 12.5) / 5.0), 0.0) * 0.5
+    shaking = 0.8 * np.sin(6.0 * np.pi * time) * np.exp(-(((time - 12.0) / 3.0) ** 2))
+    values = np.gradient(fling, 0.01) + shaking
+    own = float(np.abs(integrate(values, 0.01)).max())
+    taken = {one: np.abs(integrate(conditioned(Motion(0.01, values), one).samples, 0.01)).max() for one in CURES}
+    assert min(own / taken[one] for one in CURES if one != "demean") > 1.0 / KEPT_VELOCITY
+    assert drift_of(values, 0.01) != 0.0
+    assert cure_of(values, 0.01) is None
+    short = (shaking + 0.003 * time)[800:1700]  # nine seconds, which a filter of ten does not see
+    assert drift_of(short, 0.01) != 0.0
+    assert "highpass" not in str(cure_of(short, 0.01))
 
 
 def test_el_centro_is_not_told_a_baseline_that_leaves_it_moving():

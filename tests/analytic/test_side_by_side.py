@@ -8,6 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference, reference
+from stylobate.analysis.directions import compass_of_shares
 from stylobate.analysis.evidence import Evidence, evidence
 from stylobate.analysis.fragility import FEWEST, fragility
 from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
@@ -78,6 +79,13 @@ def test_an_interval_of_a_share_is_over_records_however_many_runs_each_has():
     assert shares({"a": np.array([FAILED])})[0].interval == (0.0, 1.0)
 
 
+def test_an_interval_over_records_holds_the_share_of_the_runs():
+    """One record of ten with a hundred runs, of which all collapse: their share is 92 %, though nine records stand."""
+    (one,) = shares({"a": np.array([EXCEEDED] * 100 + [NOT_EXCEEDED] * 9)}, ["a"] * 100 + list("bcdefghij"))
+    assert one.low == pytest.approx(100 / 109)
+    assert one.interval == pytest.approx((float(wilson_interval(1, 10)[0]), 100 / 109))
+
+
 def test_directions_of_a_record_are_no_records_of_their_own():
     """A suite of one record in twelve directions says nothing about the next earthquake."""
     time = np.arange(60) * 0.02
@@ -138,7 +146,9 @@ def test_what_is_undecided_stands_in_the_advice():
     said = dataclasses.replace(KNOWN, share_low=-0.05, ratio_high=1.1, pairs=27, undecided=13).advice
     assert said.endswith("; 13 of 40 pairs of runs are undecided, and longer runs may settle them).")
     few = dataclasses.replace(KNOWN, records=3, undecided=13).advice  # longer runs of so few would settle nothing
-    assert few.endswith("3 records and worse in 9; nothing is concluded from fewer than 10 records).")
+    assert few.endswith(
+        "3 records and worse in 9; nothing is concluded from fewer than 10 records; 13 of 53 pairs of runs are undecided)."
+    )
 
 
 def test_changes_are_told_by_size_and_direction():
@@ -163,9 +173,44 @@ def test_changes_are_told_by_size_and_direction():
 
 
 def test_a_median_is_as_wide_as_what_is_undecided():
-    curve = {"median": 0.92, "unit": "g", "undecided": 0, "failed": 0}
+    curve = {"median": 0.92, "unit": "g", "undecided": 0, "failed": 0, "levels": [0.5, 1.5]}
     assert median_words(curve) == "0.92 g"
+    assert median_words(curve | {"median": 1.7}) == "> 1.5 g"
+    assert median_words(curve | {"median": 0.3}) == "≤ 0.5 g"
     ends = {"if_open_exceed": {"median": 0.8}, "if_open_do_not": {"median": 1.1}}
-    assert median_words(curve | {"undecided": 3} | ends) == "0.8 to 1.1 g"
-    ends["if_open_do_not"]["median"] = None
-    assert median_words(curve | {"undecided": 3} | ends) == "0.8 or more g"
+    open_ = curve | {"undecided": 3} | ends
+    assert median_words(open_) == "0.8 to 1.1 g"
+    assert median_words(open_ | {"if_open_do_not": {"median": None}}) == "0.8 to > 1.5 g"
+    assert median_words(open_ | {"median": 1.6, "if_open_do_not": {"median": 2.0}}) == "0.8 to > 1.5 g"
+    assert median_words(open_ | {"if_open_exceed": {"median": 1.6}, "if_open_do_not": {"median": 2.0}}) == "> 1.5 g"
+
+
+def test_a_compass_counts_a_record_once_from_each_direction():
+    """Five columns under one record from the north are one record: Wilson's interval of 1 of 2, not of 5 of 6."""
+    fell = {"outcome": "collapsed", "decided": True, "collapsed": True, "azimuth_deg": 0.0}
+    stood = {"outcome": "rocked", "decided": True, "collapsed": False, "azimuth_deg": 0.0}
+    open_ = stood | {"decided": False, "azimuth_deg": 90.0, "record": "a"}
+    found = compass_of_shares([*[fell | {"record": "a"}] * 5, stood | {"record": "b"}, open_])
+    assert found.bearings.tolist() == [0.0, 90.0]
+    assert found.values[0] == pytest.approx(5 / 6)
+    assert math.isnan(found.values[1])  # nothing is decided there
+    assert found.low[0] == pytest.approx(float(wilson_interval(1, 2)[0]))
+
+
+def test_advice_without_pairs_and_of_few_records_says_what_it_is_of():
+    none = difference(runs("as built", *[FAILED] * 12), runs("dowels", *[EXCEEDED] * 12))
+    assert none.advice.endswith("no ground to adopt it for safety (no pair of runs could be computed).")
+    assert none.basis == "No pair of runs could be computed."
+    few = difference(runs("as built", EXCEEDED, OPEN), runs("dowels", EXCEEDED, EXCEEDED)).advice
+    assert "fewer than 10 records; 1 of 2 pairs of runs is undecided)." in few
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [(0.004, "<1 percentage point higher"), (-0.01, "1 percentage point lower"), (0.02, "2 percentage points higher")],
+)
+def test_points_are_counted(change, words):
+    found = dataclasses.replace(
+        difference(runs("a", EXCEEDED), runs("b", EXCEEDED)), share_best=change, share_worst=change
+    )
+    assert f"The share that collapses is {words} in these records." in found.basis

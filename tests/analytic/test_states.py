@@ -1,5 +1,6 @@
 """Was it worth it: states of a column under the same motions, paired."""
 
+import dataclasses
 import json
 import math
 
@@ -8,6 +9,7 @@ import pytest
 
 import stylobate as st
 from stylobate import plots
+from stylobate.analysis.difference import doubt
 from stylobate.analysis.evidence import Evidence
 from stylobate.analysis.fragility import fragility
 from stylobate.analysis.limit_states import OPEN
@@ -79,6 +81,7 @@ def test_the_command(tmp_path, capsys):
     assert said["differences"][0]["pairs"] == 2
     names = {one.name for one in (tmp_path / "out").iterdir()}
     assert {"states.csv", "links.csv", "states.png", "states.json", "asked-compare.json"} <= names
+    assert said["doubt"] == ""
     assert call([*base[:5], "--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
     said = capsys.readouterr().out
     assert "under 1 record and worse in 0; nothing is concluded from fewer than 10 records)" in said
@@ -120,3 +123,14 @@ def test_the_ratio_of_medians_is_that_of_the_runs_that_both_states_know():
     ratio = _difference(first, other, curves[0], curves[1], 200, 0, 0.95).ratio
     assert ratio == pytest.approx(curves[1].median / curves[2].median, rel=1e-9)
     assert ratio != pytest.approx(curves[1].median / curves[0].median, rel=1e-3)
+
+
+def test_what_a_plane_says_of_round_columns_is_doubted_before_any_advice():
+    square = block(0.6)
+    round_ = square.replace(drums=[dataclasses.replace(one, section="circular") for one in square.drums])
+    measures, found = ("as built", "dowels"), ("as built", "as found")
+    for model in (st.DistinctElement2D(), st.DistinctElement3D(planar=True)):
+        assert "No measure is to be adopted before" in doubt(measures, [round_], model)
+        assert doubt(found, [round_], model).endswith("can fall under much weaker motions.")
+        assert doubt(measures, [square], model) == ""
+    assert doubt(measures, [round_], st.DistinctElement3D()) == ""

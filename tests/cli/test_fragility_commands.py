@@ -94,6 +94,15 @@ def test_bad_input_is_one_sentence(place, capsys):
         assert why in got.err
         assert got.err.count("\n") == 1
     assert said(capsys, "fragility", few, "--records-are-one", "--json")["records"] == 20
+    text = said(capsys, "fragility", few, "--records-are-one", "--out", place / "alone").out
+    assert "half of the runs bring collapse" in text
+    assert "20 runs, each taken for a record of its own" in text
+    (told,) = read_results([place / "alone"])
+    page = str(sections_of(told, set())[:1] + sections_of(told, set())[-4:])
+    assert "half of the runs bring collapse" in page
+    assert "says nothing about the next earthquake" in page
+    assert "The interval is over runs" in page
+    assert "half of the records" not in page
 
 
 @pytest.mark.parametrize(
@@ -145,6 +154,7 @@ def test_a_median_beyond_all_runs_is_none(place, capsys):
     assert one["median"] > one["levels"][1] == 0.4
     assert one["outside"] in one["sentence"]
     assert "lies above all runs (pgv = 0.05 to 0.4 m/s)" in one["outside"]
+    assert "not by runs" in one["outside"]
     text = said(capsys, "fragility", place / "weak.csv", "--im", "pgv").out
     assert "median      > 0.4 m/s (95 %:" in text
     found = said(
@@ -155,6 +165,22 @@ def test_a_median_beyond_all_runs_is_none(place, capsys):
         result = sections_of(read_results([place / folder])[0], set())[0]
         assert any(one["outside"] in note.texts[0] for note in result.items[1:])
         assert "> 0.4 m/s" in str(sections_of(read_results([place / folder])[0], set()))
+    verdict = sections_of(read_results([place / "f"])[0], set())[0].items[0]
+    assert verdict.texts[0].startswith(
+        "The fitted median of collapse (pgv) lies above all runs (0.05 to 0.4 m/s); 95 %"
+    )
+
+
+def test_what_is_undecided_is_told_of_a_median_beyond_all_runs(place, capsys):
+    """Three of eighteen runs at the largest level collapse, which nine undecided ones could raise to two thirds."""
+    ends = {0.2: "stands", 0.3: "stands", 0.4: "undecided"}
+    rows = [f"r{k},{x},{'collapsed' if k < 3 and x > 0.3 else one}" for k in range(12) for x, one in ends.items()]
+    rows += [f"r{k},0.4,stands" for k in range(6)]
+    (place / "open.csv").write_text("\n".join(["record,im,verdict", *rows]) + "\n")
+    one = said(capsys, "fragility", place / "open.csv", "--im", "pgv", "--json")
+    assert one["median"] > 0.4 > one["if_open_exceed"]["median"]
+    low = f"{one['if_open_exceed']['median']:.3g}"
+    assert f"median      {low} to > 0.4 m/s (95 %:" in said(capsys, "fragility", place / "open.csv", "--im", "pgv").out
 
 
 @pytest.fixture
@@ -211,6 +237,14 @@ def test_an_ida_and_its_fragility(tmp_path, records, capsys):
     (out / "runs.csv").write_text((out / "runs.csv").read_text() + "\n")
     said(capsys, "risk", out, "--hazard", hazard, "--out", tmp_path / "again", "--json")
     assert "is not as stylobate wrote it" in str(sections_of(read_results([tmp_path / "again"])[0], set()))
+    for broken in ("{", '{"form": 1, "models": [3]}', '{"form": 99}'):  # what is known is told, and what is not
+        (out / "asked-ida.json").write_text(broken)
+        said(capsys, "fragility", out, "--out", tmp_path / "broken", "--json")
+        (result,) = read_results([tmp_path / "broken"])
+        basis = next(one for one in sections_of(result, set()) if one.title == "What it was computed from")
+        assert dict(basis.items[0].pairs)["runs"] == "80 of 10 records"
+        assert basis.items[1].texts[0].startswith("Not known: ")
+        assert "asked-ida.json" in basis.items[1].texts[0]
 
 
 def test_what_is_not_known_of_a_risk_is_said(place, capsys):

@@ -182,7 +182,7 @@ def test_a_verdict_says_when_columns_like_it_do_otherwise():
     found = {"certainty": known, "collapse_interval_low": 0.3, "collapse_interval_high": 0.99}
     said = certainty_sentence(found | {"collapsed": False})
     assert "Of 5 columns like this one, 4 collapse" in said
-    assert "between 30 % and 99 %" in said
+    assert "the probability of collapse is 30 to 99 %, with 95 % confidence" in said
     assert "1 more could not be computed" in said
     assert "take the share, not the single run" in said
     assert "take the share" not in certainty_sentence(found | {"collapsed": True})
@@ -302,6 +302,9 @@ def test_an_undecided_run_of_a_model_is_told_beside_others(place):
     assert text.count(", undecided") == 1
 
 
+DAMAGED = '{"runs": 3, "sentence": "It falls.", "lowest_collapse_g": 0.3, "as_recorded": "many"}'
+
+
 @pytest.mark.parametrize(
     ("arrange", "why"),
     [
@@ -312,7 +315,7 @@ def test_an_undecided_run_of_a_model_is_told_beside_others(place):
         (lambda d: (d / "limit.json").write_text("{") and d, "no JSON"),
         (lambda d: (d / "limit.json").write_text('{"a": 1}') and d, "not what 'stylobate limit'"),
         (lambda d: (d / "asked-limit.json").write_text('{"form": 99}') and d, "is of form 99"),
-        (lambda d: (d / "critical.json").write_text('{"runs": 3, "first_collapse_g": "many"}') and d, "does not hold"),
+        (lambda d: (d / "critical.json").write_text(DAMAGED) and d, "does not hold"),
     ],
 )
 def test_bad_folders_are_one_sentence(place, tmp_path, capsys, arrange, why):

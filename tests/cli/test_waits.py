@@ -111,6 +111,11 @@ def test_the_time_to_go_is_that_of_runs_and_not_of_compiling(monkeypatch):
     )
     assert kept[:-6] == [None] * (len(kept) - 6)
     assert kept[-1] == duration(990.0)
+    # two hundred thousand that take eight seconds to be read, then a run a second without any longer pause
+    read = [(4e-5 * k, k) for k in range(200_001)]
+    many = left_at(monkeypatch, [*read, *((8.0 + k, 200_000 + k) for k in range(1, 12))], 201_000)
+    assert set(many[: len(read) + 4]) == {None}
+    assert many[-1] == duration(989.0)
 
 
 def test_runs_that_end_many_at_a_time_tell_nothing_until_some_such_times_have_passed(monkeypatch):

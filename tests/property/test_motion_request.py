@@ -9,6 +9,7 @@ import pytest
 import stylobate as st
 from stylobate.errors import LeftOutWarning
 from stylobate.motion import keep_axes
+from stylobate.motion.orientation import record_of
 from stylobate.motion.specs import parse_angle
 
 WAVE = np.sin(np.linspace(0.0, 12.0, 201))
@@ -129,6 +130,16 @@ def test_all_components_and_the_strongest(record):
     alone = st.MotionRequest(files=(record,), component="2").motion()
     assert alone.lateral is None
     assert alone.acceleration == pytest.approx(second.acceleration, abs=1e-12)
+
+
+@pytest.mark.parametrize("azimuths", [(), (0.0, 45.0)])
+@pytest.mark.parametrize("size", [{}, {"pga": 3.0}, {"scale": 0.5}])
+def test_both_signs_of_a_record_are_that_record_however_it_is_scaled(record, size, azimuths):
+    (record.parent / "other.csv").write_text(record.read_text())
+    asked = st.MotionRequest(files=(record.parent,), azimuths=azimuths, signs="both", **size)
+    motions = asked.expand().motions
+    assert len(motions) == 4 * max(1, len(azimuths))
+    assert {record_of(one) for one in motions} == {"two.csv", "other.csv"}
 
 
 def test_what_cannot_be_used_is_named_with_its_reason(record):

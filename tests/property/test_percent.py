@@ -44,7 +44,7 @@ def test_all_who_tell_a_share_tell_the_same():
     population = Population([None] * 40, rows, Scatter(), 0)
     assert percents(share.low, share.high) == share.words == "58 %"
     assert chance_words({f"twins_{key}": value for key, value in population.counts.items()}).startswith("58 % of 40 (")
-    assert f"{whole(population.interval[0])}–{whole(population.interval[1])} %" in population.sentence
+    assert f"(95 %: {percents(*population.interval)})" in population.sentence
     assert population.counts[v.COLLAPSED] == 23
 
 
@@ -58,3 +58,11 @@ def test_nobody_else_rounds_a_share():
         if own.search(line) and "running.done" not in line  # how far a job is, no share of runs
     ]
     assert not found
+
+
+def test_runs_without_a_verdict_are_counted_in_a_sentence():
+    assert (
+        v.open_runs({"undecided": 1, "failed": 2}) == " 1 run is undecided and 2 runs failed: not counted as collapse."
+    )
+    assert v.open_runs({"undecided": 2, "failed": 0}, "left out") == " 2 runs are undecided: left out."
+    assert v.open_runs({"undecided": 0}) == ""

@@ -15,7 +15,7 @@ from ..column import Column
 from ..column.scatter import Scatter
 from ..models.base import Case, Model
 from ..motion import Motion
-from ..percent import percents, whole
+from ..percent import percents
 from ..response import Response
 from ..simulate import simulate, simulate_iter
 from . import verdicts as v
@@ -28,6 +28,10 @@ DISPLACEMENTS = ("peak_top_displacement_m", "residual_top_displacement_m", "peak
 
 #: Twins that must stand before their largest and least displacement tell where a run belongs.
 ENOUGH = 8
+
+
+#: What :func:`chance_words` tell, above a column of a table.
+CHANCE = "columns like it that collapse"
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,9 +117,8 @@ class Population:
         trials = number - counts[v.FAILED]
         if trials == 0:
             return f"None of {number} columns like this could be computed."
-        low, high = map(whole, self.interval)
         said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
-        said += f" ({100.0 * self.confidence:g} %: {low}–{high} %)"
+        said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)})"
         if counts[v.UNDECIDED]:
             said += f"; {counts[v.UNDECIDED]} of them are undecided, go on with --tail 5s"
         return said + (f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else ".")

@@ -102,10 +102,23 @@ class CriticalAmplitude:
         return of_levels(self.amplitudes, self.verdicts)
 
     @property
+    def lowest_capacity(self) -> Capacity:
+        """Between which amplitudes the first collapse of the column or one of its twins lies [m/s²]."""
+        each = [self.capacity, *([] if self.population is None else self.population.capacities)]
+        return Capacity(min(one.low for one in each), min(one.high for one in each))
+
+    @property
     def lowest(self) -> float | None:
         """Smallest amplitude that collapses the column or one of its twins [m/s²]; None when none does."""
-        found = [self.capacity.high, *([] if self.population is None else self.population.critical)]
-        return min(found) if min(found) < math.inf else None
+        return self.lowest_capacity.value
+
+    @property
+    def open_below(self) -> int:
+        """Number of runs of the column and its twins without a verdict below that amplitude; any may be a collapse."""
+        each = [(self.amplitudes, np.array(self.verdicts))]
+        each += [] if self.population is None else [(self.population.amplitudes, self.population.verdicts)]
+        open_ = [~np.isin(one[..., a < self.lowest_capacity.high], (v.STANDS, v.COLLAPSED)) for a, one in each]
+        return sum(int(one.sum()) for one in open_)
 
     @property
     def lowest_factor(self) -> float | None:
@@ -115,12 +128,13 @@ class CriticalAmplitude:
     @property
     def bounds(self) -> dict[str, str]:
         """Of which numbers of :meth:`summary` only a bound is known, such as "≤ 0.3" or "> 1.5", by name."""
-        above = self.all_collapse_above
-        below = [one for one in self.amplitudes if above is None or one < above]
-        always = Capacity(float(max(below, default=0.0)), math.inf if above is None else above)
+        above, stood = self.all_collapse_above, self.amplitudes[np.array(self.verdicts) == v.STANDS]
+        always = Capacity(float(max(stood, default=0.0)), math.inf if above is None else above)
         named = {"critical_g": (self.capacity, g), "all_collapse_above_g": (always, g)}
+        named["lowest_collapse_g"] = self.lowest_capacity, g
         if self.nominal:
             named["critical_factor"] = self.capacity, self.nominal
+            named["lowest_collapse_factor"] = self.lowest_capacity, self.nominal
         return bounds(named)
 
     @property
@@ -170,6 +184,7 @@ class CriticalAmplitude:
             "all_collapse_above_g": _in_g(self.all_collapse_above),
             "lowest_collapse_g": _in_g(self.lowest),
             "lowest_collapse_factor": self.lowest_factor,
+            "open_below": self.open_below,
             "bounds": self.bounds,
             "as_recorded": self.as_recorded,
             "runs": len(self.rows),

@@ -16,6 +16,7 @@ from ..constants import g
 from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
+from ..motion.orientation import record_of
 from . import verdicts as v
 from .critical import CriticalAmplitude, Shaken, amplitude_grid, sweep
 from .critical_words import sentence_of_suite
@@ -73,17 +74,17 @@ class CriticalSuite:
 
     @property
     def compass(self) -> Compass:
-        """Critical factor by direction, the smallest of all records."""
+        """Factor at which the column, or one of its twins, first collapses, by direction; the smallest of all records."""
         found: dict[float, float] = {}
         for one in self.results:
             at = bearing(direction_of(one.motion))
             if at is not None:
-                factor = math.inf if one.critical_factor is None else one.critical_factor
+                factor = math.inf if one.lowest_factor is None else one.lowest_factor
                 found[at] = min(factor, found.get(at, math.inf))
         bearings = sorted(found)
-        return Compass(
-            np.array(bearings), np.array([found[at] for at in bearings]), "critical factor of the record [-]"
-        )
+        like = "" if self.results[0].population is None else " or one like it"
+        name = f"lowest factor that collapses it{like} [-]"
+        return Compass(np.array(bearings), np.array([found[at] for at in bearings]), name)
 
     @property
     def all_collapse_above(self) -> float | None:
@@ -101,7 +102,7 @@ class CriticalSuite:
 
     @property
     def table(self) -> pandas.DataFrame:
-        """One row per record: its own peak, the critical amplitude, and how many runs came to which verdict."""
+        """One row per motion: its own peak, the critical amplitude, and how many runs came to which verdict."""
         import pandas
 
         rows = [_row(one) for one in self.results]
@@ -111,12 +112,12 @@ class CriticalSuite:
 
     @property
     def runs(self) -> pandas.DataFrame:
-        """One row per record and amplitude, as the table of :class:`CriticalAmplitude` with ``record`` before it."""
+        """One row per motion and amplitude, as the table of :class:`CriticalAmplitude`, with ``record`` and ``motion``."""
         import pandas
 
         return pandas.DataFrame(
             [
-                {"record": one.motion.name, "amplitude_g": a / g, "verdict": verdict, **row}
+                {**_named(one), "amplitude_g": a / g, "verdict": verdict, **row}
                 for one in self.results
                 for a, verdict, row in zip(one.amplitudes, one.verdicts, one.rows)
             ]
@@ -125,7 +126,13 @@ class CriticalSuite:
     def summary(self) -> dict:
         """The JSON object of ``stylobate critical`` for a folder of records."""
         counts = v.count([verdict for one in self.results for verdict in one.verdicts])
-        critical, above = self.critical, self.all_collapse_above
+        twins = [one.population.verdicts.ravel() for one in self.results if one.population is not None]
+        critical, above, worst = (
+            self.critical,
+            self.all_collapse_above,
+            None if self.worst is None else _row(self.worst),
+        )
+        lowest = min((one.lowest for one in self.results if one.lowest is not None), default=None)
         found = {
             "critical_g": None if critical is None else critical / g,
             "first_collapse_g": None if critical is None else critical / g,
@@ -133,10 +140,13 @@ class CriticalSuite:
             "runs": sum(len(one.rows) for one in self.results),
             **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
             "critical_factor": self.critical_factor,
+            "lowest_collapse_g": None if lowest is None else lowest / g,
+            "lowest_collapse_factor": None if worst is None else worst["lowest_collapse_factor"],
+            "certainty": v.count(np.concatenate(twins)) if twins else None,
             "amplitudes_g": (self.amplitudes / g).tolist(),
             "share_collapsed": self.share_collapsed.tolist(),
             "records": [_row(one) for one in self.results],
-            "worst": None if self.worst is None else _row(self.worst),
+            "worst": worst,
             "wall_s": self.wall_time,
             "model": self.results[0].model,
         }
@@ -187,10 +197,15 @@ def critical_suite(
     return CriticalSuite(tuple(results), wall)
 
 
+def _named(one: CriticalAmplitude) -> dict[str, str]:
+    """The record, the same for all its directions and signs, and the motion that is made of it."""
+    return {"record": record_of(one.motion), "motion": one.motion.name}
+
+
 def _row(one: CriticalAmplitude) -> dict[str, Any]:
     critical, above, counts = one.critical, one.all_collapse_above, one.counts
     return {
-        "record": one.motion.name,
+        **_named(one),
         "pga_g": one.motion.pga / g,
         "pgv_m_s": one.motion.pgv,
         "critical_g": None if critical is None else critical / g,
@@ -202,5 +217,6 @@ def _row(one: CriticalAmplitude) -> dict[str, Any]:
         **({} if one.population is None else one.population.percentiles),
         "lowest_collapse_g": None if one.lowest is None else one.lowest / g,
         "lowest_collapse_factor": one.lowest_factor,
+        "open_below": one.open_below,
         "bounds": one.bounds | ({} if one.population is None else one.population.bounds),
     }

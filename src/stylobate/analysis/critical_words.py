@@ -6,7 +6,7 @@ From the JSON object of ``stylobate critical``, so that the command and the repo
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import verdicts as v
@@ -16,7 +16,8 @@ MOST = 4
 
 #: That one column says little, and what asks columns like it.
 ONE_ALONE = (
-    "Near its boundary a column answers to small differences; one alone says little: --replicates 15 asks 15 like it."
+    "Near the boundary small differences decide, and one alone says little: --replicates 15 runs 15 columns like it "
+    "as well."
 )
 
 
@@ -31,38 +32,42 @@ def sentence(s: Mapping[str, Any], kind: str = "column") -> str:
         What stands: column, assembly.
     """
     twins = s.get("certainty")
-    words = [*([_with_twins(s, kind, twins)] if twins else []), _alone(s, kind, twins), _open(s, twins)]
+    words = [_with_twins(s, kind, twins) if twins else "", _alone(s, kind, twins), _open(s, twins)]
     words.append(ONE_ALONE if not twins and kind == "column" else "")
     return " ".join(filter(None, words))
 
 
 def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
     """What several motions do over one grid of peaks; ``s`` as of :func:`sentence`, for several motions."""
-    rows, worst = s["records"], s["worst"]
-    twins = any("critical_50_g" in one for one in rows)
-    low, high = s["amplitudes_g"][0], s["amplitudes_g"][-1]
+    rows, worst, twins = s["records"], s["worst"], s["certainty"]
+    records, like = len({one["record"] for one in rows}), " or one like it" if twins else ""
+    what, of = ("record", "") if records == len(rows) else ("motion", f" of {records} record{'s' * (records > 1)}")
+    grid = f"{s['amplitudes_g'][0]:g} to {s['amplitudes_g'][-1]:g} g"
     if worst is None:
-        words = f"No record collapses the {kind} at a peak looked at, {low:g} to {high:g} g."
+        surely = "surely " * any(one["open_below"] for one in rows)
+        words = f"No {what}{of} {surely}collapses the {kind}{like} at a peak looked at, {grid}."
     else:
-        fell = [sum(one.get(name) is not None for one in rows) for name in ("critical_g", "lowest_collapse_g")]
-        factor, amplitude = worst.get("lowest_collapse_factor"), worst.get("lowest_collapse_g")
-        if factor is None or amplitude is None:  # of a folder that does not hold them yet
-            factor, amplitude = worst["critical_factor"], worst["critical_g"]
+        fell = [sum(one[name] is not None for one in rows) for name in ("critical_g", "lowest_collapse_g")]
+        already = "already " * ("lowest_collapse_g" in worst["bounds"])
         words = (
-            f"{fell[0]} of {len(rows)} records collapse the {kind} at some peak looked at, {low:g} to {high:g} g"
+            f"{fell[0]} of {len(rows)} {what}s{of} collapse the {kind} at some peak looked at, {grid}"
             + (f", {fell[1]} it or one like it" if twins else "")
-            + f". Most harm: {worst['record']}, which collapses {'it or one like it' if twins else 'it'} at {factor:.3g} "
-            f"times the record, {amplitude:.4g} g, the smallest factor at which any does."
+            + f". Most harm: {worst['motion']}, which collapses it{like} {already}at "
+            f"{worst['lowest_collapse_factor']:.3g} times the record, {worst['lowest_collapse_g']:.4g} g, the smallest "
+            f"factor at which any does{_below(worst['open_below'])}."
         )
-    return words if twins or kind != "column" else f"{words} {ONE_ALONE}"
+    return " ".join(filter(None, (words, _open(s, twins), ONE_ALONE if not twins and kind == "column" else "")))
 
 
 def _with_twins(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any]) -> str:
     """The lowest collapse of the column and those like it, and by which amplitude shares of these have fallen."""
-    number, lowest = s["replicates"], lowest_collapse(s)
+    number, lowest = s["replicates"], s["lowest_collapse_g"]
     if lowest is None:
-        return f"No amplitude looked at, {_range(s)}, collapses the {kind} or one of {number} like it; larger ones were not."
-    words = f"Of {number + 1} {kind}s, this one and {number} like it, the first falls {_at(s, lowest)}"
+        return _none(s, f"the {kind} or one of {number} like it", s["open_below"])
+    words = (
+        f"Of {number + 1} {kind}s, this one and {number} like it, the first falls {_at(s, lowest, s['amplitudes_g'])}"
+    )
+    words += _below(s["open_below"])
     shares = [(share, _by(twins, f"critical_{share}_g")) for share in (16, 50, 84)]
     said = ", ".join(f"{share} % {by}" for share, by in shares if by)
     return f"{words}; of those like it fall {said}." if said else f"{words}."
@@ -79,15 +84,15 @@ def _by(twins: Mapping[str, Any], name: str) -> str:
 
 def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> str:
     """At which amplitudes the column itself falls, and at which larger ones it stands again."""
-    first = s.get("first_collapse_g", s.get("critical_g"))
+    first, stretches = s["critical_g"], s["alternation"]
+    without = [one for one in stretches if one["verdict"] not in (v.STANDS, v.COLLAPSED)]
+    before = sum(one["runs"] for one in without if first is None or one["to_g"] < first)
     if first is None:
-        if twins:
-            return "" if lowest_collapse(s) is None else "This one falls at none of them."
-        return f"No amplitude looked at, {_range(s)}, collapses the {kind}; larger ones were not looked at."
-    stretches = s.get("alternation") or []
-    before = [one for one in stretches if one["to_g"] < first and one["verdict"] != v.STANDS]
+        if not twins:
+            return _none(s, f"the {kind}", before)
+        return "" if s["lowest_collapse_g"] is None else _none(s, "this one", before)
     after = [one for one in stretches if one["from_g"] > first and one["verdict"] != v.COLLAPSED]
-    there = twins and first == lowest_collapse(s)
+    there = twins and first == s["lowest_collapse_g"]
     words = "This one falls there" if there else f"{'This one' if twins else f'The {kind}'} collapses {_at(s, first)}"
     if again := [one for one in after if one["verdict"] == v.STANDS]:
         said = ", ".join(_stretch(one) for one in again[:MOST])
@@ -97,9 +102,16 @@ def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> 
         words += ", and not surely at all larger ones"
     elif first < stretches[-1]["to_g"]:
         words += f", and at all larger ones up to {_last(s):.4g} g"
-    if before:
-        words += f"; runs below that without a verdict, which may be collapses: {sum(one['runs'] for one in before)}"
-    return words + "."
+    return f"{words}{'' if there else _below(before)}."
+
+
+def _none(s: Mapping[str, Any], whom: str, without_verdict: int) -> str:
+    surely = "surely " if without_verdict else ""
+    return f"No amplitude looked at, {_range(s)}, {surely}collapses {whom}; larger ones were not looked at."
+
+
+def _below(without_verdict: int) -> str:
+    return f"; runs below that without a verdict, which may be collapses: {without_verdict}" if without_verdict else ""
 
 
 def _open(s: Mapping[str, Any], twins: Mapping[str, Any] | None) -> str:
@@ -111,32 +123,26 @@ def _open(s: Mapping[str, Any], twins: Mapping[str, Any] | None) -> str:
             (v.FAILED, "failed"),
         ):
             if count := told.get(name):
-                of = f"{count} of {total} runs" if total else f"{count} runs{whose}"
+                of = f"{count} of {total} runs" if total else f"{count} run{'s' * (count > 1)}{whose}"
                 found.append(f"{of} {meaning}")
     return f"{'; '.join(found)}: not counted as collapse." if found else ""
 
 
-def lowest_collapse(s: Mapping[str, Any]) -> float | None:
-    """The smallest amplitude that collapses the column or one like it [g]; None where none does."""
-    found = [s.get("first_collapse_g", s.get("critical_g"))]
-    shares = zip(s.get("amplitudes_g", ()), s.get("collapse_probability", ()), strict=True)
-    found += [amplitude for amplitude, share in shares if share is not None and share > 0.0]
-    return min((one for one in found if one is not None), default=None)
+def _at(s: Mapping[str, Any], amplitude: float, of_twins: Sequence[float] = ()) -> str:
+    """An amplitude, its factor of the record where there is one, and the next smaller one that was looked at.
 
-
-def _at(s: Mapping[str, Any], amplitude: float) -> str:
-    """An amplitude, its factor of the record where there is one, and the next smaller one that was looked at."""
-    times = None
-    if s.get("factors"):
-        times = s["factors"][0] / s["amplitudes_g"][0]
-    elif s.get("critical_factor") is not None:
-        times = s["critical_factor"] / s["critical_g"]
-    words = f"at {amplitude:.4g} g" + (f", {times * amplitude:.3g} times the record" if times else "")
-    own = amplitude == s.get("first_collapse_g", s.get("critical_g"))  # those like it went through fewer amplitudes
-    looked_at = [one[end] for one in s["alternation"] for end in ("from_g", "to_g")] if own else s["amplitudes_g"]
-    if below := max((one for one in looked_at if one < amplitude), default=None):
-        return f"{words} (the next below that was looked at is {below:.4g} g)"
-    return f"already {words}, the lowest amplitude looked at"
+    Columns alike went through fewer amplitudes; where ``of_twins`` has these, theirs is told as well.
+    """
+    words = f"at {amplitude:.4g} g"
+    if s["lowest_collapse_factor"] is not None:
+        words += f", {s['lowest_collapse_factor'] / s['lowest_collapse_g'] * amplitude:.3g} times the record"
+    looked_at = [one[end] for one in s["alternation"] for end in ("from_g", "to_g")]
+    own, theirs = (max((one for one in some if one < amplitude), default=None) for some in (looked_at, of_twins))
+    own = own if amplitude == s["critical_g"] else theirs
+    if own is None:
+        return f"already {words}, the lowest amplitude looked at"
+    also = f", for those like it {theirs:.4g} g" if theirs is not None and theirs < own else ""
+    return f"{words} (the next below that was looked at is {own:.4g} g{also})"
 
 
 def _stretch(one: Mapping[str, Any]) -> str:

@@ -7,14 +7,35 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
+from ..column import Column
+from ..models.base import Model
 from ..percent import whole
 from .fragility import FEWEST
 
 #: What a difference comes to.
 STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"
 
+#: What is said where there is nothing to compare.
+NO_PAIR = "no pair of runs could be computed"
+
 #: States that are no measure: nobody can adopt them.
 NO_MEASURE = ("as built", "as found")
+
+
+#: What stands before any advice on round columns that were computed in a plane, however many the records; and on measures.
+ROUND_IN_THE_PLANE = "Round columns, computed in a plane: in space they can fall under much weaker motions"
+NO_MEASURE_YET = (
+    ", and what helps here need not help there. No measure is to be adopted before a model in space (dem3d) has told "
+    "the same"
+)
+
+
+def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
+    """What stands before any advice on these states, because of the model; empty where nothing does."""
+    plane = "y" not in model.axes or getattr(model, "planar", False)
+    if not plane or all(one.section != "circular" for one in columns):
+        return ""
+    return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(one not in NO_MEASURE for one in labels) + "."
 
 
 def reference(labels: Sequence[str], label: str) -> str:
@@ -116,15 +137,17 @@ class Difference:
         if self.conclusion == WEAKER:
             return f"“{self.state}”: weaker {against}{': do not adopt it for safety' if measure else ''}."
         few = f"; nothing is concluded from fewer than {FEWEST} records" if self.records < FEWEST else ""
-        if self.undecided and not few:
+        if self.undecided:
             several = "is" if self.undecided == 1 else "are"
-            few += f"; {self.undecided} of {self.pairs + self.undecided} pairs of runs {several} undecided, and longer runs"
-            few += " may settle them"
-        here = f"it fares better in {self.saved} of {self._number} and worse in {self.harmed}"
+            few += f"; {self.undecided} of {self.pairs + self.undecided} pairs of runs {several} undecided"
+            few += ", and longer runs may settle them" if self.records >= FEWEST else ""
+        here = f"it fares better in {self.saved} of {self._number} and worse in {self.harmed}{few}"
+        if not self.pairs + self.undecided:
+            here = NO_PAIR
         if measure:
             ground = "no ground to adopt it for safety"
-            return f"“{self.state}”: not shown to be stronger {against}, nor weaker: {ground} ({here}{few})."
-        return f"“{self.state}”: not shown to be weaker or stronger {against} ({here}{few})."
+            return f"“{self.state}”: not shown to be stronger {against}, nor weaker: {ground} ({here})."
+        return f"“{self.state}”: not shown to be weaker or stronger {against} ({here})."
 
     @property
     def _number(self) -> str:
@@ -145,7 +168,7 @@ class Difference:
 
     def _pairs(self) -> str:
         if not self.pairs + self.undecided:
-            return "No pair of runs could be computed."
+            return f"{NO_PAIR.capitalize()}."
         how = "collapse" if self.limit_state == "collapse" else f"exceed {self.limit_state}"
         said = f"Of {self._number}, {self.saved} {how} with “{self.against}” only and {self.harmed} with "
         said += f"“{self.state}” only"
@@ -173,10 +196,13 @@ class Difference:
 def _size(value: float, unit: str) -> str:
     """A change by its size and direction."""
     size = whole(abs(value))
-    return "the same" if size == "0" else f"{size} {unit} {'higher' if value > 0.0 else 'lower'}"
+    if size == "0":
+        return "the same"
+    several = "s" if unit[-1].isalpha() and size not in ("1", "<1") else ""
+    return f"{size} {unit}{several} {'higher' if value > 0.0 else 'lower'}"
 
 
-_percent, _points = partial(_size, unit="%"), partial(_size, unit="percentage points")
+_percent, _points = partial(_size, unit="%"), partial(_size, unit="percentage point")
 
 
 def _span(low: float, high: float, words: Callable[[float], str]) -> str:

@@ -11,6 +11,7 @@ import numpy as np
 
 from ..motion import Motion
 from . import verdicts as v
+from .side_by_side import codes_of, shares
 
 if TYPE_CHECKING:
     import pandas
@@ -90,15 +91,17 @@ class Compass:
     high: np.ndarray | None = None
 
 
-def compass_of_shares(rows: Sequence[Mapping[str, Any]], confidence: float = 0.95) -> Compass:
-    """Share of the runs from each direction that collapse, over all records."""
-    named = [(bearing(row), v.verdict(row)) for row in rows]
-    bearings = sorted({one for one, _ in named if one is not None})
-    verdicts = [np.array([verdict for at, verdict in named if at == one]) for one in bearings]
-    counts = np.array([v.tally(one, axis=0) for one in verdicts]).reshape(-1, 3).T
-    fell, stood, undecided = counts
-    low, high = v.collapse_interval(fell, stood, undecided, confidence)
-    share = v.share_collapsed(fell, stood, undecided)
+def compass_of_shares(rows: Sequence[Mapping[str, Any]]) -> Compass:
+    """Share of the runs from each direction that collapse, with its interval over records, of which each counts once."""
+    named = [(bearing(row), v.verdict(row), str(row["record"])) for row in rows]
+    bearings = sorted({one for one, *_ in named if one is not None})
+    values = []
+    for at in bearings:
+        verdicts, records = zip(*(rest for one, *rest in named if one == at))
+        (found,) = shares({"": codes_of(np.array(verdicts))}, records)
+        decided = found.exceeded + found.not_exceeded
+        values.append((found.low if decided else math.nan, *found.interval))
+    share, low, high = np.array(values).reshape(-1, 3).T
     return Compass(np.array(bearings), share, "share of the runs that collapse [-]", low, high)
 
 

@@ -68,7 +68,8 @@ def which_tells_most(
         samples = np.sort(bootstrap(low, high, owner, 500, np.random.default_rng(seed))[:, 1])
         middle = math.log(best.beta[0])
         limits = [math.exp(2.0 * middle - float(np.quantile(samples, q))) for q in (0.975, 0.025)]
-        plausible = dispersions(low, high, len(low))
+        number = len(np.unique(owner))
+        plausible = dispersions(low, high, number)
         limits = [min(limits[0], plausible[0]), max(limits[1], plausible[1])]
         row: dict[str, Any] = {
             "measure": measure.name,
@@ -78,12 +79,13 @@ def which_tells_most(
             "beta_low": limits[0],
             "beta_high": limits[1],
             "sigma_ln_edp": _given(runs, measure, edp),
-            "records": len(low),
+            "records": number,
         }
-        names = np.unique(told.records)[owner]
         both = np.isfinite(low) & np.isfinite(high)
+        known, mine = np.unique(owner[both], return_inverse=True)
+        capacity = np.bincount(mine, 0.5 * (low + high)[both]) / np.bincount(mine)  # a record counts once
         for other, logarithm in OTHERS.items():
-            row[f"p_{other}"] = _p_value(runs, other, logarithm, names[both], 0.5 * (low + high)[both])
+            row[f"p_{other}"] = _p_value(runs, other, logarithm, np.unique(told.records)[known], capacity)
         rows.append(row)
     return pandas.DataFrame(sorted(rows, key=lambda one: one["beta"]))
 

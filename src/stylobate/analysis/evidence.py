@@ -60,6 +60,8 @@ class Evidence:
         What the runs are of, for a legend.
     brackets : bool
         Levels were chosen to bracket the capacity under each record (an IDA).
+    curves : array, shape (n,), optional
+        Which runs have one capacity: those under one motion of a record with one column; all of a record by default.
     """
 
     records: np.ndarray
@@ -70,6 +72,7 @@ class Evidence:
     state: str
     name: str
     brackets: bool = False
+    curves: np.ndarray | None = None
 
     def count(self, code: int) -> int:
         """Number of runs that say so."""
@@ -198,6 +201,7 @@ def evidence(
             f"run {k + 1} of {name} exceeds {state.name} at an intensity {key!r} of 0; choose an intensity that its motion "
             "has, with --im."
         )
+    alike = [one for one in ("record", "motion", "realisation") if one in table]
     return Evidence(
         np.array([str(one) for one in table["record"]], dtype=object)[~zero],
         im[~zero],
@@ -207,6 +211,7 @@ def evidence(
         state.name,
         name,
         "hunted" in table and bool(table["hunted"].iloc[0]),
+        table.groupby(alike, dropna=False).ngroup().to_numpy()[~zero],
     )
 
 
@@ -283,17 +288,19 @@ def _plain_codes(table: pandas.DataFrame, state: LimitState, name: str) -> np.nd
 def intervals(evidence: Evidence, codes: np.ndarray, method: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Intervals of ln capacity that the runs say, as of :func:`lognormal.fit`, and the number of each one's record.
 
-    Open and failed runs say nothing.
+    Open and failed runs say nothing. By ``records`` there is one of each curve.
     """
     y = np.log(evidence.im)
-    names, owner = np.unique(evidence.records, return_inverse=True)
+    owner = np.unique(evidence.records, return_inverse=True)[1]
     if method == "runs":
         told = codes >= 0
         low = np.where(codes[told] == EXCEEDED, -np.inf, y[told])
         return low, np.where(codes[told] == EXCEEDED, y[told], np.inf), owner[told]
-    low, high = np.full(len(names), -np.inf), np.full(len(names), np.inf)
-    np.minimum.at(high, owner[codes == EXCEEDED], y[codes == EXCEEDED])
-    below = (codes == NOT_EXCEEDED) & (y < high[owner])  # above the first that exceeds it stands again: a resurrection
-    np.maximum.at(low, owner[below], y[below])
+    mine = evidence.records if evidence.curves is None else evidence.curves
+    _, first, curve = np.unique(mine, return_index=True, return_inverse=True)
+    low, high = np.full(len(first), -np.inf), np.full(len(first), np.inf)
+    np.minimum.at(high, curve[codes == EXCEEDED], y[codes == EXCEEDED])
+    below = (codes == NOT_EXCEEDED) & (y < high[curve])  # above the first that exceeds it stands again: a resurrection
+    np.maximum.at(low, curve[below], y[below])
     told = np.isfinite(low) | np.isfinite(high)
-    return low[told], high[told], np.arange(len(names))[told]
+    return low[told], high[told], owner[first][told]

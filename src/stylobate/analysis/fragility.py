@@ -56,6 +56,8 @@ class Fragility:
         Largest distance between the points and the curve [-], and the share of sets of runs drawn from the curve that have
         a larger one.
     confidence : float
+    records_are_one : bool
+        Every run counts as a record of its own: ``records`` are runs.
     """
 
     evidence: Evidence
@@ -71,6 +73,21 @@ class Fragility:
     distance: float
     p_value: float
     confidence: float
+    records_are_one: bool = False
+
+    @property
+    def counted(self) -> str:
+        """What counts as independent of one another, and the interval is over, in words."""
+        return "runs" if self.records_are_one else "records"
+
+    @property
+    def warnings(self) -> list[str]:
+        """What must be said beside anything that rests on this curve."""
+        alone = (
+            "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
+            "nothing about the next earthquake"
+        )
+        return [f"{one}." for one in (self.outside, alone * self.records_are_one) if one]
 
     @property
     def median(self) -> float:
@@ -95,12 +112,10 @@ class Fragility:
         unit = "" if e.unit == "-" else f" {e.unit}"
         if low * (1.0 - CLOSE) <= self.median <= high * (1.0 + CLOSE):
             return ""
-        where, bound, more = (
-            ("above", f"> {high:.3g}", "larger") if self.median > high else ("below", f"≤ {low:.3g}", "smaller")
-        )
+        where, more = ("above", "larger") if self.median > high else ("below", "smaller")
         return (
-            f"the median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}{unit}): it "
-            f"is told by the shape of the curve, and the runs themselves show only {bound}{unit}; give {more} intensities"
+            f"the fitted median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}"
+            f"{unit}): it is told by the shape of the curve, not by runs; give {more} intensities"
         )
 
     def probability(self, im: np.ndarray) -> np.ndarray:
@@ -189,15 +204,15 @@ class Fragility:
         if self.outside:
             return f"{e.name}: {self.outside}."
         if self.bracket is None:
-            return f"{e.name}: half of the records bring {where} = {self.median:.3g}{unit}."
+            return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
         low, high = self.bracket
         if low == high:
             return (
                 f"{e.name}: no run below {e.measure} = {low:.4g}{unit} brings {e.state}, and every run above it does."
             )
         return (
-            f"{e.name}: half of the records bring {where} between {low:.4g} and {high:.4g}{unit}: no run up to the one "
-            "brings it, and every run from the other on does."
+            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no run up to "
+            "the one brings it, and every run from the other on does."
         )
 
     def summary(self) -> dict[str, Any]:
@@ -217,6 +232,8 @@ class Fragility:
             "name": e.name,
             "method": self.method,
             "records": self.records,
+            "records_are_one": self.records_are_one,
+            "warnings": self.warnings,
             "runs": len(e.im),
             "exceeded": e.count(EXCEEDED),
             "undecided": e.count(OPEN),
@@ -270,8 +287,8 @@ def fragility(
         Fewer than ten records of which a run is decided; no run that exceeds the state, or none that does not; all runs at
         one intensity; or runs that exceed it no oftener where the intensity is larger: that is no fragility.
     """
-    clusters = np.arange(len(evidence.im)).astype(str).astype(object) if records_are_one else evidence.records
-    used = replace(evidence, records=clusters)
+    clusters = np.arange(len(evidence.im)).astype(str).astype(object)
+    used = replace(evidence, records=clusters, curves=None) if records_are_one else evidence
     _check_number(used, records_are_one)
     how = method or ("records" if evidence.brackets and not records_are_one else "runs")
     codes = evidence.codes
@@ -295,7 +312,7 @@ def fragility(
         used, how, log_median, beta, bootstrap(low, high, owner, samples, rng),
         likelihood_region.region(low, high, number, confidence),
         likelihood_region.dispersions(low, high, number, confidence), bracket,
-        (extremes[0], extremes[1]), points, distance, p_value, confidence,
+        (extremes[0], extremes[1]), points, distance, p_value, confidence, records_are_one,
     )  # fmt: skip
 
 

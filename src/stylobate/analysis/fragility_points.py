@@ -41,12 +41,15 @@ class Points:
 def points_of(evidence: Evidence, codes: np.ndarray, method: str) -> Points:
     """Shares of the records at the intensities that were run, or by groups of them."""
     if method == "records":
-        low, high, _ = intervals(evidence, codes, method)
+        low, high, owner = intervals(evidence, codes, method)
         at = np.unique(high[np.isfinite(high)])
         at = at[np.unique(np.linspace(0, len(at) - 1, min(MOST_POINTS, len(at))).round().astype(int))]
         known = (high[:, None] <= at) | (low[:, None] >= at)
-        passed, trials = (high[:, None] <= at).sum(axis=0).astype(float), known.sum(axis=0)
-        return _with_wilson(np.exp(at), passed, trials)
+        names, owner = np.unique(owner, return_inverse=True)
+        runs, hits = np.zeros((2, len(at), len(names)))
+        np.add.at(runs.T, owner, known)
+        np.add.at(hits.T, owner, high[:, None] <= at)
+        return _of_records(np.exp(at), runs, hits)
     told = codes >= 0
     y, hit, owner = evidence.im[told], codes[told] == EXCEEDED, evidence.records[told]
     y = np.exp(np.round(np.log(y), DIGITS))  # stripes that differ in their last digits are one
@@ -61,12 +64,14 @@ def points_of(evidence: Evidence, codes: np.ndarray, method: str) -> Points:
     runs = np.bincount(cell, minlength=(group.max() + 1) * len(names)).reshape(-1, len(names))
     hits = np.bincount(cell, hit, minlength=runs.size).reshape(runs.shape)
     filled = runs.sum(axis=1) > 0
-    shares = np.divide(hits, runs, out=np.zeros(runs.shape), where=runs > 0).sum(axis=1)
     at = np.bincount(group, np.log(y)) / np.maximum(runs.sum(axis=1), 1)
-    return _with_wilson(np.exp(at[filled]), shares[filled], (runs > 0).sum(axis=1)[filled])
+    return _of_records(np.exp(at[filled]), runs[filled], hits[filled])
 
 
-def _with_wilson(at: np.ndarray, passed: np.ndarray, trials: np.ndarray) -> Points:
+def _of_records(at: np.ndarray, runs: np.ndarray, hits: np.ndarray) -> Points:
+    """Points of which is known how many runs of each record there are and exceed the state, shape (k, records)."""
+    passed = np.divide(hits, runs, out=np.zeros(runs.shape), where=runs > 0).sum(axis=1)
+    trials = (runs > 0).sum(axis=1)
     low, high = wilson_interval(passed, trials)
     return Points(at, passed / np.maximum(trials, 1), low, high, trials)
 

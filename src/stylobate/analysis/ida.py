@@ -21,6 +21,7 @@ from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
+from ..motion.orientation import record_of
 from . import verdicts as v
 from .certainty import the_twins
 from .hunt import next_levels
@@ -89,7 +90,7 @@ def ida(
     largest_factor : float
         By which a record is multiplied at most.
     about : mapping, optional
-        By name of a record, ``magnitude`` and ``distance_km``.
+        By name of a record, or of a motion that is made of one, ``magnitude`` and ``distance_km``.
     tail, whole, threads
         As in :func:`stylobate.critical_amplitude`.
     progress : callable, optional
@@ -128,7 +129,8 @@ def ida(
             )
     taken = [model.taken(motion) for motion in motions]
     relation = (math.tan(column.slenderness), column.frequency_parameter)
-    facts = [_facts(motion, measure, relation, (about or {}).get(motion.name, {})) for motion in motions]
+    known = about or {}
+    facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
     columns = list(the_twins(column, model, replicates, scatter, seed).columns) if replicates else [column]
     traces = []
     for motion, fact in zip(taken, facts):
@@ -210,7 +212,8 @@ def _table(
         for k in np.argsort(one.levels, kind="stable"):
             factor = (one.levels[k] / one.value) ** (1.0 / measure.power)
             scaled = {key: value * factor ** powers.get(key, 0) for key, value in fact.items()}
-            who = {"record": one.motion.name, "realisation": one.number, "column": column.name, "model": model.name}
+            who = {"record": record_of(one.motion), "motion": one.motion.name, "realisation": one.number}
+            who |= {"column": column.name, "model": model.name}
             widths = column.widths
             found: dict[str, Any] = {"verdict": v.verdict(one.rows[k]), **one.rows[k]}
             rows.append(

@@ -16,7 +16,7 @@ from ..motion.intensity_specs import IntensityMeasure
 from ..outcome import Outcome
 from ..response import Measures, SpaceMeasures
 from . import verdicts as v
-from .capacity import SHARES, Capacity, bounds, quantiles
+from .capacity import SHARES, Capacity, bounds, of_levels, quantiles
 
 if TYPE_CHECKING:
     import pandas
@@ -41,17 +41,20 @@ def unknown_response(edp: str, names: Iterable[str]) -> InputError:
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """One record with one column.
+    """One motion with one column.
 
     Parameters
     ----------
     record : str
+        That the motion is of.
+    motion : str
+        The record, or one of its components.
     realisation : int
     im, edp : array
         Intensity, rising, and the measure of the response of the runs that stand, shape (k,).
     stands, collapses : float
-        The largest intensity below the first collapse at which it stands, and that of the first collapse; 0 and +inf
-        where there is none.
+        The largest intensity up to which every run stands, and that of the first collapse; 0 and +inf where there is
+        none. What is undecided or failed between them may be a collapse.
     resurrections : array
         Intensities above the first collapse at which it stands.
     largest : float
@@ -61,6 +64,7 @@ class Curve:
     """
 
     record: str
+    motion: str
     realisation: int
     im: np.ndarray
     edp: np.ndarray
@@ -91,7 +95,8 @@ class Ida:
     Parameters
     ----------
     runs : pandas.DataFrame
-        One row per run: record, realisation, level, factor, verdict, measures of the response and of the scaled motion.
+        One row per run: record, motion, realisation, level, factor, verdict, measures of the response and of the scaled
+        motion.
     measure : IntensityMeasure
         That the records were scaled to.
     column : Column
@@ -107,7 +112,7 @@ class Ida:
     wall_time: float
 
     def curves(self, edp: str = "peak_top_displacement_m") -> list[Curve]:
-        """One curve per record and realisation.
+        """One curve per motion and realisation.
 
         Parameters
         ----------
@@ -117,20 +122,19 @@ class Ida:
         if edp not in self.runs:
             raise unknown_response(edp, self.runs.columns)
         found = []
-        groups: Any = self.runs.groupby(["record", "realisation"], sort=False)
-        for (record, realisation), rows in groups:
+        groups: Any = self.runs.groupby(["record", "motion", "realisation"], sort=False)
+        for (record, motion, realisation), rows in groups:
             x = rows["level"].to_numpy(dtype=float)
             verdict = rows["verdict"].to_numpy(dtype=object)
-            stands, fell = verdict == v.STANDS, x[verdict == v.COLLAPSED]
-            first = float(fell.min()) if fell.size else math.inf
-            below = x[stands & (x < first)]
+            stands, (low, first) = verdict == v.STANDS, of_levels(x, verdict)
             found.append(
                 Curve(
                     str(record),
+                    str(motion),
                     int(realisation),
                     x[stands],
                     np.abs(rows[edp].to_numpy(dtype=float)[stands]),
-                    float(below.max()) if below.size else 0.0,
+                    low,
                     first,
                     x[stands & (x > first)],
                     float(x.max()),
@@ -165,11 +169,12 @@ class Ida:
         """One row per curve: between which levels its first collapse lies, and how often it stands again above."""
         import pandas
 
-        runs = self.runs.groupby(["record", "realisation"], sort=False).size().tolist()
+        runs = self.runs.groupby(["record", "motion", "realisation"], sort=False).size().tolist()
         return pandas.DataFrame(
             [
                 {
                     "record": one.record,
+                    "motion": one.motion,
                     "realisation": one.realisation,
                     "stands_until": one.stands,
                     "collapses_from": None if math.isinf(one.collapses) else one.collapses,

@@ -72,7 +72,7 @@ class Risk:
     @property
     def warnings(self) -> list[str]:
         """What is to be doubted, and what the hazard curve does not cover, in sentences."""
-        found = [f"{one}." for one in (self.fragility.outside, self.doubt) if one]
+        found = [*self.fragility.warnings, *([f"{self.doubt}."] if self.doubt else [])]
         if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
             found.append(
                 f"the runs do not say what their intensity is; it is taken for that of {self.hazard.name}, in "

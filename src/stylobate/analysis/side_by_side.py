@@ -13,6 +13,9 @@ from ..percent import percents
 from . import verdicts as v
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 
+#: Intensities that differ by less are one [-].
+CLOSE = 1e-6
+
 #: What a verdict says about collapse.
 CODES = {v.COLLAPSED: EXCEEDED, v.STANDS: NOT_EXCEEDED, v.UNDECIDED: OPEN, v.FAILED: FAILED, v.NOT_RUN: FAILED}
 
@@ -34,7 +37,8 @@ class Share:
         That these runs are of.
     interval : (float, float)
         95 % confidence limits of the share over records, each of which counts once however many runs are of it; the lower
-        one as if no undecided run exceeded the state, the upper one as if every one did.
+        one as if no undecided run exceeded the state, the upper one as if every one did. They hold the share of the runs,
+        too, which is another one where records have different numbers of them.
     """
 
     label: str
@@ -124,12 +128,10 @@ def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
     """Confidence limits over records of the share that exceeds, none and all of the undecided counted in."""
     runs = np.bincount(owner)
     there = runs > 0
-    passed = [
-        float((np.bincount(owner, hits, len(runs))[there] / runs[there]).sum())
-        for hits in (codes == EXCEEDED, (codes == EXCEEDED) | (codes == OPEN))
-    ]
-    low, high = (v.wilson_interval(one, there.sum())[k] for k, one in enumerate(passed))
-    return float(low), float(high)
+    hits = [codes == EXCEEDED, np.isin(codes, (EXCEEDED, OPEN))]
+    passed = [float((np.bincount(owner, one, len(runs))[there] / runs[there]).sum()) for one in hits]
+    low, high = (float(v.wilson_interval(one, there.sum())[k]) for k, one in enumerate(passed))
+    return (min(low, float(hits[0].mean())), max(high, float(hits[1].mean()))) if len(codes) else (low, high)
 
 
 def codes_of(verdicts: np.ndarray) -> np.ndarray:
@@ -138,7 +140,9 @@ def codes_of(verdicts: np.ndarray) -> np.ndarray:
 
 
 def median_words(curve: Mapping[str, Any]) -> str:
-    """The median of a curve with its unit, or from which to which what is undecided or failed can take it; or its bound.
+    """The median of a curve with its unit, or from which to which what is undecided or failed can take it.
+
+    Beyond the intensities that were run only their bound is known of it.
 
     Parameters
     ----------
@@ -146,11 +150,21 @@ def median_words(curve: Mapping[str, Any]) -> str:
         As of ``Fragility.summary()``, or of a JSON file, where an infinite median is None.
     """
     unit = "" if curve["unit"] == "-" else f" {curve['unit']}"
-    if curve.get("outside"):
-        low, high = curve["levels"]
-        return (f"> {high:.3g}" if curve["median"] > high else f"≤ {low:.3g}") + unit
-    if not curve["undecided"] + curve["failed"]:
-        return f"{curve['median']:.3g}{unit}"
-    ends = [curve[key]["median"] for key in ("if_open_exceed", "if_open_do_not")]
-    known = sorted(one for one in ends if one is not None and math.isfinite(one))
-    return " to ".join(f"{one:.3g}" for one in known) + " or more" * (len(known) < len(ends)) + unit
+    ends = [curve["median"], curve["median"]]
+    if curve["undecided"] + curve["failed"]:
+        ends = sorted(known_end(curve, key) for key in ("if_open_exceed", "if_open_do_not"))
+    return " to ".join(dict.fromkeys(within(one, curve["levels"]) for one in ends)) + unit
+
+
+def known_end(curve: Mapping[str, Any], key: str) -> float:
+    """The median with what is undecided or failed all counted one way; without a curve 0 or infinite."""
+    value, none = curve[key]["median"], 0.0 if key == "if_open_exceed" else math.inf
+    return none if value is None or math.isnan(value) else float(value)
+
+
+def within(value: float, levels: Sequence[float]) -> str:
+    """An intensity, or the bound of those that were run where it lies beyond them."""
+    low, high = levels
+    if value > high * (1.0 + CLOSE):
+        return f"> {high:.3g}"
+    return f"≤ {low:.3g}" if value < low * (1.0 - CLOSE) else f"{value:.3g}"

@@ -20,7 +20,7 @@ from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
 from ..response.measures import blank_row
-from .difference import Difference, reference
+from .difference import Difference, doubt, reference
 from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, bootstrap, fragility
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
@@ -60,6 +60,8 @@ class StateComparison:
         Of every state, of the runs that could be computed for all of them.
     state : str
         The limit state.
+    doubt : str
+        What stands before any advice, because of the model; empty where nothing does.
     """
 
     labels: tuple[str, ...]
@@ -70,6 +72,7 @@ class StateComparison:
     differences: tuple[Difference, ...]
     shares: tuple[Share, ...]
     state: str
+    doubt: str = ""
 
     @property
     def links(self) -> pandas.DataFrame:
@@ -105,6 +108,7 @@ class StateComparison:
         table: Any = self.table
         return {
             "state": self.state,
+            "doubt": self.doubt,
             "records": int(table["record"].nunique()),
             "states": [
                 {
@@ -195,7 +199,8 @@ def compare_states(
         for first, one, curve in zip(compared.values(), told[1:], curves[1:], strict=True)
     )
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records))
-    return StateComparison(labels, named, result, table, curves, differences, side_by_side, state)
+    before = doubt(labels, named, model)
+    return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, before)
 
 
 def _curve(one: Evidence, samples: int, seed: int, confidence: float) -> Fragility | None:

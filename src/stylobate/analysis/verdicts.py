@@ -64,6 +64,16 @@ def count(verdicts: Sequence[str] | np.ndarray) -> dict[str, int]:
     return {one: int(np.count_nonzero(values == one)) for one in VERDICTS}
 
 
+def open_runs(counts: Mapping[str, Any], so: str = "not counted as collapse") -> str:
+    """How many runs have no verdict, as a sentence behind another one; empty where all have."""
+    words = {UNDECIDED: ("is undecided", "are undecided"), FAILED: ("failed", "failed")}
+    found = [
+        f"{counts[one]} run{'' if counts[one] == 1 else 's'} {alone if counts[one] == 1 else several}"
+        for one, (alone, several) in words.items() if counts.get(one)
+    ]  # fmt: skip
+    return f" {' and '.join(found)}: {so}." if found else ""
+
+
 def tally(verdicts: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """How many runs collapsed, stand and are undecided along an axis of an array of verdicts."""
     collapsed, stands, undecided = ((verdicts == one).sum(axis=axis) for one in (COLLAPSED, STANDS, UNDECIDED))

@@ -49,17 +49,15 @@ def _ida(folder: Path) -> dict[str, Any]:
         width = _number(row.get("base_width_m")) or 1.0
         level, moved = _number(row["level"]), _number(row["peak_top_displacement_m"])
         if level is not None and moved is not None:
-            runs.setdefault((row["record"], row["realisation"]), []).append((level, abs(moved) / width))
+            runs.setdefault(_curve(row), []).append((level, abs(moved) / width))
     lines, ends = [], []
     for row in _rows(folder / "capacities.csv"):
         stands, falls = _number(row["stands_until"]), _number(row["collapses_from"])
         below = [
             (0.0, 0.0),
-            *sorted(
-                one for one in runs.get((row["record"], row["realisation"]), ()) if falls is None or one[0] < falls
-            ),
+            *sorted(one for one in runs.get(_curve(row), ()) if falls is None or one[0] < falls),
         ]
-        lines.append({"name": row["record"], "x": [one[1] for one in below], "y": [one[0] for one in below]})
+        lines.append({"name": _curve(row)[0], "x": [one[1] for one in below], "y": [one[0] for one in below]})
         ends.append(None if falls is None else math.sqrt(stands * falls) if stands else 0.5 * falls)
     right = ROOM * (max((max(one["x"]) for one in lines), default=0.0) or 1.0)
     for line, end in zip(lines, ends, strict=True):
@@ -101,6 +99,11 @@ def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
 
 def _words(said: Mapping[str, Any]) -> str:
     return "intensity" if said["im"] == "im" else parse_measure(said["im"]).words
+
+
+def _curve(row: Mapping[str, str]) -> tuple[str, str]:
+    """Motion and realisation of a row; folders of earlier versions hold the record only."""
+    return row.get("motion") or row["record"], row["realisation"]
 
 
 def _rows(path: Path) -> Iterator[dict[str, str]]:

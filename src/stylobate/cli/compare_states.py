@@ -101,6 +101,8 @@ def describe(found: StateComparison) -> None:
     from ..analysis.side_by_side import median_words
     from . import console
 
+    if found.doubt:
+        print(found.doubt)
     for one in found.differences:
         print(one.sentence)
     how = "collapse" if found.state == "collapse" else "exceed"

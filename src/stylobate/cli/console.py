@@ -29,6 +29,9 @@ FIRST_LINE = 10.0
 #: Least time in which runs must have ended before their pace says anything [s].
 STEADY = 5.0
 
+#: What is finished faster was kept from an earlier call: so fast it is read, and no model computes [1/s].
+FASTEST = 5000.0
+
 #: Widest line of a table [characters], and what stands where there is no value.
 WIDEST, MISSING = 100, "-"
 
@@ -222,9 +225,10 @@ def tell() -> None:
 class Pace:
     """How long what is left will take, from what has been finished at a steady pace; nothing as long as none is known.
 
-    What was finished before a pause that is longer than all the time before it does not count: it was kept from an earlier
-    call, and the pause is that in which code is compiled, or the first runs are under way. Runs end many at a time: a pace
-    is known once the time in which they ended holds three of their longest pauses.
+    What was finished before a pause that is longer than all the time before it does not count: the pause is that in which
+    code is compiled, or the first runs are under way. Nor does what was finished too fast to have been computed: it was
+    kept from an earlier call. Runs end many at a time: a pace is known once the time in which they ended holds three of
+    their longest pauses.
     """
 
     def __init__(self) -> None:
@@ -237,7 +241,7 @@ class Pace:
 
         now = time.monotonic()
         pause, self.last, before = now - self.last, now, self.last - self.began
-        if pause > before:
+        if pause > before or done - self.first > FASTEST * (now - self.base):
             self.base, self.first, self.pause = now, done, 0.0
         self.pause = max(self.pause, pause if now > self.base else 0.0)
         spent, finished = now - self.base, done - self.first

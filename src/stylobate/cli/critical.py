@@ -198,13 +198,16 @@ def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
 
 def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
     """The table of a suite for people: bounds, such as "> 1.5", in place of what is no number."""
-    table = result.table.drop(columns=["bounds", "lowest_collapse_g"])
+    table = result.table.drop(columns=["bounds", "lowest_collapse_g", "open_below"])
     if result.results[0].population is None:
         table = table.drop(columns="lowest_collapse_factor")
+    if table["record"].tolist() == table["motion"].tolist():
+        table = table.drop(columns="motion")
     table = table.astype(object).where(table.notna(), math.nan)
     for place, one in enumerate(result.summary()["records"]):
         for name, bound in one["bounds"].items():
-            table.loc[place, name] = bound
+            if name in table:
+                table.loc[place, name] = bound
     return table
 
 
@@ -235,5 +238,6 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
             f"; {percent(share)} of those like it collapse" if share is not None and math.isfinite(share) else ""
         )
     for row in summary["alternation"]:
-        facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = f"{row['verdict']} ({row['runs']} runs)"
+        runs = f"{row['runs']} run" + ("" if row["runs"] == 1 else "s")
+        facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = f"{row['verdict']} ({runs})"
     console.say(summary["sentence"], facts, files)

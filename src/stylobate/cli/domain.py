@@ -166,6 +166,7 @@ def run_probability(study: HarmonicGrid, population: dict, threads: int, out: Pa
 
 def describe_probability(result: CollapseProbability, files: list[Path]) -> None:
     """Print the probabilities for people."""
+    from ..analysis.verdicts import open_runs
     from ..response.words import longer_tail
     from . import console
 
@@ -175,8 +176,7 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
         f"{s['some_collapse']} are uncertain"
     )
     sentence += f", {s['no_verdict']} have no verdict." if s["no_verdict"] else "."
-    if s["undecided"] or s["failed"]:
-        sentence += f" {s['undecided']} runs are undecided and {s['failed']} failed; they are not counted as collapse."
+    sentence += open_runs(s)
     if s["undecided"]:
         sentence += f" Go on with {longer_tail(float(result.provenance['tail']))}."
     facts = {

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -155,7 +154,7 @@ def one_curve(
 def describe(found: Fragility) -> None:
     """A curve in words."""
     from ..analysis.fragility import between
-    from ..analysis.side_by_side import median_words
+    from ..analysis.side_by_side import known_end, median_words, within
     from . import console
 
     s = found.summary()
@@ -163,20 +162,20 @@ def describe(found: Fragility) -> None:
     counts = [f"{s[one]} {one}" for one in ("undecided", "failed") if s[one]]
     open_ = ""
     if counts:
-        ends = [s[one]["median"] for one in ("if_open_exceed", "if_open_do_not")]
-        low, high = (f"{one:.3g}" if math.isfinite(one) else "no curve" for one in ends)
+        low, high = (within(known_end(s, one), s["levels"]) for one in ("if_open_exceed", "if_open_do_not"))
         open_ = f"; with the {' and '.join(counts)} all exceeding it {low}, all not exceeding it {high}"
     known = median_words(s) if s["outside"] else f"{s['median']:.4g}{unit}"
     median = f"{known} (95 %: {between(s['median_low'], s['median_high'])}){open_}"
     limits = between(s["beta_low"], s["beta_high"], digits=2)
     spread = f"not seen in these runs (95 %: {limits})" if s["beta"] is None else f"{s['beta']:.3f} (95 %: {limits})"
+    records = ", each taken for a record of its own" if s["records_are_one"] else f" of {s['records']} records"
     fit = "the points lie as a lognormal curve lets expect" if s["p_value"] >= 0.05 else "a lognormal curve fits badly"
     console.say(
         s["sentence"],
         {
             "median": f"middle {median}" if s["bracket"] and not s["outside"] else median,
             "dispersion": spread,
-            "from": f"{s['runs']} runs of {s['records']} records, {s['exceeded']} exceed; by {s['method']}",
+            "from": f"{s['runs']} runs{records}, {s['exceeded']} exceed; by {s['method']}",
             "fit": f"{fit} (largest distance {s['largest_distance']:.2f}, p = {s['p_value']:.2f})",
         },
     )

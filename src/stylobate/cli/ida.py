@@ -66,6 +66,7 @@ def ida(
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
     from ..motion.intensity_specs import parse_levels, parse_measure
+    from ..motion.orientation import record_of
     from ..response.words import longer_tail
     from . import console
 
@@ -75,7 +76,7 @@ def ida(
     twins = o.the_population(replicates, scatter, seed) or {}
     stripes = None if levels is None else parse_levels(levels, measure)
     records = o.the_request(context, motion=sources, separate=True).expand()
-    known = the_facts(about, sources, [one.name for one in records.motions])
+    known = the_facts(about, sources, [name for one in records.motions for name in (one.name, record_of(one))])
     o.the_engine(context, dask, workers)
     names = (
         "runs.csv",

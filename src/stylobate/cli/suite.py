@@ -11,9 +11,6 @@ import typer
 from ..percent import percent
 from . import options as o
 
-#: How many of the columns like each collapse, as it is printed.
-CHANCE = "collapse of twins (95 %)"
-
 #: Columns of the table that are printed.
 SHOWN = (
     "number",
@@ -24,7 +21,7 @@ SHOWN = (
     "pga_over_g_tan_alpha",
     "verdict",
     "outcome",
-    CHANCE,
+    "chance",
     "peak_top_displacement_m",
     "peak_displacement_m",
     "links_broken",
@@ -70,7 +67,7 @@ def suite(
     A table of outcomes and of measures of the records; with --out, a figure of the peak response against one of them. With
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
-    from ..analysis.certainty import chance_words
+    from ..analysis.certainty import CHANCE, chance_words
     from ..analysis.directions import compass_of_shares, worst
     from ..analysis.suite import must_be_told, suite_shares, suite_table
     from ..errors import InputError
@@ -138,11 +135,12 @@ def suite(
     if as_json:
         console.emit(result)
         return
-    table[CHANCE] = [chance_words(row) for row in result["runs"]]
+    table["chance"] = [chance_words(row) for row in result["runs"]]
     for one, (_, rows) in zip(found, table.groupby("column", sort=False), strict=True):
         print(one.collapses)
         shown = rows.filter(list(SHOWN))
-        console.print_table(shown if any(shown[CHANCE]) else shown.drop(columns=CHANCE), digits=3)
+        shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
+        console.print_table(shown, digits=3)
     if swept and result["worst"] is not None:
         print(f"Most harm: {result['worst']['motion']}.")
     console.print_left_out(result["inputs"])

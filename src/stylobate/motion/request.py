@@ -260,9 +260,9 @@ class MotionRequest:
             ready = []
             for azimuth in self.azimuths or (None,):
                 one = first if azimuth is None else self._turned(first, azimuth)
-                if azimuth is not None:
-                    turned_to = {**_direction(one, motion.name), "azimuth": azimuth}
-                    one = one.replace(metadata={**one.metadata, "direction": turned_to})
+                if azimuth is not None or self.signs == "both":
+                    known = _direction(one, motion.name) | ({} if azimuth is None else {"azimuth": azimuth})
+                    one = one.replace(metadata={**one.metadata, "direction": known})
                 if len(self.azimuths) > 1:
                     one = one.replace(name=f"{one.name} at {azimuth:g}°")
                 both = [one, _reversed(one, motion.name)] if self.signs == "both" else [one]

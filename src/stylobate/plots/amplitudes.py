@@ -54,7 +54,8 @@ def draw_amplitudes(result: CriticalAmplitude, title: str | None = None, *, ax: 
             axes.plot(amplitudes[chosen], shown[chosen], linestyle="none", markersize=5.0, label=counted, **mark)
     if result.critical is not None:
         at = result.critical / g
-        axes.axvline(at, color=RED, linewidth=0.8, label=f"lowest collapse, {at:.4g} g")
+        whose = "" if result.population is None else " of this one"
+        axes.axvline(at, color=RED, linewidth=0.8, label=f"lowest collapse{whose}, {at:.4g} g")
     if result.population is not None and (fell := float(result.population.critical.min())) < math.inf:
         label_of_likes = f"lowest of {len(result.population.verdicts)} like it, {fell / g:.4g} g"
         axes.axvline(fell / g, color=RED, linestyle=(0, (1.2, 1.2)), linewidth=1.2, label=label_of_likes)

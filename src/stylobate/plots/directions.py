@@ -46,7 +46,9 @@ def draw_directions(
     axes.plot(angle[seen], values[seen], "o", color=BLACK, markersize=4.0)
     beyond = np.isposinf(values)
     if beyond.any():
-        axes.plot(angle[beyond], shown[beyond], "o", color=BLACK, fillstyle="none", markersize=6.0, label="no collapse")
+        axes.plot(
+            angle[beyond], shown[beyond], "o", color=BLACK, fillstyle="none", markersize=6.0, label="no collapse seen"
+        )
     if seen.any():
         pick = np.nanargmax if worst == "largest" else np.nanargmin
         at = int(pick(np.where(seen, values, np.nan)))

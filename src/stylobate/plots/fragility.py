@@ -66,7 +66,7 @@ def draw_fragility(
         name = one.evidence.name if len(found) > 1 else "lognormal"
         badly = ", fits badly" if one.p_value < BADLY else ""
         spread = f"β {one.beta:.2f}" if one.bracket is None else "β not seen"
-        label = f"{name}: {one.median:.3g} {one.evidence.unit}, {spread}, {one.records} records{badly}"
+        label = f"{name}: {one.median:.3g} {one.evidence.unit}, {spread}, {one.records} {one.counted}{badly}"
         axes.plot(x, one.probability(x), color=colour, linestyle=look["linestyle"], linewidth=1.6, label=label)
         p = one.points
         bars = np.clip(np.stack((p.share - p.low, p.high - p.share)), 0.0, None)
@@ -82,7 +82,7 @@ def draw_fragility(
     axes.set_xlabel("intensity" if measure == "im" else parse_measure(measure).words)
     axes.set_ylabel(f"probability of {state}")
     axes.grid(True)
-    axes.set_title(title or f"{state}, {100 * found[0].confidence:g} % bands over records", fontsize=9)
+    axes.set_title(title or f"{state}, {100 * found[0].confidence:g} % bands over {found[0].counted}", fontsize=9)
     legend_below(axes, ax is None, handlelength=2.4, ncols=1, fontsize=8)
     return figure
 

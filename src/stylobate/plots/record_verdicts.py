@@ -38,7 +38,7 @@ def draw_record_verdicts(
     upper.stairs(suite.share_collapsed, edges, baseline=None, color=BLACK, linewidth=1.4)
     upper.set_ylim(-0.03, 1.03)
     upper.grid(axis="y")
-    upper.set_ylabel("share of records\nthat collapse it [-]")
+    upper.set_ylabel("share of motions\nthat collapse it [-]")
     verdicts = suite.verdicts
     handles = []
     for one, fill in FILL.items():
@@ -54,12 +54,12 @@ def draw_record_verdicts(
     lower.set_ylim(count - 0.5, -0.5)
     lower.set_xlim(edges[0], edges[-1])
     lower.set_xlabel("peak ground acceleration [g]")
-    lower.set_ylabel("record / verdict")
+    lower.set_ylabel("motion / verdict")
     uplift = column.uplift_acceleration / g
     for axes in (upper, lower):
         line = axes.axvline(uplift, color=BLUE, linestyle=(0, (6, 2.5)), linewidth=1.1)
     line.set_label(f"static uplift, {uplift:.3f} g")
-    upper.set_title(title or f"{column.name}, {suite.results[0].model}: {count} records")
+    upper.set_title(title or f"{column.name}, {suite.results[0].model}: {count} motions")
     figure.legend(handles=[*handles, line], loc="outside lower center", ncols=4)
     return figure
 

@@ -105,7 +105,8 @@ def save(figure: Figure, stem: str | Path) -> list[Path]:
     layout, dots = figure.get_layout_engine(), figure.dpi
     settled: dict[Any, Any] = {"figure.constrained_layout.use": False}
     with matplotlib.rc_context(_STYLE | settled):
-        # The layout, once for both files. Letters are not as wide in every resolution: in that of the file, or it cuts them.
+        # The layout is settled once, for both files, at the resolution of the PNG file: letters are wider at some
+        # resolutions than at others, and what fits at another one may be cut off in the file.
         figure.set_dpi(DOTS_PER_INCH)
         figure.draw_without_rendering()
         figure.set_layout_engine(None)
@@ -162,7 +163,9 @@ def plain(text: object) -> str:
 
 
 def _make_plain(drawn: Artist) -> None:
-    ticks = {text for axis in drawn.findobj(Axis) for text in axis.findobj(Text)}  # formatters write mathematics
+    ticks = {
+        text for axis in drawn.findobj(Axis) for text in axis.findobj(Text)
+    }  # their formatters write mathematics, which stays
     for text in drawn.findobj(Text):
         if text not in ticks and text.get_text() != plain(text.get_text()):
             text.set_text(plain(text.get_text()))

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..analysis.certainty import set_against
-from ..percent import percent
+from ..percent import percent, percents
 from . import numbers as n
 from .page import Facts, Item, Section
 
@@ -47,9 +47,12 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
     how_many = "none" if not fell else "all" if fell == number else str(fell)
     said = f"Of {number} columns like this one, {how_many} collapse{'s' if fell == 1 else ''}"
     if low is not None and high is not None:
-        said += f" ({percent(fell / number)}): under this motion and in this model the probability of collapse lies "
-        said += f"between {percent(low)} and {percent(high)}, with {level} confidence"
-    said += f". {open_} of them had not come to rest and are not counted as either." if open_ else "."
+        share = percents(fell / number, (fell + open_) / number)
+        said += (
+            f" ({share}): under this motion and in this model the probability of collapse is {percents(low, high)}, "
+        )
+        said += f"with {level} confidence"
+    said += f". {open_} of them had not come to rest and are counted both ways." if open_ else "."
     if known.get("failed"):
         said += f" {known['failed']} more could not be computed."
     beside = beside_them(summary)
@@ -83,7 +86,7 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         pairs.append(
             (
                 f"{percent(known.get('confidence', 0.95))} interval of it, from their number alone",
-                f"{low:.3f} to {high:.3f}",
+                percents(low, high),
             )
         )
     for key, words in (

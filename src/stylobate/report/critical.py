@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ..analysis.critical_words import lowest_collapse, sentence_of_suite
-from ..analysis.critical_words import sentence as sentence_of
-from ..percent import percent
+from ..analysis import verdicts as v
+from ..percent import percent, percents
 from ..results import Numbers
 from . import numbers as n
 from .page import Facts, Item, Rows
@@ -16,28 +15,26 @@ from .pictures import kept
 #: Most rows of a table; the CSV files in the folder hold them all.
 MOST = 40
 
-#: What is told of each record.
+#: What is told of each motion; what only columns like it add is left out where there are none.
 BY_RECORD = (
-    *("record", "pga_g", "pgv_m_s", "as_recorded", "critical_g", "critical_factor", "all_collapse_above_g"),
-    *("critical_16_g", "critical_50_g", "critical_84_g"),
+    *("motion", "pga_g", "pgv_m_s", "as_recorded", "critical_g", "critical_factor", "all_collapse_above_g"),
+    *("lowest_collapse_g", "lowest_collapse_factor", "critical_16_g", "critical_50_g", "critical_84_g"),
+    *(v.UNDECIDED, v.FAILED),
 )
 
 
 def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     """What amplitudes brought down the column, and columns like it; under one motion or several."""
     s = result.summary
-    kind = result.structures[0].kind if result.structures else "column"
-    records = s["records"] if isinstance(s.get("records"), list) else []
-    sentence = (sentence_of_suite if records else sentence_of)(s, kind)
-    fell = s["worst"] is not None if records else lowest_collapse(s) is not None
+    records = s.get("records") or []
     pairs = [
         ("runs", n.plain(s["runs"])),
-        ("collapsed / stands", f"{n.plain(s.get('collapsed'))} / {n.plain(s.get('stands'))}"),
+        (" / ".join(v.MADE), " / ".join(n.plain(s.get(one)) for one in v.MADE)),
     ]
     if (own := s.get("as_recorded")) is not None:
         pairs.append(("the record as it is", f"{own['amplitude_g']:.4g} g: {own['verdict']}"))
     items: list[Item] = [Facts(pairs)]
-    if s.get("certainty"):
+    if s.get("collapse_probability"):
         items += _twins(s)
     if s.get("alternation"):
         rows = [
@@ -60,7 +57,7 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         "Share of columns like this one that collapse, over the amplitude, with its interval.",
     )
     items += kept(result.pictures, "directions", "By direction of the motion.")
-    return (sentence, " bad" if fell else ""), items
+    return (s["sentence"], "" if s["lowest_collapse_g"] is None else " bad"), items
 
 
 def _twins(s: dict[str, Any]) -> list[Item]:
@@ -72,19 +69,20 @@ def _twins(s: dict[str, Any]) -> list[Item]:
         for share in (16, 50, 84)
         if shown.get(name := f"critical_{share}_g") is not None
     ]
-    limits = s["collapse_interval_low"], s["collapse_interval_high"]
+    limits = zip(s["collapse_interval_low"], s["collapse_interval_high"])
     rows = [
-        [f"{a:.4g}", n.plain(factor), *(n.NONE if one is None else percent(one) for one in shares)]
-        for a, factor, *shares in zip(s["amplitudes_g"], scale, s["collapse_probability"], *limits)
+        [f"{a:.4g}", n.plain(factor), n.NONE if share is None else percent(share), percents(*interval)]
+        for a, factor, share, interval in zip(s["amplitudes_g"], scale, s["collapse_probability"], limits)
     ]
-    header = ["amplitude [g]", "factor of the record", "collapse", "95 % from", "to"]
+    header = ["amplitude [g]", "factor of the record", "collapse", "95 % interval"]
     left_out = f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
     return [Facts(pairs), Rows(header, rows[:MOST], f"Columns like this one, by amplitude.{left_out}", numbers=True)]
 
 
 def _by_record(records: Sequence[Mapping[str, Any]]) -> Rows:
-    keys = [key for key in BY_RECORD if key in records[0]]
+    alone = "critical_50_g" not in records[0]
+    keys = [key for key in BY_RECORD if key in records[0] and not (alone and key.startswith("lowest"))]
     rows = [[n.plain(one.get("bounds", {}).get(key, one.get(key))) for key in keys] for one in records[:MOST]]
-    caption = "By record; ≤ and > mark bounds, where no amplitude on the other side was stood, or brought collapse."
+    caption = "By motion; ≤ and > mark bounds, where no amplitude on the other side was stood, or brought collapse."
     left_out = f" The first {MOST} of {len(records)}." if len(records) > MOST else ""
-    return Rows([key.replace("_", " ") for key in keys], rows, caption + left_out, numbers=True)
+    return Rows([n.named(key) for key in keys], rows, caption + left_out, numbers=True)

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from ..analysis.certainty import chance_words
+from ..analysis.certainty import CHANCE, chance_words
 from ..analysis.ida_curves import median_of
 from ..analysis.side_by_side import codes_of, shares
 from ..analysis.studies import StudyResult
 from ..analysis.suite import suite_shares
+from ..analysis.verdicts import open_runs
 from ..bibliography import cite, cite_run
 from ..column import Column
 from ..constants import g
@@ -39,13 +40,10 @@ from .shaking import motions_section
 from .states import advice_notes, states_items
 from .statics import code_check, limit_result, pushover_result, static_model, statics_of_states, statics_section
 from .structure import state_section, structure_section
-from .tables import COUNTED, COUNTED_HOW, MOST, counts_of, open_runs, table
+from .tables import COUNTED, COUNTED_HOW, MOST, counts_of, table
 
 #: Kinds that rest on the runs of another command.
 FROM_RUNS = (Kind.FRAGILITY, Kind.RISK, Kind.SURVIVAL)
-
-#: What the columns like one come to, in a table.
-CHANCE = "columns like it that collapse"
 
 
 def sections_of(result: Result, told: set[str], run: RunResult | None = None) -> list[Section]:
@@ -114,10 +112,7 @@ def _doubts(result: Result) -> list[str]:
     if result.kind not in FROM_RUNS:
         return []
     curves = result.summary.get("curves") or [result.summary]
-    return [
-        *map(str, result.summary.get("warnings") or ()),
-        *(f"{one['outside']}." for one in curves if one.get("outside")),
-    ]
+    return list(dict.fromkeys(str(text) for one in curves for text in one.get("warnings") or ()))
 
 
 def _scope(kind: Kind) -> str:
@@ -187,9 +182,9 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     fell = sum(one.get("collapses_from") is not None for one in s["capacities"])
     sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
     sentence += f"; {median_of(s)}." if s["capacities"] else "."
-    items: list[Item] = [
-        table(s["capacities"], list(s["capacities"][0])[:6] if s["capacities"] else [], "Capacity under each record.")
-    ]
+    rows = [{"motion": one["record"], **one} for one in s["capacities"]]
+    keys = ["motion", "realisation", "stands_until", "collapses_from", "resurrections", "runs", "open"]
+    items: list[Item] = [table(rows, keys, "Capacity under each motion.")]
     items += kept(result.pictures, "ida", "Response over the intensity, a curve for each record.")
     if s.get("measures"):
         items.append(

@@ -63,15 +63,15 @@ def basis_section(result: Result) -> Section:
             pairs.append(("computed by", f"{typed(one['command'])}\non {one['day']}, version {one['version']}"))
         items.append(Facts(pairs, str(one["path"])))
         if one["command"] is None:
-            items.append(Note([NOT_TOLD.format(table=one["table"])], "fair"))
+            items.append(Note([NOT_TOLD.format(why=one["not_told"])], "fair"))
         elif one["unchanged"] is False:
             items.append(Note([CHANGED.format(table=one["table"])], "fair"))
     return Section(title, items)
 
 
-#: What is not known of a table of runs that lies beside no results of a command.
+#: What is not known of a table of runs beside which no file tells what the command was asked.
 NOT_TOLD = (
-    "Not known: {table} lies beside no results of stylobate. Which column stood, in which model with which parameters, and "
+    "Not known: {why} Which column stood, in which model with which parameters, and "
     "the motions with their digests and scale factors are not told; whoever signs this has to know them from elsewhere."
 )
 

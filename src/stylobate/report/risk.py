@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 from ..analysis.fragility import between
 from ..analysis.risk import years
 from ..analysis.side_by_side import median_words
+from ..analysis.verdicts import open_runs
 from ..results import Numbers
 from . import numbers as n
 from .page import Facts, Item, Note
 from .pictures import kept
-from .tables import open_runs, table
+from .tables import table
 
 
 def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -18,27 +22,36 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     one = curves[0]
     unit = "" if one.get("unit") in (None, "-") else f" {one['unit']}"
     limits = between(one.get("median_low"), one.get("median_high"), one.get("unit") or "-")
-    sentence = (
-        f"Half of the records bring {one['state']} at {one['im']} = {one['median']:.3g}{unit} (95 % interval {limits})."
-    )
+    sentence = f"{one['sentence']} The 95 % interval of the median is {limits}."
     if one.get("outside"):
-        sentence = (
-            f"Half of the records bring {one['state']} at {one['im']} {median_words(one)} (95 % interval {limits})."
-        )
+        levels = " to ".join(f"{level:.3g}" for level in one["levels"])
+        where = "above" if one["median"] > one["levels"][1] else "below"
+        sentence = f"The fitted median of {one['state']} ({one['im']}) lies {where} all runs ({levels}{unit}); "
+        sentence += f"95 % interval: {limits}."
     elif one.get("bracket"):
-        sentence = f"{one['sentence']} The 95 % interval of the median is {limits}; how capacities scatter is not seen."
+        sentence += " How capacities scatter is not seen."
     for each in curves:
+        each["records"] = None if each.get("records_are_one") else each["records"]
         each["known of the median"] = median_words(each) if each.get("outside") else None
         if each.get("undecided") or each.get("failed"):
             each["median_undecided_both_ways"] = median_words(each)
     keys = ["name", "im", "levels", "known of the median", "median", "median_low", "median_high"]
     keys += ["median_undecided_both_ways", "beta", "records", "runs", "undecided", "p_value"]
     items: list[Item] = [table(curves, keys, "Lognormal curves: median, its interval, dispersion β, and p of the fit.")]
-    items += kept(result.pictures, "fragility", "Probability over the intensity, with its interval over records.")
+    items += kept(result.pictures, "fragility", f"Probability over the intensity, with its interval over {_over(one)}.")
     if float(one.get("p_value") or 1.0) < 0.05:
         items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
-    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
-    return (sentence + open_runs(one), ""), items
+    items.append(_HOLDS.format(_over(one)))
+    return (sentence + open_runs(one, "left out of the curve"), ""), items
+
+
+#: What no interval of a fragility holds.
+_HOLDS = "The interval is over {}: it does not hold what the model or the survey may be wrong about."
+
+
+def _over(curve: Mapping[str, Any]) -> str:
+    """What the interval of a curve is over."""
+    return "runs" if curve.get("records_are_one") else "records"
 
 
 def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
@@ -60,16 +73,16 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     if known:
         median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
         levels = " to ".join(f"{one:.3g}" for one in known["levels"])
+        counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
         pairs += [
             ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
             ("dispersion β of the fragility", f"{n.plain(known['beta'])} (95 %: {beta})"),
             ("intensities of its runs", f"{levels}{unit}"),
-            ("records / runs / exceeded / undecided / failed",
-             " / ".join(str(known[one]) for one in ("records", "runs", "exceeded", "undecided", "failed"))),
+            (" / ".join(counted), " / ".join(str(known[one]) for one in counted)),
             ("p of its fit", n.plain(known["p_value"])),
         ]  # fmt: skip
     items: list[Item] = [Facts(pairs), *kept(result.pictures, "risk", "Where the rate comes from, by intensity.")]
-    items.append("The interval is over records: it does not hold what the model or the survey may be wrong about.")
+    items.append(_HOLDS.format(_over(known)))
     return (sentence, ""), items
 
 

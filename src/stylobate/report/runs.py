@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import plots
-from ..analysis.certainty import chance_words
+from ..analysis.certainty import CHANCE, chance_words
 from ..analysis.directions import harm
 from ..analysis.side_by_side import codes_of, shares
 from ..analysis.verdicts import verdict
@@ -302,7 +302,7 @@ def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
     runs = found.runs
     codes = codes_of(np.array([verdict(one.response.summary()) for one in runs]))
     (share,) = shares({runs[0].response.structure.name: codes}, [_record_of(one) for one in runs])
-    header = ["motion", "PGA [g]", "outcome", "columns like it that collapse", "peak displacement", "folder"]
+    header = ["motion", "PGA [g]", "outcome", CHANCE, "peak displacement", "folder"]
     body = []
     for one in runs:
         r, s = one.response, one.summary

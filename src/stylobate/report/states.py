@@ -14,13 +14,6 @@ from ..results import Numbers
 from . import numbers as n
 from .page import Item, Note, Points, Rows
 from .pictures import kept
-from .record import known_model
-
-#: What stands before any advice on round columns that were computed in a plane, however many the records.
-ROUND_IN_THE_PLANE = (
-    "Round columns, computed in a plane: in space they can fall under much weaker motions, and what helps here need not "
-    "help there. No measure is to be adopted before a model in space (dem3d) has told the same."
-)
 
 #: How the notes on conclusions stand out.
 LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
@@ -29,10 +22,8 @@ LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
 def advice_notes(result: Numbers) -> list[Item]:
     """The advice on every state, which is read before anything else."""
     found = [(one["advice"], LOOKS[one["conclusion"]]) for one in result.summary["differences"]]
-    models = [known_model(str(one["name"])) for one in result.asked.models] if result.asked is not None else []
-    plane = any(kind is not None and "y" not in kind.axes for kind in models)
-    if plane and any(one.section == "circular" for one in result.structures):
-        found.insert(0, (ROUND_IN_THE_PLANE, LOOKS[NOT_TOLD]))
+    if result.summary["doubt"]:
+        found.insert(0, (result.summary["doubt"], LOOKS[NOT_TOLD]))
     return [Note([advice], f"verdict {look}".rstrip()) for advice, look in found]
 
 

@@ -35,14 +35,6 @@ def counts_of(one: Share) -> list[str]:
     return [*map(str, counts), one.words or n.NONE, one.interval_words or n.NONE, str(one.failed)]
 
 
-def open_runs(s: dict[str, Any]) -> str:
-    """How many runs have no verdict, as a sentence behind another one; empty where all have."""
-    found = [
-        f"{s[one]} runs {word}" for one, word in (("undecided", "are undecided"), ("failed", "failed")) if s.get(one)
-    ]
-    return f" {' and '.join(found)}; they are not counted as collapse." if found else ""
-
-
 def table(rows: Sequence[Any], keys: Sequence[str], caption: str, mark: str | None = None) -> Rows:
     """Rows by the keys that any of them has; ``mark`` is the key of a verdict, by which cells are coloured."""
     there = [key for key in keys if any(row.get(key) not in (None, "") for row in rows)]

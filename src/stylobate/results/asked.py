@@ -132,6 +132,9 @@ class Asked:
             }
             if form != FORM:
                 raise ValueError("it has no form")
+            for key, need in (("structures", ()), ("models", ("name",)), ("motions", ("name",)), ("sources", ())):
+                if not all(isinstance(one, dict) and one.keys() >= {*need} for one in fields.get(key, ())):
+                    raise ValueError(f"{key!r} is no list of its entries")
             return cls(**fields)
         except (TypeError, ValueError) as error:
             raise InputError(f"{shown(path)} is not what stylobate wrote ({error}); run again.") from None

@@ -31,15 +31,15 @@ MOST_RUNS = 10_000
 #: What a JSON object of each kind must hold; a folder with such an object of other keys was not written by stylobate.
 KEYS = {
     Kind.RUN: ("outcome", "collapsed", "decided", "energy_imbalance"),
-    Kind.CRITICAL: ("runs",),
+    Kind.CRITICAL: ("runs", "lowest_collapse_g", "sentence"),
     Kind.DOMAIN: ("cells", "collapsed"),
     Kind.PROBABILITY: ("cells", "replicates"),
     Kind.PUSHOVER: ("collapse_multiplier_g", "peaked", "curve"),
     Kind.LIMIT: ("collapse_multiplier_g", "active_joints"),
-    Kind.STATES: ("state", "states", "differences", "links", "records"),
+    Kind.STATES: ("state", "states", "differences", "links", "records", "doubt"),
     Kind.SUITE: ("runs", "verdicts"),
     Kind.IDA: ("runs", "records", "capacities"),
-    Kind.FRAGILITY: ("median", "beta", "im", "state"),
+    Kind.FRAGILITY: ("median", "beta", "im", "state", "sentence"),
     Kind.RISK: ("annual_rate", "return_period_y"),
     Kind.SURVIVAL: ("hazards",),
 }

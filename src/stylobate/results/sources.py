@@ -8,6 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..errors import InputError
 from ..own_files import LIST, OwnFiles, digest
 from .asked import Asked, asked_file, scales_of
 
@@ -36,13 +37,21 @@ class Source:
     runs: pandas.DataFrame
 
     @cached_property
-    def asked(self) -> Asked | None:
-        """What the command that wrote the table was asked; None where it lies beside none, or in a later version's form."""
+    def kept(self) -> Asked | str:
+        """What the command that wrote the table was asked, or why that is not known."""
         command = COMMANDS.get(self.table.stem)
         file = self.table.parent / asked_file(command or "")
         if command is None or not file.is_file() or not OwnFiles(self.table.parent).lists(self.table):
-            return None
-        return Asked.read(file)
+            return f"{self.table.name} lies beside no results of stylobate."
+        try:
+            return Asked.read(file)
+        except InputError as error:
+            return str(error)
+
+    @property
+    def asked(self) -> Asked | None:
+        """What the command that wrote the table was asked; None where that is not known."""
+        return self.kept if isinstance(self.kept, Asked) else None
 
     def names(self, column: str) -> list[str]:
         """Different values of a column of the table; none where it has no such column."""
@@ -82,6 +91,7 @@ class Source:
             "records": records,
             "columns": self.names("column"),
             "models": self.names("model"),
+            "not_told": self.kept if isinstance(self.kept, str) else None,
             "command": None if asked is None else list(asked.command),
             "version": None if asked is None else asked.version,
             "day": None if asked is None else asked.day,

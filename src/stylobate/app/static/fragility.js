@@ -79,7 +79,7 @@ export async function hear(news) {
   let card = find(".card[data-key]", place);
   if (!card || !isOpen(job)) card = el("div", { class: "card", "data-key": "" });
   tell(card, job, () => [
-    curve && el("p", { class: "verdict" }, said(curve)),
+    curve && el("p", { class: "verdict" }, named(curve.sentence)),
     curve && facts([["median", `${number(curve.median)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
     Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, named(`${name} was left out: ${why}`))),
@@ -92,4 +92,3 @@ export async function hear(news) {
 }
 // Files have names of their own here; people know them by those that they had.
 const named = text => uploaded.reduce((said, one) => said.replace(new RegExp(`[\\w/-]*-${one.id}(\\.\\w+)?`, "g"), () => one.name), text);
-const said = s => `Half of the records bring ${s.state} at ${s.im} = ${number(s.median)} ${s.unit}.`;

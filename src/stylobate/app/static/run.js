@@ -109,15 +109,12 @@ export async function hear(job) {
 function foundCritical(job) {
   const r = (job.results || [])[0], { asked } = job;
   if (!r || !asked) return;
-  const place = find("#run-said", panel), none = r.critical_g === null, low = r.lowest_collapse_g ?? r.critical_g, like = r.certainty;
+  const place = find("#run-said", panel), none = r.critical_g === null, [verdict, ...rest] = r.sentence.split(/(?<=\.) /);
   const peak = Number.isFinite(r.critical_g) && asked.motion && ["harmonic", "pulse"].includes(asked.motion.kind);
   const near = peak ? { ...asked.motion, text: asked.motion.text.replace("?g", `${r.critical_g}g`), ...(asked.motion.across ? { across: asked.motion.across.replace("?g", `${r.critical_g}g`) } : {}) } : { ...asked.motion, pga: `${r.critical_g}g` };
   place.dataset.key = "";
   tell(place, job, () => [
-    el("p", { class: `verdict ${low === null ? "stands" : "collapsed"}` }, low === null ? `Up to ${asked.last} nothing of this motion brings the column down.` : `${low === r.critical_g ? "The column" : "A column like it"} collapses at ${number(low)} g${r.lowest_collapse_factor ? `, ${number(r.lowest_collapse_factor)} times the motion` : ""}: the lowest amplitude at which any that was tried does.`,
-      like && el("small", {}, `Of ${r.replicates} columns like it ${[16, 50, 84].map(share => `${share} % fall ${(like.bounds || {})[`critical_${share}_g`] ? `at ${(like.bounds || {})[`critical_${share}_g`]}` : `by ${number(like[`critical_${share}_g`])}`} g`).join(", ")}.${low !== r.critical_g ? none ? " This one falls at none of them." : ` This one falls at ${number(r.critical_g)} g.` : ""}`),
-      !none && r.all_collapse_above_g !== r.critical_g && el("small", {}, "It stands again, or is undecided, at some larger ones: no single amplitude is its limit."),
-      r.undecided > 0 && el("small", {}, `${r.undecided} of ${r.runs} runs ended before their verdict was certain: let them go on after the motion.`)),
+    el("p", { class: `verdict ${r.lowest_collapse_g !== null ? "collapsed" : r.open_below ? "undecided" : "stands"}` }, verdict, ...rest.map(one => el("small", {}, one))),
     facts([["runs", r.runs], ["amplitudes", `${asked.first} to ${asked.last}`], ["steps of", asked.step], ["undecided", r.undecided || ""], ["failed", r.failed || ""]]),
     warnings(job.warnings),
     !none && el("div", { class: "row" }, el("button", { type: "button", onclick: () => go({ column: asked.column, model: asked.model, settings: asked.settings || {}, motion: near }) }, "Run it at this amplitude")),
