@@ -2,7 +2,7 @@
 Probability of collapse
 =======================
 
-The boundary of a safe–unsafe domain is a band, not a line. With many slightly different columns in
+The boundary of a safe–unsafe domain is a band, not a line. With many columns like this one in
 every cell the domain becomes a map of probabilities, and the width of the band can be read off.
 """
 
@@ -21,7 +21,6 @@ result = st.collapse_probability(
     amplitudes=np.linspace(0.15, 0.9, 16) * st.g,
     duration=6.0,
     replicates=20,
-    imperfection=st.Imperfection.of_size(0.01),
     tail=5.0,
 )
 

@@ -18,7 +18,7 @@ ORDER = (
     "plot_critical_amplitude.py",
     "plot_domain.py",
     "plot_compare_models.py",
-    "plot_imperfections.py",
+    "plot_scatter.py",
     "plot_probability.py",
     "plot_as_found.py",
     "plot_pushover_check.py",

@@ -27,7 +27,6 @@ from .column.assembly import Assembly as Assembly
 from .column.assembly import Block as Block
 from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
-from .column.imperfections import Imperfection as Imperfection
 from .column.links import Bar as Bar
 from .column.links import Core as Core
 from .column.links import Dowel as Dowel
@@ -62,6 +61,7 @@ from .motion.pulses import sine_pulse as sine_pulse
 from .motion.readers import read_motion as read_motion
 from .motion.readers import read_suite as read_suite
 from .motion.readers import sample_motion as sample_motion
+from .motion.scatter import MotionScatter as MotionScatter
 from .outcome import Outcome as Outcome
 from .response import Response as Response
 from .response import load_response as load_response

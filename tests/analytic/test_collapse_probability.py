@@ -8,6 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis import verdicts as v
+from stylobate.analysis.certainty import certainty
 from stylobate.analysis.domain import Domain
 from stylobate.analysis.probability import (
     SAFE,
@@ -21,9 +22,12 @@ from stylobate.analysis.step_sensitivity import compare_steps, halved_step
 from stylobate.analysis.verdicts import collapse_interval, share_collapsed, wilson_interval
 from stylobate.campaign import runs
 from stylobate.column import preset
-from stylobate.column.imperfections import Imperfection, imperfect_columns
+from stylobate.column.scatter import LARGEST, Scatter
+from stylobate.motion.scatter import PHASES, MotionScatter, ScatteredSines
 
 CODES = {letter: v.VERDICTS.index(one) for letter, one in zip("SCUFN", v.VERDICTS)}
+#: All of the scatter but friction.
+NOTHING = {name: 0.0 for name in LARGEST if name != "friction"}
 GRID = (np.array([0.5, 1.0]), np.linspace(0.15, 0.45, 4) * st.g, 6.0)
 
 
@@ -32,7 +36,7 @@ def probability(cells, amplitudes=(0.1, 0.2, 0.3, 0.4)):
     codes = np.array([[[CODES[one] for one in cell] for cell in line.split()] for line in cells], dtype=np.int8)
     return CollapseProbability(
         preset("paper-monolithic"), "dem2d", np.arange(1.0, len(cells) + 1.0), np.array(amplitudes) * st.g, codes,
-        np.zeros(codes.shape, np.float32), Imperfection(), 0, 0.95, 1.0, {},
+        np.zeros(codes.shape, np.float32), Scatter(), MotionScatter(), 0, 0.95, 1.0, {},
     )  # fmt: skip
 
 
@@ -95,52 +99,47 @@ def test_what_is_undecided_or_failed_is_no_collapse_and_widens_the_interval():
     assert found.table["undecided"].tolist() == [0, 1, 0, 0]
 
 
-def test_imperfect_columns_stay_within_their_sizes_and_use_them():
-    column, size = preset("paper-12-drums"), Imperfection(geometry=0.01, friction=0.05, stiffness=0.2)
-    found = imperfect_columns(column, size, 60, seed=3)
-    for name, width in (("heights", 0.01), ("joint_widths", 0.01)):
-        ratio = np.array([getattr(one, name) for one in found]) / getattr(column, name) - 1.0
-        assert np.abs(ratio).max() <= width * (1 + 1e-12)
-        assert np.abs(ratio).max() > 0.9 * width
-    friction = np.array([[joint.tan_phi for joint in one.joints] for one in found]) / 0.7 - 1.0
-    assert 0.045 < np.abs(friction).max() <= 0.05
-    ratios = [one.joints[4].normal_stiffness / one.joints[4].shear_stiffness for one in found]
-    np.testing.assert_allclose(ratios, 2.0)
-    tapers = [one.drums[0].top_width / one.drums[0].bottom_width for one in found]
-    np.testing.assert_allclose(tapers, column.drums[0].top_width / column.drums[0].bottom_width)
+@pytest.mark.parametrize("field", ["amplitude", "phase", "across"])
+def test_an_impossible_scatter_of_the_motion_is_refused(field):
+    with pytest.raises(st.InputError, match=f"{field} of the motion's scatter is 1.05"):
+        MotionScatter(**{field: 1.05})
 
 
-def test_a_seed_means_the_same_columns_whatever_their_number():
-    column = preset("paper-12-drums")
-    few, many = (imperfect_columns(column, Imperfection(), number, seed=5) for number in (2, 7))
-    assert [one.digest for one in few] == [one.digest for one in many[:2]]
-    assert len({one.digest for one in [*many, *imperfect_columns(column, Imperfection(), 7, seed=6)]}) == 14
-    (same,) = imperfect_columns(column, Imperfection.of_size(0.0), 1, seed=5)
-    assert same.replace(name=column.name) == column
-
-
-@pytest.mark.parametrize("field", ["geometry", "friction", "stiffness", "amplitude", "phase"])
-def test_an_impossible_imperfection_is_refused(field):
-    with pytest.raises(st.InputError, match=field):
-        Imperfection(**{field: 0.95})
-
-
-def test_without_imperfections_every_variation_has_the_verdict_of_the_domain():
+def test_where_next_to_nothing_scatters_every_column_has_the_verdict_of_the_domain():
     column = preset("paper-monolithic")
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
-    found = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, imperfection=Imperfection.of_size(0.0))
+    found = collapse_probability(
+        column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, friction=1e-9)
+    )
     names = np.array(v.VERDICTS, dtype=object)[found.codes]
     assert (names == domain.verdicts[..., None]).all()
     assert (found.summary()["some_collapse"], found.summary()["runs"]) == (0, 24)
     np.testing.assert_allclose(found.peaks[..., 0], domain.grid("peak_top_displacement_m"), rtol=1e-6)
+    with pytest.raises(st.InputError, match="nothing scatters"):
+        collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, friction=0.0))
+
+
+def test_a_cell_agrees_with_the_columns_like_this_one_of_a_run_of_its_motion():
+    """One population; those beside a run take its step, so that single verdicts near the boundary are other ones."""
+    column, model, number = preset("paper-12-drums"), st.DistinctElement2D(), 40
+    found = collapse_probability(column, model, [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0)
+    motion = st.harmonic(0.8, 0.33 * st.g, 5.0)
+    paced = collapse_probability(
+        column, model.paced(column), [0.8], [0.33 * st.g], 5.0, replicates=number, seed=2, tail=2.0
+    )
+    beside = certainty(column, motion, model, replicates=number, seed=2, tail=2.0).population
+    fell = np.array([bool(row["collapsed"]) for row in beside.rows])
+    np.testing.assert_array_equal(paced.codes[0, 0] == CODES["C"], fell)
+    assert found.scatter == beside.scatter
+    low, high = wilson_interval(np.array([found.count("collapsed")[0, 0], fell.sum()]), np.full(2, number))
+    assert 0.0 < low.max() <= high.min() < 1.0
 
 
 def test_threads_and_seed_decide_nothing_but_what_they_should():
-    column, size = preset("paper-monolithic"), Imperfection(0.05, 0.0, 0.0, 0.05, 0.2)
+    column = preset("paper-monolithic")
+    size = {"scatter": Scatter(width=0.05, height=0.05), "motion_scatter": MotionScatter(amplitude=0.05, phase=0.2)}
     runs = [
-        collapse_probability(
-            column, st.HousnerBlock(), *GRID, replicates=8, imperfection=size, seed=seed, threads=threads
-        )
+        collapse_probability(column, st.HousnerBlock(), *GRID, replicates=8, **size, seed=seed, threads=threads)
         for seed, threads in ((1, 1), (1, 2), (2, 1))
     ]
     np.testing.assert_array_equal(runs[0].peaks, runs[1].peaks)
@@ -149,11 +148,8 @@ def test_threads_and_seed_decide_nothing_but_what_they_should():
 
 
 def test_phase_starts_the_sine_elsewhere_and_shares_its_samples():
-    from stylobate.analysis.replicates import PHASES, _Cases
-
-    f, a, _ = GRID
-    cases = _Cases(preset("paper-monolithic"), f, a, 6.0, 40, Imperfection(0.0, 0.0, 0.0, phase=0.25), 0)
-    motions = [cases[i].motion for i in range(40)]
+    sines = ScatteredSines(GRID[0], 6.0, MotionScatter(phase=0.25), 40, 0)
+    motions = [sines.motion(0, 1.0, k) for k in range(40)]
     starts = sorted({float(one.samples[0]) for one in motions})
     assert starts[0] == pytest.approx(-1.0)
     assert starts[-1] == pytest.approx(1.0)
@@ -200,14 +196,16 @@ def test_half_of_a_step_is_half_and_the_verdicts_are_counted():
 
 
 def test_a_probability_is_read_back_from_its_file(tmp_path):
-    size = Imperfection(geometry=0.02, friction=0.0, stiffness=0.0, phase=0.1)
+    size = {"scatter": Scatter(width=0.02), "motion_scatter": MotionScatter(phase=0.1)}
     column = preset("paper-monolithic")
-    made = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, imperfection=size, seed=4, out=tmp_path)
+    made = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, **size, seed=4, out=tmp_path)
     found = CollapseProbability.load(tmp_path / "probability.nc")
     np.testing.assert_array_equal(found.codes, made.codes)
     np.testing.assert_array_equal(found.peaks, made.peaks)
     assert found.summary() == made.summary()
-    assert (found.column, found.imperfection) == (column, size)
+    # the block is as built, and offsets are left out of its scatter
+    assert (found.column, found.motion_scatter) == (column, size["motion_scatter"])
+    assert found.scatter == dataclasses.replace(size["scatter"], offset=0.0)
     assert json.dumps(found.provenance) == json.dumps(made.provenance)
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
     with pytest.raises(st.InputError, match="is a domain, not a probability"):
@@ -241,23 +239,21 @@ def test_an_undecided_run_is_no_collapse_and_no_survival_in_any_share():
 
 def test_a_component_across_takes_the_shaking_out_of_the_plane():
     """Up to a share of the amplitude, a quarter of a cycle late, the same in every cell; plane models never see it."""
-    from stylobate.analysis.replicates import _Cases
-
     f, a = np.array([0.5, 1.0]), np.array([1.0, 2.0])
-    cases = _Cases(preset("paper-monolithic"), f, a, 4.0, 30, Imperfection(0.0, 0.0, 0.0, across=0.02), 3)
+    sines = ScatteredSines(f, 4.0, MotionScatter(across=0.02), 30, 3)
     shares = []
-    for index in range(30):
-        motion = cases[index].motion
+    for k in range(30):
+        motion = sines.motion(0, 1.0, k)
         share = motion.lateral[0] / -motion.factor
         time = motion.time
         np.testing.assert_allclose(motion.acceleration, np.sin(np.pi * time), atol=1e-12)
         np.testing.assert_allclose(motion.lateral, -share * np.cos(np.pi * time), atol=1e-12)
-        assert cases[index + 30].motion.lateral[0] == pytest.approx(2.0 * motion.lateral[0])
+        assert sines.motion(0, 2.0, k).lateral[0] == pytest.approx(2.0 * motion.lateral[0])
         shares.append(share)
     assert 0.0 < np.abs(shares).min() < np.abs(shares).max() <= 0.02
     assert np.unique(shares).size == 8
     plane = collapse_probability(
-        preset("paper-monolithic"), st.HousnerBlock(), f, a, replicates=2, imperfection=Imperfection(across=0.02)
+        preset("paper-monolithic"), st.HousnerBlock(), f, a, replicates=2, motion_scatter=MotionScatter(across=0.02)
     )
     same = collapse_probability(preset("paper-monolithic"), st.HousnerBlock(), f, a, replicates=2)
     np.testing.assert_array_equal(plane.codes, same.codes)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.cli.main import call
+from stylobate.cli.main import call, commands
 from stylobate.column.files import read_column
 from stylobate.column.presets import PRESETS, preset
 
@@ -282,3 +282,18 @@ def test_version_and_help(capsys):
     assert capsys.readouterr().out == out
     for name in ("run", "critical", "domain", "compare", "motion", "columns"):
         assert f"\n  {name} " in out
+
+
+@pytest.mark.parametrize("name", sorted(set(commands().commands) - {"study"}))
+def test_help_is_one_screen_and_names_every_option(name, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "100")
+    assert call([name, "--help"]) == 0
+    short = capsys.readouterr().out
+    assert len(short.splitlines()) <= 40
+    assert max(map(len, short.splitlines())) <= 100
+    assert call([name, "--help-all"]) == 0
+    long = capsys.readouterr().out
+    for option in commands().commands[name].params:
+        if not option.hidden and option.opts[0].startswith("--"):
+            assert option.opts[0] in short
+            assert f"\n  {option.opts[0]}" in long

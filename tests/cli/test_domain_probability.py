@@ -9,21 +9,22 @@ from stylobate.cli.main import call
 GRID = ["domain", "paper-monolithic", "--model", "housner", "--frequencies", "0.5:2:3", "--amplitudes", "0.1g:0.5g:4",
         "--duration", "5s"]  # fmt: skip
 KEYS = {
-    "cells", "replicates", "imperfection", "seed", "confidence", "all_stand", "some_collapse", "all_collapse",
+    "cells", "replicates", "scatter", "motion_scatter", "seed", "confidence", "all_stand", "some_collapse", "all_collapse",
     "no_verdict", "band_width_median_g", "band_width_largest_g", "band_open_frequencies", "amplitude_step_g", "runs",
     "collapsed", "stands", "undecided", "failed", "not_run", "wall_s", "model", "version", "files",
 }  # fmt: skip
 
 
 def test_replicates_give_counts_table_file_and_figure(capsys, tmp_path):
-    options = ["--replicates", "5", "--imperfection", "geometry=5%,phase=0.1", "--seed", "7"]
+    options = ["--replicates", "5", "--scatter", "width=5%", "--motion-scatter", "phase=0.1", "--seed", "7"]
     assert call([*GRID, *options, "--out", str(tmp_path), "--json"]) == 0
     result = json.loads(capsys.readouterr().out)
     assert set(result) >= KEYS
     assert (result["cells"], result["replicates"], result["runs"], result["seed"]) == (12, 5, 60, 7)
-    assert result["imperfection"] == {
-        "geometry": 0.05, "friction": 0.0, "stiffness": 0.0, "amplitude": 0.0, "phase": 0.1, "across": 0.0,
+    assert result["scatter"] == {
+        "friction": 0.0, "joint_stiffness": 0.0, "density": 0.0, "width": 0.05, "height": 0.0, "offset": 0.0,
     }  # fmt: skip
+    assert result["motion_scatter"] == {"amplitude": 0.0, "phase": 0.1, "across": 0.0}
     assert result["collapsed"] + result["stands"] + result["undecided"] + result["failed"] == 60
     names = {path.name for path in tmp_path.glob("[!.]*")}
     results = {f"probability.{end}" for end in ("nc", "csv", "png", "svg", "json")} | {"asked-domain.json"}
@@ -32,10 +33,12 @@ def test_replicates_give_counts_table_file_and_figure(capsys, tmp_path):
 
 
 def test_a_person_is_told_how_wide_the_doubt_is(capsys):
-    assert call([*GRID, "--replicates", "4", "--imperfection", "3%"]) == 0
+    assert call([*GRID, "--replicates", "4", "--motion-scatter", "phase=0.1,amplitude=3%"]) == 0
     text = capsys.readouterr().out
-    assert text.startswith("Of 12 cells, all variations stand in ")
-    assert "geometry ±0.03, friction ±0.03, stiffness ±0.03" in text
+    assert text.startswith("Of 12 cells, all columns stand in ")
+    assert "4 that vary by friction 10 %, joint stiffness 20 %" in text
+    assert "seed 0, without offset, as the model takes columns as built" in text
+    assert "vary by amplitude ±3 %, phase ±0.1 cycles" in text
 
 
 def test_half_step_counts_the_verdicts_that_differ(capsys):
@@ -52,12 +55,12 @@ def test_half_step_counts_the_verdicts_that_differ(capsys):
     [
         (["--replicates", "many"], "--replicates is 'many'"),
         (["--replicates", "0"], "replicates is 0"),
-        (["--replicates", "3", "--imperfection", "width=1%"], "width"),
-        (["--replicates", "3", "--imperfection", "much"], "no size of imperfections"),
-        (["--replicates", "3", "--imperfection", "friction=200%"], "friction of the imperfections"),
+        (["--replicates", "3", "--scatter", "geometry=1%"], "--scatter names 'geometry'"),
+        (["--replicates", "3", "--motion-scatter", "phase=much"], "'much' is no size"),
+        (["--replicates", "3", "--motion-scatter", "across=200%"], "across of the motion's scatter is 2"),
         (["--replicates", "3", "--half-step"], "--half-step is for a domain without --replicates"),
-        (["--imperfection", "1%"], "--imperfection is for variations"),
-        (["--seed", "1"], "--seed is for variations"),
+        (["--motion-scatter", "phase=0.1"], "--motion-scatter is for columns like this one"),
+        (["--seed", "1"], "--seed is for columns like this one"),
         (["--half-step"], "chooses its steps by itself"),
     ],
 )

@@ -14,7 +14,8 @@ from stylobate.analysis.domain import Domain
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.analysis.step_sensitivity import StepComparison
 from stylobate.column import preset
-from stylobate.column.imperfections import Imperfection
+from stylobate.column.scatter import Scatter
+from stylobate.motion.scatter import MotionScatter
 from stylobate_studies.paper.doubt import Doubt
 from stylobate_studies.paper.pictures import draw_domain_panels, draw_doubt
 
@@ -41,7 +42,9 @@ def doubt():
     codes = np.repeat(codes[:, :, None], 4, axis=2)
     codes[5, 4, 0], codes[0, 2, 1] = v.VERDICTS.index(v.COLLAPSED), v.VERDICTS.index(v.STANDS)
     zero = np.zeros(codes.shape, np.float32)
-    population = CollapseProbability(ONE.column, "dem2d", F, A, codes, zero, Imperfection(), 0, 0.95, 1.0, {})
+    population = CollapseProbability(
+        ONE.column, "dem2d", F, A, codes, zero, Scatter(), MotionScatter(), 0, 0.95, 1.0, {}
+    )
     return Doubt(StepComparison(ONE, HALVED), population)
 
 

@@ -9,7 +9,8 @@ from stylobate import plots
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.column import preset
-from stylobate.column.imperfections import Imperfection
+from stylobate.column.scatter import Scatter
+from stylobate.motion.scatter import MotionScatter
 from stylobate.plots.probability import CLASSES
 
 
@@ -25,7 +26,9 @@ def probability(width=2, top=False):
         codes[:, -1, -1] = v.VERDICTS.index(v.STANDS)
     codes[5, 8] = v.VERDICTS.index(v.UNDECIDED)
     zero = np.zeros(codes.shape, np.float32)
-    return CollapseProbability(preset("paper-monolithic"), "dem2d", f, a, codes, zero, Imperfection(), 0, 0.95, 1.0, {})
+    return CollapseProbability(
+        preset("paper-monolithic"), "dem2d", f, a, codes, zero, Scatter(), MotionScatter(), 0, 0.95, 1.0, {}
+    )
 
 
 def test_the_title_says_how_wide_the_doubt_is():

@@ -146,10 +146,10 @@ def test_compare_models(run):
     assert np.mean(blocks) == pytest.approx(0.48, abs=0.04)
 
 
-def test_imperfections(run):
-    # Half of the columns: 107 of 200, 99 with half of the time step. 40 to 66 % is the 99.9 % interval of 107 in 200.
-    found = run("imperfections")
-    assert 0.40 < found["fallen"] / 200 < 0.66
+def test_scatter(run):
+    # Half of the columns: 112 of 200, and as many with half of the time step. The 99.9 % interval of that is 44 to 67 %.
+    found = run("scatter")
+    assert 0.44 < found["fallen"] / 200 < 0.67
     assert found["table"]["decided"].mean() > 0.95
     # Every column that stands has rocked to more than half of its base width.
     assert found["peaks"].min() > 0.5
@@ -157,11 +157,11 @@ def test_imperfections(run):
 
 def test_probability(run):
     result = run("probability")["result"]
-    # Below the uplift of the most slender variation, 1 % narrower and 1 % higher, none may fall.
-    low = result.amplitudes < 0.98 * result.column.uplift_acceleration
+    # Below the uplift of the most slender column, 1.25 % narrower and higher and 0.75 % aside, none may fall.
+    low = result.amplitudes < 0.96 * result.column.uplift_acceleration
     assert low.any()
     assert (result.frequency[:, low] == 0.0).all()
-    # A quarter of the cells is uncertain: 63 of 256, 66 with half of the time step; a fifth to a third is allowed.
+    # A quarter of the cells is uncertain: 62 of 256, with half of the time step too; a fifth to a third is allowed.
     some = np.mean(result.kinds == "some collapse")
     assert 0.2 < some < 0.33
     assert np.nanmedian(result.band_width) / st.g == pytest.approx(0.38, abs=0.1)

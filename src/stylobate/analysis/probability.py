@@ -12,8 +12,9 @@ import numpy as np
 
 from .. import store
 from ..column import Column
-from ..column.imperfections import Imperfection
+from ..column.scatter import Scatter
 from ..constants import g
+from ..motion.scatter import MotionScatter
 from ..version import __version__
 from . import verdicts as v
 from .domain import cell_edges, grid_coordinates
@@ -29,12 +30,12 @@ KINDS = (SAFE, UNCERTAIN, UNSAFE, UNKNOWN)
 
 @dataclass(frozen=True, eq=False)
 class CollapseProbability:
-    """Verdicts of all variations in all cells.
+    """Verdicts of all columns alike in all cells.
 
     Parameters
     ----------
     column : Column
-        The one that the variations are around.
+        The one that the others are like.
     model : str
     frequencies : array
         [Hz], shape (F,).
@@ -44,7 +45,10 @@ class CollapseProbability:
         Index into ``verdicts.VERDICTS`` of each run, shape (F, A, replicates).
     peaks : array of float32
         Peak top displacement relative to the base of each run [m], same shape; NaN where there is none.
-    imperfection : Imperfection
+    scatter : Scatter
+        Of the columns.
+    motion_scatter : MotionScatter
+        Of the motions of each cell.
     seed : int
     confidence : float
         Level of the intervals, e.g. 0.95.
@@ -60,7 +64,8 @@ class CollapseProbability:
     amplitudes: np.ndarray
     codes: np.ndarray
     peaks: np.ndarray
-    imperfection: Imperfection
+    scatter: Scatter
+    motion_scatter: MotionScatter
     seed: int
     confidence: float
     wall_time: float
@@ -68,7 +73,7 @@ class CollapseProbability:
 
     @property
     def replicates(self) -> int:
-        """Number of variations."""
+        """Number of columns."""
         return self.codes.shape[2]
 
     @property
@@ -177,7 +182,8 @@ class CollapseProbability:
         return {
             "cells": int(kinds.size),
             "replicates": self.replicates,
-            "imperfection": dataclasses.asdict(self.imperfection),
+            "scatter": dataclasses.asdict(self.scatter),
+            "motion_scatter": dataclasses.asdict(self.motion_scatter),
             "seed": self.seed,
             "confidence": self.confidence,
             "all_stand": int((kinds == SAFE).sum()),
@@ -251,7 +257,8 @@ class CollapseProbability:
                 data["amplitude"].values,
                 data["verdict"].values.astype(np.int8),
                 data["peak_top_displacement_m"].values.astype(np.float32),
-                Imperfection(**provenance["imperfection"]),
+                Scatter(**provenance["scatter"]),
+                MotionScatter(**provenance["motion_scatter"]),
                 int(data.attrs["seed"]),
                 float(data.attrs["confidence"]),
                 float(data.attrs["wall_s"]),

@@ -18,20 +18,18 @@ import numpy as np
 from ..campaign.grid import MAX_CELLS, grid_axis
 from ..campaign.ledger import RUNS_FILE
 from ..campaign.runs import Progress, Request, Runs
+from ..campaign.twins import the_twins
 from ..column import Column
-from ..column.imperfections import Imperfection, imperfect_columns
-from ..errors import InputError, as_typed, check_range
+from ..column.scatter import Scatter
+from ..errors import InputError, check_range
 from ..models.base import Case, Model
-from ..motion import Motion, harmonic
+from ..motion.scatter import MotionScatter, ScatteredSines
 from ..version import __version__
 from . import verdicts as v
 from .probability import CollapseProbability
 
-#: Largest number of variations, and of runs in all.
-MAX_REPLICATES, MAX_RUNS = 10_000, 20_000_000
-
-#: Starts of a motion, and sizes of its component across, that are told apart, so that all variations share these samples.
-PHASES, ASIDES = 9, 8
+#: Largest number of runs in all.
+MAX_RUNS = 20_000_000
 
 
 def collapse_probability(
@@ -42,7 +40,8 @@ def collapse_probability(
     duration: float = 10.0,
     *,
     replicates: int = 20,
-    imperfection: Imperfection | None = None,
+    scatter: Scatter | None = None,
+    motion_scatter: MotionScatter | None = None,
     seed: int = 0,
     confidence: float = 0.95,
     tail: float = 0.0,
@@ -58,11 +57,13 @@ def collapse_probability(
     column, model, frequencies, amplitudes, duration, tail, threads, progress
         As in :func:`stylobate.collapse_domain`.
     replicates : int
-        Number of variations of the column; each goes through every cell.
-    imperfection : Imperfection, optional
-        ±1 % of geometry, friction and stiffness by default.
+        Number of columns like this one; each goes through every cell.
+    scatter : Scatter, optional
+        How they differ; by default as columns of its material do.
+    motion_scatter : MotionScatter, optional
+        How the motions of a cell differ; by default they do not.
     seed : int
-        The same seed gives the same columns.
+        The same seed gives the same columns and motions.
     confidence : float
         Level of the intervals.
     out : path, optional
@@ -90,24 +91,26 @@ def collapse_probability(
     started = time.perf_counter()
     f = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
     a = grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
-    number = _whole("replicates", replicates, 1, MAX_REPLICATES)
-    _whole("seed", seed, 0, 2**63 - 1)
     check_range("confidence", confidence, 0.0, 1.0, open_low=True, open_high=True, remedy="0.95 is the default")
-    size = Imperfection() if imperfection is None else imperfection
+    shaking = MotionScatter() if motion_scatter is None else motion_scatter
+    twins = the_twins(column, model, replicates, scatter, seed, alone=not shaking.given)
+    number = len(twins.columns)
     if len(f) * len(a) > MAX_CELLS or len(f) * len(a) * number > MAX_RUNS:
         raise InputError(
             f"{len(f)} × {len(a)} cells with {number} replicates are {len(f) * len(a) * number} runs; allowed is up to "
             f"{MAX_CELLS} cells and {MAX_RUNS} runs: give fewer."
         )
-    seen = size if "y" in model.axes else dataclasses.replace(size, across=0.0)  # what the model would leave out
-    cases = _Cases(column, f, a, float(duration), number, seen, seed)
+    seen = shaking if "y" in model.axes else dataclasses.replace(shaking, across=0.0)  # what the model would leave out
+    cases = _Cases(twins.columns, f, a, ScatteredSines(f, float(duration), seen, number, seed))
     key = {
         "column": column.digest,
         "frequencies": f.tolist(),
         "amplitudes": a.tolist(),
         "duration": float(duration),
         "replicates": number,
-        "imperfection": dataclasses.asdict(size),
+        "scatter": dataclasses.asdict(twins.scatter),
+        "motion_scatter": dataclasses.asdict(shaking),
+        "left_out": list(twins.left_out),
         "seed": seed,
     }
     if out is not None and ledger is None:
@@ -141,7 +144,7 @@ def collapse_probability(
     }
     shape = (len(f), len(a), number)
     found = CollapseProbability(
-        column, model.name, f, a, codes.reshape(shape), peaks.reshape(shape), size, seed, confidence,
+        column, model.name, f, a, codes.reshape(shape), peaks.reshape(shape), twins.scatter, shaking, seed, confidence,
         time.perf_counter() - started, provenance,
     )  # fmt: skip
     if out is not None and found.complete:
@@ -151,24 +154,11 @@ def collapse_probability(
 
 
 class _Cases(Sequence):
-    """Cases in the order (frequency, amplitude, variation), made when asked for: columns and samples are shared."""
+    """Cases in the order (frequency, amplitude, replicate), made when asked for: columns and samples are shared."""
 
-    def __init__(
-        self, column: Column, f: np.ndarray, a: np.ndarray, duration: float, number: int, size: Imperfection, seed: int
-    ) -> None:
-        self.shape = (len(f), len(a), number)
-        self.amplitudes = a
-        self.columns = imperfect_columns(column, size, number, seed)
-        stream = np.random.default_rng([seed, 1])
-        self.factors = 1.0 + size.amplitude * stream.uniform(-1.0, 1.0, number)
-        starts = size.phase * np.linspace(-1.0, 1.0, PHASES) if size.phase else np.zeros(1)
-        self.start = stream.integers(0, len(starts), number)
-        aside = size.across * np.linspace(-1.0, 1.0, ASIDES) if size.across else np.zeros(1)
-        self.aside = np.random.default_rng([seed, 2]).integers(0, len(aside), number)
-        self.units = [
-            [[_sine(float(one), duration, float(start), float(share)) for share in aside] for start in starts]
-            for one in f
-        ]
+    def __init__(self, columns: Sequence[Column], f: np.ndarray, a: np.ndarray, motions: ScatteredSines) -> None:
+        self.shape = (len(f), len(a), len(columns))
+        self.amplitudes, self.columns, self.motions = a, columns, motions
 
     def __len__(self) -> int:
         return int(np.prod(self.shape))
@@ -176,23 +166,5 @@ class _Cases(Sequence):
     def __getitem__(self, index: Any) -> Case:
         if not 0 <= index < len(self):
             raise IndexError(index)
-        i, j, k = np.unravel_index(index, self.shape)
-        unit = self.units[i][self.start[k]][self.aside[k]]
-        motion = unit.scaled(float(self.amplitudes[j] * self.factors[k]))
-        return Case(self.columns[k], motion)
-
-
-def _sine(frequency: float, duration: float, start: float, aside: float) -> Motion:
-    """A unit sine that starts so many cycles late, with a component across of that share, a quarter of a cycle later."""
-    unit = harmonic(frequency, 1.0, duration)
-    if not start and not aside:
-        return unit
-    angle = 2.0 * np.pi * (np.arange(unit.steps) * unit.dt * frequency + start)
-    lateral = -aside * np.cos(angle) if aside else None
-    return unit.replace(acceleration=np.sin(angle), lateral=lateral)
-
-
-def _whole(name: str, value: Any, low: int, high: int) -> int:
-    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
-        raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
-    return int(value)
+        i, j, k = (int(one) for one in np.unravel_index(index, self.shape))
+        return Case(self.columns[k], self.motions.motion(i, self.amplitudes[j], k))

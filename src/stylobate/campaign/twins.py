@@ -27,8 +27,16 @@ class Twins(NamedTuple):
     left_out: tuple[str, ...]
 
 
-def the_twins(column: Structure, model: Model, replicates: int, scatter: Scatter | None, seed: int) -> Twins:
-    """Twins of a column that the model can take."""
+def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str]) -> str:
+    """How many twins there are and how they differ, in words."""
+    less = f", without {', '.join(left_out)}, as the model takes columns as built" if left_out else ""
+    return f"{number} that vary by {scatter.describe()}; seed {seed}{less}"
+
+
+def the_twins(
+    column: Structure, model: Model, replicates: int, scatter: Scatter | None, seed: int, *, alone: bool = True
+) -> Twins:
+    """Twins of a column that the model can take; not ``alone`` where more than the columns differs."""
     stack = column.stack
     if stack is None:
         raise InputError(f"{column.name!r} is no column, and only columns have twins; leave --replicates out.")
@@ -36,7 +44,7 @@ def the_twins(column: Structure, model: Model, replicates: int, scatter: Scatter
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
             raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
     asked = usual_scatter(stack) if scatter is None else scatter
-    if not asked.given:
+    if alone and not asked.given:
         raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")
     left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
     size = dataclasses.replace(asked, offset=0.0) if left_out else asked

@@ -213,6 +213,7 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
 
 def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
+    from ..campaign.twins import described
     from ..constants import g
     from ..percent import percent
     from . import console
@@ -227,11 +228,8 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
         "grid": f"{low:.4g} to {high:.4g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }
     if likes is not None:
-        left_out = f", without {', '.join(likes.left_out)}" * bool(likes.left_out)
-        facts[f"{kind}s like this"] = (
-            f"{len(likes.verdicts)} that vary by {likes.scatter.describe()}; seed {likes.seed}{left_out}; at "
-            f"{len(likes.amplitudes)} of these amplitudes"
-        )
+        known = len(likes.verdicts), likes.scatter, likes.seed, likes.left_out
+        facts[f"{kind}s like this"] = f"{described(*known)}; at {len(likes.amplitudes)} of these amplitudes"
     if (own := summary["as_recorded"]) is not None:
         share = own.get("collapse_probability")
         facts["as recorded"] = f"{own['amplitude_g']:.4g} g: {own['verdict']}" + (

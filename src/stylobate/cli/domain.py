@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from ..analysis.domain import Domain
     from ..analysis.probability import CollapseProbability
     from ..campaign.grid import HarmonicGrid
-    from ..column.imperfections import Imperfection
 
 
 def domain(
@@ -35,20 +34,17 @@ def domain(
     tail: Annotated[
         str | None, typer.Option("--tail", metavar="TIME", help="Go on for this long after each motion; 0s.")
     ] = None,
-    replicates: Annotated[
-        str | None, typer.Option("--replicates", metavar="N", help="Slightly different columns in every cell.")
-    ] = None,
-    imperfection: Annotated[
+    replicates: o.Replicates = None,
+    scatter: o.ScatterSizes = None,
+    motion_scatter: Annotated[
         str | None,
         typer.Option(
-            "--imperfection",
-            metavar="SIZE|NAME=SIZE,…",
-            help="How different: 1%, or geometry=1%,friction=5%,stiffness=20%,amplitude=1%,phase=0.1,across=1%.",
+            "--motion-scatter",
+            metavar="NAME=SIZE,…",
+            help="How the motions of a cell differ then; amplitude=1%,phase=0.1,across=1%, nothing by default.",
         ),
     ] = None,
-    seed: Annotated[
-        str | None, typer.Option("--seed", metavar="N", help="Of the variations; the same seed, the same columns.")
-    ] = None,
+    seed: o.Seed = None,
     half_step: Annotated[
         bool, typer.Option("--half-step", help="Run it again with half of the time step and count what differs.")
     ] = False,
@@ -61,7 +57,7 @@ def domain(
 ) -> None:
     """Safe-unsafe domain over frequency and amplitude.
 
-    With --replicates, the probability of collapse over columns that differ a little. With --out, a domain that was
+    With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
     from ..analysis.domain import collapse_domain
@@ -70,18 +66,14 @@ def domain(
 
     count = o.the_threads(threads)
     study = _study(what, model, frequencies, amplitudes, duration, tail, settings, project)
-    if replicates is not None:
+    population = o.the_population(replicates, scatter, seed, **{"--motion-scatter": motion_scatter})
+    if population is not None:
         if half_step:
             raise InputError("--half-step is for a domain without --replicates; give one of the two.")
-        population = the_population(replicates, imperfection, seed)
+        shaking = None if motion_scatter is None else o.motion_scatter(motion_scatter)
         o.the_engine(context, dask, count)
-        run_probability(study, population, count, out, as_json)
+        run_probability(study, population | {"motion_scatter": shaking}, count, out, as_json)
         return
-    for option, value in (("--imperfection", imperfection), ("--seed", seed)):
-        if value is not None:
-            raise InputError(
-                f"{option} is for variations of the column; give --replicates as well, e.g. --replicates 20."
-            )
     o.the_engine(context, dask, count)
     with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain", "asked-domain.json") as folder:
         ledger = console.ledger(folder)
@@ -167,12 +159,13 @@ def run_probability(study: HarmonicGrid, population: dict, threads: int, out: Pa
 def describe_probability(result: CollapseProbability, files: list[Path]) -> None:
     """Print the probabilities for people."""
     from ..analysis.verdicts import open_runs
+    from ..campaign.twins import described
     from ..response.words import longer_tail
     from . import console
 
     s = result.summary()
     sentence = (
-        f"Of {s['cells']} cells, all variations stand in {s['all_stand']} and all collapse in {s['all_collapse']}; "
+        f"Of {s['cells']} cells, all columns stand in {s['all_stand']} and all collapse in {s['all_collapse']}; "
         f"{s['some_collapse']} are uncertain"
     )
     sentence += f", {s['no_verdict']} have no verdict." if s["no_verdict"] else "."
@@ -182,42 +175,17 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
     facts = {
         "column": result.column.name,
         "model": result.model,
-        "variations": f"{result.replicates}, seed {result.seed}",
-        "imperfections": ", ".join(f"{key} ±{value:g}" for key, value in s["imperfection"].items() if value),
+        "columns like this": described(result.replicates, result.scatter, result.seed, result.provenance["left_out"]),
         "time": f"{result.wall_time:.1f} s",
     }
+    if result.motion_scatter.given:
+        facts["motions like this"] = f"vary by {result.motion_scatter.describe()}"
     if s["band_width_median_g"] is not None:
         width = f"{s['band_width_median_g']:.3g} g (median), up to {s['band_width_largest_g']:.3g} g"
         facts["uncertain band"] = width
     if s["band_open_frequencies"]:
         facts["top of the band not seen"] = f"at {s['band_open_frequencies']} of {len(result.frequencies)} frequencies"
     console.say(sentence, facts, files)
-
-
-def the_population(replicates: str, imperfection: str | None, seed: str | None) -> dict:
-    """Arguments of ``collapse_probability`` that the options describe."""
-    return {
-        "replicates": o.whole("--replicates", replicates, 20),
-        "imperfection": None if imperfection is None else the_imperfection(imperfection),
-        "seed": 0 if seed is None else o.whole("--seed", seed, 1),
-    }
-
-
-def the_imperfection(text: str) -> Imperfection:
-    """Sizes of the imperfections as typed: one for geometry, friction and stiffness, or by name (others none)."""
-    from ..column.imperfections import Imperfection
-
-    names = Imperfection.__dataclass_fields__
-    example = "--imperfection 1% or --imperfection geometry=1%,friction=5%"
-    if "=" not in text:
-        return Imperfection.of_size(o.share(text, example))
-    sizes = dict.fromkeys(names, 0.0)
-    for part in text.split(","):
-        name, _, size = part.partition("=")
-        if name.strip() not in names:
-            raise InputError(f"--imperfection names {name.strip()!r}; names are {', '.join(names)}, e.g. {example}.")
-        sizes[name.strip()] = o.share(size, example)
-    return Imperfection(**sizes)
 
 
 def describe(result: Domain, files: list[Path]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from ..models.base import Model
     from ..motion import Motion
     from ..motion.request import MotionRequest
+    from ..motion.scatter import MotionScatter
 
 #: Options that make the request for motions.
 REQUEST = (
@@ -286,13 +288,18 @@ def share(text: str, example: str) -> float:
     try:
         return float(number) / (100.0 if percent else 1.0)
     except ValueError:
-        raise InputError(f"{text!r} is no size of imperfections; write it as {example}.") from None
+        raise InputError(f"{text!r} is no size; write it as {example}.") from None
 
 
-def the_population(replicates: str | None, scatter: str | None, seed: str | None) -> dict[str, Any] | None:
-    """Arguments ``replicates``, ``scatter`` and ``seed`` that the options describe; None if no replicates are asked for."""
+def the_population(
+    replicates: str | None, scatter: str | None, seed: str | None, **others: str | None
+) -> dict[str, Any] | None:
+    """Arguments ``replicates``, ``scatter`` and ``seed`` that the options describe; None if no replicates are asked for.
+
+    ``others`` are more options, by name, that are for replicates only.
+    """
     if replicates is None:
-        for option, value in (("--scatter", scatter), ("--seed", seed)):
+        for option, value in {"--scatter": scatter, "--seed": seed, **others}.items():
             if value is not None:
                 raise InputError(
                     f"{option} is for columns like this one; give --replicates as well, e.g. --replicates 30."
@@ -330,11 +337,22 @@ def the_scatter(text: str) -> Scatter:
     """Sizes of the scatter as typed, by name; what is not named does not scatter."""
     from ..column.scatter import LARGEST, Scatter
 
-    example = "--scatter friction=10%,joint_stiffness=20%"
-    sizes = dict.fromkeys(LARGEST, 0.0)
+    return Scatter(**_sizes("--scatter", text, LARGEST, "--scatter friction=10%,joint_stiffness=20%"))
+
+
+def motion_scatter(text: str) -> MotionScatter:
+    """Sizes of the scatter of a motion as typed, likewise."""
+    from ..motion.scatter import LARGEST_OF_MOTION, MotionScatter
+
+    example = "--motion-scatter amplitude=1%,phase=0.1"
+    return MotionScatter(**_sizes("--motion-scatter", text, LARGEST_OF_MOTION, example))
+
+
+def _sizes(option: str, text: str, names: Iterable[str], example: str) -> dict[str, float]:
+    sizes = dict.fromkeys(names, 0.0)
     for part in text.split(","):
         name, _, size = part.partition("=")
         if name.strip() not in sizes:
-            raise InputError(f"--scatter names {name.strip()!r}; names are {', '.join(LARGEST)}, e.g. {example}.")
+            raise InputError(f"{option} names {name.strip()!r}; names are {', '.join(sizes)}, e.g. {example}.")
         sizes[name.strip()] = share(size, example)
-    return Scatter(**sizes)
+    return sizes

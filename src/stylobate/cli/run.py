@@ -301,15 +301,11 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 def population_facts(population: Population) -> dict[str, str]:
     """What columns like this one are, and how much they moved."""
+    from ..campaign.twins import described
     from . import console
 
-    left_out = f", without {', '.join(population.left_out)}, as the model takes columns as built" * bool(
-        population.left_out
-    )
-    number = len(population.rows)
-    facts = {
-        "columns like this": f"{number} that vary by {population.scatter.describe()}; seed {population.seed}{left_out}"
-    }
+    known = len(population.rows), population.scatter, population.seed, population.left_out
+    facts = {"columns like this": described(*known)}
     for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
         if (spread := population.spread[f"{name}_top_displacement_m"]) is not None:
             facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)

@@ -12,7 +12,6 @@ import numpy as np
 from ..errors import check_range
 from .as_found import FoundDrum
 from .column import Column
-from .imperfections import rebuilt
 from .materials import material
 
 #: Draws lie within so many standard deviations.
@@ -125,12 +124,54 @@ def _drawn(column: Column, size: Scatter, stream: np.random.Generator, k: int, s
         * [[_spread(one)] for one in (size.friction, size.joint_stiffness, size.density, size.width, size.height)]
     )
     rough, stiff, dense, wide, high = factors
-    varied = rebuilt(column, wide, high, rough, stiff, f"{column.name}, twin {k + 1}", dense)
+    varied = _rebuilt(column, wide, high, rough, stiff, dense, f"{column.name}, twin {k + 1}")
     if not size.offset:
         return varied
     shifts = size.offset * varied.joint_widths * np.array([aside, across if space else np.zeros(column.n)])
     found = tuple(_shifted(column.as_found.of(i + 1), *shifts[:, i]) for i in range(column.n))
     return varied.replace(as_found=dataclasses.replace(column.as_found, drums=found))
+
+
+def _rebuilt(
+    column: Column,
+    wide: np.ndarray,
+    high: np.ndarray,
+    rough: np.ndarray,
+    stiff: np.ndarray,
+    dense: np.ndarray,
+    name: str,
+) -> Column:
+    """The column with every drum and joint multiplied by factors of its own.
+
+    Parameters
+    ----------
+    column : Column
+    wide, high, dense : array
+        Of each drum's two widths, height and density [-], shape (n,).
+    rough, stiff : array
+        Of each joint's friction coefficient, and of its two stiffnesses [-], shape (n,).
+    name : str
+        Of the new column.
+    """
+    drums = tuple(
+        dataclasses.replace(
+            drum,
+            bottom_width=drum.bottom_width * wide[i],
+            top_width=drum.top_width * wide[i],
+            height=drum.height * high[i],
+            density=drum.density * dense[i],
+        )
+        for i, drum in enumerate(column.drums)
+    )
+    joints = tuple(
+        joint.changed(
+            normal_stiffness=joint.normal_stiffness * stiff[i],
+            shear_stiffness=joint.shear_stiffness * stiff[i],
+            friction_coefficient=joint.tan_phi * rough[i],
+        )
+        for i, joint in enumerate(column.joints)
+    )
+    return column.replace(drums=drums, joints=joints, name=name)
 
 
 def _shifted(drum: FoundDrum, x: float, y: float) -> FoundDrum:

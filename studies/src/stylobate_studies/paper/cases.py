@@ -9,14 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from stylobate.column import Column, preset
-from stylobate.column.imperfections import Imperfection
 from stylobate.column.presets import PRESETS
+from stylobate.column.scatter import WITHIN, Scatter
 from stylobate.constants import g
 from stylobate.models.base import Model
 from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.rigid_beam.model import RigidBeam
 from stylobate.models.rigid_block.model import RigidBlock
+from stylobate.motion.scatter import MotionScatter
 
 #: The thirty harmonic cases. The paper prints the ranges, 0.66 to 4 Hz and 0.1 g to 0.5 g; the values are chosen here.
 FREQUENCIES = np.array([0.66, 1.0, 1.5, 2.0, 3.0, 4.0])
@@ -77,9 +78,19 @@ POPULATIONS: Mapping[str, Model] = {
     SPACE: DistinctElement3D(),
 }
 
-#: Stones, friction and stiffness within 1 %, and up to 1 % of the shaking across, which alone takes a round column out of
-#: the plane: every model sees the same columns and motions, and the plane ones leave the component across out.
-SCATTER = Imperfection(across=0.01)
+
+def alike(within: float) -> Scatter:
+    """Drums, friction and stiffness that differ by this much at most [-]: draws end at 2.5 standard deviations."""
+    size = within / WITHIN
+    return Scatter(friction=size, joint_stiffness=size, density=0.0, width=size, height=size, offset=0.0)
+
+
+#: Columns of a population.
+ALIKE = alike(0.01)
+
+#: Up to 1 % of the shaking across, which alone takes a round column out of the plane: every model sees the same columns and
+#: motions, and the plane ones leave the component across out.
+ACROSS = MotionScatter(across=0.01)
 
 #: Plane computations that are held against the columns in space: (model, section).
 RIVALS = ((BEAM, "circular"), (BLOCKS, "circular"), (DEM, "circular"), (DEM, "rectangular"))

@@ -10,7 +10,7 @@ import numpy as np
 from stylobate.atomic import replacing
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.campaign.runs import Request, run_all
-from stylobate.column.imperfections import Imperfection, imperfect_columns
+from stylobate.column.scatter import scattered_columns
 from stylobate.constants import g
 from stylobate.models.base import Case
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -22,7 +22,7 @@ from .folder import is_ready
 #: Shaking of the populations: frequency [Hz], amplitude [m/s²], duration and time after it [s].
 SHAKING = 1.0, 0.26 * g, 6.0, 5.0
 
-#: Columns of a population, and the half width within which they vary [-].
+#: Columns of a population, and by how much they differ at most [-].
 NUMBER, WITHIN = 16, 0.001
 
 #: Populations of round columns: (preset, law of contact, what acts across over what acts along).
@@ -52,7 +52,7 @@ def population_name(name: str, law: str, across: float) -> str:
 
 def _population(name: str, law: str, across: float, ledger: Path) -> dict[str, list[float]]:
     frequency, amplitude, duration, tail = SHAKING
-    columns = imperfect_columns(c.paper_column(name, "circular"), Imperfection.of_size(WITHIN), NUMBER, 0)
+    columns = scattered_columns(c.paper_column(name, "circular"), c.alike(WITHIN), NUMBER, 0)
     beside = (frequency, across * amplitude, 0.5 * np.pi) if across else None
     motion = harmonic(frequency, amplitude, duration, across=beside)
     cases = [Case(column, motion) for column in columns]

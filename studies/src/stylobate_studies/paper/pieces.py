@@ -25,10 +25,10 @@ from stylobate.campaign.digests import Digests, Hasher
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.campaign.runs import Progress, Runs
 from stylobate.column import Column, preset
-from stylobate.column.imperfections import Imperfection
 from stylobate.constants import g
 from stylobate.models.base import Model
 from stylobate.motion import harmonic
+from stylobate.motion.scatter import MotionScatter
 from stylobate.simulate import simulate, simulate_many
 from stylobate.version import __version__
 
@@ -60,17 +60,17 @@ def domain_piece(
 
 def population_piece(
     folder: Path, column: Column, model: Model, grid: tuple, replicates: int, tail: float, threads: int,
-    progress: Progress | None, imperfection: Imperfection | None = None,
+    progress: Progress | None, motion_scatter: MotionScatter | None = None,
 ) -> CollapseProbability:  # fmt: skip
-    """The same domain for slightly different columns, 1 % in geometry, friction and stiffness by default."""
+    """The same domain for slightly different columns, within 1 % in geometry, friction and stiffness."""
     place = folder / POPULATION
     if is_ready(place):
         return CollapseProbability.load(place)
     folder.mkdir(exist_ok=True)
     keeping = {"out": folder, "ledger": folder.parent / RUNS_FILE}
     found = collapse_probability(
-        column, model, *grid, replicates=replicates, imperfection=imperfection, tail=tail, threads=threads,
-        progress=progress, **keeping,
+        column, model, *grid, replicates=replicates, scatter=c.ALIKE, motion_scatter=motion_scatter, tail=tail,
+        threads=threads, progress=progress, **keeping,
     )  # fmt: skip
     if not found.complete:
         raise KeyboardInterrupt

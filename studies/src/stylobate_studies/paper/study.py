@@ -190,7 +190,7 @@ def _pieces(
         for label, model in c.POPULATIONS.items():
             found.space[name, label] = population_piece(
                 data / slug("space", name, label), c.paper_column(name, "circular"), model, grid, grids.space_replicates,
-                grids.tail, count, advance(f"round columns, {name}: {label}"), c.SCATTER,
+                grids.tail, count, advance(f"round columns, {name}: {label}"), c.ACROSS,
             )  # fmt: skip
         for label, section in c.RIVALS:
             found.rivals[name, label, section] = domain_piece(
