@@ -80,7 +80,7 @@ export async function hear(news) {
   if (!card || !isOpen(job)) card = el("div", { class: "card", "data-key": "" });
   tell(card, job, () => [
     curve && el("p", { class: "verdict" }, named(curve.sentence)),
-    curve && facts([["median", `${number(curve.median)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
+    curve && facts([["median", `${known(curve)} ${curve.unit} (95 %: ${number(curve.median_low)} to ${number(curve.median_high)})`], ["dispersion β", `${number(curve.beta)} (95 %: ${number(curve.beta_low)} to ${number(curve.beta_high)})`],
       ["from", `${curve.runs} runs of ${curve.records} records`], ["undecided", curve.undecided || ""], ["failed", curve.failed || ""]]),
     Object.entries((analysis || {}).refused || {}).map(([name, why]) => el("p", { class: "warning" }, named(`${name} was left out: ${why}`))),
     (job.warnings || []).map(one => el("p", { class: "warning" }, named(one))), analysis && !isOpen(job) && run.files(job),
@@ -90,5 +90,7 @@ export async function hear(news) {
   fill(place, card, figures);
   if (!isOpen(job)) curves.show(figures, job.id).catch(error => notice(error.error || String(error)));
 }
+// Beyond the levels that were run only their bound is known of a median.
+const known = ({ median, outside, levels: [low, high] }) => !outside ? number(median) : median > high ? `> ${number(high)}` : `≤ ${number(low)}`;
 // Files have names of their own here; people know them by those that they had.
 const named = text => uploaded.reduce((said, one) => said.replace(new RegExp(`[\\w/-]*-${one.id}(\\.\\w+)?`, "g"), () => one.name), text);
