@@ -73,16 +73,19 @@ def test_the_picture_shows_curves_and_differences(found):
 
 def test_the_command(tmp_path, capsys):
     one, other = (write_column(block(width), tmp_path / f"{width}.toml") for width in (0.6, 0.9))
-    base = ["compare", "--as-built", str(one), "--with", str(other), "--motion", "sample:el-centro-1940"]
-    assert call([*base, "--im", "pga", "--levels", "0.4g:1.2g:2", "--json", "--out", str(tmp_path / "out")]) == 0
+    base = ["states", "--as-built", str(one), "--with", str(other)]
+    records = ["--motion", "sample:el-centro-1940"]  # or as arguments
+    assert (
+        call([*base, *records, "--im", "pga", "--levels", "0.4g:1.2g:2", "--json", "--out", str(tmp_path / "out")]) == 0
+    )
     said = json.loads(capsys.readouterr().out)
     assert [one["label"] for one in said["states"]] == ["as built", "0.9"]
     assert said["states"][0]["fragility"] is None  # one record makes no curve
     assert said["differences"][0]["pairs"] == 2
     names = {one.name for one in (tmp_path / "out").iterdir()}
-    assert {"states.csv", "links.csv", "states.png", "states.json", "asked-compare.json"} <= names
+    assert {"states.csv", "links.csv", "states.png", "states.json", "asked-states.json"} <= names
     assert said["doubt"] == ""
-    assert call([*base[:5], "--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
+    assert call([*base, "--pulse", "ricker,1Hz,0.2g"]) == 0  # one motion, which is no file
     said = capsys.readouterr().out
     assert "under 1 record and worse in 0; nothing is concluded from fewer than 10 records)" in said
     assert [line.split()[-2:] for line in said.splitlines() if line.strip().startswith("0.9")][-1] == ["%", "-"]
@@ -92,8 +95,8 @@ def test_the_command(tmp_path, capsys):
     ("arguments", "words"),
     [
         (["--as-built", "paper-monolithic"], "only the state 'as built' is given"),
-        (["paper-monolithic", "--as-built", "paper-monolithic", "--with", "paper-12-drums"], "give one of the two"),
-        (["paper-monolithic"], "nothing is compared"),
+        ([], "no state is given; give two or more"),
+        (["a.V2", "--as-built", "paper-monolithic", "--with", "paper-12-drums", "--motion", "b.V2"], "give them once"),
         (
             ["--as-built", "paper-monolithic", "--with", "paper-12-drums", "--im", "pgv"],
             "scaled by --im and --levels together",
@@ -101,7 +104,7 @@ def test_the_command(tmp_path, capsys):
     ],
 )
 def test_what_cannot_be_compared_is_said_in_one_sentence(capsys, arguments, words):
-    assert call(["compare", *arguments, "--pulse", "ricker,1Hz,0.3g"]) == 2
+    assert call(["states", *arguments, "--pulse", "ricker,1Hz,0.3g"]) == 2
     assert words in capsys.readouterr().err
 
 

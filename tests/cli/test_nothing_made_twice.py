@@ -57,7 +57,7 @@ def made(monkeypatch):
 def commands():
     column = ["paper-monolithic", *MODEL]
     critical = ["--from", "0.25g", "--to", "1g", "--step", "0.25g", "--harmonic", "1Hz,?g,2s"]
-    states = ["compare", "--as-built", "paper-monolithic", "--with", "paper-monolithic", *MODEL]
+    states = ["states", "--as-built", "paper-monolithic", "--with", "paper-monolithic", *MODEL]
     return {
         "domain": (["domain", *column, *GRID], 8),
         "domain of a file": (["domain", "harmonics.toml"], 8),

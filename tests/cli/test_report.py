@@ -97,13 +97,12 @@ def place(tmp_path_factory):
         ("compare", "compare", place / "block.toml", "--models", "housner,dem2d", *SINE),
         (
             "states",
-            "compare",
+            "states",
+            records,
             "--as-built",
             place / "column.toml",
             "--with",
             place / "<i>ties.toml",
-            "--motion",
-            records,
         ),
         ("suite", "suite", *block, records),
         ("ida", "ida", *block, records, "--runs", "6"),
@@ -226,7 +225,7 @@ def test_states_of_a_version_that_counted_otherwise_are_refused(place, tmp_path,
     (folder / "states.json").write_text(json.dumps(content))
     assert call(["report", str(folder), "--out", str(tmp_path / "r.html")]) == 2
     assert (
-        "not what 'stylobate compare' of this version writes: it has no 'records'; run again" in capsys.readouterr().err
+        "not what 'stylobate states' of this version writes: it has no 'records'; run again" in capsys.readouterr().err
     )
 
 

@@ -103,7 +103,7 @@ class StateComparison:
         return pandas.DataFrame(rows)
 
     def summary(self) -> dict[str, Any]:
-        """Under the names of the JSON object of ``stylobate compare``."""
+        """Under the names of the JSON object of ``stylobate states``."""
         links: Any = self.links
         table: Any = self.table
         return {

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from ..errors import InputError
-from . import compare_states
 from . import options as o
 
 if TYPE_CHECKING:
@@ -18,39 +17,15 @@ if TYPE_CHECKING:
 
 def compare(
     context: typer.Context,
-    column: Annotated[
-        str | None, typer.Argument(metavar="[COLUMN]", help="Name of a preset, or a column file (TOML).")
-    ] = None,
+    column: Annotated[str, typer.Argument(metavar="COLUMN", help="Name of a preset, or a column file (TOML).")],
     models: Annotated[
-        str | None,
+        str,
         typer.Option(
             "--models",
             metavar="A,B,C",
             help="Models to compare, such as housner,dem2d; with options, such as dem3d:planar=true,dem3d.",
         ),
-    ] = None,
-    as_built: Annotated[
-        str | None, typer.Option("--as-built", metavar="COLUMN", help="Compare states of a column: the first of them.")
-    ] = None,
-    as_found: Annotated[
-        str | None, typer.Option("--as-found", metavar="COLUMN", help="The column as it is found today.")
-    ] = None,
-    strengthened: Annotated[
-        list[str] | None, typer.Option("--with", metavar="COLUMN", help="With a measure; may be repeated.")
-    ] = None,
-    model: Annotated[str, typer.Option("--model", metavar="MODEL", help="Of the states: dem2d or dem3d.")] = "dem2d",
-    im: Annotated[
-        str | None, typer.Option("--im", metavar="MEASURE", help="States: records are scaled to it, such as pgv.")
-    ] = None,
-    levels: Annotated[
-        str | None, typer.Option("--levels", metavar="A:A:N", help="States: its levels, such as 0.2m/s:1.6m/s:8.")
-    ] = None,
-    state: Annotated[
-        str, typer.Option("--state", metavar="STATE", help="States: the limit state, such as collapse or top:0.35d.")
-    ] = "collapse",
-    replicates: o.Replicates = None,
-    scatter: o.ScatterSizes = None,
-    seed: o.Seed = None,
+    ],
     harmonic: o.Harmonic = None,
     across: o.Across = None,
     pulse: o.Pulse = None,
@@ -82,10 +57,9 @@ def compare(
     out: o.Out = None,
     as_json: o.Json = False,
 ) -> None:
-    """Several models side by side, or several states of one column.
+    """Several models side by side: histories and measures under one motion, or verdicts over a domain.
 
-    Models: histories and measures under one motion, or verdicts over a domain. States (--as-built, --as-found, --with):
-    fragility curves under the same records with paired differences, and what the links bore.
+    States of one column, as built, as found and with a measure, are compared by 'stylobate states'.
     """
     from ..analysis.compare import compare_domains, compare_models
     from ..motion.orientation import keep_axes
@@ -93,20 +67,6 @@ def compare(
     from ..motion.specs import parse_time
     from . import console
 
-    states = compare_states.the_states(as_built, as_found, strengthened)
-    if states:
-        if column is not None or models is not None:
-            raise InputError("both a column with --models and states are given; give one of the two.")
-        twins = o.the_population(replicates, scatter, seed)
-        how = o.the_model(model, settings)
-        workers = o.the_threads(threads)
-        request = o.the_request(context, separate=bool(motion))
-        after = o.the_tail(tail)
-        columns = {label: o.the_column(text, project) for label, text in states.items()}
-        compare_states.run(columns, request, how, im, levels, state, twins, after, workers, out, as_json)
-        return
-    if column is None or models is None:
-        raise InputError("nothing is compared; give a column with --models, or states with --as-built and --with.")
     names = [name.strip() for name in models.split(",")]
     if len(set(names)) != len(names):
         raise InputError(f"--models is {models!r}, with a model given twice; give each once.")

@@ -34,6 +34,7 @@ from . import (
     serve,
     signals,
     spectrum,
+    states,
     study,
     suite,
     survival,
@@ -80,7 +81,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 
 for _room in (
-    run, critical, domain, pushover, limit, compare, suite, ida, fragility, risk, survival, motion,
+    run, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
     spectrum, columns, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]

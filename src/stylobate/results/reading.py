@@ -44,9 +44,6 @@ KEYS = {
     Kind.SURVIVAL: ("hazards",),
 }
 
-#: Commands of kinds that are not called after them.
-COMMANDS = {Kind.STATES: "compare"}
-
 #: Tables beside an object.
 TABLES = {
     Kind.CRITICAL: ("critical",),
@@ -170,7 +167,7 @@ def _read_numbers(kind: Kind) -> Callable[[Path], Numbers]:
         summary = _object(place, f"{stem}.json", kind)
         tables = {one: _table(place / f"{one}.csv") for one in TABLES.get(kind, ()) if (place / f"{one}.csv").is_file()}
         names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{one}.csv" for one in tables), *FURTHER.get(kind, ())]
-        return Numbers(**_common(place, kind, COMMANDS.get(kind, stem), names, summary), tables=tables)
+        return Numbers(**_common(place, kind, stem, names, summary), tables=tables)
 
     return read
 
@@ -249,7 +246,7 @@ def _object(place: Path, name: str, kind: Kind) -> dict[str, Any]:
     missing = [key for key in KEYS[kind] if key not in found]
     if missing:
         raise InputError(
-            f"{shown(place / name)} is not what 'stylobate {COMMANDS.get(kind, kind.value)}' of this version writes: it has "
+            f"{shown(place / name)} is not what 'stylobate {kind.value}' of this version writes: it has "
             f"no {missing[0]!r}; run again."
         )
     return found

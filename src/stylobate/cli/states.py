@@ -1,11 +1,14 @@
-"""``stylobate compare --as-built … --with …``: was a measure worth it, under the same records."""
+"""``stylobate states``: states of one column under the same records: was a measure worth it?"""
 
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
 
 from ..errors import InputError
+from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.states import StateComparison
@@ -22,14 +25,80 @@ def the_states(as_built: str | None, as_found: str | None, strengthened: list[st
         if label in found:
             raise InputError(f"two of the states are called {label!r}; rename one of the files.")
         found[label] = text
-    if len(found) == 1:
-        raise InputError(
-            f"only the state {next(iter(found))!r} is given; give one to compare it with (--as-built, --as-found, --with)."
-        )
+    if len(found) < 2:
+        given = f"only the state {next(iter(found))!r} is given" if found else "no state is given"
+        raise InputError(f"{given}; give two or more of --as-built, --as-found and --with.")
     return found
 
 
-def run(
+def states(
+    context: typer.Context,
+    records: Annotated[
+        list[Path] | None,
+        typer.Argument(metavar="[DIR|FILE]...", help="Folders of records, or records; or sample:NAME."),
+    ] = None,
+    as_built: Annotated[
+        str | None, typer.Option("--as-built", metavar="COLUMN", help="Name of a preset, or a column file (TOML).")
+    ] = None,
+    as_found: Annotated[
+        str | None, typer.Option("--as-found", metavar="COLUMN", help="The column as it is found today.")
+    ] = None,
+    strengthened: Annotated[
+        list[str] | None, typer.Option("--with", metavar="COLUMN", help="With a measure; may be repeated.")
+    ] = None,
+    model: Annotated[str, typer.Option("--model", metavar="MODEL", help="How it is computed.")] = "dem2d",
+    im: Annotated[
+        str | None, typer.Option("--im", metavar="MEASURE", help="Scale the records to it, such as pgv.")
+    ] = None,
+    levels: Annotated[
+        str | None, typer.Option("--levels", metavar="A:A:N", help="Its levels, such as 0.2m/s:1.6m/s:8.")
+    ] = None,
+    state: Annotated[
+        str, typer.Option("--state", metavar="STATE", help="Limit state, such as collapse or top:0.35d.")
+    ] = "collapse",
+    replicates: o.Replicates = None,
+    scatter: o.ScatterSizes = None,
+    seed: o.Seed = None,
+    harmonic: o.Harmonic = None,
+    across: o.Across = None,
+    pulse: o.Pulse = None,
+    synthetic: o.Synthetic = None,
+    motion: o.MotionFiles = None,
+    unit: o.Unit = None,
+    dt: o.Step = None,
+    component: o.ComponentName = None,
+    azimuth: o.Azimuth = None,
+    condition: o.Condition = None,
+    scale: o.Scale = None,
+    pga: o.Pga = None,
+    vertical: o.Vertical = "on",
+    tail: o.Tail = "0s",
+    settings: o.Settings = None,
+    project: o.Project = None,
+    threads: o.Threads = None,
+    dask: o.Dask = None,
+    out: o.Out = None,
+    as_json: o.Json = False,
+) -> None:
+    """States of one column side by side: as built, as found, with a measure. Was it worth it?
+
+    Fragility curves under the same records with paired differences, and what the links bore.
+    """
+    if records and motion:
+        raise InputError("records are given before the options and after --motion; give them once.")
+    files = records or motion
+    named = the_states(as_built, as_found, strengthened)
+    twins = o.the_population(replicates, scatter, seed)
+    how = o.the_model(model, settings)
+    workers = o.the_threads(threads)
+    request = o.the_request(context, motion=files, separate=bool(files))
+    after = o.the_tail(tail)
+    columns = {label: o.the_column(text, project) for label, text in named.items()}
+    o.the_engine(context, dask, workers)
+    _run(columns, request, how, im, levels, state, twins, after, workers, out, as_json)
+
+
+def _run(
     columns: dict[str, Column],
     request: MotionRequest,
     model: Model,
@@ -59,7 +128,7 @@ def run(
     if twins is not None:
         how = {"realisations": twins["replicates"], "scatter": twins["scatter"], "seed": twins["seed"]}
         population = twins | {"scatter": (twins["scatter"] or Scatter()).describe()}
-    with console.folder(out, "states.csv", "links.csv", "states.json", "asked-compare.json", "states") as folder:
+    with console.folder(out, "states.csv", "links.csv", "states.json", "asked-states.json", "states") as folder:
         if folder is not None:
             console.ledger(folder)
         with console.progress("runs") as progress:
@@ -82,7 +151,7 @@ def run(
                 console.write_table(found.table, folder / "states.csv"),
                 console.write_table(found.links, folder / "links.csv"),
                 *plots.save(plots.draw_states(found), folder / "states"),
-                console.asked(folder, "compare", **what, **population),
+                console.asked(folder, "states", **what, **population),
             ]
             console.write_summary(summary, files, folder / "states.json")
     if as_json:
