@@ -59,6 +59,9 @@ _SOUND_FILE = (
     sqlite3.SQLITE_NOMEM,
 )
 
+#: How SQLite tells that a file is damaged; its own words need not be text then.
+_DAMAGE = sqlite3.Error, ValueError
+
 #: Rows that are no line of text, or not at the number that their line tells behind its checksum.
 MISPLACED = "typeof(line) <> 'text' OR number <> CAST(substr(line, 18) AS INTEGER)"
 
@@ -279,13 +282,10 @@ def refuse_foreign(path: Path) -> None:
         The file is a link, or a whole database without the tables of a ledger.
     """
     what = "a link" if any(os.path.islink(f"{path}{ending}") for ending in ENDINGS) else ""
-    with suppress(sqlite3.Error), closing(_untouched(path)) as file:
+    with suppress(*_DAMAGE), closing(_untouched(path)) as file:
         tables = {name for (name,) in file.execute("SELECT name FROM sqlite_schema")}
-        marked = file.execute("PRAGMA application_id").fetchone()[0] == APPLICATION
-        if (
-            not (marked or {"campaign", "runs"} <= tables)
-            and file.execute("PRAGMA quick_check(1)").fetchone()[0] == "ok"
-        ):
+        ours = {"campaign", "runs"} <= tables or file.execute("PRAGMA application_id").fetchone()[0] == APPLICATION
+        if tables and not ours and file.execute("PRAGMA quick_check(1)").fetchone()[0] == "ok":
             what = what or "a database of another program"
     if what:
         raise InputError(f"{path} is {what}, and finished runs would be kept there; move it, or choose another folder.")
@@ -313,13 +313,15 @@ def _former(path: Path) -> InputError:
 
 
 def _key_of(path: Path) -> str | None:
-    with suppress(sqlite3.Error), closing(_untouched(path)) as file:
+    with suppress(*_DAMAGE), closing(_untouched(path)) as file:
         return next((key for (key,) in file.execute("SELECT key FROM campaign")), None)
     return None
 
 
 def _untouched(path: Path) -> sqlite3.Connection:
-    return sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)  # leaves nothing beside it
+    file = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)  # leaves nothing beside it
+    file.text_factory = salvage.text
+    return file
 
 
 def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple[int, dict]]:
@@ -327,7 +329,7 @@ def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple
 
     Rows without a valid checksum are left out; a file that is missing, or no ledger, holds none.
     """
-    with closing(_opened(path)) as file, suppress(sqlite3.Error):
+    with closing(_opened(path)) as file, suppress(*_DAMAGE):
         for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
             number = salvage.number_of(line)
             found = None if number is None or not wanted(number) else salvage.read_line(line, SEAL)
@@ -337,7 +339,7 @@ def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple
 
 def finished_runs_in(path: str | Path, wanted: np.ndarray | None = None) -> int:
     """How many runs a ledger holds, or of how many numbers that are wanted it holds the run; 0 where there is none."""
-    with closing(_opened(path)) as file, suppress(sqlite3.Error):
+    with closing(_opened(path)) as file, suppress(*_DAMAGE):
         held = np.fromiter((number for (number,) in file.execute("SELECT number FROM runs")), np.int64)
         return len(held) if wanted is None else int(np.isin(wanted, held).sum())
     return 0
@@ -350,7 +352,7 @@ def _opened(path: str | Path) -> sqlite3.Connection:
         if place.is_file():
             file = sqlite3.connect(f"{place.as_uri()}?{access}", uri=True)
             file.text_factory = salvage.text
-            with suppress(sqlite3.Error):
+            with suppress(*_DAMAGE):
                 file.execute("SELECT number FROM runs LIMIT 1").fetchone()
                 return file
             file.close()
