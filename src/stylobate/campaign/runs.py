@@ -270,9 +270,10 @@ def its_turn(
         if waiting and not told:
             waiting()
         told.append(True)
+        started = time.perf_counter()
         if progress:
             progress(finished_runs_in(ledger, digests.keys), len(digests))
-        time.sleep(LOOK)
+        time.sleep(max(LOOK, 4.0 * (time.perf_counter() - started)))  # counting a long ledger takes time of its own
 
     return look
 
