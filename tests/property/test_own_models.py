@@ -8,14 +8,17 @@ import pytest
 
 NOTEBOOK = """
 import dataclasses
+import numpy as np
 import stylobate as st
 from stylobate.campaign.digests import Hasher
+
+GROUND = np.random.default_rng(1)
 
 LIMIT = {"a": 1.5, "b": frozenset({"x", "y", "z"})}
 
 def factor(x, power=2.0):
     try:
-        return [x**power for _ in range(3)], LIMIT["a"]
+        return [x**power for _ in range(3)], LIMIT["a"], GROUND
     except ZeroDivisionError:
         return None
 
@@ -40,6 +43,7 @@ CHANGES = {
     "an inner loop": ("x**power for", "x*power for"),
     "a function beside it": ("return None", "return 0.0"),
     "a value beside it": ('"a": 1.5', '"a": 1.6'),
+    "the state of an object beside it": ("default_rng(1)", "default_rng(2)"),
     "what is called": ("factor(self.ratio)", "abs(self.ratio)"),
 }
 

@@ -84,8 +84,10 @@ class Code:
         for kind, names in _HELD.items():
             if isinstance(value, kind):
                 return [self.of(getattr(value, name)) for name in names]
-        own = getattr(value, "__dict__", {})
-        return [re.sub(" at 0x[0-9a-fA-F]+", "", repr(value)), self.of(type(value)), self.of(own)]
+        held = getattr(value, "__dict__", None)
+        with suppress(Exception):  # what cannot be copied is told as it shows itself
+            held = value.__reduce_ex__(2)
+        return [re.sub("0x[0-9a-fA-F]+", "", repr(value)), self.of(type(value)), self.of(held)]
 
     def _of_function(self, function: FunctionType) -> Any:
         file, known = self._file(function), function.__globals__
