@@ -1,5 +1,6 @@
 """What a model of somebody's own does is in the digest of its runs, wherever it was written."""
 
+import importlib
 import json
 import subprocess
 import sys
@@ -73,3 +74,14 @@ def test_a_class_of_a_notebook_is_the_same_in_every_process():
     assert told[0] == told[1]
     assert " at 0x" not in told[0]
     assert json.loads(told[0])
+
+
+def test_a_module_beside_a_class_of_a_notebook_is_told_by_its_file(tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(tmp_path)
+    found = []
+    for power in ("2", "3"):
+        (tmp_path / "law_beside.py").write_text(f"def factor(x):\n    return x**{power}\n")
+        monkeypatch.delitem(sys.modules, "law_beside", raising=False)
+        importlib.invalidate_caches()
+        found.append(digest(f"import law_beside\n{NOTEBOOK}".replace("factor(self", "law_beside.factor(self")))
+    assert found[0] != found[1]

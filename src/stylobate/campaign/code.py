@@ -51,7 +51,7 @@ class Code:
                 said = {name: value for name, value in vars(one).items() if name[:2] != "__" or callable(value)}
                 acts = {name: value for name, value in said.items() if callable(value) or hasattr(value, "__get__")}
                 own = [unwrap(value) for value in acts.values() if isinstance(value, FunctionType)]
-                filed = any(self._file(value) is not None for value in own)
+                filed = any(self._file(value.__code__.co_filename) is not None for value in own)
                 found.append([one.__qualname__, self.of(acts if filed else said)])  # a file tells its values
         return found
 
@@ -68,9 +68,12 @@ class Code:
             said = value.co_code, value.co_exceptiontable, value.co_names, value.co_varnames, value.co_freevars
             return [repr(said), [self.of(one) for one in value.co_consts]]
         if isinstance(value, type):
-            return [value.__qualname__, [] if _is_installed(value) else self.of_class(value)]
+            return [value.__qualname__, [] if _is_installed(value.__module__) else self.of_class(value)]
         if isinstance(value, ModuleType):
-            return value.__name__
+            return [
+                value.__name__,
+                None if _is_installed(value.__name__) else self._file(getattr(value, "__file__", None) or ""),
+            ]
         if isinstance(value, np.ndarray):
             return [str(value.dtype), value.shape, [self.of(one) for one in value.ravel().tolist()]]
         if isinstance(value, Mapping):
@@ -90,7 +93,7 @@ class Code:
         return [re.sub("0x[0-9a-fA-F]+", "", repr(value)), self.of(type(value)), self.of(held)]
 
     def _of_function(self, function: FunctionType) -> Any:
-        file, known = self._file(function), function.__globals__
+        file, known = self._file(function.__code__.co_filename), function.__globals__
         given: list[Any] = [file]
         if file is None:
             beside = {name: known[name] for name in _globals(function.__code__) if name in known}
@@ -100,9 +103,9 @@ class Code:
                 given.append(cell.cell_contents)
         return [self.of(one) for one in given]
 
-    def _file(self, function: FunctionType) -> str | None:
-        """Digest of the file of a function, without words if it is this package's; None where there is no file."""
-        place = Path(function.__code__.co_filename)
+    def _file(self, path: str) -> str | None:
+        """Digest of a file, without words if it is this package's; None where there is none."""
+        place = Path(path)
         if place not in self._files and place.is_file():
             self._files[place] = "" if place.is_relative_to(PACKAGE) else digest_of_file(place)
         return self._files.get(place)
@@ -116,8 +119,8 @@ def _globals(code: CodeType) -> Iterator[str]:
             yield from _globals(inner)
 
 
-def _is_installed(kind: type) -> bool:
-    """Whether a class is Python's own, or of an installed package."""
-    if kind.__module__.partition(".")[0] in _KNOWN:
+def _is_installed(module: str) -> bool:
+    """Whether a module is Python's own, or of an installed package."""
+    if module.partition(".")[0] in _KNOWN:
         return True
-    return "site-packages" in (getattr(sys.modules.get(kind.__module__), "__file__", None) or "")
+    return "site-packages" in (getattr(sys.modules.get(module), "__file__", None) or "")
