@@ -97,7 +97,7 @@ class Ledger:
                 f"{self.path} cannot keep the progress: it is a folder, or has none; choose another --out."
             )
         refuse_foreign(self.path)
-        refuse_former(self.path.parent)
+        refuse_former(*self.path.parent.glob(FORMER_FILES))
         self._holding = Holding(self.path, waiting)
         try:
             self._file = self._open()
@@ -291,15 +291,15 @@ def refuse_foreign(path: Path) -> None:
         raise InputError(f"{path} is {what}, and finished runs would be kept there; move it, or choose another folder.")
 
 
-def refuse_former(folder: Path) -> None:
-    """Refuse a folder with unfinished runs of a version before this one.
+def refuse_former(*paths: Path) -> None:
+    """Refuse ledgers of versions before this one.
 
     Raises
     ------
     InputError
-        One of its files is such a ledger.
+        One of the files is such a ledger.
     """
-    for path in folder.glob(FORMER_FILES):
+    for path in paths:
         with suppress(OSError), path.open("rb") as file:
             if file.read(72)[68:] == APPLICATION.to_bytes(4) and _key_of(path) != KEY:
                 raise _former(path)
