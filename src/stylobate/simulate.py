@@ -82,27 +82,13 @@ def simulate(
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
     cut = quiet if column.moving_acceleration is not None else 0.0  # nobody knows what is quiet for anything else
-    options = dataclasses.replace(
-        _options(tail, output_interval, until_end, until_rest, cut),
-        start=start,
-        twins=tuple(twins),
-        progress=progress,
-    )
+    following = run_options(tail, output_interval, until_end, until_rest, cut)
+    options = dataclasses.replace(following, start=start, twins=tuple(twins), progress=progress)
     if len(options.twins) > model.carried(column):
         raise InputError(
             f"{len(options.twins)} twins are given; {model.name} carries up to {model.carried(column)}: use simulate_many."
         )
-    if start is not None and not model.takes_start:
-        raise InputError(
-            f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
-        )
-    if until_rest and not model.follows_to_rest:
-        raise InputError(
-            f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or leave "
-            "it off: --tail and --until-end are for every model."
-        )
-    model.check(column, motion)
-    model.check_length(column, motion, options)
+    check_cases([Case(column, motion)], model, options)
     _tell_wait([Case(column, motion)], model, options)
     started = time.perf_counter()
     response = model.run(column, model.taken(motion), options)
@@ -166,20 +152,34 @@ def simulate_iter(
     threads : int, optional
         All cores by default.
     """
-    options, count = check_cases(cases, model, tail=tail, until_end=until_end, quiet=quiet), thread_count(threads)
-    _tell_wait(cases, model, options, count)
-    yield from model.run_many(cases, options, count)
+    options = run_options(tail, until_end=until_end, quiet=quiet)
+    check_cases(cases, model, options)
+    yield from run_checked(cases, model, options, threads)
 
 
-def check_cases(
-    cases: Sequence[Case], model: Model, *, tail: float = 0.0, until_end: bool = False, quiet: float = 0.0
-) -> RunOptions:
-    """Refuse or warn of cases before any is computed; the options with which :func:`simulate_iter` runs them."""
-    options = _options(tail, 0.01, until_end, quiet=quiet)
+def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> None:
+    """Refuse or warn of cases before any is computed."""
+    if options.start is not None and not model.takes_start:
+        raise InputError(
+            f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
+        )
+    if options.until_rest and not model.follows_to_rest:
+        raise InputError(
+            f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or leave "
+            "it off: --tail and --until-end are for every model."
+        )
     for column, motion in _to_check(cases):
         model.check(column, motion)
         model.check_length(column, motion, options)
-    return options
+
+
+def run_checked(
+    cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None = None
+) -> Generator[tuple[int, Measures], None, None]:
+    """Run cases that :func:`check_cases` has let pass; yields as :func:`simulate_iter` does."""
+    count = thread_count(threads)
+    _tell_wait(cases, model, options, count)
+    yield from model.run_many(cases, options, count)
 
 
 def simulate_many(
@@ -296,9 +296,14 @@ def _provenance(model: Model, motion: Motion, options: RunOptions, bed: bool) ->
     }
 
 
-def _options(
-    tail: float, output_interval: float, until_end: bool, until_rest: bool = False, quiet: float = 0.0
+def run_options(
+    tail: float = 0.0,
+    output_interval: float = 0.01,
+    until_end: bool = False,
+    until_rest: bool = False,
+    quiet: float = 0.0,
 ) -> RunOptions:
+    """Options of runs, checked; parameters as in :func:`simulate`."""
     return RunOptions(
         check_range("tail", tail, 0.0, 1e4, unit="s"),
         check_range("output interval", output_interval, 0.0, 1e3, unit="s", open_low=True),

@@ -9,6 +9,7 @@ from contextlib import closing
 import numpy as np
 
 import stylobate as st
+from stylobate.campaign.digests import Hasher
 from stylobate.campaign.ledger import Ledger
 from stylobate.campaign.runs import Request, Runs, run_all
 from stylobate.models.base import Case, Cases, Model
@@ -83,7 +84,7 @@ def distinct(count):
 def test_a_campaign_keeps_the_bytes_of_its_numbers():
     def work(count):
         yield
-        yield run_all(Request.of(cases(count), Instant()))
+        yield run_all(Request.of(cases(count), Hasher(Instant())))
 
     # ten numbers and a step count of eight bytes each, two truths, two texts, a byte for each that there is a value;
     # beside it some hundreds of results that wait for the caller, more or fewer of them as the threads take turns
@@ -96,13 +97,13 @@ def test_a_stream_of_runs_keeps_their_digests_and_one_that_goes_on_no_more(tmp_p
 
     def work(count):
         ledger = tmp_path / f"{count}.sqlite"
-        request = Request.of(distinct(count), Instant())
+        request = Request.of(distinct(count), Hasher(Instant()))
         with closing(Ledger(ledger)) as book:
             for number in range(count - left):
                 book.record(int(request.digests.keys[number]), {"case": request.digests[number], **row})
         yield
         with closing(Runs(ledger)) as runs:
-            yield deque(runs.run(Request.of(distinct(count), Instant())), maxlen=0)
+            yield deque(runs.run(Request.of(distinct(count), Hasher(Instant()))), maxlen=0)
 
     # a digest of 16 bytes, its number and its place, while they are sorted each twice, and whether it is known
     assert bytes_per_case(work, WINDOW, 6 * WINDOW) < 100.0

@@ -3,11 +3,20 @@
 import numpy as np
 
 import stylobate as st
-from stylobate.app.asked import RESULT
+from stylobate.app.asked import RESULT, STUDY
 from stylobate.app.cells import new_cells
+
+DOMAIN = """
+column = "paper-monolithic"
+model = "housner"
+frequencies = [1.0, 2.0]
+amplitudes = ["0.2g", "0.3g", "0.5g"]
+duration = 2.0
+"""
 
 
 def test_cells_of_the_ledger_are_those_of_the_table_and_none_comes_twice(tmp_path):
+    (tmp_path / STUDY).write_text(DOMAIN)
     out, grid = tmp_path / RESULT, (np.array([1.0, 2.0]), np.array([0.2, 0.3, 0.5]) * st.g, 2.0)
     out.mkdir()
     assert new_cells(tmp_path, set()) == []

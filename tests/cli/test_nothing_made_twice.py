@@ -8,6 +8,8 @@ from contextlib import closing
 
 import pytest
 
+import stylobate as st
+from stylobate.analysis.compare import compare_models
 from stylobate.campaign.ledger import APPLICATION, LAYOUT, RUNS_FILE, finished_runs_in
 from stylobate.cli.main import call
 from stylobate.models.rocking.model import HousnerBlock
@@ -147,3 +149,60 @@ def test_a_folder_with_unfinished_runs_of_an_earlier_version_is_refused(command,
     assert made == []
     assert [path.name for path in (folder / "out").iterdir()] == ["progress.sqlite"]
     assert place.read_bytes() == before
+
+
+REFUSED = [
+    ([*commands()[name][0]], "drums")
+    for name in (
+        "domain",
+        "study of harmonics",
+        "compare",
+        "critical",
+        "suite",
+        "study of records",
+        "states",
+        "run",
+        "ida",
+    )
+] + [
+    (["domain", "paper-monolithic", *MODEL, *GRID, "--replicates", "3"], "drums"),
+    (["compare", "paper-monolithic", "--models", "housner,dem2d", "--harmonic", "1Hz,0.3g,2s"], "drums"),
+    (["critical", "paper-monolithic", *MODEL, "--from", "0.1g", "--to", "1g", "--motion", "records"], "drums"),
+    (["domain", "paper-monolithic", *MODEL, *GRID, "--half-step"], "time_step"),
+    (["run", "paper-monolithic", *MODEL, "--motion", "records", "--until-rest"], "until_rest"),
+    (["run", "paper-monolithic", *MODEL, "--motion", "records", "--output-interval", "0s"], "output interval"),
+]
+
+
+@pytest.mark.parametrize(("command", "why"), REFUSED)
+def test_what_is_refused_leaves_no_folder(command, why, folder, made, capsys):
+    if why == "drums":  # which this model does not compute
+        command = [one.replace("paper-monolithic", "paper-12-drums") for one in command]
+        for one in folder.glob("*.toml"):
+            one.write_text(one.read_text().replace("paper-monolithic", "paper-12-drums"))
+    assert call([*command, "--out", "out"]) == 2
+    assert why in capsys.readouterr().err
+    assert made == []
+    assert not (folder / "out").exists()
+
+
+def test_what_is_to_be_said_is_said_of_runs_that_the_ledger_holds_and_of_doubles(tmp_path):
+    along = st.harmonic(1.0, 2.0, 1.0)
+    first, second = (along.replace(name=name, ay=0.3 * along.samples) for name in ("first", "second"))
+    for motions in ([first], [first, second, along.scaled(1.5)]):
+        with pytest.warns(st.errors.LeftOutWarning) as told:
+            st.suite_table(st.preset("paper-monolithic"), motions, HousnerBlock(), ledger=tmp_path / RUNS_FILE)
+        for motion in motions[:2]:
+            assert any(motion.name in str(one.message) for one in told)
+
+
+def test_the_same_model_twice_is_compared_and_run_once(folder, made):
+    column, motion, models = st.preset("paper-monolithic"), st.harmonic(1.0, 2.0, 1.0), [HousnerBlock()] * 2
+    found = compare_models(column, motion, models)
+    assert found.table["peak_top_displacement_m"].nunique() == len(made) == 1
+    files = [folder / "a.nc", folder / "b.nc"]
+    for runs in (2, 2):
+        again = compare_models(column, motion, models, labels=["a", "b"], ledger=folder / RUNS_FILE, files=files)
+        assert again.table["peak_top_displacement_m"].nunique() == 1
+        assert len(made) == runs
+        assert all(one.is_file() for one in files)

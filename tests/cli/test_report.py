@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.campaign.ledger import APPLICATION
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
 from stylobate.motion import write_csv
@@ -303,6 +304,9 @@ def test_an_undecided_run_of_a_model_is_told_beside_others(place):
 
 DAMAGED = '{"runs": 3, "sentence": "It falls.", "lowest_collapse_g": 0.3, "as_recorded": "many"}'
 
+#: A ledger of an earlier version as far as its mark.
+OLD = bytes(68) + APPLICATION.to_bytes(4) + bytes(28)
+
 
 @pytest.mark.parametrize(
     ("arrange", "why"),
@@ -310,6 +314,8 @@ DAMAGED = '{"runs": 3, "sentence": "It falls.", "lowest_collapse_g": 0.3, "as_re
         (lambda d: d / "none", "there is no folder"),
         (lambda d: (d / "empty").mkdir() or d / "empty", "is empty"),
         (lambda d: (d / "notes.txt").write_text("x") and d, "holds no result of stylobate"),
+        (lambda d: (d / "runs.sqlite").write_text("x") and d, "holds a command's work that is not finished"),
+        (lambda d: (d / "progress.sqlite").write_bytes(OLD) and d, "unfinished runs of an earlier version"),
         (lambda d: (d / "notes.txt").write_text("x") and d / "notes.txt", "is a file"),
         (lambda d: (d / "limit.json").write_text("{") and d, "no JSON"),
         (lambda d: (d / "limit.json").write_text('{"a": 1}') and d, "not what 'stylobate limit'"),

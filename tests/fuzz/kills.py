@@ -53,6 +53,7 @@ COMMANDS = {
     "critical": ["critical", "paper-12-drums", *DEM, *LEVELS, "--harmonic", "1Hz,?g,6s"],
     "critical, records": ["critical", "paper-monolithic", *DEM, *LEVELS, "--motion", "RECORDS"],
     "suite": ["suite", "paper-12-drums", "RECORDS", "--also", "paper-monolithic", *DEM],
+    "ida": ["ida", "paper-monolithic", "RECORDS", *DEM, "--im", "pga", "--runs", "6"],
     "run, records": ["run", "paper-monolithic", *DEM, "--motion", "RECORDS"],
     "reproduce": ["reproduce", "--quick"],
     "compare": ["compare", "paper-monolithic", "--models", "dem2d,rigid-block", *GRID],
@@ -158,8 +159,8 @@ def lost(notes: Path, killed: float) -> int:
     ledgers: dict[str, set[int]] = {}
     for line in notes.read_text().splitlines(keepends=True) if notes.exists() else ():
         when, number, ledger = line.rstrip("\n").split(" ", 2)
-        if not Path(ledger).exists():  # the results are written: the same command begins anew
-            continue
+        if not Path(ledger).exists():
+            raise Fault(f"{ledger} is gone")
         if ledger not in ledgers:
             with closing(sqlite3.connect(ledger)) as file:
                 ledgers[ledger] = {number for (number,) in file.execute("SELECT number FROM runs")}

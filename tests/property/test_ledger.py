@@ -7,6 +7,7 @@ import sys
 import time
 from contextlib import closing
 
+import numpy as np
 import pytest
 
 import stylobate as st
@@ -110,6 +111,50 @@ def test_what_else_is_called_like_one_of_an_earlier_version_is_left_alone(tmp_pa
     filled(tmp_path / "runs.sqlite", 1)
     assert rows(tmp_path / "runs.sqlite") == {0: ROW | {"n": 0, "note": "x" * 400}}
     assert (tmp_path / "progress.sqlite").read_bytes() == b"mine"
+
+
+@pytest.mark.parametrize("key", [None, 1234])
+def test_the_database_of_another_program_is_refused_and_left_as_it_was(tmp_path, key):
+    path = tmp_path / "runs.sqlite"
+    with closing(sqlite3.connect(path)) as file, file:
+        file.execute("CREATE TABLE runs (uuid TEXT)")  # as others call theirs
+        file.execute(f"PRAGMA application_id = {key or 0}")
+        file.execute("PRAGMA journal_mode = WAL")
+    before = path.read_bytes()
+    with pytest.raises(st.InputError, match=r"is a database of another program.*choose another folder"):
+        Ledger(path)
+    assert [one.name for one in tmp_path.iterdir()] == ["runs.sqlite"]
+    assert path.read_bytes() == before
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_a_link_is_refused_and_left_as_it_was(tmp_path, there):
+    (tmp_path / "out").mkdir()
+    if there:
+        filled(tmp_path / "mine.sqlite", 3)
+    (tmp_path / "out" / "runs.sqlite").symlink_to(tmp_path / "mine.sqlite")
+    with pytest.raises(st.InputError, match=r"runs\.sqlite is a link.*choose another folder"):
+        Ledger(tmp_path / "out" / "runs.sqlite")
+    assert [one.name for one in (tmp_path / "out").iterdir()] == ["runs.sqlite"]
+    assert (tmp_path / "mine.sqlite").exists() == there
+
+
+def test_a_ledger_whose_mark_was_damaged_is_still_taken_over(tmp_path):
+    path = tmp_path / "runs.sqlite"
+    filled(path, 5)
+    whole = rows(path)
+    with closing(sqlite3.connect(path)) as file, file:
+        file.execute("PRAGMA application_id = 7")
+    with pytest.warns(DamagedFileWarning, match="5 of its finished runs are whole and are used"):
+        assert rows(path) == whole
+
+
+def test_only_runs_that_are_wanted_are_counted(tmp_path):
+    path = tmp_path / "runs.sqlite"
+    assert finished_runs_in(path, np.array([1])) == 0
+    filled(path, 5)
+    assert finished_runs_in(path) == 5
+    assert finished_runs_in(path, np.array([3, 99, 3, 4])) == 3  # a case that is there twice counts twice
 
 
 def test_a_full_disk_is_one_sentence_and_what_was_written_stays(tmp_path):

@@ -14,8 +14,9 @@ import pytest
 import stylobate as st
 from stylobate.analysis.studies import StudyResult, write_table
 from stylobate.campaign import digests
+from stylobate.campaign.digests import Hasher
 from stylobate.campaign.ledger import RUNS_FILE, Ledger
-from stylobate.campaign.runs import Request
+from stylobate.campaign.runs import Request, its_turn
 from stylobate.campaign.study_files import read_plan
 from stylobate.cli.main import call
 from stylobate.column.files import load_column
@@ -90,7 +91,7 @@ def test_a_case_is_what_simulate_many_computes():
 def test_a_plan_tells_its_cases_as_any_other_request_does(tmp_path):
     """By what acts and what stands: not by names, nor by the components that the model leaves out."""
     some = study(realisations=2)
-    again = Request.of([some.case(number) for number in range(some.size)], some.models[0])
+    again = Request.of([some.case(number) for number in range(some.size)], Hasher(some.models[0]))
     assert again.digests.digests.tolist() == some.plan().digests.digests.tolist()
     aside = PULSE.replace(name="another", ay=0.3 * PULSE.samples)
     renamed = st.Study([COLUMN.replace(name="another")], [aside], some.models, some.levels, realisations=2)
@@ -177,6 +178,15 @@ def test_several_processes_on_one_folder_run_nothing_twice_and_all_of_them_end(f
     assert sum(answer["computed"] for answer in answers) == 120 - 50
     assert StudyResult.in_folder(out).table.equals(whole.table)
     assert sorted(path.name for path in out.glob("*-lock")) == []
+
+
+def test_runs_of_others_in_the_ledger_are_not_counted_while_one_waits(tmp_path):
+    digests, counts = study().plan().digests, []
+    with closing(Ledger(tmp_path / RUNS_FILE)) as book:
+        for number in (1, 2, 3, int(digests.keys[0])):
+            book.record(number, {})
+    its_turn(tmp_path / RUNS_FILE, digests, lambda *count: counts.append(count), None)()
+    assert counts == [(1, 4)]
 
 
 def test_run_status_and_export_under_their_promised_names(folder, capsys):

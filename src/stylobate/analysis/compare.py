@@ -7,21 +7,21 @@ from contextlib import closing
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..campaign.digests import Digests, Hasher
-from ..campaign.grid import grid_axis
-from ..campaign.runs import Runs, Stopped
+from ..campaign.grid import HarmonicGrid
+from ..campaign.runs import Request, Runs, Stopped
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Case, Model
-from ..motion import Motion, harmonic
+from ..motion import Motion
 from ..response import Response, load_response
-from ..simulate import check_cases, simulate
+from ..simulate import run_options, simulate
 from . import verdicts as v
-from .domain import Domain, collapse_domain
+from .domain import Domain, run_grid
 
 if TYPE_CHECKING:
     import pandas
@@ -126,29 +126,35 @@ def compare_models(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
-    _at_least_one(models)
-    _refuse([Case(column, motion)], models, tail)
     names = _labels(models, labels)
     what = {"response": [column.digest, motion.name, motion.digest, output_interval]}
-    each = [Hasher(model, tail).of_product([what, name], __file__) for model, name in zip(models, names, strict=True)]
-    responses: dict[int, Response] = {}
+    hashers = [Hasher(model, tail) for model in models]
+    same = [hasher.of_product(what, __file__) for hasher in hashers]
+    places = [one.name for one in files] or [""] * len(models)
+    each = [hasher.of_product([what, place], __file__) for hasher, place in zip(hashers, places, strict=True)]
+    options = run_options(tail, output_interval)
+    groups = [(np.array([number]), model, options) for number, model in enumerate(models)]
+    request = Request([Case(column, motion)] * len(models), Digests.of(each), groups)
+    responses: dict[str, Response] = {}
 
     def make(number: int) -> dict:
-        found = simulate(column, motion, models[number], tail=tail, output_interval=output_interval)
-        responses[number] = found
-        return {"files": [found.save(files[number]).name]} if ledger is not None else {}
+        if same[number] not in responses:
+            responses[same[number]] = simulate(
+                column, motion, models[number], tail=tail, output_interval=output_interval
+            )
+        return {"files": [responses[same[number]].save(files[number]).name]} if ledger is not None else {}
 
+    done = 0
     try:
         with closing(Runs(ledger)) as runs:
-            products = runs.products(Digests.of(each), make)
-            for done, (number, _) in enumerate(products, 1):
-                if number not in responses:
-                    responses[number] = load_response(files[number])
+            for done, (number, _) in enumerate(runs.products(request, make), 1):
+                if same[number] not in responses:
+                    responses[same[number]] = load_response(files[number])
                 if progress:
                     progress(done, len(models))
     except KeyboardInterrupt:
-        raise Stopped(len(responses), len(models), ledger) from None
-    return Comparison([responses[number] for number in range(len(models))], names)
+        raise Stopped(done, len(models), ledger) from None
+    return Comparison([responses[one] for one in same], names)
 
 
 def compare_domains(
@@ -169,47 +175,30 @@ def compare_domains(
     ``labels`` are what the models are called, their names by default. ``progress`` counts the runs of all models. An
     interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runs.Stopped`: half a comparison is none.
     """
-    _at_least_one(models)
-    most = float(grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²").max())
-    each = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz").tolist()
-    _refuse([Case(column, harmonic(one, most, duration)) for one in each], models, tail)
-    cells = len(frequencies) * len(amplitudes)
-    domains = []
-    for i, model in enumerate(models):
+    axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
+    names = _labels(models, labels)
+    grids = [HarmonicGrid(column, model, *axes, duration, tail) for model in models]
+    requests = [grid.request() for grid in grids]
+    cells, domains = len(requests[0]), []
+    with closing(Runs(ledger)) as runs:
+        runs.open(*requests)
+        for grid, request in zip(grids, requests, strict=True):
+            before = len(domains) * cells
 
-        def advance(done: int, _: int, i: int = i) -> None:
-            if progress:
-                progress(i * cells + done, len(models) * cells)
+            def advance(done: int, _: int, before: int = before) -> None:
+                if progress:
+                    progress(before + done, len(models) * cells)
 
-        domain = collapse_domain(
-            column,
-            model,
-            frequencies,
-            amplitudes,
-            duration,
-            tail=tail,
-            threads=threads,
-            progress=advance,
-            ledger=ledger,
-        )
-        if not domain.complete:
-            raise Stopped(i * cells + domain.rows.finished, len(models) * cells, ledger)
-        domains.append(domain)
-    return DomainComparison(domains, _labels(models, labels))
-
-
-def _at_least_one(models: Sequence[Model]) -> None:
-    if not models:
-        raise InputError("no model is given to compare; name at least one.")
-
-
-def _refuse(cases: Sequence[Case], models: Sequence[Model], tail: float) -> None:
-    """Refuse what any of the models cannot compute before one of them is run, and anything written."""
-    for model in models:
-        check_cases(cases, model, tail=tail)
+            domain = run_grid(grid, request, runs, threads, advance)
+            if not domain.complete:
+                raise Stopped(before + domain.rows.finished, len(models) * cells, ledger)
+            domains.append(domain)
+    return DomainComparison(domains, names)
 
 
 def _labels(models: Sequence[Model], labels: Sequence[str] | None) -> list[str]:
+    if not models:
+        raise InputError("no model is given to compare; name at least one.")
     names = [model.name for model in models] if labels is None else list(labels)
     if len(names) != len(models):
         raise InputError(f"{len(names)} labels are given for {len(models)} models; give one for each.")

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..campaign.digests import Hasher
 from ..campaign.runs import Progress, Request, run_all
 from ..campaign.twins import Twins, the_twins
 from ..column import Column
@@ -318,7 +319,7 @@ def sweep(
     if drawn is not None:
         model = model.paced(column)
     started = time.perf_counter()
-    request = Request.of(cases, model, tail=tail, quiet=share_of([motion for motion, *_ in shaken], whole))
+    request = Request.of(cases, Hasher(model, tail), share_of([motion for motion, *_ in shaken], whole))
     finished = run_all(request, threads=threads, progress=progress, ledger=ledger)
     results = []
     for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):

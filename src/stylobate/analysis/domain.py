@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,7 +15,7 @@ import numpy as np
 from .. import store
 from ..campaign.grid import HarmonicGrid
 from ..campaign.ledger import RUNS_FILE
-from ..campaign.runs import Progress, Stopped, run_all
+from ..campaign.runs import Progress, Request, Runs, Stopped
 from ..column import Column
 from ..constants import g
 from ..errors import InputError
@@ -274,32 +275,41 @@ def collapse_domain(
     """
     axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
     grid = HarmonicGrid(column, model, *axes, duration, tail)
-    f, a = grid.frequencies, grid.amplitudes
-    key = {"column": column.digest, "frequencies": f.tolist(), "amplitudes": a.tolist(), "duration": float(duration)}
     if out is not None and ledger is None:
         ledger = Path(out) / RUNS_FILE
     if ledger is not None and not Path(ledger).parent.is_dir():
         raise InputError(f"folder {Path(ledger).parent} does not exist; create it first.")
-    started = time.perf_counter()
-    try:
-        rows = run_all(grid.request(), threads=threads, progress=progress, ledger=ledger)
-    except Stopped as stopped:
-        rows = stopped.rows
-    provenance = {
-        **key,
-        "column": column.to_dict(),
-        "column_digest": column.digest,
-        "model": model.name,
-        "parameters": model.parameters(),
-        "references": list(model.references),
-        "tail": tail,
-        "version": __version__,
-    }
-    domain = Domain(column, model.name, f, a, rows, time.perf_counter() - started, provenance)
+    with closing(Runs(ledger)) as runs:
+        domain = run_grid(grid, grid.request(), runs, threads, progress)
     if out is not None and domain.complete:
         domain.save(Path(out) / "domain.nc")
         domain.save(Path(out) / "domain.csv")
     return domain
+
+
+def run_grid(
+    grid: HarmonicGrid, request: Request, runs: Runs, threads: int | None = None, progress: Progress | None = None
+) -> Domain:
+    """The domain of a grid, by its request; after an interrupt with the cells that are finished."""
+    started = time.perf_counter()
+    try:
+        rows = runs.rows(request, threads, progress)
+    except Stopped as stopped:
+        rows = stopped.rows
+    column, model, f, a = grid.column, grid.model, grid.frequencies, grid.amplitudes
+    provenance = {
+        "column": column.to_dict(),
+        "frequencies": f.tolist(),
+        "amplitudes": a.tolist(),
+        "duration": float(grid.duration),
+        "column_digest": column.digest,
+        "model": model.name,
+        "parameters": model.parameters(),
+        "references": list(model.references),
+        "tail": grid.tail,
+        "version": __version__,
+    }
+    return Domain(column, model.name, f, a, rows, time.perf_counter() - started, provenance)
 
 
 def cell_edges(centres: np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..campaign.digests import Hasher
 from ..campaign.runs import Progress, Request, Runs, Stopped
 from ..column import Column
 from ..column.scatter import Scatter
@@ -145,13 +146,13 @@ def ida(
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
-    quiet = share_of(taken, whole)
+    quiet, hasher = share_of(taken, whole), Hasher(model, tail)
     try:
         with closing(Runs(ledger)) as kept:
             while asked := [(one, new) for one in traces for new in wanted(one)]:
                 cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
                 rows: list[dict] = [{}] * len(cases)
-                with closing(kept.run(Request.of(cases, model, tail=tail, quiet=quiet), threads)) as finished:
+                with closing(kept.run(Request.of(cases, hasher, quiet), threads)) as finished:
                     for number, row in finished:
                         rows[number] = row
                         done += 1

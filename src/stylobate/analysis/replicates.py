@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from ..campaign.digests import Hasher
 from ..campaign.grid import MAX_CELLS, grid_axis
 from ..campaign.ledger import RUNS_FILE
 from ..campaign.runs import Progress, Request, Runs
@@ -121,7 +122,7 @@ def collapse_probability(
     peaks = np.full(len(cases), np.nan, dtype=np.float32)
     done = 0
     try:
-        request = Request.of(cases, model, tail=tail)
+        request = Request.of(cases, Hasher(model, tail))
         with closing(Runs(ledger)) as runs, closing(runs.run(request, threads)) as finished:
             for index, row in finished:
                 codes[index] = v.VERDICTS.index(v.verdict(row))

@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from ..campaign.runs import Progress, Stopped
+from ..campaign.runs import Progress
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
 from ..motion import harmonic
 from . import verdicts as v
-from .domain import Domain, collapse_domain
+from .compare import compare_domains
+from .domain import Domain
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,35 +56,16 @@ def compare_steps(
     amplitudes: Sequence[float] | np.ndarray,
     duration: float = 10.0,
     *,
-    domain: Domain | None = None,
     tail: float = 0.0,
     threads: int | None = None,
     progress: Progress | None = None,
     ledger: str | Path | None = None,
 ) -> StepComparison:
-    """Run a domain under the model's step and under half of it; parameters as in :func:`stylobate.collapse_domain`.
-
-    ``domain`` is the one under the model's own step, where that is known already; ``ledger`` keeps finished runs. An
-    interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runs.Stopped`.
-    """
+    """Run a domain under the model's step and under half of it; parameters as in :func:`compare_domains`."""
     finest = harmonic(float(np.max(frequencies)), 1.0, duration)
-    pair = [] if domain is None else [domain]
-    for one in (model, halved_step(model, column, finest))[len(pair) :]:
-        found = collapse_domain(
-            column,
-            one,
-            frequencies,
-            amplitudes,
-            duration,
-            tail=tail,
-            threads=threads,
-            progress=progress,
-            ledger=ledger,
-        )
-        if not found.complete:
-            raise Stopped(len(found.rows) - found.counts[v.NOT_RUN], len(found.rows), ledger)
-        pair.append(found)
-    return StepComparison(*pair)
+    models, keeping = [model, halved_step(model, column, finest)], {"threads": threads, "ledger": ledger}
+    pair = compare_domains(column, models, frequencies, amplitudes, duration, tail=tail, progress=progress, **keeping)
+    return StepComparison(*pair.domains)
 
 
 def halved_step(model: Model, column: Column, motion: Any) -> Model:

@@ -17,11 +17,10 @@ from ..campaign.ledger import RUNS_FILE, finished_runs_in
 from ..campaign.plan import Plan
 from ..campaign.runs import Progress, Runs, Stopped, its_turn
 from ..errors import InputError
-from ..models.base import Case
 from ..models.shared.quiet import share_of
 from ..response import Response
 from ..response.rows import Rows
-from ..simulate import check_cases, simulate
+from ..simulate import simulate
 from . import verdicts as v
 from .directions import harm
 
@@ -130,32 +129,25 @@ def run_study(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
-    _refuse(study)
     folder = None if out is None else Path(out)
     if folder is not None and not folder.is_dir():
         raise InputError(f"folder {folder} does not exist; create it first.")
     started, plan = time.perf_counter(), study.plan()
     ledger = None if folder is None else folder / RUNS_FILE
-    turn = None if ledger is None else its_turn(ledger, len(plan), progress, waiting)
+    turn = None if ledger is None else its_turn(ledger, plan.digests, progress, waiting)
+    request = study.request(plan)
     try:
         with closing(Runs(ledger, turn)) as runs:
+            runs.open(request)
             if folder is not None:
                 plan.save(folder)
-            rows = runs.rows(study.request(plan), threads, progress)
+            rows = runs.rows(request, threads, progress)
     except Stopped:
         raise
     except KeyboardInterrupt:  # while another process was at work
-        done = 0 if ledger is None else min(finished_runs_in(ledger), len(plan))
+        done = 0 if ledger is None else finished_runs_in(ledger, plan.digests.keys)
         raise Stopped(done, len(plan), ledger) from None
     return StudyResult(plan, rows, time.perf_counter() - started, runs.made)
-
-
-def _refuse(study: Study) -> None:
-    """Refuse what a model cannot compute before anything is run or written: each column under each motion at its largest."""
-    for model in study.models:
-        for motion, factors in zip(study.motions, study.factors, strict=True):
-            largest = motion.scaled(float(factors[np.abs(factors).argmax()]))
-            check_cases([Case(column, largest) for column in study.columns], model, tail=study.tail)
 
 
 def histories_of(study: Study, number: int) -> Response:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..campaign.cases import RELATIVE, must_be_alike
+from ..campaign.digests import Hasher
 from ..campaign.runs import Progress, Request, run_all
 from ..campaign.twins import the_twins
 from ..column.scatter import Scatter
@@ -124,7 +125,7 @@ def suite_table(
     own = len(cases)
     drawn = [the_twins(column, model, replicates, scatter, seed) for column in stands] if replicates else []
     cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
-    request = Request.of(cases, model, tail=tail, quiet=share_of(motions, whole))
+    request = Request.of(cases, Hasher(model, tail), share_of(motions, whole))
     found = run_all(request, threads=threads, progress=progress, ledger=ledger)
     for i, (case, row, line) in enumerate(zip(cases[:own], found, rows, strict=False)):
         if row is not None:

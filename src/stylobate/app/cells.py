@@ -5,14 +5,14 @@ from __future__ import annotations
 import csv
 from collections.abc import Iterator
 from contextlib import suppress
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from ..analysis.verdicts import verdict
-from ..campaign.ledger import RUNS_FILE, asked_in, rows_in
-from .asked import RESULT
+from ..campaign.grid import read_grid
+from ..campaign.ledger import RUNS_FILE, rows_in
+from .asked import RESULT, STUDY
 
 
 def new_cells(folder: Path, known: set[int]) -> list[list[Any]]:
@@ -26,7 +26,7 @@ def new_cells(folder: Path, known: set[int]) -> list[list[Any]]:
         Numbers of the cells that the caller has; what is returned is added to it.
     """
     table = folder / RESULT / "domain.csv"
-    found = _in_table(table) if table.is_file() else _in_ledger(folder / RESULT / RUNS_FILE, known)
+    found = _in_table(table) if table.is_file() else _in_ledger(folder, known)
     new = [one for one in found if one[0] not in known]
     known.update(one[0] for one in new)
     return new
@@ -38,11 +38,18 @@ def _in_table(path: Path) -> Iterator[list[Any]]:
             yield [number, row["verdict"], _number(row["peak_top_displacement_m"])]
 
 
-def _in_ledger(path: Path, known: set[int]) -> Iterator[list[Any]]:
-    asked = np.frombuffer(asked_in(path), dtype=np.int64).tolist()
-    cells = {number: cell for cell, number in enumerate(asked) if cell not in known}
-    for number, row in rows_in(path, cells.__contains__):
-        yield [cells[number], verdict(row), _number(row.get("peak_top_displacement_m"))]
+def _in_ledger(folder: Path, known: set[int]) -> Iterator[list[Any]]:
+    ledger = folder / RESULT / RUNS_FILE
+    if ledger.is_file() and (folder / STUDY).is_file():
+        cells = {number: cell for cell, number in enumerate(_numbers(folder / STUDY)) if cell not in known}
+        for number, row in rows_in(ledger, cells.__contains__):
+            yield [cells[number], verdict(row), _number(row.get("peak_top_displacement_m"))]
+
+
+@lru_cache(maxsize=16)
+def _numbers(study: Path) -> list[int]:
+    """Numbers of the cells of a study in its ledger; the study of a job does not change."""
+    return read_grid(study).request().digests.keys.tolist()
 
 
 def _number(value: Any) -> float | None:

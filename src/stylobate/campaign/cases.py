@@ -20,6 +20,7 @@ from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
 from ..motion.intensity_specs import IntensityMeasure, told, told_powers
 from ..motion.orientation import record_of
+from ..simulate import run_options
 from ..version import __version__
 from .digests import LENGTH, Digests, Hasher, samples_of
 from .plan import Plan
@@ -162,7 +163,7 @@ class Study:
 
     def request(self, plan: Plan) -> Request:
         """All cases, as the plan of this study tells them."""
-        return Request(Cases(len(plan), self.case), plan.digests, self._groups(), self.tail)
+        return Request(Cases(len(plan), self.case), plan.digests, list(self._groups()))
 
     def _groups(self) -> Iterator[Group]:
         """Cases that run together: of one model and one share of quiet."""
@@ -170,7 +171,8 @@ class Study:
         motion = np.arange(each) // (self.shape[3] * self.shape[4]) % self.shape[2]
         for place, model in enumerate(self.models):
             for quiet in sorted(set(self.quiet.tolist())):
-                yield place * each + np.flatnonzero(self.quiet[motion] == quiet), model, quiet
+                numbers = place * each + np.flatnonzero(self.quiet[motion] == quiet)
+                yield numbers, model, run_options(self.tail, quiet=quiet)
 
     def _axes(self) -> dict[str, Any]:
         def one(motion: Motion) -> dict[str, Any]:

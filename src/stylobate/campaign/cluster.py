@@ -10,9 +10,9 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING
 
 from ..errors import InputError
-from ..models.base import Case, Model
+from ..models.base import Case, Model, RunOptions
 from ..response import Measures
-from ..simulate import check_cases, thread_count
+from ..simulate import thread_count
 from .executor import computed_by
 from .hand_out import HandOut
 from .local_workers import LocalWorkers
@@ -114,9 +114,8 @@ class _Cluster:
         self.client, self.say = client, say
 
     def __call__(
-        self, cases: Sequence[Case], model: Model, *, tail: float, quiet: float, threads: int | None
+        self, cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None
     ) -> Generator[tuple[int, Measures], None, None]:
-        options = check_cases(cases, model, tail=tail, quiet=quiet)
         work = HandOut(self.client, cases, model, options, self.say)
         try:
             yield from work.results()

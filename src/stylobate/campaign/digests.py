@@ -10,7 +10,6 @@ import json
 from collections.abc import Sequence
 from functools import cache, cached_property
 from pathlib import Path
-from types import FunctionType
 from typing import Any
 
 import numpy as np
@@ -20,13 +19,15 @@ from ..kernels.jit import source_digest
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..own_files import digest as digest_of_file
+from ..simulate import run_options
 from ..version import __version__
+from .code import PACKAGE, Code
 
 #: Bytes of a digest.
 LENGTH = 16
 
-#: This package, and the rooms of it whose sources are the laws by which a run is made and measured.
-PACKAGE, ROOMS = Path(__file__).parents[1], ("column", "kernels", "models", "response")
+#: Rooms of this package whose sources are the laws by which a run is made and measured.
+ROOMS = ("column", "kernels", "models", "response")
 
 
 @cache
@@ -45,9 +46,10 @@ class Hasher:
         Time to go on after each motion [s].
     """
 
-    def __init__(self, model: Model, tail: float) -> None:
-        law = [model.name, model.parameters(), tail, __version__, *laws(), *_sources_of(type(model))]
-        self._head, self._model = json.dumps(law, sort_keys=True, default=str), model
+    def __init__(self, model: Model, tail: float = 0.0) -> None:
+        self.model, self.tail = model, run_options(tail).tail
+        law = [model.name, model.parameters(), self.tail, __version__, *laws(), Code().of_class(type(model))]
+        self._head = json.dumps(law, sort_keys=True, default=str)
         self._samples: dict[tuple, tuple[Motion, str]] = {}
 
     def of_column(self, column: Structure) -> Any:
@@ -61,7 +63,7 @@ class Hasher:
         """
         key = samples_of(motion)
         if key not in self._samples:
-            self._samples[key] = motion, digest_of_samples(self._model.taken(motion))
+            self._samples[key] = motion, digest_of_samples(self.model.taken(motion))
         return f"{self._samples[key][1]} {quiet!r} {size!r}".encode()
 
     def of_product(self, what: Any, maker: str) -> str:
@@ -93,13 +95,6 @@ def digest_of_samples(motion: Motion) -> str:
 def samples_of(motion: Motion) -> tuple:
     """What scaled copies of a motion share, as long as one of them lives."""
     return id(motion.samples), id(motion.y_samples), id(motion.z_samples), motion.dt
-
-
-def _sources_of(model: type) -> list[str]:
-    """Digests of the files of a model's methods that are none of this package: such laws are not in :data:`ROOMS`."""
-    methods = [one for kind in model.__mro__ for one in vars(kind).values() if isinstance(one, FunctionType)]
-    files = {Path(one.__code__.co_filename) for one in methods}
-    return sorted(digest_of_file(one) for one in files if one.is_file() and not one.is_relative_to(PACKAGE))
 
 
 class Digests:

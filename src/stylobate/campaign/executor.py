@@ -7,9 +7,9 @@ from contextlib import contextmanager
 from contextvars import ContextVar
 from typing import Protocol
 
-from ..models.base import Case, Model
+from ..models.base import Case, Model, RunOptions
 from ..response import Measures
-from ..simulate import simulate_iter
+from ..simulate import run_checked
 
 #: (index of the case, measures) as runs finish, in any order.
 Finished = Generator[tuple[int, Measures], None, None]
@@ -18,21 +18,17 @@ Finished = Generator[tuple[int, Measures], None, None]
 class Executor(Protocol):
     """What computes runs; the same cases give the same measures, to the bit, with any."""
 
-    def __call__(
-        self, cases: Sequence[Case], model: Model, *, tail: float, quiet: float, threads: int | None
-    ) -> Finished:
-        """Run all cases; closing what is returned stops it."""
+    def __call__(self, cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None) -> Finished:
+        """Run all cases, which were checked; closing what is returned stops it."""
         ...
 
 
 _INSTEAD: ContextVar[Executor | None] = ContextVar("_INSTEAD", default=None)
 
 
-def compute(
-    cases: Sequence[Case], model: Model, *, tail: float = 0.0, quiet: float = 0.0, threads: int | None = None
-) -> Finished:
-    """Run many cases where runs are computed now; parameters as in :func:`stylobate.simulate.simulate_iter`."""
-    return (_INSTEAD.get() or simulate_iter)(cases, model, tail=tail, quiet=quiet, threads=threads)
+def compute(cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None = None) -> Finished:
+    """Run many cases where runs are computed now; parameters as in :func:`stylobate.simulate.run_checked`."""
+    return (_INSTEAD.get() or run_checked)(cases, model, options, threads)
 
 
 @contextmanager

@@ -18,6 +18,8 @@ from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..atomic import replacing, set_aside
 from ..errors import DamagedFileWarning, InputError, StylobateError
 from . import salvage
@@ -57,6 +59,9 @@ _SOUND_FILE = (
     sqlite3.SQLITE_NOMEM,
 )
 
+#: How SQLite tells that a file is damaged; its own words need not be text then.
+_DAMAGE = sqlite3.Error, ValueError
+
 #: Rows that are no line of text, or not at the number that their line tells behind its checksum.
 MISPLACED = "typeof(line) <> 'text' OR number <> CAST(substr(line, 18) AS INTEGER)"
 
@@ -73,7 +78,7 @@ class Ledger:
     Parameters
     ----------
     path : str or Path
-        Made if it is not there. A file that is damaged, or no ledger, is set aside under a new name with a warning;
+        Made if it is not there. A file that is damaged, or no database, is set aside under a new name with a warning;
         rows that are whole in it are taken over.
     waiting : callable, optional
         Called again and again while another process holds the ledger, instead of refusing it.
@@ -81,7 +86,8 @@ class Ledger:
     Raises
     ------
     InputError
-        The folder holds the ledger of an earlier version, another process holds it, or nothing can be written there.
+        The folder holds the ledger of an earlier version, the file is a link or the database of another program, another
+        process holds it, or nothing can be written there.
     """
 
     def __init__(self, path: str | Path, waiting: Callable[[], object] | None = None) -> None:
@@ -90,7 +96,8 @@ class Ledger:
             raise InputError(
                 f"{self.path} cannot keep the progress: it is a folder, or has none; choose another --out."
             )
-        refuse_former(*(one for one in self.path.parent.glob(FORMER_FILES) if one != self.path))
+        refuse_foreign(self.path)
+        refuse_former(*self.path.parent.glob(FORMER_FILES))
         self._holding = Holding(self.path, waiting)
         try:
             self._file = self._open()
@@ -121,12 +128,6 @@ class Ledger:
             self._wake.notify()
         if waiting > MOST_WAITING:  # a slow disk is waited for
             self.flush()
-
-    def ask(self, numbers: bytes) -> None:
-        """Say which runs are wanted now, as 64-bit numbers in the order of the request, for whoever reads along."""
-        with self._lock, suppress(sqlite3.Error):  # a convenience: what cannot be written is told of the runs
-            self._file.execute("CREATE TABLE IF NOT EXISTS asked (place INTEGER PRIMARY KEY, numbers BLOB)")
-            self._file.execute("INSERT OR REPLACE INTO asked VALUES (0, ?)", (numbers,))
 
     def flush(self) -> None:
         """Write what has come in, now."""
@@ -272,6 +273,24 @@ def _cannot(path: Path, why: str) -> StylobateError:
     return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another --out.")
 
 
+def refuse_foreign(path: Path) -> None:
+    """Refuse what only has the name of a ledger: it is never set aside.
+
+    Raises
+    ------
+    InputError
+        The file is a link, or a whole database without the tables of a ledger.
+    """
+    what = "a link" if any(os.path.islink(f"{path}{ending}") for ending in ENDINGS) else ""
+    with suppress(*_DAMAGE), closing(_untouched(path)) as file:
+        tables = {name for (name,) in file.execute("SELECT name FROM sqlite_schema")}
+        ours = {"campaign", "runs"} <= tables or file.execute("PRAGMA application_id").fetchone()[0] == APPLICATION
+        if tables and not ours and file.execute("PRAGMA quick_check(1)").fetchone()[0] == "ok":
+            what = what or "a database of another program"
+    if what:
+        raise InputError(f"{path} is {what}, and finished runs would be kept there; move it, or choose another folder.")
+
+
 def refuse_former(*paths: Path) -> None:
     """Refuse ledgers of versions before this one.
 
@@ -294,10 +313,15 @@ def _former(path: Path) -> InputError:
 
 
 def _key_of(path: Path) -> str | None:
-    place = f"{path.absolute().as_uri()}?mode=ro&immutable=1"  # leaves nothing beside it
-    with suppress(sqlite3.Error), closing(sqlite3.connect(place, uri=True)) as file:
+    with suppress(*_DAMAGE), closing(_untouched(path)) as file:
         return next((key for (key,) in file.execute("SELECT key FROM campaign")), None)
     return None
+
+
+def _untouched(path: Path) -> sqlite3.Connection:
+    file = sqlite3.connect(f"{path.absolute().as_uri()}?mode=ro&immutable=1", uri=True)  # leaves nothing beside it
+    file.text_factory = salvage.text
+    return file
 
 
 def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple[int, dict]]:
@@ -305,7 +329,7 @@ def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple
 
     Rows without a valid checksum are left out; a file that is missing, or no ledger, holds none.
     """
-    with closing(_opened(path)) as file, suppress(sqlite3.Error):
+    with closing(_opened(path)) as file, suppress(*_DAMAGE):
         for (line,) in file.execute("SELECT line FROM runs ORDER BY number"):
             number = salvage.number_of(line)
             found = None if number is None or not wanted(number) else salvage.read_line(line, SEAL)
@@ -313,17 +337,11 @@ def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple
                 yield found
 
 
-def asked_in(path: str | Path) -> bytes:
-    """Numbers of the runs that were asked for last, see :meth:`Ledger.ask`; none where nobody has asked."""
-    with closing(_opened(path)) as file, suppress(sqlite3.Error):
-        return next((numbers for (numbers,) in file.execute("SELECT numbers FROM asked")), b"")
-    return b""
-
-
-def finished_runs_in(path: str | Path) -> int:
-    """Number of runs that a ledger holds; 0 where there is none."""
-    with closing(_opened(path)) as file, suppress(sqlite3.Error):
-        return file.execute("SELECT count(*) FROM runs").fetchone()[0]
+def finished_runs_in(path: str | Path, wanted: np.ndarray | None = None) -> int:
+    """How many runs a ledger holds, or of how many numbers that are wanted it holds the run; 0 where there is none."""
+    with closing(_opened(path)) as file, suppress(*_DAMAGE):
+        held = np.fromiter((number for (number,) in file.execute("SELECT number FROM runs")), np.int64)
+        return len(held) if wanted is None else int(np.isin(wanted, held).sum())
     return 0
 
 
@@ -334,7 +352,7 @@ def _opened(path: str | Path) -> sqlite3.Connection:
         if place.is_file():
             file = sqlite3.connect(f"{place.as_uri()}?{access}", uri=True)
             file.text_factory = salvage.text
-            with suppress(sqlite3.Error):
+            with suppress(*_DAMAGE):
                 file.execute("SELECT number FROM runs LIMIT 1").fetchone()
                 return file
             file.close()

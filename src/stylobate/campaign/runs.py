@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Generator, Iterable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from ..models.base import Case, Cases, Model
+from ..models.base import Case, Cases, Model, RunOptions
 from ..own_files import digest as digest_of_file
 from ..response.rows import Rows
-from ..simulate import check_cases
+from ..simulate import check_cases, run_options
 from .digests import Digests, Hasher
 from .executor import compute
 from .ledger import Ledger, finished_runs_in, rows_in
@@ -23,8 +23,8 @@ from .ledger import Ledger, finished_runs_in, rows_in
 #: Called with (finished runs, all runs) whenever a run finishes.
 Progress = Callable[[int, int], None]
 
-#: Cases that run together: their numbers, their model, and the share below which their motions are quiet.
-Group = tuple[np.ndarray, Model, float]
+#: Cases that run together: their numbers, their model, and how they are run.
+Group = tuple[np.ndarray, Model, RunOptions]
 
 #: (number of the run, its row).
 Finished = Generator[tuple[int, dict[str, Any]], None, None]
@@ -43,25 +43,30 @@ class Request:
         Asked for one by one, so that it can make them as they are needed.
     digests : Digests
         What decides each of them.
-    groups : iterable of Group
+    groups : sequence of Group
         Together all cases.
-    tail : float
-        Time to go on after each motion has ended [s].
     """
 
     cases: Sequence[Case]
     digests: Digests
-    groups: Iterable[Group]
-    tail: float = 0.0
+    groups: Sequence[Group]
+    _sound: bool = field(init=False, default=False)
 
     @classmethod
-    def of(cls, cases: Sequence[Case], model: Model, *, tail: float = 0.0, quiet: float = 0.0) -> Request:
-        """Cases of one model; parameters as in :func:`stylobate.simulate.simulate_iter`."""
-        digests = Digests(Hasher(model, tail).of_cases(cases, quiet))
-        return cls(cases, digests, [(np.arange(len(cases)), model, quiet)], tail)
+    def of(cls, cases: Sequence[Case], hasher: Hasher, quiet: float = 0.0) -> Request:
+        """Cases of the model and the tail of a hasher, of one share of quiet."""
+        groups = [(np.arange(len(cases)), hasher.model, run_options(hasher.tail, quiet=quiet))]
+        return cls(cases, Digests(hasher.of_cases(cases, quiet)), groups)
 
     def __len__(self) -> int:
         return len(self.cases)
+
+    def check(self) -> None:
+        """Refuse (InputError) or warn of any of the cases, finished or not, the first time that this is asked."""
+        if not self._sound:
+            for numbers, model, options in self.groups:
+                check_cases(_some(self.cases, numbers), model, options)
+            object.__setattr__(self, "_sound", True)
 
 
 class Stopped(KeyboardInterrupt):
@@ -105,7 +110,15 @@ class Runs:
     def __init__(self, ledger: str | Path | None, waiting: Callable[[], object] | None = None) -> None:
         self.path = None if ledger is None else Path(ledger)
         self.made = self.kept = 0
-        self._book = None if self.path is None else Ledger(self.path, waiting)
+        self._book: Ledger | None = None
+        self._waiting = waiting
+
+    def open(self, *requests: Request) -> None:
+        """Refuse or warn of requests, and only then take hold of the ledger."""
+        for request in requests:
+            request.check()
+        if self._book is None and self.path is not None:
+            self._book = Ledger(self.path, self._waiting)
 
     def close(self) -> None:
         """Write what is open and let go of the ledger."""
@@ -117,6 +130,7 @@ class Runs:
 
         Cases with the same digest are run once.
         """
+        self.open(request)
         digests = request.digests
         todo = np.ones(len(digests), dtype=bool)
         for number, row in self._known(digests):
@@ -124,15 +138,12 @@ class Runs:
             self.kept += 1
             yield number, row
         todo[digests.doubles] = False
-        for numbers, model, quiet in request.groups:
+        for numbers, model, options in request.groups:
             left = numbers[todo[numbers]]
-            if not len(left):  # what is to be said of them is said again
-                check_cases(_some(request.cases, numbers), model, tail=request.tail, quiet=quiet)
-                continue
-            some = _some(request.cases, left)
-            with closing(compute(some, model, tail=request.tail, quiet=quiet, threads=threads)) as finished:
-                for index, measures in finished:
-                    yield from self._keep(digests, int(left[index]), measures.row())
+            if len(left):
+                with closing(compute(_some(request.cases, left), model, options, threads)) as finished:
+                    for index, measures in finished:
+                        yield from self._keep(digests, int(left[index]), measures.row())
 
     def rows(self, request: Request, threads: int | None = None, progress: Progress | None = None) -> Rows:
         """Rows of all cases.
@@ -156,19 +167,21 @@ class Runs:
             raise Stopped(done, len(request), self.path, rows) from None
         return rows
 
-    def products(self, digests: Digests, make: Callable[[int], dict[str, Any]], threads: int = 1) -> Finished:
+    def products(self, request: Request, make: Callable[[int], dict[str, Any]], threads: int = 1) -> Finished:
         """(number, row) of runs that come to more than their measures, made one by one: first those that the ledger holds.
 
         Parameters
         ----------
-        digests : Digests
-            Of what decides each of them, see :meth:`~stylobate.campaign.digests.Hasher.of_product`.
+        request : Request
+            With digests of what decides each of them, see :meth:`~stylobate.campaign.digests.Hasher.of_product`.
         make : callable
             Makes the row of a number, of plain values; its ``files`` are names of files beside the ledger that belong to
             it: a row whose files are not as they were written is made again.
         threads : int
             At work at the same time, after the first run, which compiles what all of them share.
         """
+        self.open(request)
+        digests = request.digests
         todo = set(range(len(digests)))
         for number, row in self._known(digests):
             if all(self._sum_of(name) == written for name, written in row.get("files", {}).items()):
@@ -181,10 +194,8 @@ class Runs:
             yield from self._keep(digests, number, row | files)
 
     def _known(self, digests: Digests) -> Iterator[tuple[int, dict[str, Any]]]:
-        if self._book is None or self.path is None:
-            return
-        self._book.ask(digests.keys.tobytes())
-        yield from known(self.path, digests)
+        if self.path is not None:
+            yield from known(self.path, digests)
 
     def _keep(self, digests: Digests, number: int, row: dict[str, Any]) -> Finished:
         key = int(digests.keys[number])
@@ -250,7 +261,7 @@ def run_all(
 
 
 def its_turn(
-    ledger: Path, total: int, progress: Progress | None, waiting: Callable[[], None] | None
+    ledger: Path, digests: Digests, progress: Progress | None, waiting: Callable[[], None] | None
 ) -> Callable[[], None]:
     """What is done while another process is at work on the ledger: it is told once, and followed."""
     told: list[bool] = []
@@ -259,9 +270,10 @@ def its_turn(
         if waiting and not told:
             waiting()
         told.append(True)
+        started = time.perf_counter()
         if progress:
-            progress(min(finished_runs_in(ledger), total), total)
-        time.sleep(LOOK)
+            progress(finished_runs_in(ledger, digests.keys), len(digests))
+        time.sleep(max(LOOK, 4.0 * (time.perf_counter() - started)))  # counting a long ledger takes time of its own
 
     return look
 

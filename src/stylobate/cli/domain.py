@@ -61,6 +61,7 @@ def domain(
     interrupted goes on where it was.
     """
     from ..analysis.domain import collapse_domain
+    from ..analysis.step_sensitivity import compare_steps
     from ..campaign.runs import Stopped
     from . import console
 
@@ -78,18 +79,12 @@ def domain(
     with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain", "asked-domain.json") as folder:
         ledger = console.ledger(folder)
         with console.progress("cells") as progress:
-            result = collapse_domain(*_grid(study), tail=study.tail, threads=count, progress=progress, ledger=ledger)
+            how: dict[str, Any] = {"tail": study.tail, "threads": count, "progress": progress, "ledger": ledger}
+            pair = compare_steps(*_grid(study), **how) if half_step else None
+            result = pair.domain if pair else collapse_domain(*_grid(study), **how)
         if not result.complete:
             raise Stopped(result.rows.finished, len(result.rows), ledger)
-        summary = result.summary()
-        if half_step:
-            from ..analysis.step_sensitivity import compare_steps
-
-            with console.progress("cells, half step") as progress:
-                pair = compare_steps(
-                    *_grid(study), domain=result, tail=study.tail, threads=count, progress=progress, ledger=ledger
-                )
-            summary["half_step"] = pair.summary()
+        summary = result.summary() | ({"half_step": pair.summary()} if pair else {})
         files = [] if folder is None else write(result, folder, summary)
         if folder is not None:
             files.append(asked(folder, study))

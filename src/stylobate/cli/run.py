@@ -161,20 +161,28 @@ def each_record(
     drawn: Drawn = FIGURES,
 ) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
+    import numpy as np
+
     from ..campaign.digests import Digests, Hasher
-    from ..campaign.runs import Runs, Stopped
+    from ..campaign.runs import Request, Runs, Stopped
+    from ..models.base import Case
+    from ..simulate import run_options
     from . import console
 
     places: list[Path | None] = []
     for one in motions:
         places.append(None if out is None else out / safe_name(one.name, places))
     hasher = Hasher(model, asked["tail"])
+    options = run_options(*(asked[name] for name in ("tail", "output_interval", "until_end", "until_rest")))
     each = [
         hasher.of_product(
             {"run": [stone.digest, one.name, one.digest, place and place.name], "drawn": drawn, **asked}, __file__
         )
         for one, place in zip(motions, places, strict=True)
     ]
+
+    cases = [Case(stone, one) for one in motions]
+    request = Request(cases, Digests.of(each), [(np.arange(len(cases)), model, options)])
 
     def make(number: int) -> dict[str, Any]:
         summary = conclude(follow, stone, motions[number], model, places[number], True, drawn)
@@ -186,7 +194,7 @@ def each_record(
         ledger = console.ledger(folder)
         try:
             with closing(Runs(ledger)) as runs:
-                for number, row in runs.products(Digests.of(each), make):
+                for number, row in runs.products(request, make):
                     files = {} if out is None else {"files": [str(out / name) for name in row["files"]]}
                     summaries[number] = row["summary"] | files
         except KeyboardInterrupt:

@@ -10,7 +10,7 @@ from typing import Any
 from ..analysis.domain import Domain
 from ..analysis.probability import CollapseProbability
 from ..analysis.studies import StudyResult
-from ..campaign.ledger import RUNS_FILE
+from ..campaign.ledger import FORMER_FILES, RUNS_FILE, refuse_former
 from ..campaign.plan import PLAN_FILE
 from ..errors import InputError, OutOfRangeWarning
 from ..motion import Motion
@@ -107,7 +107,8 @@ def _foreign(place: Path) -> str:
         return f"folder {shown(place)} is empty; give one that a command wrote with --out."
     if (place / "data" / "study.json").is_file() or (place / "index.html").is_file():
         return f"{shown(place)} holds no result of a command, but a page or the paper's study; open its HTML file."
-    if any((place / one).name.startswith("progress") for one in place.glob("progress*.sqlite")):
+    refuse_former(*place.glob(FORMER_FILES))
+    if (place / RUNS_FILE).is_file():
         return f"{shown(place)} holds a command's work that is not finished; give the same command again, then report."
     return f"{shown(place)} holds no result of stylobate; give a folder that a command wrote with --out."
 

@@ -13,13 +13,14 @@ from typing import Any
 import numpy as np
 
 from stylobate.campaign.digests import Digests, Hasher
-from stylobate.campaign.runs import Progress, Runs, Stopped
+from stylobate.campaign.runs import Progress, Request, Runs, Stopped
 from stylobate.constants import g
+from stylobate.models.base import Case
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.start import Toss
 from stylobate.motion import Motion
 from stylobate.response.poses import rotation_matrices
-from stylobate.simulate import simulate, thread_count
+from stylobate.simulate import run_options, simulate, thread_count
 
 from .cube_files import HALF, Recorded, cube
 
@@ -83,6 +84,11 @@ def at(when: float, time: np.ndarray, position: np.ndarray, turns: np.ndarray) -
     return position[i] + share * (position[i + 1] - position[i]), turn @ turns[i]
 
 
+def still(toss: Recorded) -> Motion:
+    """Ground at rest for as long as a toss was filmed."""
+    return Motion((len(toss.position) - 1) * toss.dt, np.zeros(2))
+
+
 def compare(toss: Recorded, friction: float, restitution: float) -> dict[str, Any]:
     """Errors of one toss at each of :data:`WHEN`: position [widths of the cube], rotation [°]; face at rest right or not."""
     found = impacts(toss)
@@ -90,7 +96,7 @@ def compare(toss: Recorded, friction: float, restitution: float) -> dict[str, An
     frames = len(toss.position) - 1
     response = simulate(
         cube(friction, restitution),
-        Motion(frames * toss.dt, np.zeros(2)),
+        still(toss),
         MODEL,
         start=start_of(toss, first),
         tail=LONGER,
@@ -141,9 +147,11 @@ def run(
         setting, toss = todo[number]
         return compare(tosses[toss], *settings[setting])
 
-    wanted, count = Digests.of(each), thread_count(threads)
+    cases = [Case(cube(*settings[s]), still(tosses[t])) for s, t in todo]
+    request = Request(cases, Digests.of(each), [(np.arange(len(todo)), MODEL, run_options(LONGER))])
+    count = thread_count(threads)
     try:
-        with closing(Runs(ledger)) as runs, closing(runs.products(wanted, make, count)) as finished:
+        with closing(Runs(ledger)) as runs, closing(runs.products(request, make, count)) as finished:
             for number, row in finished:
                 rows[number] = row
                 if progress:

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from stylobate.campaign.digests import Hasher
 from stylobate.campaign.runs import Progress, Request, run_all
 from stylobate.column.specimen import Specimen
 from stylobate.constants import g
@@ -105,7 +106,7 @@ def run(
         if key not in motions:
             motions[key] = motion_of(test, found[v].azimuth)
     cases = [Case(found[v].body, motions[test.number, found[v].azimuth]) for v, test in pairs]
-    made = run_all(Request.of(cases, DistinctElement3D()), threads=threads, progress=progress, ledger=ledger)
+    made = run_all(Request.of(cases, Hasher(DistinctElement3D())), threads=threads, progress=progress, ledger=ledger)
     rows = []
     for (v, test), row in zip(pairs, made):
         assert row is not None

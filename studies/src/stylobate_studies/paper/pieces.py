@@ -23,13 +23,13 @@ from stylobate.analysis.replicates import collapse_probability
 from stylobate.atomic import replacing
 from stylobate.campaign.digests import Digests, Hasher
 from stylobate.campaign.ledger import RUNS_FILE
-from stylobate.campaign.runs import Progress, Runs
+from stylobate.campaign.runs import Progress, Request, Runs
 from stylobate.column import Column, preset
 from stylobate.constants import g
-from stylobate.models.base import Model
+from stylobate.models.base import Case, Model
 from stylobate.motion import harmonic
 from stylobate.motion.scatter import MotionScatter
-from stylobate.simulate import simulate, simulate_many
+from stylobate.simulate import run_options, simulate, simulate_many
 from stylobate.version import __version__
 
 from . import cases as c
@@ -117,9 +117,10 @@ def histories_piece(
             values[cells[number]] = row[key]
         flags[cells[number]] = row["verdict"]
 
-    hasher = Hasher(model, tail)
+    hasher, cases = Hasher(model, tail), [Case(column, motion) for motion in motions]
     each = Digests.of([hasher.of_product([column.digest, motion.digest], __file__) for motion in motions])
-    with closing(Runs(data / RUNS_FILE)) as runs, closing(runs.products(each, make, threads)) as finished:
+    request = Request(cases, each, [(np.arange(len(cases)), model, run_options(tail, 0.02))])
+    with closing(Runs(data / RUNS_FILE)) as runs, closing(runs.products(request, make, threads)) as finished:
         for done, (number, row) in enumerate(finished, 1):
             keep(number, row)
             if progress:

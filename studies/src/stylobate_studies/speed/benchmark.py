@@ -28,7 +28,7 @@ from stylobate.models.dem2d.model import DistinctElement2D
 from stylobate.models.dem3d.model import DistinctElement3D
 from stylobate.models.drums.stepped import SteppedDrums
 from stylobate.motion import Motion, harmonic
-from stylobate.simulate import simulate, simulate_many, thread_count
+from stylobate.simulate import run_options, simulate, simulate_many, thread_count
 
 #: Vectors as wide as the machine has, multiply-add contraction as in the kernels, no reordering of sums.
 FLAGS = (
@@ -129,7 +129,7 @@ def _on_workers(column: Column, model: SteppedDrums, count: int) -> float | None
     cases = [Case(column, motion) for motion in shaking]
 
     def finish(some: list[Case]) -> None:
-        deque(compute(some, model, threads=count), maxlen=0)
+        deque(compute(some, model, run_options(), count), maxlen=0)
 
     threads, workers = [], []
     for _ in range(2):

@@ -1,0 +1,126 @@
+"""What a class of somebody's own does, as plain values that are the same in every process: its files, or its loaded code."""
+
+from __future__ import annotations
+
+import dis
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from functools import partial
+from inspect import unwrap
+from pathlib import Path
+from types import CodeType, FunctionType, MethodType, ModuleType
+from typing import Any
+
+import numpy as np
+
+from ..own_files import digest as digest_of_file
+
+#: This package, whose sources are digested room by room.
+PACKAGE = Path(__file__).parents[1]
+
+#: First words of the names of modules that are this package's or Python's own.
+_KNOWN = {"stylobate", *sys.stdlib_module_names}
+
+#: What is held by values that stand for functions.
+_HELD = {
+    property: ("fget", "fset"),
+    staticmethod: ("__func__",),
+    classmethod: ("__func__",),
+    MethodType: ("__func__", "__self__"),
+    partial: ("func", "args", "keywords"),
+}
+
+
+class Code:
+    """What a class says and does, by the files of its functions, or by their code where there is no such file.
+
+    A class of a notebook has none, and neither have the functions and values beside it that its code names.
+    """
+
+    def __init__(self) -> None:
+        self._met: dict[int, tuple[int, Any]] = {}  # by identity, and kept: no other value takes that meanwhile
+        self._files: dict[Path, str] = {}
+
+    def of_class(self, kind: type) -> list[Any]:
+        """Functions and values of a class and its bases, but those of this package."""
+        found = []
+        for one in kind.__mro__:
+            if one.__module__.partition(".")[0] not in _KNOWN:
+                said = {name: value for name, value in vars(one).items() if name[:2] != "__" or callable(value)}
+                acts = {name: value for name, value in said.items() if callable(value) or hasattr(value, "__get__")}
+                own = [unwrap(value) for value in acts.values() if isinstance(value, FunctionType)]
+                filed = any(self._file(value.__code__.co_filename) is not None for value in own)
+                found.append([one.__qualname__, self.of(acts if filed else said)])  # a file tells its values
+        return found
+
+    def of(self, value: Any) -> Any:
+        """A value in plain ones; a second time it is only named."""
+        if isinstance(value, (str, bytes, int, float, complex, type(None), type(...))):
+            return repr(value)
+        if id(value) in self._met:
+            return ["as", self._met[id(value)][0]]
+        self._met[id(value)] = len(self._met), value
+        if isinstance(value, FunctionType):
+            return self._of_function(value)
+        if isinstance(value, CodeType):
+            said = value.co_code, value.co_exceptiontable, value.co_names, value.co_varnames, value.co_freevars
+            return [repr(said), [self.of(one) for one in value.co_consts]]
+        if isinstance(value, type):
+            return [value.__qualname__, [] if _is_installed(value.__module__) else self.of_class(value)]
+        if isinstance(value, ModuleType):
+            return [
+                value.__name__,
+                None if _is_installed(value.__name__) else self._file(getattr(value, "__file__", None) or ""),
+            ]
+        if isinstance(value, np.ndarray):
+            return [str(value.dtype), value.shape, [self.of(one) for one in value.ravel().tolist()]]
+        if isinstance(value, Mapping):
+            return [[repr(key), self.of(value[key])] for key in sorted(value, key=repr)]
+        if isinstance(value, (set, frozenset)):
+            return sorted(map(repr, value))
+        if isinstance(value, (list, tuple)):
+            return [self.of(one) for one in value]
+        if hasattr(value, "py_func"):  # compiled by numba
+            return [self.of(value.py_func), self.of(value.targetoptions)]
+        for kind, names in _HELD.items():
+            if isinstance(value, kind):
+                return [self.of(getattr(value, name)) for name in names]
+        held = getattr(value, "__dict__", None)
+        with suppress(Exception):  # what cannot be copied is told as it shows itself
+            held = value.__reduce_ex__(2)
+        return [re.sub("0x[0-9a-fA-F]+", "", repr(value)), self.of(type(value)), self.of(held)]
+
+    def _of_function(self, function: FunctionType) -> Any:
+        file, known = self._file(function.__code__.co_filename), function.__globals__
+        given: list[Any] = [file]
+        if file is None:
+            beside = {name: known[name] for name in _globals(function.__code__) if name in known}
+            given = [function.__code__, function.__defaults__, function.__kwdefaults__, beside]
+        for cell in function.__closure__ or ():
+            with suppress(ValueError):  # one that is empty
+                given.append(cell.cell_contents)
+        return [self.of(one) for one in given]
+
+    def _file(self, path: str) -> str | None:
+        """Digest of a file, without words if it is this package's; None where there is none."""
+        place = Path(path)
+        if place not in self._files and place.is_file():
+            self._files[place] = "" if place.is_relative_to(PACKAGE) else digest_of_file(place)
+        return self._files.get(place)
+
+
+def _globals(code: CodeType) -> Iterator[str]:
+    """Names that code takes from beside its function."""
+    yield from (one.argval for one in dis.get_instructions(code) if one.opname in ("LOAD_GLOBAL", "LOAD_NAME"))
+    for inner in code.co_consts:
+        if isinstance(inner, CodeType):
+            yield from _globals(inner)
+
+
+def _is_installed(module: str) -> bool:
+    """Whether a module is Python's own, or of an installed package."""
+    if module.partition(".")[0] in _KNOWN:
+        return True
+    return "site-packages" in (getattr(sys.modules.get(module), "__file__", None) or "")
