@@ -10,7 +10,6 @@ import numpy as np
 
 import stylobate as st
 from stylobate import plots
-from stylobate.analysis.states import compare_states
 from stylobate.motion.intensity_specs import parse_measure
 
 # %%
@@ -30,7 +29,7 @@ states = {"as built": column, "dowels": column.replace(links=dowels), "core": co
 
 motions = [st.ricker(f, st.g).replace(name=f"{f:.1f} Hz") for f in np.linspace(0.5, 1.6, 12)]
 levels = [0.2, 0.35, 0.5, 0.7, 0.9]  # g
-found = compare_states(states, motions, st.DistinctElement2D(), levels, parse_measure("pga"), tail=3.0)
+found = st.compare_states(states, motions, st.DistinctElement2D(), levels, parse_measure("pga"), tail=3.0)
 for one in found.differences:
     print(one.sentence)
 print(found.links.to_string(index=False, float_format="{:.2f}".format))

@@ -15,6 +15,7 @@ from .analysis.risk import risk as risk
 from .analysis.risk import survival as survival
 from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
 from .analysis.studies import run_study as run_study
+from .analysis.states import compare_states as compare_states
 from .analysis.suite import suite_table as suite_table
 from .campaign.cases import Study as Study
 from .column import AsFound as AsFound
@@ -28,6 +29,7 @@ from .column.assembly import Block as Block
 from .column.assembly_files import read_assembly as read_assembly
 from .column.files import read_column as read_column
 from .column.links import Bar as Bar
+from .column.links import Clamp as Clamp
 from .column.links import Core as Core
 from .column.links import Dowel as Dowel
 from .column.links import Layer as Layer
