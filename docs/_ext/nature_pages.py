@@ -24,7 +24,7 @@ def computed(out):
     shown = "Their films are on the page where the files lie beside the project when it is built."
     try:
         found = study.read(BESIDE)
-        results = study.compute(found, calibrate=False, bars=lambda _: nullcontext(), ledgers=lambda _: None)
+        results = study.compute(found, calibrate=False, bars=lambda _: nullcontext(), ledger=None)
         if {"granite", "cube"} <= set(results.summary):
             summary, said = results.summary, "Computed when this page was built, from the files beside the project."
             wrong = results.tables["granite_worst"].to_dict("records")
