@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..campaign.twins import Twins
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
@@ -101,6 +102,8 @@ class Ida:
     model : str
     wall_time : float
         [s]
+    twins : Twins, optional
+        The columns like this one that were run in its place.
     """
 
     runs: pandas.DataFrame
@@ -108,6 +111,7 @@ class Ida:
     column: Column
     model: str
     wall_time: float
+    twins: Twins | None = None
 
     def curves(self, edp: str = "peak_top_displacement_m") -> list[Curve]:
         """One curve per motion and realisation.
@@ -206,6 +210,7 @@ class Ida:
             "capacities": capacities,
             "wall_s": self.wall_time,
             "model": self.model,
+            **({} if self.twins is None else {"replicates": len(self.twins.columns), "certainty": self.twins.told}),
         }
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -25,6 +25,11 @@ class Twins(NamedTuple):
     scatter: Scatter
     seed: int
     left_out: tuple[str, ...]
+
+    @property
+    def told(self) -> dict[str, Any]:
+        """How they differ, under the names of the JSON objects of commands."""
+        return {"scatter": dataclasses.asdict(self.scatter), "left_out": list(self.left_out), "seed": self.seed}
 
 
 def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str]) -> str:
