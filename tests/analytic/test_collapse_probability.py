@@ -21,6 +21,7 @@ from stylobate.analysis.replicates import collapse_probability
 from stylobate.analysis.step_sensitivity import compare_steps, halved_step
 from stylobate.analysis.verdicts import collapse_interval, share_collapsed, wilson_interval
 from stylobate.campaign import runs
+from stylobate.campaign.twins import in_space
 from stylobate.column import preset
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.motion.scatter import PHASES, MotionScatter, ScatteredSines
@@ -257,3 +258,20 @@ def test_a_component_across_takes_the_shaking_out_of_the_plane():
     )
     same = collapse_probability(preset("paper-monolithic"), st.HousnerBlock(), f, a, replicates=2)
     np.testing.assert_array_equal(plane.codes, same.codes)
+
+
+def test_probabilities_of_an_earlier_version_are_refused_as_such(tmp_path):
+    old = dataclasses.replace(probability(["SSSS SSSC SCCC CCCC"]), provenance={"imperfection": {"geometry": 0.01}})
+    with pytest.raises(st.InputError, match="was written by an earlier version; run it again"):
+        CollapseProbability.load(old.save(tmp_path / "probability.nc"))
+
+
+def test_what_the_model_leaves_out_of_the_motions_is_told_as_left_out():
+    plane = st.DistinctElement3D(planar=True)
+    assert [in_space(one) for one in (st.HousnerBlock(), plane, st.DistinctElement3D())] == [False, False, True]
+    found = collapse_probability(
+        preset("paper-monolithic"), st.HousnerBlock(), [1.0], [0.5], 0.1, replicates=1,
+        motion_scatter=MotionScatter(phase=0.1, across=0.01),
+    )  # fmt: skip
+    assert found.summary()["left_out"] == ["offset", "across"]
+    assert found.motion_scatter == MotionScatter(phase=0.1)

@@ -107,6 +107,21 @@ def test_fractiles_count_a_collapse_as_larger_than_anything(found):
     assert found.summary()["capacity_50"] == pytest.approx(fell[2])
 
 
+def test_what_is_undecided_or_failed_tells_of_no_response(found):
+    """It was drawn as the response of the last run that stands, and as none at all where no run stands."""
+    runs = found.runs.copy()
+    for name, verdict in (("0.5 Hz", v.UNDECIDED), ("0.8 Hz", v.FAILED)):
+        runs.loc[(runs["record"] == name) & (runs["verdict"] == v.COLLAPSED), "verdict"] = verdict
+    runs.loc[(runs["record"] == "1.2 Hz") & (runs["verdict"] == v.STANDS), "verdict"] = v.UNDECIDED
+    for one in dataclasses.replace(found, runs=runs).curves():
+        stood = one.im[one.im < one.collapses].max(initial=0.0)
+        told = one.at(np.linspace(0.01, 1.2, 50) * (stood or one.collapses))
+        beyond = ~np.isfinite(told)
+        assert beyond.any()
+        assert np.isnan(told[beyond]).any() == (one.record in ("0.5 Hz", "0.8 Hz", "1.2 Hz"))
+        assert (told[~beyond] > 0.0).any() or not stood
+
+
 def test_a_median_that_no_level_brackets_is_a_bound(found):
     assert found.summary()["bounds"] == {}
     low, high = (

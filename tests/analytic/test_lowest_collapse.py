@@ -135,6 +135,16 @@ def test_motions_of_a_record_are_told_apart_from_records_and_what_is_undecided_i
     assert none.startswith("No record surely collapses the column at a peak looked at, 0.2 to 0.5 g. 1 of 8 runs ended")
 
 
+def test_what_is_undecided_under_another_motion_may_be_a_smaller_factor():
+    """The smallest factor was told as that of all motions, with what is undecided under its own motion alone."""
+    suite = CriticalSuite((over("sssc"), over("suuu", motion=RECORD.replace(name="other.csv"))), 1.0).summary()
+    assert suite["open_below"] == 2  # at 0.3 and 0.4 g
+    assert (
+        "0.5 g, the smallest factor at which any surely does; runs below that factor without a verdict, which may be "
+        "collapses: 2."
+    ) in suite["sentence"]
+
+
 def test_bounds_are_told_as_bounds():
     low = over("cccc", ["cccc", "cccc", "sccc"]).summary()
     at = dict.fromkeys(("critical_g", "all_collapse_above_g", "lowest_collapse_g"), "≤ 0.2")

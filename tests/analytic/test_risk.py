@@ -1,5 +1,6 @@
 """Risk against its closed form, hazard curves of others, and what an age says."""
 
+import dataclasses
 import itertools
 import math
 
@@ -11,6 +12,7 @@ from scipy.stats import norm
 from stylobate.analysis.evidence import Evidence
 from stylobate.analysis.fragility import fragility
 from stylobate.analysis.hazard import Hazard, read_hazard
+from stylobate.analysis.limit_states import FAILED, OPEN
 from stylobate.analysis.risk import parse_age, risk, survival
 from stylobate.errors import InputError
 
@@ -63,6 +65,21 @@ def test_the_ends_of_a_hazard_curve_are_said(curve):
         risk(curve, Hazard(np.array([0.1, 0.2]), np.array([0.1, 0.05]), "m/s", "shorter"))
     late = risk(curve, Hazard(np.array([1.0, 9.0]), np.array([0.1, 1e-9]), "m/s", "late", "PGV"))
     assert "begins at 1 m/s" in late.warnings[0]
+
+
+def test_runs_that_the_curve_leaves_out_are_told_with_the_rate(curve):
+    """The rate and its interval were told without a word of them."""
+    codes = curve.evidence.codes.copy()
+    codes[10:13], codes[20] = OPEN, FAILED
+    open_ = fragility(dataclasses.replace(curve.evidence, codes=codes), samples=200)
+    x = np.geomspace(0.01, 10.0, 9)
+    found = risk(open_, Hazard(x, 1e-3 * x**-2.0, "m/s", "a", "PGV"))
+    most, least = found.extremes
+    assert least < most
+    assert found.warnings == [
+        "3 undecided and 1 failed runs left out of the curve, and the interval holds none of this: counted as collapse the "
+        f"annual rate by a is {most:.3g}, counted as none {least:.3g}."
+    ]
 
 
 def test_survival(curve):

@@ -16,6 +16,8 @@ from stylobate.analysis.limit_states import OPEN
 from stylobate.analysis.states import _difference, compare_states
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
+from stylobate.column.materials import material
+from stylobate.column.scatter import usual_scatter
 
 JOINT = st.Joint(1e9, 5e8, friction_coefficient=0.7)
 
@@ -89,6 +91,21 @@ def test_the_command(tmp_path, capsys):
     said = capsys.readouterr().out
     assert "under 1 record and worse in 0; nothing is concluded from fewer than 10 records)" in said
     assert [line.split()[-2:] for line in said.splitlines() if line.strip().startswith("0.9")][-1] == ["%", "-"]
+
+
+def test_how_columns_of_a_material_scatter_is_kept(tmp_path):
+    """They scatter by their material, and were told to scatter by the defaults."""
+    stone = material("marble, worn")
+    joint = st.Joint(1e9, 5e8, friction_coefficient=stone.friction_coefficient.value)
+    drum = st.Drum(3.0, 0.6, 0.6, stone.density.value)
+    column = st.Column.of_drums([drum], joint).replace(material="marble, worn")
+    file = str(write_column(column, tmp_path / "stone.toml"))
+    asked = ["--model", "housner", "--pulse", "ricker,1Hz,0.2g", "--replicates", "2", "--out", str(tmp_path / "out")]
+    assert usual_scatter(column) != st.Scatter()
+    for other, words in ((file, "{stone}"), ("paper-monolithic", "as built: {stone}; paper-monolithic: {usual}")):
+        assert call(["states", "--as-built", file, "--with", other, *asked]) == 0
+        kept = json.loads((tmp_path / "out" / "asked-states.json").read_text())["options"]["scatter"]
+        assert kept == words.format(stone=usual_scatter(column).describe(), usual=st.Scatter().describe())
 
 
 @pytest.mark.parametrize(

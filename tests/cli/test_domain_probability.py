@@ -9,9 +9,10 @@ from stylobate.cli.main import call
 GRID = ["domain", "paper-monolithic", "--model", "housner", "--frequencies", "0.5:2:3", "--amplitudes", "0.1g:0.5g:4",
         "--duration", "5s"]  # fmt: skip
 KEYS = {
-    "cells", "replicates", "scatter", "motion_scatter", "seed", "confidence", "all_stand", "some_collapse", "all_collapse",
-    "no_verdict", "band_width_median_g", "band_width_largest_g", "band_open_frequencies", "amplitude_step_g", "runs",
-    "collapsed", "stands", "undecided", "failed", "not_run", "wall_s", "model", "version", "files",
+    "cells", "replicates", "scatter", "motion_scatter", "left_out", "seed", "confidence", "all_stand",
+    "some_collapse", "all_collapse", "no_verdict", "band_width_median_g", "band_width_largest_g",
+    "band_open_frequencies", "amplitude_step_g", "runs", "collapsed", "stands", "undecided", "failed", "not_run",
+    "wall_s", "model", "version", "files",
 }  # fmt: skip
 
 
@@ -33,12 +34,12 @@ def test_replicates_give_counts_table_file_and_figure(capsys, tmp_path):
 
 
 def test_a_person_is_told_how_wide_the_doubt_is(capsys):
-    assert call([*GRID, "--replicates", "4", "--motion-scatter", "phase=0.1,amplitude=3%"]) == 0
+    assert call([*GRID, "--replicates", "4", "--motion-scatter", "phase=0.1,amplitude=3%,across=1%"]) == 0
     text = capsys.readouterr().out
     assert text.startswith("Of 12 cells, all columns stand in ")
     assert "4 that vary by friction 10 %, joint stiffness 20 %" in text
-    assert "seed 0, without offset, as the model takes columns as built" in text
-    assert "vary by amplitude ±3 %, phase ±0.1 cycles" in text
+    assert "seed 0, without offset, across, which the model does not take" in text
+    assert "vary by amplitude ±3 %, phase ±0.1 cycles\n" in text
 
 
 def test_half_step_counts_the_verdicts_that_differ(capsys):
@@ -58,6 +59,8 @@ def test_half_step_counts_the_verdicts_that_differ(capsys):
         (["--replicates", "3", "--scatter", "geometry=1%"], "--scatter names 'geometry'"),
         (["--replicates", "3", "--motion-scatter", "phase=much"], "'much' is no size"),
         (["--replicates", "3", "--motion-scatter", "across=200%"], "across of the motion's scatter is 2"),
+        (["--replicates", "3", "--scatter", "offset=1%"], "nothing scatters, as housner does not take offset"),
+        (["--replicates", "3", "--scatter", "width=0", "--motion-scatter", "across=1%"], "nothing scatters"),
         (["--replicates", "3", "--half-step"], "--half-step is for a domain without --replicates"),
         (["--motion-scatter", "phase=0.1"], "--motion-scatter is for columns like this one"),
         (["--seed", "1"], "--seed is for columns like this one"),

@@ -258,3 +258,16 @@ def test_what_is_not_known_of_a_risk_is_said(place, capsys):
     assert pairs["SHA-256 of runs.csv"] == digest(place / "runs.csv")
     older = dataclasses.replace(result, asked=dataclasses.replace(result.asked, sources=()))
     assert "does not keep what runs" in str(sections_of(older, set()))
+
+
+def test_how_the_columns_of_an_ida_vary_is_told(capsys):
+    """Nothing said so, nor what the model leaves out."""
+    asked = ["ida", "paper-monolithic", "sample:el-centro-1940", "--model", "housner"]
+    asked += ["--im", "pga", "--levels", "0.2g:0.4g:2"]
+    assert call([*asked, "--replicates", "2", "--seed", "3"]) == 0
+    assert "2 that vary by friction 10 %" in (said := capsys.readouterr().out)
+    assert "seed 3, without offset, which the model does not take" in said
+    assert call([*asked, "--replicates", "2", "--seed", "3", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["replicates"], told["certainty"]["seed"], told["certainty"]["left_out"]) == (2, 3, ["offset"])
+    assert told["certainty"]["scatter"]["offset"] == 0.0

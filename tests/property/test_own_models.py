@@ -7,6 +7,8 @@ import sys
 
 import pytest
 
+from stylobate.campaign.digests import Hasher
+
 NOTEBOOK = """
 import dataclasses
 import numpy as np
@@ -85,3 +87,57 @@ def test_a_module_beside_a_class_of_a_notebook_is_told_by_its_file(tmp_path, mon
         importlib.invalidate_caches()
         found.append(digest(f"import law_beside\n{NOTEBOOK}".replace("factor(self", "law_beside.factor(self")))
     assert found[0] != found[1]
+
+
+FILED = """
+import law_beside
+import stylobate as st
+
+class Mine(st.HousnerBlock):
+    name = "mine"
+
+    def __init__(self, size=1.0):
+        super().__init__()
+        self.size = size
+
+    def run_many(self, cases, options, threads):
+        law_beside.factor(2)
+        return super().run_many(cases, options, threads)
+"""
+BESIDE = "LIMIT = 2.0\n\n\ndef factor(x):\n    return x**2\n"
+
+
+@pytest.fixture
+def told(tmp_path, monkeypatch):
+    """Writes a model's file and the one beside it, loads them (or not), and gives the digest of what is loaded."""
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)
+
+    def digest_of(text=FILED, beside=BESIDE, load=True, **settings):
+        for name, content in (("own_law", text), ("law_beside", beside)):
+            (tmp_path / f"{name}.py").write_text(content)
+            if load:
+                monkeypatch.delitem(sys.modules, name, raising=False)
+        importlib.invalidate_caches()
+        return Hasher(importlib.import_module("own_law").Mine(**settings), 0.0).of_product("", __file__)
+
+    return digest_of
+
+
+def test_a_class_of_a_file_is_told_with_the_files_that_it_imports(told):
+    assert told() == told()
+    assert told(beside=BESIDE.replace("x**2", "x**3")) != told()
+    assert told(FILED.replace("factor(2)", "factor(3)")) != told()
+
+
+def test_what_a_model_holds_besides_its_parameters_is_told(told):
+    assert told(size=1.0) == told()
+    assert told(size=2.0) != told()
+
+
+@pytest.mark.parametrize("change", [("factor(2)", "factor(3)"), ("x**2", "x**3"), ("LIMIT = 2.0", "LIMIT = 3.0")])
+def test_a_file_that_was_edited_but_not_loaded_again_is_not_taken_for_what_runs(told, change):
+    """Its runs, by the law that is loaded, were kept as those of the law that the file holds now."""
+    told()
+    edited = FILED.replace(*change), BESIDE.replace(*change)
+    assert told(*edited, load=False) != told(*edited)

@@ -39,6 +39,9 @@ if TYPE_CHECKING:
 #: Largest number of amplitudes of a grid.
 MAX_AMPLITUDES = 100_000
 
+#: Amplitudes that differ by less are one [-].
+CLOSE = 1e-9
+
 
 @dataclass(frozen=True, eq=False)
 class CriticalAmplitude:
@@ -116,9 +119,13 @@ class CriticalAmplitude:
     @property
     def open_below(self) -> int:
         """Number of runs of the column and its twins without a verdict below that amplitude; any may be a collapse."""
+        return self.without_verdict(self.lowest_capacity.high)
+
+    def without_verdict(self, below: float) -> int:
+        """Number of runs of the column and its twins without a verdict below an amplitude [m/s²]."""
         each = [(self.amplitudes, np.array(self.verdicts))]
         each += [] if self.population is None else [(self.population.amplitudes, self.population.verdicts)]
-        open_ = [~np.isin(one[..., a < self.lowest_capacity.high], (v.STANDS, v.COLLAPSED)) for a, one in each]
+        open_ = [~np.isin(one[..., a < below * (1.0 - CLOSE)], (v.STANDS, v.COLLAPSED)) for a, one in each]
         return sum(int(one.sum()) for one in open_)
 
     @property

@@ -73,6 +73,12 @@ class CriticalSuite:
         return min(fell, key=lambda one: one.lowest_factor or math.inf, default=None)
 
     @property
+    def open_below(self) -> int:
+        """Number of runs under all motions without a verdict at smaller factors than that; any may be a collapse."""
+        factor = math.inf if self.worst is None else self.worst.lowest_factor or math.inf
+        return sum(one.without_verdict(factor * (one.nominal or math.inf)) for one in self.results)
+
+    @property
     def compass(self) -> Compass:
         """Factor at which the column, or one of its twins, first collapses, by direction; the smallest of all records."""
         found: dict[float, float] = {}
@@ -142,6 +148,7 @@ class CriticalSuite:
             "critical_factor": self.critical_factor,
             "lowest_collapse_g": None if lowest is None else lowest / g,
             "lowest_collapse_factor": None if worst is None else worst["lowest_collapse_factor"],
+            "open_below": self.open_below,
             "certainty": v.count(np.concatenate(twins)) if twins else None,
             "amplitudes_g": (self.amplitudes / g).tolist(),
             "share_collapsed": self.share_collapsed.tolist(),

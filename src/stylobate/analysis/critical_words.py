@@ -44,7 +44,7 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
     what, of = ("record", "") if records == len(rows) else ("motion", f" of {records} record{'s' * (records > 1)}")
     grid = f"{s['amplitudes_g'][0]:g} to {s['amplitudes_g'][-1]:g} g"
     if worst is None:
-        surely = "surely " * any(one["open_below"] for one in rows)
+        surely = "surely " * bool(s["open_below"])
         words = f"No {what}{of} {surely}collapses the {kind}{like} at a peak looked at, {grid}."
     else:
         fell = [sum(one[name] is not None for one in rows) for name in ("critical_g", "lowest_collapse_g")]
@@ -54,7 +54,7 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
             + (f", {fell[1]} it or one like it" if twins else "")
             + f". Most harm: {worst['motion']}, which collapses it{like} {already}at "
             f"{worst['lowest_collapse_factor']:.3g} times the record, {worst['lowest_collapse_g']:.4g} g, the smallest "
-            f"factor at which any does{_below(worst['open_below'])}."
+            f"factor at which any {'surely ' * bool(s['open_below'])}does{_below(s['open_below'], ' that factor')}."
         )
     return " ".join(filter(None, (words, _open(s, twins), ONE_ALONE if not twins and kind == "column" else "")))
 
@@ -110,8 +110,8 @@ def _none(s: Mapping[str, Any], whom: str, without_verdict: int) -> str:
     return f"No amplitude looked at, {_range(s)}, {surely}collapses {whom}; larger ones were not looked at."
 
 
-def _below(without_verdict: int) -> str:
-    return f"; runs below that without a verdict, which may be collapses: {without_verdict}" if without_verdict else ""
+def _below(without_verdict: int, what: str = " that") -> str:
+    return f"; runs below{what} without a verdict, which may be collapses: {without_verdict}" if without_verdict else ""
 
 
 def _open(s: Mapping[str, Any], twins: Mapping[str, Any] | None) -> str:

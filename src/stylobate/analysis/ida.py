@@ -132,7 +132,8 @@ def ida(
     relation = (math.tan(column.slenderness), column.frequency_parameter)
     known = about or {}
     facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
-    columns = list(the_twins(column, model, replicates, scatter, seed).columns) if replicates else [column]
+    drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
+    columns = [column] if drawn is None else list(drawn.columns)
     traces = []
     for motion, fact in zip(taken, facts):
         value, peak = fact[measure.key], float(level(motion, column).max())
@@ -166,7 +167,7 @@ def ida(
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
     table["hunted"] = stripes is None
-    return Ida(table, measure, column, model.name, time.perf_counter() - started)
+    return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn)
 
 
 def _asked(one: Trace, runs: int, largest: float, power: int) -> list[float]:

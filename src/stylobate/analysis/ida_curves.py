@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..campaign.twins import Twins
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
@@ -57,8 +58,6 @@ class Curve:
         none. What is undecided or failed between them may be a collapse.
     resurrections : array
         Intensities above the first collapse at which it stands.
-    largest : float
-        Largest intensity that was run.
     open_runs : int
         Runs that are undecided or failed.
     """
@@ -71,19 +70,19 @@ class Curve:
     stands: float
     collapses: float
     resurrections: np.ndarray
-    largest: float
     open_runs: int
 
     def at(self, im: np.ndarray) -> np.ndarray:
         """Response at given intensities: straight between runs, +inf from half way to the first collapse on.
 
-        NaN above the largest intensity that was run, where it did not collapse.
+        NaN where it did not collapse and no run stands at an intensity as large: what is undecided or failed tells of no
+        response; and below a collapse under which no run stands.
         """
         below = self.im < self.collapses
         x, y = np.concatenate(([0.0], self.im[below])), np.concatenate(([0.0], self.edp[below]))
-        found = np.interp(im, x, y)
+        found = np.interp(im, x, y) if below.any() else np.full(np.shape(im), np.nan)
         if math.isinf(self.collapses):
-            return np.where(im > self.largest, np.nan, found)
+            return np.where(im > x[-1], np.nan, found)
         edge = math.sqrt(self.stands * self.collapses) if self.stands else 0.5 * self.collapses
         return np.where(im > edge, np.inf, found)
 
@@ -103,6 +102,8 @@ class Ida:
     model : str
     wall_time : float
         [s]
+    twins : Twins, optional
+        The columns like this one that were run in its place.
     """
 
     runs: pandas.DataFrame
@@ -110,6 +111,7 @@ class Ida:
     column: Column
     model: str
     wall_time: float
+    twins: Twins | None = None
 
     def curves(self, edp: str = "peak_top_displacement_m") -> list[Curve]:
         """One curve per motion and realisation.
@@ -137,7 +139,6 @@ class Ida:
                     low,
                     first,
                     x[stands & (x > first)],
-                    float(x.max()),
                     int(np.count_nonzero((verdict == v.UNDECIDED) | (verdict == v.FAILED))),
                 )
             )
@@ -146,8 +147,8 @@ class Ida:
     def fractiles(self, edp: str = "peak_top_displacement_m", points: int = 100) -> pandas.DataFrame:
         """Response that 16, 50 and 84 % of the curves do not exceed, over the intensity.
 
-        A collapse exceeds every response: +inf. A curve that ends below counts no further; where fewer than half of
-        all curves are left there is none.
+        A collapse exceeds every response: +inf. A curve counts no further than its runs stand or collapse; where fewer
+        than half of all curves are left there is none.
         """
         import pandas
 
@@ -209,6 +210,7 @@ class Ida:
             "capacities": capacities,
             "wall_s": self.wall_time,
             "model": self.model,
+            **({} if self.twins is None else {"replicates": len(self.twins.columns), "certainty": self.twins.told}),
         }
 
 

@@ -14,6 +14,7 @@ from .. import store
 from ..column import Column
 from ..column.scatter import Scatter
 from ..constants import g
+from ..errors import InputError
 from ..motion.scatter import MotionScatter
 from ..version import __version__
 from . import verdicts as v
@@ -184,6 +185,7 @@ class CollapseProbability:
             "replicates": self.replicates,
             "scatter": dataclasses.asdict(self.scatter),
             "motion_scatter": dataclasses.asdict(self.motion_scatter),
+            "left_out": list(self.provenance.get("left_out", ())),
             "seed": self.seed,
             "confidence": self.confidence,
             "all_stand": int((kinds == SAFE).sum()),
@@ -250,6 +252,8 @@ class CollapseProbability:
         data = store.read(path, "probability")
         try:
             provenance = json.loads(str(data["provenance"].values))
+            if "imperfection" in provenance:
+                raise InputError(f"{store.shown(path)} was written by an earlier version; run it again with this one.")
             return cls(
                 column_from_dict(json.loads(str(data["column"].values))),
                 str(data.attrs["model"]),
@@ -264,6 +268,8 @@ class CollapseProbability:
                 float(data.attrs["wall_s"]),
                 provenance,
             )
+        except InputError:
+            raise
         except Exception as error:
             raise store.unreadable(path, error) from None
 

@@ -19,7 +19,7 @@ from ..campaign.digests import Hasher
 from ..campaign.grid import MAX_CELLS, grid_axis
 from ..campaign.ledger import RUNS_FILE
 from ..campaign.runs import Progress, Request, Runs
-from ..campaign.twins import the_twins
+from ..campaign.twins import in_space, the_twins
 from ..column import Column
 from ..column.scatter import Scatter
 from ..errors import InputError, check_range
@@ -62,7 +62,7 @@ def collapse_probability(
     scatter : Scatter, optional
         How they differ; by default as columns of its material do.
     motion_scatter : MotionScatter, optional
-        How the motions of a cell differ; by default they do not.
+        How the motions of a cell differ; by default they do not. Models in the plane leave ``across`` out.
     seed : int
         The same seed gives the same columns and motions.
     confidence : float
@@ -93,7 +93,9 @@ def collapse_probability(
     f = grid_axis("frequencies", frequencies, 1e-3, 1e3, "Hz")
     a = grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
     check_range("confidence", confidence, 0.0, 1.0, open_low=True, open_high=True, remedy="0.95 is the default")
-    shaking = MotionScatter() if motion_scatter is None else motion_scatter
+    shaking, beyond = MotionScatter() if motion_scatter is None else motion_scatter, ()
+    if shaking.across and not in_space(model):
+        shaking, beyond = dataclasses.replace(shaking, across=0.0), ("across",)
     twins = the_twins(column, model, replicates, scatter, seed, alone=not shaking.given)
     number = len(twins.columns)
     if len(f) * len(a) > MAX_CELLS or len(f) * len(a) * number > MAX_RUNS:
@@ -101,8 +103,7 @@ def collapse_probability(
             f"{len(f)} × {len(a)} cells with {number} replicates are {len(f) * len(a) * number} runs; allowed is up to "
             f"{MAX_CELLS} cells and {MAX_RUNS} runs: give fewer."
         )
-    seen = shaking if "y" in model.axes else dataclasses.replace(shaking, across=0.0)  # what the model would leave out
-    cases = _Cases(twins.columns, f, a, ScatteredSines(f, float(duration), seen, number, seed))
+    cases = _Cases(twins.columns, f, a, ScatteredSines(f, float(duration), shaking, number, seed))
     key = {
         "column": column.digest,
         "frequencies": f.tolist(),
@@ -111,7 +112,7 @@ def collapse_probability(
         "replicates": number,
         "scatter": dataclasses.asdict(twins.scatter),
         "motion_scatter": dataclasses.asdict(shaking),
-        "left_out": list(twins.left_out),
+        "left_out": [*twins.left_out, *beyond],
         "seed": seed,
     }
     if out is not None and ledger is None:

@@ -73,6 +73,7 @@ class Risk:
     def warnings(self) -> list[str]:
         """What is to be doubted, and what the hazard curve does not cover, in sentences."""
         found = [*self.fragility.warnings, *([f"{self.doubt}."] if self.doubt else [])]
+        found += [self._without_verdict] if self._without_verdict else []
         if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
             found.append(
                 f"the runs do not say what their intensity is; it is taken for that of {self.hazard.name}, in "
@@ -100,6 +101,20 @@ class Risk:
                 f"{self.below:.2g} already; weaker shaking is not counted."
             )
         return found
+
+    @property
+    def _without_verdict(self) -> str:
+        """What the rate could be with the runs that the curve leaves out; empty where there are none."""
+        told = self.fragility.summary()
+        counts = [f"{told[one]} {one}" for one in ("undecided", "failed") if told[one]]
+        if not counts:
+            return ""
+        several = "s" if told["undecided"] + told["failed"] > 1 else ""
+        most, least = (f"{one:.3g}" if math.isfinite(one) else "not known" for one in self.extremes)
+        return (
+            f"{' and '.join(counts)} run{several} left out of the curve, and the interval holds none of this: counted as "
+            f"{self.fragility.evidence.state} the annual rate by {self.hazard.name} is {most}, counted as none {least}."
+        )
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate risk``."""

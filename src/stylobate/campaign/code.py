@@ -1,14 +1,15 @@
-"""What a class of somebody's own does, as plain values that are the same in every process: its files, or its loaded code."""
+"""What a model of somebody's own does, as plain values that are the same in every process: its loaded code and its files."""
 
 from __future__ import annotations
 
+import dataclasses
 import dis
+import hashlib
 import re
 import sys
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from functools import partial
-from inspect import unwrap
+from functools import cached_property, partial
 from pathlib import Path
 from types import CodeType, FunctionType, MethodType, ModuleType
 from typing import Any
@@ -34,14 +35,21 @@ _HELD = {
 
 
 class Code:
-    """What a class says and does, by the files of its functions, or by their code where there is no such file.
+    """What a class says and does: the code of its functions, and the functions and values beside it that they name.
 
-    A class of a notebook has none, and neither have the functions and values beside it that its code names.
+    Files are told as well, with all that they hold: but a file may have been edited since it was loaded.
     """
 
     def __init__(self) -> None:
         self._met: dict[int, tuple[int, Any]] = {}  # by identity, and kept: no other value takes that meanwhile
         self._files: dict[Path, str] = {}
+
+    def of_model(self, model: Any) -> list[Any]:
+        """The class of a model, and what the model holds besides its parameters."""
+        kind, told = type(model), {one.name for one in dataclasses.fields(model)}
+        held = {name: value for name, value in vars(model).items() if name not in told}
+        kept = {name for name in held if isinstance(getattr(kind, name, None), cached_property)}
+        return [self.of_class(kind), self.of({name: held[name] for name in held if name not in kept})]
 
     def of_class(self, kind: type) -> list[Any]:
         """Functions and values of a class and its bases, but those of this package."""
@@ -49,10 +57,7 @@ class Code:
         for one in kind.__mro__:
             if one.__module__.partition(".")[0] not in _KNOWN:
                 said = {name: value for name, value in vars(one).items() if name[:2] != "__" or callable(value)}
-                acts = {name: value for name, value in said.items() if callable(value) or hasattr(value, "__get__")}
-                own = [unwrap(value) for value in acts.values() if isinstance(value, FunctionType)]
-                filed = any(self._file(value.__code__.co_filename) is not None for value in own)
-                found.append([one.__qualname__, self.of(acts if filed else said)])  # a file tells its values
+                found.append([one.__qualname__, self.of(said)])
         return found
 
     def of(self, value: Any) -> Any:
@@ -70,12 +75,10 @@ class Code:
         if isinstance(value, type):
             return [value.__qualname__, [] if _is_installed(value.__module__) else self.of_class(value)]
         if isinstance(value, ModuleType):
-            return [
-                value.__name__,
-                None if _is_installed(value.__name__) else self._file(getattr(value, "__file__", None) or ""),
-            ]
+            return [value.__name__, None if _is_installed(value.__name__) else self._of_module(value)]
         if isinstance(value, np.ndarray):
-            return [str(value.dtype), value.shape, [self.of(one) for one in value.ravel().tolist()]]
+            objects = [self.of(one) for one in value.ravel().tolist()] if value.dtype.hasobject else None
+            return [str(value.dtype), value.shape, objects or hashlib.sha256(value.tobytes()).hexdigest()]
         if isinstance(value, Mapping):
             return [[repr(key), self.of(value[key])] for key in sorted(value, key=repr)]
         if isinstance(value, (set, frozenset)):
@@ -92,12 +95,21 @@ class Code:
             held = value.__reduce_ex__(2)
         return [re.sub("0x[0-9a-fA-F]+", "", repr(value)), self.of(type(value)), self.of(held)]
 
+    def _of_module(self, module: ModuleType) -> Any:
+        """Its file, and what it is made of, which may be older."""
+        loaded = {
+            name: value
+            for name, value in vars(module).items()
+            if isinstance(value, (FunctionType, type, str, int, float)) and name[:2] != "__"
+        }
+        return [self._file(getattr(module, "__file__", None) or ""), self.of(loaded)]
+
     def _of_function(self, function: FunctionType) -> Any:
-        file, known = self._file(function.__code__.co_filename), function.__globals__
-        given: list[Any] = [file]
-        if file is None:
-            beside = {name: known[name] for name in _globals(function.__code__) if name in known}
-            given = [function.__code__, function.__defaults__, function.__kwdefaults__, beside]
+        code, known = function.__code__, function.__globals__
+        given: list[Any] = [self._file(code.co_filename)]
+        if not _is_installed(function.__module__ or "", code.co_filename):
+            beside = {name: known[name] for name in _globals(code) if name in known}
+            given += [code, function.__defaults__, function.__kwdefaults__, beside]
         for cell in function.__closure__ or ():
             with suppress(ValueError):  # one that is empty
                 given.append(cell.cell_contents)
@@ -119,8 +131,9 @@ def _globals(code: CodeType) -> Iterator[str]:
             yield from _globals(inner)
 
 
-def _is_installed(module: str) -> bool:
+def _is_installed(module: str, file: str | None = None) -> bool:
     """Whether a module is Python's own, or of an installed package."""
     if module.partition(".")[0] in _KNOWN:
         return True
-    return "site-packages" in (getattr(sys.modules.get(module), "__file__", None) or "")
+    place = getattr(sys.modules.get(module), "__file__", None) if file is None else file
+    return "site-packages" in (place or "")

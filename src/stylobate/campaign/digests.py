@@ -48,7 +48,7 @@ class Hasher:
 
     def __init__(self, model: Model, tail: float = 0.0) -> None:
         self.model, self.tail = model, run_options(tail).tail
-        law = [model.name, model.parameters(), self.tail, __version__, *laws(), Code().of_class(type(model))]
+        law = [model.name, model.parameters(), self.tail, __version__, *laws(), Code().of_model(model)]
         self._head = json.dumps(law, sort_keys=True, default=str)
         self._samples: dict[tuple, tuple[Motion, str]] = {}
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,11 +26,25 @@ class Twins(NamedTuple):
     seed: int
     left_out: tuple[str, ...]
 
+    @property
+    def told(self) -> dict[str, Any]:
+        """How they differ, under the names of the JSON objects of commands."""
+        return {"scatter": dataclasses.asdict(self.scatter), "left_out": list(self.left_out), "seed": self.seed}
+
 
 def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str]) -> str:
     """How many twins there are and how they differ, in words."""
-    less = f", without {', '.join(left_out)}, as the model takes columns as built" if left_out else ""
-    return f"{number} that vary by {scatter.describe()}; seed {seed}{less}"
+    return f"{number} that vary by {scatter.describe()}; seed {seed}{without(left_out)}"
+
+
+def without(left_out: Sequence[str]) -> str:
+    """What of a scatter a model leaves out, in words behind what it does not."""
+    return f", without {', '.join(left_out)}, which the model does not take" if left_out else ""
+
+
+def in_space(model: Model) -> bool:
+    """Whether a model moves columns out of the plane of x and z."""
+    return "y" in model.axes and not getattr(model, "planar", False)
 
 
 def the_twins(
@@ -44,9 +58,11 @@ def the_twins(
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
             raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
     asked = usual_scatter(stack) if scatter is None else scatter
-    if alone and not asked.given:
-        raise InputError("nothing scatters; give at least one coefficient of variation above 0, such as friction=10%.")
     left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
     size = dataclasses.replace(asked, offset=0.0) if left_out else asked
-    space = "y" in model.axes and not getattr(model, "planar", False)
-    return Twins(scattered_columns(stack, size, replicates, seed, space=space), size, seed, left_out)
+    if alone and not size.given:  # as many runs of one column are no population
+        why = f", as {model.name} does not take {left_out[0]}" if left_out else ""
+        raise InputError(
+            f"nothing scatters{why}; give at least one coefficient of variation above 0, such as friction=10%."
+        )
+    return Twins(scattered_columns(stack, size, replicates, seed, space=in_space(model)), size, seed, left_out)

@@ -115,7 +115,7 @@ def _run(
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
     from ..campaign.study_files import levels_of
-    from ..column.scatter import Scatter
+    from ..column.scatter import usual_scatter
     from . import console
 
     if (im is None) != (levels is None):
@@ -127,7 +127,10 @@ def _run(
     how, population = {}, {}
     if twins is not None:
         how = {"realisations": twins["replicates"], "scatter": twins["scatter"], "seed": twins["seed"]}
-        population = twins | {"scatter": (twins["scatter"] or Scatter()).describe()}
+        sizes_of = {label: (twins["scatter"] or usual_scatter(one)).describe() for label, one in columns.items()}
+        same = len(set(sizes_of.values())) == 1
+        told = sizes_of.values() if same else (f"{label}: {one}" for label, one in sizes_of.items())
+        population = twins | {"scatter": "; ".join(dict.fromkeys(told))}
     with console.folder(out, "states.csv", "links.csv", "states.json", "asked-states.json", "states") as folder:
         if folder is not None:
             console.ledger(folder)

@@ -10,11 +10,13 @@ import numpy as np
 
 from ..analysis.certainty import CHANCE, chance_words
 from ..analysis.ida_curves import median_of
+from ..analysis.probability import CollapseProbability
 from ..analysis.side_by_side import codes_of, shares
 from ..analysis.studies import StudyResult
 from ..analysis.suite import suite_shares
 from ..analysis.verdicts import open_runs
 from ..bibliography import cite, cite_run
+from ..campaign.twins import described
 from ..column import Column
 from ..constants import g
 from ..results import Comparison, Kind, Numbers, Result, RunResult, StudyFolder
@@ -141,10 +143,11 @@ def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
         caption = "Safe–unsafe domain: verdict of each cell over frequency and amplitude."
     else:
         sentence = (
-            f"Of {s['cells']} cells, all {s['replicates']} variations of the column stand in {s['all_stand']} and all "
-            f"collapse in {s['all_collapse']}; in {s['some_collapse']} it hangs on small differences."
+            f"Of {s['cells']} cells, all {s['replicates']} columns like this one stand in {s['all_stand']} and all "
+            f"collapse in {s['all_collapse']}; in {s['some_collapse']} it hangs on small differences"
+            + (f", and {s['no_verdict']} have no verdict." if s["no_verdict"] else ".")
         )
-        caption = f"Probability of collapse from {s['replicates']} variations of the column in every cell."
+        caption = f"Probability of collapse from {s['replicates']} columns like this one in every cell."
     f, a = data.frequencies, data.amplitudes / g
     pairs = [
         ("frequencies", f"{f[0]:g} to {f[-1]:g} Hz, {len(f)}"),
@@ -153,6 +156,11 @@ def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
         ("undecided / failed", f"{s.get('undecided', 0)} / {s.get('failed', 0)}"),
         ("static acceleration that opens the first joint", f"{float(s['uplift_g']):.4g} g"),
     ]
+    if isinstance(data, CollapseProbability):
+        left_out = data.provenance["left_out"]
+        pairs.insert(3, ("columns like this one", described(data.replicates, data.scatter, data.seed, left_out)))
+        if data.motion_scatter.given:
+            pairs.insert(4, ("motions of a cell", f"vary by {data.motion_scatter.describe()}"))
     text = "The motions are harmonic. They show how the column answers to frequency and amplitude; they are no earthquakes."
     return (sentence + open_runs(s), ""), [Facts(pairs), *kept(result.pictures, result.kind.value, caption), text]
 
