@@ -249,10 +249,6 @@ def test_the_old_study_file_is_a_study_of_harmonics(folder):
     [
         (('files = ["wave.csv"]', "files = []"), "names no record"),
         (('files = ["wave.csv"]', 'files = ["*.V2"]'), "no file matches '*.V2'"),
-        (
-            ('files = ["wave.csv"]', 'files = ["wave.csv", "./wave.csv"]'),
-            "two records in [motions] are called 'wave.csv'",
-        ),
         (('im = "pga"', 'im = "pga@geomean"'), "needs a second horizontal component"),
         (('im = "pga"', 'im = "d5_95"'), "level '0.3g'"),
         (('"0.3g"', "0.3"), "has no unit"),

@@ -31,6 +31,17 @@ def test_a_folder_with_a_file_that_is_no_record(tmp_path):
         read_suite([tmp_path / "README.md"])
 
 
+def test_a_record_that_is_there_twice_counts_once(tmp_path):
+    for folder, name, g in (("a", "one", 1.0), ("a", "copy", 1.0), ("b", "one", 2.0)):
+        (tmp_path / folder).mkdir(exist_ok=True)
+        write_csv(half_sine_pulse(1.0, g, 4.0), tmp_path / folder / f"{name}.csv")
+    suite = read_suite(tmp_path / "a")
+    assert [one.name for one in suite.motions] == ["copy.csv"]
+    assert suite.refused == {"one.csv": "it holds the motion of 'copy.csv' once more; a record counts once"}
+    with pytest.raises(InputError, match="two records are called 'one.csv'"):
+        read_suite([tmp_path / folder / "one.csv" for folder in "ab"])
+
+
 def test_the_table_holds_outcomes_and_measures(tmp_path):
     motions = [half_sine_pulse(1.0, size * g, 12.0) for size in (0.05, 0.8)]
     columns = [rocking_block(p, 0.1) for p in (1.0, 2.0)]

@@ -164,11 +164,6 @@ def _listed(patterns: Sequence[str], folder: Path) -> list[str | Path]:
             found.append(folder / one)
     if not found:
         raise InputError("the study names no record; give files = [...] in [motions].")
-    names = [Path(one).name for one in found]
-    if twice := {name for name in names if names.count(name) > 1}:
-        raise InputError(
-            f"two records in [motions] are called {min(twice)!r}; results go by names: rename one of the files."
-        )
     return found
 
 

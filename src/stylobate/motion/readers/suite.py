@@ -71,11 +71,20 @@ def read_suite(
     if len(paths) > MAX_FILES:
         raise InputError(f"{len(paths)} files are given; allowed is up to {MAX_FILES}: split the suite.")
     motions, refused = [], {}
+    names: dict[str, str] = {}  # by digests; intervals are over records, and one that is there twice is one
     for path in paths:
         try:
-            motions.append(_read(path, unit, dt, component))
+            motion = _read(path, unit, dt, component)
         except InputError as error:
             refused[shown(path.name)] = str(error)
+            continue
+        if motion.digest in names:
+            refused[shown(path.name)] = f"it holds the motion of {names[motion.digest]!r} once more; a record counts once"
+        elif motion.name in names.values():
+            raise InputError(f"two records are called {motion.name!r}; results go by names: rename one of the files.")
+        else:
+            names[motion.digest] = motion.name
+            motions.append(motion)
     if not motions:
         first = next(iter(refused.items()), ("", "it is empty"))
         raise InputError(f"{source} holds no record that can be used; the first reason: {first[1]}")
