@@ -32,13 +32,13 @@ def test_a_folder_with_a_file_that_is_no_record(tmp_path):
 
 
 def test_a_record_that_is_there_twice_counts_once(tmp_path):
-    for folder, name, g in (("a", "one", 1.0), ("a", "copy", 1.0), ("b", "one", 2.0)):
+    for folder, name, size in (("a", "one", 1.0), ("a", "copy", 1.0), ("b", "one", 2.0)):
         (tmp_path / folder).mkdir(exist_ok=True)
-        write_csv(half_sine_pulse(1.0, g, 4.0), tmp_path / folder / f"{name}.csv")
+        write_csv(half_sine_pulse(1.0, size, 4.0), tmp_path / folder / f"{name}.csv")
     suite = read_suite(tmp_path / "a")
     assert [one.name for one in suite.motions] == ["copy.csv"]
     assert suite.refused == {"one.csv": "it holds the motion of 'copy.csv' once more; a record counts once"}
-    with pytest.raises(InputError, match="two records are called 'one.csv'"):
+    with pytest.raises(InputError, match=r"two records are called 'one\.csv'"):
         read_suite([tmp_path / folder / "one.csv" for folder in "ab"])
 
 

@@ -79,7 +79,9 @@ def read_suite(
             refused[shown(path.name)] = str(error)
             continue
         if motion.digest in names:
-            refused[shown(path.name)] = f"it holds the motion of {names[motion.digest]!r} once more; a record counts once"
+            refused[shown(path.name)] = (
+                f"it holds the motion of {names[motion.digest]!r} once more; a record counts once"
+            )
         elif motion.name in names.values():
             raise InputError(f"two records are called {motion.name!r}; results go by names: rename one of the files.")
         else:
