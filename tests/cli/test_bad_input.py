@@ -251,6 +251,14 @@ def test_a_study_file_and_options_at_once(refused, tmp_path):
         (["columns", "nowhere"], ["nowhere"]),
         (["motion", "nowhere.csv"], ["nowhere.csv"]),
         (["compare", "paper-monolithic", "--models", "housner,housner", "--harmonic", "1Hz,1g,1s"], ["given twice"]),
+        (
+            ["states", "--as-built", "paper-monolithic", "--with", "paper-12-drums"],
+            ["no record is given; name a folder"],
+        ),
+        (
+            ["fragility", "runs.csv", "--im", "pgv", "--state", "top:0.35"],
+            ["has no unit; write top:0.35d", "or top:0.35m"],
+        ),
         (["compare", "paper-monolithic", "--models", "housner,dem", "--harmonic", "1Hz,1g,1s"], ["dem2d"]),
         (["compare", "paper-monolithic", "--models", "housner", "--frequencies", "1:2:2"], ["both --frequencies and"]),
         (

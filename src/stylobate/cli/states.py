@@ -87,6 +87,8 @@ def states(
     if records and motion:
         raise InputError("records are given before the options and after --motion; give them once.")
     files = records or motion
+    if not (files or harmonic or pulse or synthetic):
+        raise InputError("no record is given; name a folder of records, or files, before the options.")
     named = the_states(as_built, as_found, strengthened)
     twins = o.the_population(replicates, scatter, seed)
     how = o.the_model(model, settings)

@@ -57,7 +57,10 @@ def parse_toml(path: str | Path) -> dict[str, Any]:
     except UnicodeDecodeError:
         raise InputError(f"{name} is not a text file in UTF-8; give a TOML file.") from None
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}.") from None
+        other = (
+            "" if Path(path).suffix.lower() == ".toml" else "; a TOML file of settings is expected here, not a record"
+        )
+        raise InputError(f"{name} is not valid TOML: {str(error)[:1].lower()}{str(error)[1:]}{other}.") from None
     except RecursionError:
         raise InputError(f"{name} is nested too deeply; {_NESTING}.") from None
     except ValueError:  # what Python refuses to turn into an integer

@@ -177,6 +177,8 @@ def _read_file(
         if known is not None and unit is not None:
             raise InputError(f"the sample {source.name} is in {known}, as is known; leave the unit out.")
         return columns.read(source, unit or known, dt)
+    if source.name.lower().endswith(".toml"):
+        raise InputError(f"{source.name} is a TOML file, as of a column or a study, and no record; give a record.")
     raise InputError(
         f"{source.name} is in no format that is known here "
         f"({', '.join(one.name for one in FORMATS)}, miniSEED, columns of text); "
