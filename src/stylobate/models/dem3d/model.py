@@ -263,7 +263,7 @@ class DistinctElement3D(SteppedDrums):
         """A block of lanes for what is of a kind."""
         if kind.section == SPECIMEN:
             return SpaceBlock(self.records(kind), FreeBody(), self.pack, options, self.cost(kind.rows // 32))
-        bodies, cost = Stack(planar=self.planar), self.cost(kind.rows)
+        bodies, cost = Stack(planar=self.planar, pivots=self.pivot_friction < 1.0), self.cost(kind.rows)
         return SpaceBlock(self.records(kind), bodies, self.pack, options, cost, planar=self.planar)
 
     def cost(self, drums: int) -> float:

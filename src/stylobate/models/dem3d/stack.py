@@ -24,10 +24,12 @@ class Stack:
     ----------
     planar : bool
         The motion is held in the plane of x and z, where no drum walks.
+    pivots : bool
+        Round drums turn about their axes with less than all of the torsional friction.
     """
 
-    def __init__(self, *, planar: bool) -> None:
-        self.planar = planar
+    def __init__(self, *, planar: bool, pivots: bool = False) -> None:
+        self.planar, self.pivots = planar, pivots and not planar
 
     def check_start(self, structure: Column, start: Any) -> None:
         """Refuse a start that is not one for this column."""
@@ -62,7 +64,8 @@ class Stack:
 
         A drum that wobbles on another one may walk: joints between drums have their support narrowed by ``WALK``
         (``kernels/dem3d/standing.py``). Walking without slip costs nothing, so that no bound by energy is a proof; the
-        margin is measured, see the theory page.
+        margin is measured, see the theory page. What drums that pivot freely turn costs nothing either, and slopes, offsets
+        and chips turn with them: nothing bounds where they come to.
         """
         from ...kernels.dem3d.standing import stands
         from ...kernels.dem3d.standing_found import stands_as_found
@@ -71,6 +74,9 @@ class Stack:
         walks, of_lane = not self.planar, (records.body, records.joint, records.lane, lane)
         if not structure.as_found:
             return bool(stands(packed.stand, slip, energy, structure.gravity, walks, *of_lane))
+        drums = structure.as_found.drums
+        if self.pivots and structure.section == "circular" and any(d.offset or d.tilt or d.chipped for d in drums):
+            return False
         found, up, high = found_numbers(structure)
         numbers = found, packed.stand, slip, energy, high, up, structure.gravity, walks
         return bool(stands_as_found(*numbers, *of_lane))
