@@ -132,6 +132,7 @@ def test_a_peak_beyond_all_records_is_noticed(put):
         ("time_s,ay_g\n0,1\n1,1\n", {}, "no column holds the horizontal"),
         ("time_s,ax_g\n0,1\n1,1\n", {"unit": "m/s2"}, "leave the unit out"),
         ("time_s,ax_g\n0,1,2\n1,1,2\n", {}, "3 numbers under 2 column names"),
+        ("time_s,ax_g\n0,00,0,10\n0,01,0,20\n", {}, "if a comma is the sign of decimals"),
         ("1 2 3 4 5 6\n1 2 3 4 5 6\n", {"unit": "g", "dt": 0.01}, "rows of 6 numbers"),
         ("time_s,ax_g\n0,1\n0,1\n", {}, "time goes from 0 s to 0 s"),
         ("time_s,ax_g\n0,1\n0.1,1\n0.2,0\n", {"dt": 0.05}, "leave dt out"),

@@ -196,6 +196,11 @@ class Header:
         found = min(ways, key=lambda one: sum(name.kind not in ("time", "acceleration") for name in one), default=())
         labels = ", ".join(one.direction or one.kind for one in found) or "in no order that makes sense"
         count = len(found) or len(self.words)
+        if columns == 2 * count:
+            raise InputError(
+                f"{shown} names {count} columns, the rows hold {columns} numbers; if a comma is the sign of decimals, "
+                "separate the columns by semicolons."
+            )
         raise InputError(
             f"{shown} names {count} columns ({labels}), the rows hold {columns} numbers ({columns} numbers under {count} "
             f"column names); {EXAMPLE}."
