@@ -9,7 +9,7 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call, commands
-from stylobate.column.files import read_column
+from stylobate.column.files import read_column, write_column
 from stylobate.column.presets import PRESETS, preset
 
 RUN = ["run", "paper-monolithic", "--model", "housner", "--harmonic", "1Hz,0.3g,4s"]
@@ -256,6 +256,14 @@ def test_columns_lists_presets_and_writes_files_to_start_from(command, tmp_path)
     for name in PRESETS:
         assert read_column(tmp_path / f"{name}.toml") == preset(name)
     assert "static uplift" in command("columns", tmp_path / "paper-12-drums.toml")
+
+
+def test_columns_tell_what_their_links_hold(command, tmp_path):
+    core = st.Core(axial_stiffness=1e7, axial_capacity=2e5, pretension=5e4)
+    file = write_column(preset("paper-12-drums").replace(links=[core]), tmp_path / "core.toml")
+    assert "holds 200 kN in tension, pretensioned with 50 kN" in command("columns", file)
+    (link,) = command("columns", file, "--json")["columns"][0]["links"]
+    assert (link["shear_capacity_n"], link["axial_capacity_n"], link["pretension_n"]) == (None, 2e5, 5e4)
 
 
 def test_a_warning_is_one_line_on_standard_error(capsys, tmp_path):

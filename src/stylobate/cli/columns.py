@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,6 +14,7 @@ from . import options as o
 if TYPE_CHECKING:
     from ..column import Column
     from ..column.as_found import FoundDrum
+    from ..column.links.placed import PlacedLink
 
 
 def columns(
@@ -68,6 +70,18 @@ def properties(column: Column) -> dict:
         "restitution": column.restitution,
         "uplift_g": column.uplift_acceleration / g,
         "as_found": column.to_dict().get("as_found"),
+        "links": [_link(one) for one in column.placed_links],
+    }
+
+
+def _link(link: PlacedLink) -> dict:
+    """What a link is and holds; None for what it does not limit."""
+    limits = {"shear_capacity_n": link.shear_capacity, "axial_capacity_n": link.axial_capacity}
+    return {
+        "name": link.name,
+        **{name: value if math.isfinite(value) else None for name, value in limits.items()},
+        "pretension_n": link.pretension,
+        "governs": link.governs,
     }
 
 
@@ -82,7 +96,17 @@ def _facts(column: Column) -> dict[str, str]:
         "frequency parameter": f"{p['frequency_parameter_rad_s']:.4f} rad/s",
         "static uplift": f"{p['uplift_g']:.4f} g",
         **_as_found(column),
+        **{one["name"]: _held(one) for one in p["links"]},
     }
+
+
+def _held(link: dict) -> str:
+    """What a link holds, in words."""
+    kinds = (("shear", link["shear_capacity_n"]), ("tension", link["axial_capacity_n"]))
+    held = [f"{value / 1e3:.4g} kN in {kind}" for kind, value in kinds if value]
+    limit = f"holds {' and '.join(held)}" if held else "without a limit"
+    pulled = f", pretensioned with {link['pretension_n'] / 1e3:.4g} kN" if link["pretension_n"] else ""
+    return f"{limit}{pulled}" + (f"; {link['governs']}" if link["governs"] else "")
 
 
 def _azimuth(one: FoundDrum, name: str) -> str:
