@@ -27,8 +27,8 @@ from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.motion.scatter import PHASES, MotionScatter, ScatteredSines
 
 CODES = {letter: v.VERDICTS.index(one) for letter, one in zip("SCUFN", v.VERDICTS)}
-#: All of the scatter but friction.
-NOTHING = {name: 0.0 for name in LARGEST if name != "friction"}
+#: All of the scatter but width.
+NOTHING = {name: 0.0 for name in LARGEST if name != "width"}
 GRID = (np.array([0.5, 1.0]), np.linspace(0.15, 0.45, 4) * st.g, 6.0)
 
 
@@ -110,14 +110,14 @@ def test_where_next_to_nothing_scatters_every_column_has_the_verdict_of_the_doma
     column = preset("paper-monolithic")
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
     found = collapse_probability(
-        column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, friction=1e-9)
+        column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, width=1e-9)
     )
     names = np.array(v.VERDICTS, dtype=object)[found.codes]
     assert (names == domain.verdicts[..., None]).all()
     assert (found.summary()["some_collapse"], found.summary()["runs"]) == (0, 24)
     np.testing.assert_allclose(found.peaks[..., 0], domain.grid("peak_top_displacement_m"), rtol=1e-6)
     with pytest.raises(st.InputError, match="nothing scatters"):
-        collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, friction=0.0))
+        collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, width=0.0))
 
 
 def test_a_cell_agrees_with_the_columns_like_this_one_of_a_run_of_its_motion():
@@ -204,9 +204,9 @@ def test_a_probability_is_read_back_from_its_file(tmp_path):
     np.testing.assert_array_equal(found.codes, made.codes)
     np.testing.assert_array_equal(found.peaks, made.peaks)
     assert found.summary() == made.summary()
-    # the block is as built, and offsets are left out of its scatter
+    # a rigid block as built: all but its size is left out of the scatter
     assert (found.column, found.motion_scatter) == (column, size["motion_scatter"])
-    assert found.scatter == dataclasses.replace(size["scatter"], offset=0.0)
+    assert found.scatter == Scatter(**NOTHING | {"width": 0.02, "height": 0.005})
     assert json.dumps(found.provenance) == json.dumps(made.provenance)
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
     with pytest.raises(st.InputError, match="is a domain, not a probability"):
@@ -273,5 +273,5 @@ def test_what_the_model_leaves_out_of_the_motions_is_told_as_left_out():
         preset("paper-monolithic"), st.HousnerBlock(), [1.0], [0.5], 0.1, replicates=1,
         motion_scatter=MotionScatter(phase=0.1, across=0.01),
     )  # fmt: skip
-    assert found.summary()["left_out"] == ["offset", "across"]
+    assert found.summary()["left_out"] == ["friction", "joint_stiffness", "density", "offset", "across"]
     assert found.motion_scatter == MotionScatter(phase=0.1)

@@ -37,8 +37,8 @@ def test_a_person_is_told_how_wide_the_doubt_is(capsys):
     assert call([*GRID, "--replicates", "4", "--motion-scatter", "phase=0.1,amplitude=3%,across=1%"]) == 0
     text = capsys.readouterr().out
     assert text.startswith("Of 12 cells, all columns stand in ")
-    assert "4 that vary by friction 10 %, joint stiffness 20 %" in text
-    assert "seed 0, without offset, across, which the model does not take" in text
+    assert "4 that vary by width 0.5 %, height 0.5 %" in text
+    assert "seed 0, without friction, joint stiffness, density, offset, across, which the model does not take" in text
     assert "vary by amplitude ±3 %, phase ±0.1 cycles\n" in text
 
 

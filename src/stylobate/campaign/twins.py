@@ -39,7 +39,7 @@ def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str])
 
 def without(left_out: Sequence[str]) -> str:
     """What of a scatter a model leaves out, in words behind what it does not."""
-    return f", without {', '.join(left_out)}, which the model does not take" if left_out else ""
+    return f", without {', '.join(left_out).replace('_', ' ')}, which the model does not take" if left_out else ""
 
 
 def in_space(model: Model) -> bool:
@@ -58,10 +58,10 @@ def the_twins(
         if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
             raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
     asked = usual_scatter(stack) if scatter is None else scatter
-    left_out = ("offset",) if asked.offset and not model.takes_as_found else ()
-    size = dataclasses.replace(asked, offset=0.0) if left_out else asked
+    left_out = tuple(name for name in asked.given if name in model.not_scattered)
+    size = dataclasses.replace(asked, **dict.fromkeys(left_out, 0.0))
     if alone and not size.given:  # as many runs of one column are no population
-        why = f", as {model.name} does not take {left_out[0]}" if left_out else ""
+        why = f", as {model.name} does not take {' and '.join(left_out)}" if left_out else ""
         raise InputError(
             f"nothing scatters{why}; give at least one coefficient of variation above 0, such as friction=10%."
         )

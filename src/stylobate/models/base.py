@@ -115,6 +115,11 @@ class Model:
     takes_links: ClassVar[frozenset[str]] = frozenset()
     carries: ClassVar[int] = 0
 
+    @property
+    def not_scattered(self) -> tuple[str, ...]:
+        """Parts of a :class:`~stylobate.column.scatter.Scatter` that change nothing in its runs, by name."""
+        return () if self.takes_as_found else ("offset",)
+
     def check(self, column: Any, motion: Motion) -> None:
         """Refuse (InputError) or warn (OutOfRangeWarning) before anything is computed."""
         column.must_consist_of(self.computes, self.name)

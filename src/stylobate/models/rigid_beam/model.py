@@ -156,6 +156,11 @@ class RigidBeam(Model):
                 "moment_law=housner is rigid and has no sliding or stiffness_damping; use bilinear or winkler."
             )
 
+    @property
+    def not_scattered(self) -> tuple[str, ...]:
+        """Friction too, where nothing slides."""
+        return super().not_scattered + (() if self.sliding else ("friction",))
+
     @classmethod
     def paper(cls, **changes) -> RigidBeam:
         """As the paper has it: prisms of mean width, falling branch in the law with each drum's own α, no damping.

@@ -92,6 +92,11 @@ class HousnerBlock(Model):
         if self.time_step is not None:
             check_range("time_step", self.time_step, 0.0, 1.0, unit="s", open_low=True)
 
+    @property
+    def not_scattered(self) -> tuple[str, ...]:
+        """Of a block that neither slides nor has elastic joints."""
+        return *super().not_scattered, "friction", "joint_stiffness", "density"
+
     def check(self, column: Column, motion: Motion) -> None:
         """Refuse columns of several drums; warn outside the declared limits."""
         super().check(column, motion)
