@@ -109,9 +109,7 @@ def test_an_impossible_scatter_of_the_motion_is_refused(field):
 def test_where_next_to_nothing_scatters_every_column_has_the_verdict_of_the_domain():
     column = preset("paper-monolithic")
     domain = st.collapse_domain(column, st.HousnerBlock(), *GRID)
-    found = collapse_probability(
-        column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, width=1e-9)
-    )
+    found = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=3, scatter=Scatter(**NOTHING, width=1e-9))
     names = np.array(v.VERDICTS, dtype=object)[found.codes]
     assert (names == domain.verdicts[..., None]).all()
     assert (found.summary()["some_collapse"], found.summary()["runs"]) == (0, 24)
