@@ -184,8 +184,13 @@ def test_a_verdict_says_when_columns_like_it_do_otherwise():
     assert "Of 5 columns like this one, 4 collapse" in said
     assert "the probability of collapse is 30 to 99 %, with 95 % confidence" in said
     assert "1 more could not be computed" in said
-    assert "take the share, not the single run" in said
-    assert "take the share" not in certainty_sentence(found | {"collapsed": True})
+    assert "4 of 6, this one and 5 like it, collapse (95 %: 30 to 90 %); 2 stand." in said
+    assert "like it" not in certainty_sentence(found | {"collapsed": True})
+    earlier = "13 of 15 columns like it stand though this one falls: take the share, not the single run."
+    known = known | {"collapsed": 2, "stands": 13, "failed": 0, "beside": earlier}
+    said = certainty_sentence(found | {"collapsed": True, "certainty": known})
+    assert "single run" not in said
+    assert "3 of 16, this one and 15 like it, collapse" in said
     assert "was not computed" in certainty_sentence({})
 
 
