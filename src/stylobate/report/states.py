@@ -10,6 +10,7 @@ from ..analysis.fragility import FEWEST
 from ..analysis.side_by_side import median_words, shares
 from ..motion.intensity_specs import parse_measure
 from ..percent import percents
+from ..response.links import YIELDS
 from ..results import Numbers
 from . import numbers as n
 from .page import Item, Note, Points, Rows
@@ -81,7 +82,7 @@ def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
             words = f"“{state}”: {full['link']}{', most of all,' * (len(mine) > 1)} was at its capacity in "
             words += f"{full['at_capacity']} of {full['runs']} runs"
             words += f"; {broken['link']} broke in {broken['broken']}" if broken["broken"] else ", and none broke"
-            said.append(f"{words}. A link at its capacity yields or slips, and stays so.")
+            said.append(f"{words}. {YIELDS}")
     return said
 
 
