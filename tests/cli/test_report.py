@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -160,6 +161,12 @@ def test_names_of_strangers_are_text(page):
     assert "default-src 'none'" in page
 
 
+def test_the_first_page_tells_how_sure_each_run_is(page):
+    front = Page(page[: page.index("</nav>")]).text
+    assert "Of 3 columns like this one" in front
+    assert "no statement about other" not in front
+
+
 def test_what_an_engineer_signs_is_there(page, place):
     text = " ".join(Page(page).text.replace("\N{NO-BREAK SPACE}", " ").split())
     run = json.loads((place / "out run <i>" / "run.json").read_text())
@@ -173,6 +180,28 @@ def test_what_an_engineer_signs_is_there(page, place):
     assert run["outcome"].replace("_", " ") in text
     opens = read_results([place / "out run <i>"])[0].response.column.uplift_acceleration / st.g
     assert f"{opens:.3g} g (joint 1)" in text
+
+
+def test_the_first_page_has_the_shares_and_each_doubt_once():
+    """Of several results: what a run says of columns like it, and notes with the results that they hold for."""
+    from stylobate.report import case
+    from stylobate.report.page import Note, Section
+    from stylobate.report.record import warnings_of
+
+    result = SimpleNamespace(asked=None, files=())
+    plane, other = "the plane leaves out what shakes it across.", "it is wide."
+    run = Section("Verdict", [Note(["It stands.", "1 of 15 falls.", "Scope."], "verdict", first=2)])
+    run = Section("Verdict", [*run.items, *warnings_of(result, [plane])])
+    several = Section(
+        "Result", [Note(["It falls at 1 g.", "Scope."], "verdict bad"), *warnings_of(result, [plane, other])]
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(case, "_title", lambda result: "")
+        patch.setattr(case, "_told", lambda result, told, all_: [result])
+        cases = [case._case(one, set(), []) for one in (run, several)]
+    assert [one["verdict"] for one in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
+    (note,) = case._notes([one["notes"] for one in cases])
+    assert note.texts == [f"On all of them: {plane}", f"On 2: {other}"]
 
 
 def test_a_verdict_says_when_columns_like_it_do_otherwise():

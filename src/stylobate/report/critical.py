@@ -58,7 +58,8 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         "Share of columns like this one that collapse, over the amplitude, with its interval.",
     )
     items += kept(result.pictures, "directions", "By direction of the motion.")
-    return (s["sentence"], "" if s["lowest_collapse_g"] is None else " bad"), items
+    said = s["sentence"] if own is None else f"{s['sentence']} The record as it is, {as_recorded(own)}."
+    return (said, "" if s["lowest_collapse_g"] is None else " bad"), items
 
 
 def _twins(s: dict[str, Any]) -> list[Item]:
