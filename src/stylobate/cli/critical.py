@@ -164,7 +164,7 @@ def over_suite(
             ]
             if len(result.compass.bearings) > 1:
                 title = f"{column.name}, {model.name}"
-                drawn = plots.draw_directions(result.compass, title, worst="smallest")
+                drawn = plots.draw_directions(result.compass, title)
                 files += plots.save(drawn, folder / "directions")
             taken = [model.taken(one) for one in suite.motions]
             what = {"structures": [column], "models": [model], "motions": taken}
