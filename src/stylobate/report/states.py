@@ -7,7 +7,7 @@ from typing import Any
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER
 from ..analysis.evidence import evidence
 from ..analysis.fragility import FEWEST
-from ..analysis.side_by_side import median_words, shares
+from ..analysis.side_by_side import median_name, median_words, shares
 from ..motion.intensity_specs import parse_measure
 from ..percent import percents
 from ..response.links import YIELDS
@@ -35,8 +35,8 @@ def states_items(result: Numbers) -> list[Item]:
     basis = [f"“{one['state']}” against “{one['against']}”. {one['basis']}" for one in s["differences"]]
     items: list[Item] = [Points(basis + _at_capacity(s["links"]))]
     shown = verb.replace("collapse", "collapses").replace("exceed ", "exceeds ")
-    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "95 % interval", "failed"]
-    header.append("median intensity")
+    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "95 % of the share", "failed"]
+    header.append(median_name(*(one["fragility"] or None for one in s["states"])).replace("median", "median intensity"))
     body = []
     for one in s["states"]:
         row = [one["label"], *(n.plain(one[key]) for key in ("same_runs", "exceeded", "not_exceeded", "undecided"))]
