@@ -49,9 +49,10 @@ def draw_directions(compass: Compass, title: str | None = None, *, figure: Figur
         )
     if compass.worst is not None:
         at = compass.bearings == compass.worst
-        none = compass.none_collapses
-        marks = {"color": "none"} if none else {"color": RED, "fillstyle": "none", "markersize": 8.0}
-        axes.plot(angle[at], shown[at], "o", markeredgewidth=1.8, label=compass.words, **marks)
+        (mark,) = axes.plot(angle[at], shown[at], "o", color=RED, fillstyle="none", label=compass.words)
+        mark.set(markersize=8.0, markeredgewidth=1.8)
+        if compass.none_collapses:
+            mark.set_color("none")
     axes.set_ylim(0.0, rim * 1.02)
     axes.set_rlabel_position(15.0)  # between the lines, where no interval is drawn
     axes.set_title(in_lines(title or compass.name) if title is None else f"{in_lines(title)}\n{compass.name}", pad=14.0)
