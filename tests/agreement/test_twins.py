@@ -38,13 +38,23 @@ def population(*rows: dict) -> Population:
 def test_a_run_that_is_no_example_of_its_twins_says_so():
     """It stands where most of them fall, falls where most stand, or moves as none of those that stand."""
     mostly = population(*[row("collapsed")] * 11, *[row("rocked")] * 4)
-    said = "11 of 15 columns like it collapse though this one stands: take the share, not the single run."
+    said = "That this one stands does not make it safe, as most like it collapse: 11 of 16, this one and 15 like it, "
+    said += "collapse (95 %: 44 to 86 %); 5 stand."
     assert mostly.beside(row("rocked")) == said
-    assert mostly.beside(row("rocked", decided=False)) == said.replace("stands", "has not fallen yet")
-    assert mostly.beside(row("collapsed")) == ""
+    open_ = mostly.beside(row("rocked", decided=False))
+    assert "this one has not fallen yet" in open_
+    assert open_.endswith("(95 %: 44 to 90 %); 4 stand and 1 is undecided.")
+    assert mostly.beside(row("collapsed")) == mostly.beside(row("failed", decided=False)) == ""
     assert mostly.summary(row("rocked"))["certainty"]["beside"] == said
-    seldom = population(*[row("collapsed")] * 2, *[row("rocked")] * 13)
-    assert seldom.beside(row("collapsed")).startswith("13 of 15 columns like it stand though this one falls")
+    seldom = population(*[row("rocked")] * 14, row("rocked", decided=False))
+    assert seldom.sentence.endswith("; 14 stand and 1 is undecided: go on with --tail 5s.")
+    fell = seldom.beside(row("collapsed"))
+    assert "not the single run" not in fell
+    assert fell == (
+        "That others stand does not make this one safe, which falls and is one of them: 1 of 16, this one and 15 like it, "
+        "collapses (95 %: 1 to 36 %); 14 stand and 1 is undecided."
+    )
+    assert seldom.probability == 0.0  # of the twins alone
     moved = [row("rocked", peak_top_displacement_m=one) for one in np.linspace(0.1, 0.2, 15)]
     spread = population(*moved)
     assert spread.beside(row("rocked", peak_top_displacement_m=-0.15)) == ""
@@ -112,7 +122,9 @@ def test_undecided_and_failed_twins_are_counted_as_neither():
     low, high = found.interval
     # Wilson's limits for 1 of 3 and for 2 of 3
     assert (low, high) == pytest.approx((0.0615, 0.9385), abs=1e-3)
-    assert found.sentence.startswith("Collapses in 1 of 3 columns like this (95 %: 6 to 94 %); 1 of them are undecided")
+    assert found.sentence.startswith(
+        "Collapses in 1 of 3 columns like this (95 %: 6 to 94 %); 1 stands and 1 is undecided"
+    )
     assert found.sentence.endswith("1 more failed.")
     assert (found.worst, found.median) == (0, 2)
     nothing = population(row("failed"))

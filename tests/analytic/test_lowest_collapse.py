@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate import plots
 from stylobate.analysis.capacity import Capacity, of_levels, quantiles
 from stylobate.analysis.critical import CriticalAmplitude
 from stylobate.analysis.critical_population import CriticalPopulation
 from stylobate.analysis.critical_suite import CriticalSuite
-from stylobate.analysis.critical_words import sentence, sentence_of_suite
+from stylobate.analysis.critical_words import as_recorded, sentence, sentence_of_suite
 from stylobate.column.presets import preset
 from stylobate.column.scatter import Scatter
 from stylobate.report.critical import critical_result
@@ -170,7 +171,27 @@ def test_the_report_has_the_shares_of_the_columns_alike():
         f"{share} % of 4 columns like this one have fallen by": at
         for share, at in ((16, "0.3 g"), (50, "0.4 g"), (84, "> 0.5 g"))
     }
-    assert table.body[1] == ["0.3", "1.2", "25 %", "5 to 70 %"]  # Wilson's interval for 1 of 4
+    assert table.body[1] == ["0.3", "1.2", "1", "3", "0", "0", "25 %", "5 to 70 %"]  # Wilson's interval for 1 of 4
     records = CriticalSuite((over("ssss", ["ssss"]),), 1.0).summary()
     (_, _), (_, table) = critical_result(SimpleNamespace(summary=records, structures=[], pictures={}))
     assert dict(zip(table.header, table.body[0]))["critical 50 [g]"] == "> 0.5"
+
+
+def test_what_is_undecided_is_told_beside_the_share_of_the_columns_alike():
+    record = st.Motion(0.01, 0.2 * st.g * np.sin(2.0 * np.pi * 0.01 * np.arange(200)), name="record.csv")
+    record = record.scaled_to_pga(0.2 * st.g)
+    found = over("ussc", ["ussc"] * 13 + ["sscc"] * 2, record)
+    own = dict(found.as_recorded)
+    assert (own["twins_undecided"], own["twins_stands"]) == (13, 2)
+    said = "undecided; columns like it that collapse: 0 to 87 % of 15 (0 to 96 %); 13 undecided"
+    assert as_recorded(own) == f"0.2 g: {said}"
+    items = critical_result(SimpleNamespace(summary=json.loads(json.dumps(found.summary())), pictures={}))[1]
+    assert said in str(items[0])
+    (table,) = [one for one in items if "undecided" in getattr(one, "header", ())]
+    assert table.body[0][2:] == ["0", "2", "13", "0", "0 to 87 %", "0 to 96 %"]
+    assert table.body[1][2:] == ["0", "15", "0", "0", "0 %", "0 to 20 %"]
+    axes = plots.draw_collapse_over_amplitude(found.population).axes[0]
+    (line,) = axes.lines
+    assert list(line.get_ydata()) == pytest.approx([np.nan, 0.0, 2 / 15, 1.0], nan_ok=True)
+    (bar,) = axes.collections[1].get_segments()  # behind the band
+    assert bar[:, 1] == pytest.approx([0.0, 13 / 15])

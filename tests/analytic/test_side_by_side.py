@@ -188,7 +188,9 @@ def test_a_median_is_as_wide_as_what_is_undecided():
 def test_a_compass_counts_a_record_once_from_each_direction():
     """Five columns under one record from the north are one record: Wilson's interval of 1 of 2, not of 5 of 6."""
     fell = {"outcome": "collapsed", "decided": True, "collapsed": True, "azimuth_deg": 0.0}
+    fell |= {"peak_top_displacement_m": 0.1, "collapse_time_s": 1.0}
     stood = {"outcome": "rocked", "decided": True, "collapsed": False, "azimuth_deg": 0.0}
+    stood |= {"peak_top_displacement_m": 0.1}
     open_ = stood | {"decided": False, "azimuth_deg": 90.0, "record": "a"}
     found = compass_of_shares([*[fell | {"record": "a"}] * 5, stood | {"record": "b"}, open_])
     assert found.bearings.tolist() == [0.0, 90.0]

@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,9 +13,11 @@ from stylobate import plots
 from stylobate.analysis.difference import doubt
 from stylobate.analysis.evidence import Evidence
 from stylobate.analysis.fragility import fragility
-from stylobate.analysis.limit_states import OPEN
+from stylobate.analysis.limit_states import EXCEEDED, NOT_EXCEEDED, OPEN
+from stylobate.analysis.side_by_side import median_name, shares
 from stylobate.analysis.states import _difference, compare_states
 from stylobate.cli.main import call
+from stylobate.cli.states import describe
 from stylobate.column.files import write_column
 from stylobate.column.materials import material
 from stylobate.column.scatter import usual_scatter
@@ -154,3 +157,16 @@ def test_what_a_plane_says_of_round_columns_is_doubted_before_any_advice():
         assert doubt(found, [round_], model).endswith("can fall under much weaker motions.")
         assert doubt(measures, [square], model) == ""
     assert doubt(measures, [round_], st.DistinctElement3D()) == ""
+
+
+def test_a_median_with_undecided_runs_does_not_stand_as_an_interval(capsys):
+    """It reaches from one end to another, as an interval does: its column says what it is, and of what the 95 % are."""
+    ends = {"if_open_exceed": {"median": 0.8}, "if_open_do_not": {"median": 1.1}}
+    curve = {"median": 0.9, "unit": "g", "undecided": 3, "failed": 0, "levels": [0.5, 1.5]} | ends
+    (share,) = shares({"as built": np.array([EXCEEDED, OPEN, NOT_EXCEEDED])})
+    told = {"doubt": "", "differences": (), "state": "collapse", "links": ()}
+    describe(SimpleNamespace(**told, shares=[share], curves=[SimpleNamespace(summary=lambda: curve)]))
+    text = " ".join(capsys.readouterr().out.split())
+    assert "95 % of the share" in text
+    assert "median (undecided both ways)" in text
+    assert median_name(curve | {"undecided": 0}, None) == "median"

@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 from html.parser import HTMLParser
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -160,6 +161,12 @@ def test_names_of_strangers_are_text(page):
     assert "default-src 'none'" in page
 
 
+def test_the_first_page_tells_how_sure_each_run_is(page):
+    front = Page(page[: page.index("</nav>")]).text
+    assert "Of 3 columns like this one" in front
+    assert "no statement about other" not in front
+
+
 def test_what_an_engineer_signs_is_there(page, place):
     text = " ".join(Page(page).text.replace("\N{NO-BREAK SPACE}", " ").split())
     run = json.loads((place / "out run <i>" / "run.json").read_text())
@@ -175,6 +182,28 @@ def test_what_an_engineer_signs_is_there(page, place):
     assert f"{opens:.3g} g (joint 1)" in text
 
 
+def test_the_first_page_has_the_shares_and_each_doubt_once():
+    """Of several results: what a run says of columns like it, and notes with the results that they hold for."""
+    from stylobate.report import case
+    from stylobate.report.page import Note, Section
+    from stylobate.report.record import warnings_of
+
+    result = SimpleNamespace(asked=None, files=())
+    plane, other = "the plane leaves out what shakes it across.", "it is wide."
+    run = Section("Verdict", [Note(["It stands.", "1 of 15 falls.", "Scope."], "verdict", first=2)])
+    run = Section("Verdict", [*run.items, *warnings_of(result, [plane])])
+    several = Section(
+        "Result", [Note(["It falls at 1 g.", "Scope."], "verdict bad"), *warnings_of(result, [plane, other])]
+    )
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(case, "_title", lambda result: "")
+        patch.setattr(case, "_told", lambda result, told, all_: [result])
+        cases = [case._case(one, set(), []) for one in (run, several)]
+    assert [one["verdict"] for one in cases] == ["It stands. 1 of 15 falls.", "It falls at 1 g."]
+    (note,) = case._notes([one["notes"] for one in cases])
+    assert note.texts == [f"On all of them: {plane}", f"On 2: {other}"]
+
+
 def test_a_verdict_says_when_columns_like_it_do_otherwise():
     from stylobate.report.certainty import certainty_sentence
 
@@ -184,8 +213,13 @@ def test_a_verdict_says_when_columns_like_it_do_otherwise():
     assert "Of 5 columns like this one, 4 collapse" in said
     assert "the probability of collapse is 30 to 99 %, with 95 % confidence" in said
     assert "1 more could not be computed" in said
-    assert "take the share, not the single run" in said
-    assert "take the share" not in certainty_sentence(found | {"collapsed": True})
+    assert "4 of 6, this one and 5 like it, collapse (95 %: 30 to 90 %); 2 stand." in said
+    assert "like it" not in certainty_sentence(found | {"collapsed": True})
+    earlier = "13 of 15 columns like it stand though this one falls: take the share, not the single run."
+    known = known | {"collapsed": 2, "stands": 13, "failed": 0, "beside": earlier}
+    said = certainty_sentence(found | {"collapsed": True, "certainty": known})
+    assert "single run" not in said
+    assert "3 of 16, this one and 15 like it, collapse" in said
     assert "was not computed" in certainty_sentence({})
 
 

@@ -93,11 +93,11 @@ def test_the_whole_motion_is_turned():
 
 
 def test_every_record_in_every_direction_with_both_signs(record):
-    asked = st.MotionRequest(files=(record.parent,), azimuths=(0.0, 90.0, 180.0), signs="both")
+    asked = st.MotionRequest(files=(record.parent,), azimuths=(0.0, 90.0, 120.0), signs="both")
     assert asked.several
     found = asked.expand()
     assert [one.name for one in found.motions] == [
-        f"two.csv at {angle}°{sign}" for angle in (0, 90, 180) for sign in ("", " reversed")
+        f"two.csv at {angle}°{sign}" for angle in (0, 90, 120) for sign in ("", " reversed")
     ]
     first, reversed_, turned, *_ = found.motions
     assert reversed_.acceleration == pytest.approx(-first.acceleration)
@@ -105,7 +105,7 @@ def test_every_record_in_every_direction_with_both_signs(record):
     assert reversed_.vertical == pytest.approx(first.vertical)  # turned by half a turn: the vertical stays upward
     assert turned.acceleration == pytest.approx(-first.lateral, abs=1e-12)
     assert turned.lateral == pytest.approx(first.acceleration, abs=1e-12)
-    assert [one.metadata["azimuths"]["x"] for one in found.motions] == [0.0, 0.0, 90.0, 90.0, 180.0, 180.0]
+    assert [one.metadata["azimuths"]["x"] for one in found.motions] == [0.0, 0.0, 90.0, 90.0, 120.0, 120.0]
     assert not st.MotionRequest(files=(record,)).several
     with pytest.raises(st.InputError, match="several motions are asked for"):
         st.MotionRequest(files=(record,), signs="both").motion()
@@ -130,6 +130,14 @@ def test_all_components_and_the_strongest(record):
     alone = st.MotionRequest(files=(record,), component="2").motion()
     assert alone.lateral is None
     assert alone.acceleration == pytest.approx(second.acceleration, abs=1e-12)
+
+
+@pytest.mark.parametrize("azimuths", [tuple(np.linspace(0.0, 330.0, 12)), (-90.0, 0.0, 90.0)])
+def test_a_circle_of_azimuths_with_both_signs_is_told_to_be_computed_twice(record, azimuths):
+    with pytest.warns(st.errors.OutOfRangeWarning, match="a full circle holds both signs; leave --signs both out"):
+        st.MotionRequest(files=(record,), azimuths=azimuths, signs="both")
+    st.MotionRequest(files=(record,), azimuths=azimuths)
+    st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 60.0, 90.0, 120.0, 150.0), signs="both")
 
 
 @pytest.mark.parametrize("azimuths", [(), (0.0, 45.0)])

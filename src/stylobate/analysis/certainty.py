@@ -120,7 +120,7 @@ class Population:
         said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
         said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)})"
         if counts[v.UNDECIDED]:
-            said += f"; {counts[v.UNDECIDED]} of them are undecided, go on with --tail 5s"
+            said += f"; {_not_fallen(counts)}: go on with --tail 5s"
         return said + (f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else ".")
 
     @property
@@ -155,16 +155,16 @@ class Population:
         run : mapping
             Under the names of the JSON object of ``stylobate run``.
         """
-        if said := set_against(bool(run["collapsed"]), self.counts, bool(run.get("decided", True))):
+        if said := set_against(run, self.counts, self.confidence):
             return said
         stood = [abs(row["peak_top_displacement_m"]) for row, one in zip(self.rows, self.verdicts) if one == v.STANDS]
         own = run.get("peak_top_displacement_m")
         if run["collapsed"] or own is None or len(stood) < ENOUGH or min(stood) <= abs(own) <= max(stood):
             return ""
-        low, high = 1e3 * min(stood), 1e3 * max(stood)
+        low, high, here = 1e3 * min(stood), 1e3 * max(stood), 1e3 * abs(own)
         return (
-            f"Its top moves {'more' if 1e3 * abs(own) > high else 'less'} than that of any column like it that stands "
-            f"({low:.3g} to {high:.3g} mm): take theirs, not the single run."
+            f"Its top moves {'more' if here > high else 'less'} than that of any column like it that stands "
+            f"({low:.3g} to {high:.3g} mm): with this one, from {min(low, here):.3g} to {max(high, here):.3g} mm."
         )
 
     def summary(self, run: Mapping[str, Any] | None = None) -> dict[str, Any]:
@@ -255,24 +255,44 @@ def chance_words(row: Mapping[str, Any]) -> str:
     return f"{said}; {', '.join(counts)}" if counts else said
 
 
-def set_against(collapsed: bool, counts: Mapping[str, Any], decided: bool = True) -> str:
-    """What must be said where most columns like one end otherwise than it did; empty where they do not.
+def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: float = 0.95) -> str:
+    """What must be said where most columns like one end otherwise than it did, the run counted in; empty where they do not.
+
+    The column as surveyed is one of its population: its collapse is never set aside because others stand.
 
     Parameters
     ----------
-    collapsed : bool
-        Whether the column itself collapses.
+    run : mapping
+        Of the column itself, under the names of the JSON object of ``stylobate run``.
     counts : mapping
-        How many columns like it collapse, and stand, by the names of these verdicts.
-    decided : bool
-        Whether its own verdict is certain.
+        How many columns like it have which verdict, by its name.
+    confidence : float
+        Level of the interval.
     """
-    fell, stood = int(counts.get(v.COLLAPSED, 0)), int(counts.get(v.STANDS, 0))
-    others, number = (stood, "stand") if collapsed else (fell, "collapse")
-    if others <= (fell if collapsed else stood):
+    fell, stood, open_ = (int(counts.get(one) or 0) for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED))
+    collapsed, decided = bool(run.get("collapsed")), bool(run.get("decided", True))
+    differ = stood + open_ > fell if collapsed else fell > stood
+    if run.get("outcome") == "failed" or not differ:
         return ""
-    own = "falls" if collapsed else "stands" if decided else "has not fallen yet"
-    return f"{others} of {fell + stood} columns like it {number} though this one {own}: take the share, not the single run."
+    number = fell + stood + open_
+    fell, stood, open_ = fell + collapsed, stood + (decided and not collapsed), open_ + (not decided and not collapsed)
+    low, high = (float(one) for one in v.collapse_interval(fell, stood, open_, confidence))
+    whole = f"{fell} of {number + 1}, this one and {number} like it, collapse{'s' if fell == 1 else ''}"
+    whole += (
+        f" ({100.0 * confidence:g} %: {percents(low, high)}); {_not_fallen({v.STANDS: stood, v.UNDECIDED: open_})}."
+    )
+    if collapsed:
+        return f"That others stand does not make this one safe, which falls and is one of them: {whole}"
+    own = "stands" if decided else "has not fallen yet"
+    return f"That this one {own} does not make it safe, as most like it collapse: {whole}"
+
+
+def _not_fallen(counts: Mapping[str, int]) -> str:
+    """How many columns stand, and how many are undecided."""
+    stood, open_ = counts[v.STANDS], counts[v.UNDECIDED]
+    words = [f"{stood} stand{'s' if stood == 1 else ''}"]
+    words += [f"{open_} {'is' if open_ == 1 else 'are'} undecided"] if open_ else []
+    return " and ".join(words)
 
 
 def certainty(

@@ -147,14 +147,21 @@ class CriticalAmplitude:
 
     @property
     def as_recorded(self) -> dict[str, Any] | None:
-        """What the record does as it is: amplitude, verdict, share of the twins; None for a formula, or beyond the grid."""
+        """What the record does as it is: amplitude, verdict, share of the twins with its interval and their verdicts.
+
+        None for a formula, or beyond the grid.
+        """
         if self.nominal is None or self.nominal not in self.amplitudes:
             return None
         verdict = self.verdicts[int(np.flatnonzero(self.amplitudes == self.nominal)[0])]
         found: dict[str, Any] = {"amplitude_g": self.nominal / g, "verdict": verdict}
         if self.population is not None:
-            share = self.population.probability[self.population.amplitudes == self.nominal]
-            found["collapse_probability"] = float(share[0]) if len(share) else None
+            likes = self.population
+            at = likes.amplitudes == self.nominal
+            names = "collapse_probability", "collapse_interval_low", "collapse_interval_high"
+            shares = zip(names, (likes.probability, *likes.interval), strict=True)
+            found |= {name: float(one[at][0]) for name, one in shares if at.any()}
+            found |= {name: int(count[at].sum()) for name, count in likes.counts.items()}
         return found
 
     @property

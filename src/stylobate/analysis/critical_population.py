@@ -55,9 +55,21 @@ class CriticalPopulation:
         return cls(amplitudes, verdicts, drawn.scatter, drawn.seed, drawn.left_out, nominal)
 
     @property
+    def counts(self) -> dict[str, np.ndarray]:
+        """How many twins have each verdict at each amplitude, under the names of tables."""
+        return {f"twins_{one}": (self.verdicts == one).sum(axis=0) for one in v.MADE}
+
+    @property
     def probability(self) -> np.ndarray:
         """Share of the twins that collapse at each amplitude; see :func:`stylobate.analysis.verdicts.share_collapsed`."""
         return v.share_collapsed(*v.tally(self.verdicts, axis=0))
+
+    @property
+    def undecided_collapsed(self) -> np.ndarray:
+        """Share of the twins that collapse at each amplitude if every undecided one does; NaN without a run."""
+        fell, stood, open_ = v.tally(self.verdicts, axis=0)
+        number = fell + stood + open_
+        return np.divide(fell + open_, number, out=np.full(number.shape, np.nan), where=number > 0)
 
     @property
     def interval(self) -> tuple[np.ndarray, np.ndarray]:
@@ -108,13 +120,14 @@ class CriticalPopulation:
     def summary(self) -> dict[str, Any]:
         """Under the names of the JSON object of ``stylobate critical``; lists are over the amplitudes."""
         low, high = self.interval
-        counts = v.count(self.verdicts)
+        total = v.count(self.verdicts)
         return {
             "amplitudes_g": (self.amplitudes / g).tolist(),
             "factors": None if self.factors is None else self.factors.tolist(),
             "collapse_probability": self.probability.tolist(),
             "collapse_interval_low": low.tolist(),
             "collapse_interval_high": high.tolist(),
+            **{name: count.tolist() for name, count in self.counts.items()},
             "replicates": len(self.verdicts),
             "certainty": {
                 "scatter": dataclasses.asdict(self.scatter),
@@ -123,6 +136,6 @@ class CriticalPopulation:
                 "confidence": self.confidence,
                 **self.percentiles,
                 "bounds": self.bounds,
-                **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
+                **{one: total[one] for one in v.MADE},
             },
         }

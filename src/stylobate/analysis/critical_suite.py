@@ -90,7 +90,8 @@ class CriticalSuite:
         bearings = sorted(found)
         like = "" if self.results[0].population is None else " or one like it"
         name = f"lowest factor that collapses it{like} [-]"
-        return Compass(np.array(bearings), np.array([found[at] for at in bearings]), name)
+        most = None if self.worst is None else bearing(direction_of(self.worst.motion))
+        return Compass(np.array(bearings), np.array([found[at] for at in bearings]), name, worst=most)
 
     @property
     def all_collapse_above(self) -> float | None:

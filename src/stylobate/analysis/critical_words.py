@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from . import verdicts as v
+from .certainty import CHANCE, chance_words
 
 #: Most stretches of amplitudes that are named.
 MOST = 4
@@ -57,6 +58,19 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
             f"factor at which any {'surely ' * bool(s['open_below'])}does{_below(s['open_below'], ' that factor')}."
         )
     return " ".join(filter(None, (words, _open(s, twins), ONE_ALONE if not twins and kind == "column" else "")))
+
+
+def as_recorded(own: Mapping[str, Any]) -> str:
+    """What the record does as it is, to the structure and to those like it.
+
+    Parameters
+    ----------
+    own : mapping
+        ``as_recorded`` of the JSON object of ``stylobate critical``.
+    """
+    likes = chance_words(own)
+    words = f"{own['amplitude_g']:.4g} g: {own['verdict']}"
+    return f"{words}; {CHANCE}: {likes}" if likes else words
 
 
 def _with_twins(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any]) -> str:

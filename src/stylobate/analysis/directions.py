@@ -49,8 +49,10 @@ def _peak_of(row: Mapping[str, Any]) -> str:
     return next(name for name in ("peak_top_displacement_m", "peak_displacement_m") if name in row)
 
 
-def worst(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any] | None:
-    """The row whose motion does most harm; None where all failed."""
+def worst(rows: Sequence[Mapping[str, Any]], compass: Compass | None = None) -> Mapping[str, Any] | None:
+    """The row whose motion does most harm, of those from the worst direction of a compass; None where all failed."""
+    if compass is not None and compass.worst is not None:
+        rows = [row for row in rows if bearing(row) == compass.worst]
     found = max(rows, key=harm, default=None)
     return None if found is None or v.verdict(found) == v.FAILED else found
 
@@ -82,6 +84,12 @@ class Compass:
         Its interval.
     name : str
         With its unit.
+    worst : float, optional
+        The direction that does most harm [degrees], by the value, then by the runs from there; None where none is known.
+    beyond : str
+        What an infinite value means.
+    sure : bool
+        Whether no run is undecided.
     """
 
     bearings: np.ndarray
@@ -89,6 +97,40 @@ class Compass:
     name: str
     low: np.ndarray | None = None
     high: np.ndarray | None = None
+    worst: float | None = None
+    beyond: str = "no collapse seen"
+    sure: bool = True
+
+    @property
+    def none_collapses(self) -> bool:
+        """Whether these are shares, and from no direction anything collapses."""
+        return self.low is not None and not np.any(self.values > 0.0)
+
+    @property
+    def words(self) -> str:
+        """The worst direction and its value, or that from none anything collapses; empty where nothing is known."""
+        if self.worst is None:
+            return ""
+        if self.none_collapses:
+            return f"no direction {'' if self.sure else 'surely '}collapses it"
+        value = float(self.values[self.bearings == self.worst][0])
+        return f"worst: {self.worst:g}°, {self.beyond if math.isinf(value) else f'{value:.3g}'}"
+
+
+def harm_words(found: Mapping[str, Any], compass: Compass) -> str:
+    """Which direction and motion do most harm, in a sentence.
+
+    Parameters
+    ----------
+    found : mapping
+        Of :func:`worst`, with that compass.
+    compass : Compass
+    """
+    towards = "" if compass.worst is None else f"towards {compass.worst:g}°, "
+    if compass.worst is not None and compass.none_collapses:
+        words = compass.words
+        return f"{words[:1].upper()}{words[1:]}; it moves most {towards}under {found['motion']}."
+    return f"Most harm: {towards}{found['motion']}."
 
 
 def compass_of_shares(rows: Sequence[Mapping[str, Any]]) -> Compass:
@@ -102,7 +144,16 @@ def compass_of_shares(rows: Sequence[Mapping[str, Any]]) -> Compass:
         decided = found.exceeded + found.not_exceeded
         values.append((found.low if decided else math.nan, *found.interval))
     share, low, high = np.array(values).reshape(-1, 3).T
-    return Compass(np.array(bearings), share, "share of the runs that collapse [-]", low, high)
+    order = {
+        at: (value, max(harm(row) for row in rows if bearing(row) == at))
+        for at, value in zip(bearings, share)
+        if not math.isnan(value)
+    }
+    sure = all(verdict != v.UNDECIDED for _, verdict, _ in named)
+    name = "share of the runs that collapse [-]"
+    return Compass(
+        np.array(bearings), share, name, low, high, max(order, key=lambda at: order[at], default=None), sure=sure
+    )
 
 
 def compass_of_chances(rows: Sequence[Mapping[str, Any]]) -> Compass:
@@ -121,4 +172,7 @@ def compass_of_chances(rows: Sequence[Mapping[str, Any]]) -> Compass:
             found[at] = values
     columns = np.array([found[at] for at in sorted(found)]).reshape(-1, len(names)).T
     low, high = (columns[1], columns[2]) if len(names) == 3 else (None, None)
-    return Compass(np.array(sorted(found)), columns[0], label, low, high)
+    first = worst(sound)
+    sure = not any((row.get("certainty") or {}).get(v.UNDECIDED) or v.verdict(row) == v.UNDECIDED for row in sound)
+    most = None if first is None else bearing(first)
+    return Compass(np.array(sorted(found)), columns[0], label, low, high, most, "collapse", sure)

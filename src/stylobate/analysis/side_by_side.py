@@ -156,6 +156,18 @@ def median_words(curve: Mapping[str, Any]) -> str:
     return " to ".join(dict.fromkeys(within(one, curve["levels"]) for one in ends)) + unit
 
 
+def median_name(*curves: Mapping[str, Any] | None) -> str:
+    """What :func:`median_words` of any of these curves are: never an interval of confidence.
+
+    Parameters
+    ----------
+    *curves : mapping
+        As there; None where there is no curve.
+    """
+    open_ = any(one["undecided"] + one["failed"] for one in curves if one is not None)
+    return "median (undecided both ways)" if open_ else "median"
+
+
 def known_end(curve: Mapping[str, Any], key: str) -> float:
     """The median with what is undecided or failed all counted one way; without a curve 0 or infinite."""
     value, none = curve[key]["median"], 0.0 if key == "if_open_exceed" else math.inf

@@ -19,6 +19,7 @@ from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
+from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from .difference import Difference, doubt, reference
 from .evidence import Evidence, evidence, intervals
@@ -31,9 +32,6 @@ from .studies import StudyResult, run_study
 
 if TYPE_CHECKING:
     import pandas
-
-#: A link that bears this share of its capacity bears all of it, but for rounding.
-AT_CAPACITY = 1.0 - 1e-9
 
 #: Smallest number of states that can be compared.
 FEWEST_STATES = 2

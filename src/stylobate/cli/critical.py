@@ -164,7 +164,7 @@ def over_suite(
             ]
             if len(result.compass.bearings) > 1:
                 title = f"{column.name}, {model.name}"
-                drawn = plots.draw_directions(result.compass, title, worst="smallest")
+                drawn = plots.draw_directions(result.compass, title)
                 files += plots.save(drawn, folder / "directions")
             taken = [model.taken(one) for one in suite.motions]
             what = {"structures": [column], "models": [model], "motions": taken}
@@ -213,9 +213,9 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
 
 def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
+    from ..analysis.critical_words import as_recorded
     from ..campaign.twins import described
     from ..constants import g
-    from ..percent import percent
     from . import console
 
     kind, likes = result.column.kind, result.population
@@ -231,10 +231,7 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
         known = len(likes.verdicts), likes.scatter, likes.seed, likes.left_out
         facts[f"{kind}s like this"] = f"{described(*known)}; at {len(likes.amplitudes)} of these amplitudes"
     if (own := summary["as_recorded"]) is not None:
-        share = own.get("collapse_probability")
-        facts["as recorded"] = f"{own['amplitude_g']:.4g} g: {own['verdict']}" + (
-            f"; {percent(share)} of those like it collapse" if share is not None and math.isfinite(share) else ""
-        )
+        facts["as recorded"] = as_recorded(own)
     for row in summary["alternation"]:
         runs = f"{row['runs']} run" + ("" if row["runs"] == 1 else "s")
         facts[f"{row['from_g']:.4g} to {row['to_g']:.4g} g"] = f"{row['verdict']} ({runs})"

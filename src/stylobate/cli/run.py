@@ -116,12 +116,13 @@ def run(
 
 def directions(summaries: Sequence[dict], name: str, model: str, out: Path | None, quiet: bool) -> None:
     """Which direction does most harm: in words, and where a folder is given on a compass."""
-    from ..analysis.directions import compass_of_chances, worst
+    from ..analysis.directions import compass_of_chances, harm_words, worst
     from . import console
 
-    found, chances = worst(summaries), compass_of_chances(summaries)
+    chances = compass_of_chances(summaries)
+    found = worst(summaries, chances)
     if not quiet and found is not None:
-        print(f"Most harm: {found['motion']}.")
+        print(harm_words(found, chances))
     if out is not None and len(chances.bearings) > 1:
         from .. import plots
 

@@ -172,7 +172,7 @@ def describe(found: StateComparison) -> None:
     """Print the answer for people."""
     import pandas
 
-    from ..analysis.side_by_side import median_words
+    from ..analysis.side_by_side import median_name, median_words
     from . import console
 
     if found.doubt:
@@ -180,12 +180,12 @@ def describe(found: StateComparison) -> None:
     for one in found.differences:
         print(one.sentence)
     how = "collapse" if found.state == "collapse" else "exceed"
-    rows = []
-    for one, curve in zip(found.shares, found.curves, strict=True):
+    rows, curves = [], [None if one is None else one.summary() for one in found.curves]
+    for one, curve in zip(found.shares, curves, strict=True):
         row = {"state": one.label, "same runs": one.runs, how: one.exceeded, "do not": one.not_exceeded}
         row |= {"undecided": one.undecided, "failed": one.failed, f"share that {how}s": one.words or console.MISSING}
-        row["95 %"] = one.interval_words or console.MISSING
-        row["median"] = console.MISSING if curve is None else median_words(curve.summary())
+        row["95 % of the share"] = one.interval_words or console.MISSING
+        row[median_name(*curves)] = console.MISSING if curve is None else median_words(curve)
         rows.append(row)
     console.print_table(pandas.DataFrame(rows), digits=3)
     links = found.links

@@ -68,7 +68,7 @@ def suite(
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
     from ..analysis.certainty import CHANCE, chance_words
-    from ..analysis.directions import compass_of_shares, worst
+    from ..analysis.directions import compass_of_shares, harm_words, worst
     from ..analysis.suite import must_be_told, suite_shares, suite_table
     from ..errors import InputError
     from ..models.shared.quiet import share_of
@@ -111,7 +111,8 @@ def suite(
             "refused": records.refused,
             "model": how.name,
         }
-        result["worst"] = worst(result["runs"])
+        compass = compass_of_shares(result["runs"])
+        result["worst"] = worst(result["runs"], compass if swept else None)
         found = suite_shares(result["runs"])
         result["shares"] = [{"column": one.label, **one.counts} for one in found]
         files = []
@@ -123,7 +124,6 @@ def suite(
                 console.write_json(folder / "suite.json", result),
                 *plots.save(plots.draw_suite(table, against), folder / "suite"),
             ]
-            compass = compass_of_shares(result["runs"])
             if swept and len(compass.bearings) > 1:
                 files += plots.save(
                     plots.draw_directions(compass, f"{', '.join(names)}, {how.name}"), folder / "directions"
@@ -142,7 +142,7 @@ def suite(
         shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
         console.print_table(shown, digits=3)
     if swept and result["worst"] is not None:
-        print(f"Most harm: {result['worst']['motion']}.")
+        print(harm_words(result["worst"], compass))
     console.print_left_out(result["inputs"])
     if "stepped_s" in table:
         share: Any = table["stepped_s"].sum() / table["duration_s"].sum()

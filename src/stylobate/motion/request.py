@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, check_range
+from ..errors import InputError, OutOfRangeWarning, check_range
 from .condition_specs import conditioned
 from .conditioning import warn_of_scaling
 from .motion import Motion
@@ -33,6 +35,10 @@ COMPONENTS = ("all", "strongest")
 #: Time that follows a pulse whose length is left open, times p of the column [-]: free rocking from close to overturning
 #: has come to a verdict by then.
 FREE_ROCKING = 20.0
+
+
+#: Azimuths that differ by less are one direction [degrees].
+SAME_DIRECTION = 1e-6
 
 
 @dataclass(frozen=True)
@@ -112,6 +118,22 @@ class MotionRequest:
             raise InputError("--scale and --pga are both given; give one of the two.")
         for one in self.azimuths:
             check_range("azimuth", one, -360.0, 360.0, unit="degrees")
+        opposite = next(
+            (
+                pair
+                for pair in combinations(self.azimuths, 2)
+                if abs((pair[0] - pair[1]) % 360.0 - 180.0) < SAME_DIRECTION
+            ),
+            None,
+        )
+        if self.signs == "both" and opposite is not None:
+            warnings.warn(
+                f"the azimuths hold {opposite[0]:g}° and {opposite[1]:g}°, each of which is the other one reversed, and "
+                "both signs are asked for as well, so that directions are computed twice: a full circle holds both signs; "
+                "leave --signs both out, or give half of the circle, such as 0:150:6.",
+                OutOfRangeWarning,
+                stacklevel=3,
+            )
 
     @classmethod
     def typed(

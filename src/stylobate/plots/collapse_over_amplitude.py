@@ -17,6 +17,8 @@ def draw_collapse_over_amplitude(
 ) -> Figure:
     """Share of the twins that collapse over the amplitude, with its confidence band; above it the factor of the record.
 
+    Where twins are undecided there is no line, but a bar: from the share if none of them collapses to that if all do.
+
     Parameters
     ----------
     population : CriticalPopulation
@@ -28,15 +30,14 @@ def draw_collapse_over_amplitude(
     amplitudes, (low, high) = population.amplitudes / g, population.interval
     band = f"{100.0 * population.confidence:g} % interval (Wilson; undecided counted both ways)"
     axes.fill_between(amplitudes, low, high, step="mid", color=BLUE, alpha=0.25, linewidth=0.0, label=band)
-    axes.plot(
-        amplitudes,
-        population.probability,
-        "o-",
-        color=BLACK,
-        markersize=3.0,
-        label="share that collapses",
-        clip_on=False,
-    )
+    least, most = population.probability, population.undecided_collapsed
+    known = np.where(most > least, np.nan, least)
+    axes.plot(amplitudes, known, "o-", color=BLACK, markersize=3.0, label="share that collapses", clip_on=False)
+    if (open_ := np.isnan(known) & np.isfinite(most)).any():
+        label = "its range where some are undecided"
+        low = np.nan_to_num(least[open_])
+        bars = axes.vlines(amplitudes[open_], low, most[open_], color=BLACK, linewidth=3.0, alpha=0.5, label=label)
+        bars.set_clip_on(False)
     axes.set_ylim(-0.03, 1.03)
     axes.set_xlim(amplitudes[0], max(amplitudes[-1], amplitudes[0] * 1.0001))
     axes.grid(axis="y")

@@ -13,17 +13,15 @@ from .style import BLACK, BLUE, RED, in_lines, page, styled
 
 
 @styled
-def draw_directions(
-    compass: Compass, title: str | None = None, *, worst: str = "largest", figure: Figure | SubFigure | None = None
-) -> Figure:
+def draw_directions(compass: Compass, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
     """A value over the direction of the shaking along x: north up, azimuths clockwise as those of records.
+
+    The worst direction is marked. Values beyond what was looked at stand open at the rim.
 
     Parameters
     ----------
     compass : Compass
     title : str, optional
-    worst : {"largest", "smallest"}
-        Which value is marked. Values beyond what was looked at stand open at the rim.
     figure : matplotlib figure or subfigure, optional
         Where to draw.
     """
@@ -47,15 +45,14 @@ def draw_directions(
     beyond = np.isposinf(values)
     if beyond.any():
         axes.plot(
-            angle[beyond], shown[beyond], "o", color=BLACK, fillstyle="none", markersize=6.0, label="no collapse seen"
+            angle[beyond], shown[beyond], "o", color=BLACK, fillstyle="none", markersize=6.0, label=compass.beyond
         )
-    if seen.any():
-        pick = np.nanargmax if worst == "largest" else np.nanargmin
-        at = int(pick(np.where(seen, values, np.nan)))
-        label = f"worst: {compass.bearings[at]:g}°, {values[at]:.3g}"
-        axes.plot(
-            angle[at], values[at], "o", color=RED, markersize=8.0, fillstyle="none", markeredgewidth=1.8, label=label
-        )
+    if compass.worst is not None:
+        at = compass.bearings == compass.worst
+        (mark,) = axes.plot(angle[at], shown[at], "o", color=RED, fillstyle="none", label=compass.words)
+        mark.set(markersize=8.0, markeredgewidth=1.8)
+        if compass.none_collapses:
+            mark.set_color("none")
     axes.set_ylim(0.0, rim * 1.02)
     axes.set_rlabel_position(15.0)  # between the lines, where no interval is drawn
     axes.set_title(in_lines(title or compass.name) if title is None else f"{in_lines(title)}\n{compass.name}", pad=14.0)

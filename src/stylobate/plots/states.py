@@ -9,7 +9,7 @@ from matplotlib.figure import Figure, SubFigure
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference
 from ..analysis.fragility import FEWEST, Fragility, curve
 from ..analysis.limit_states import FAILED, OPEN
-from ..analysis.side_by_side import median_words
+from ..analysis.side_by_side import median_name, median_words
 from ..analysis.states import StateComparison
 from ..motion.intensity_specs import parse_measure
 from .fragility import logarithmic
@@ -103,7 +103,9 @@ def _draw_curves(axes: Axes, known: list[Fragility], state: str) -> None:
     axes.fill_between(x, low, high, color=GREY, alpha=0.18, linewidth=0.0)
     for k, one in enumerate(known):
         marker, look = _MARKERS[k // len(CYCLE) % len(_MARKERS)], CYCLE[k % len(CYCLE)]
-        label = f"{one.evidence.name}: {median_words(one.summary())}"
+        summary = one.summary()
+        name = median_name(summary).replace(" (", "\n(")
+        label = f"{one.evidence.name}: {median_words(summary)}, {name}"
         common = {**look, "marker": marker, "markevery": 40, "markersize": 3.5}
         if one.evidence.count(OPEN) + one.evidence.count(FAILED) == 0:
             axes.plot(x, one.probability(x), **common, linewidth=1.5, label=label)

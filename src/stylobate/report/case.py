@@ -14,6 +14,7 @@ from ..version import __version__
 from . import page
 from .others import sections_of
 from .pdf import print_pdf
+from .record import NOTE
 from .runs import run_sections, several_sections
 
 TEMPLATE = Path(__file__).with_name("case.html")
@@ -85,7 +86,14 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) 
     names = ", ".join(dict.fromkeys(one.name for one in found))
     kinds = ", ".join(dict.fromkeys(TITLES[one.kind.value] for one in found))
     lead = [f"{kinds[:1].upper()}{kinds[1:]}. Written on {date.today().isoformat()} by stylobate {__version__}."]
-    values = {"version": __version__, "day": date.today().isoformat(), "lead": page.kinds(lead), "cases": cases}
+    notes = page.kinds(_notes([one["notes"] for one in cases]) if len(cases) > 1 else [])
+    values = {
+        "notes": notes,
+        "version": __version__,
+        "day": date.today().isoformat(),
+        "lead": page.kinds(lead),
+        "cases": cases,
+    }
     files = [page.write_html(target, TEMPLATE, title=title or f"Report: {names}", **values)]
     if pdf:
         files.append(print_pdf(target, target.with_suffix(".pdf")))
@@ -96,8 +104,23 @@ def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, A
     """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
     sections = _told(result, told, all_)
     notes = [one for one in sections[0].items if isinstance(one, page.Note) and "verdict" in one.look]
-    verdict = " ".join(one.texts[0] for one in notes)
-    return {"title": _title(result), "verdict": verdict, "parts": [page.part(one) for one in sections]}
+    verdict = " ".join(text for one in notes for text in one.texts[: one.first])
+    said = [text for part in sections for one in part.items if isinstance(one, page.Note) for text in one.texts]
+    known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
+    return {"title": _title(result), "verdict": verdict, "notes": known, "parts": [page.part(one) for one in sections]}
+
+
+def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
+    """What the reader must know before relying on any of the results, each once, with the results that it holds for."""
+    told: dict[str, list[int]] = {}
+    for number, texts in enumerate(notes, start=1):
+        for text in dict.fromkeys(texts):
+            told.setdefault(text, []).append(number)
+    each = [
+        f"On {'all of them' if len(numbers) == len(notes) else ', '.join(map(str, numbers))}: {text}"
+        for text, numbers in told.items()
+    ]
+    return [page.Note(each, "fair")] if each else []
 
 
 def _told(result: Result, told: set[str], all_: Sequence[Result]) -> list[page.Section]:

@@ -64,9 +64,7 @@ def beside_them(summary: Mapping[str, Any]) -> str:
     known = summary.get("certainty")
     if not isinstance(known, Mapping):
         return ""
-    if isinstance(said := known.get("beside"), str):
-        return said
-    return set_against(bool(summary.get("collapsed")), known, bool(summary.get("decided", True)))  # of earlier versions
+    return set_against(summary, known, float(known.get("confidence") or 0.95)) or str(known.get("beside") or "")
 
 
 def certainty_section(summary: Mapping[str, Any]) -> Section | None:

@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from ..analysis import verdicts as v
-from ..percent import percent, percents
+from ..analysis.critical_words import as_recorded
+from ..percent import percents
 from ..results import Numbers
 from . import numbers as n
 from .page import Facts, Item, Rows
@@ -32,7 +33,7 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         (" / ".join(v.MADE), " / ".join(n.plain(s.get(one)) for one in v.MADE)),
     ]
     if (own := s.get("as_recorded")) is not None:
-        pairs.append(("the record as it is", f"{own['amplitude_g']:.4g} g: {own['verdict']}"))
+        pairs.append(("the record as it is", as_recorded(own)))
     items: list[Item] = [Facts(pairs)]
     if s.get("collapse_probability"):
         items += _twins(s)
@@ -57,7 +58,8 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         "Share of columns like this one that collapse, over the amplitude, with its interval.",
     )
     items += kept(result.pictures, "directions", "By direction of the motion.")
-    return (s["sentence"], "" if s["lowest_collapse_g"] is None else " bad"), items
+    said = s["sentence"] if own is None else f"{s['sentence']} The record as it is, {as_recorded(own)}."
+    return (said, "" if s["lowest_collapse_g"] is None else " bad"), items
 
 
 def _twins(s: dict[str, Any]) -> list[Item]:
@@ -70,13 +72,20 @@ def _twins(s: dict[str, Any]) -> list[Item]:
         if shown.get(name := f"critical_{share}_g") is not None
     ]
     limits = zip(s["collapse_interval_low"], s["collapse_interval_high"])
+    counts = zip(*(s[f"twins_{one}"] for one in v.MADE))
     rows = [
-        [f"{a:.4g}", n.plain(factor), n.NONE if share is None else percent(share), percents(*interval)]
-        for a, factor, share, interval in zip(s["amplitudes_g"], scale, s["collapse_probability"], limits)
+        [f"{a:.4g}", n.plain(factor), *map(str, verdicts), _share(*verdicts[:3]), percents(*interval)]
+        for a, factor, verdicts, interval in zip(s["amplitudes_g"], scale, counts, limits)
     ]
-    header = ["amplitude [g]", "factor of the record", "collapse", "95 % interval"]
-    left_out = f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
+    header = ["amplitude [g]", "factor of the record", *v.MADE, "share that collapses", "95 % interval of it"]
+    left_out = " A share from which to which counts the undecided both ways." if any(s["twins_undecided"]) else ""
+    left_out += f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
     return [Facts(pairs), Rows(header, rows[:MOST], f"Columns like this one, by amplitude.{left_out}", numbers=True)]
+
+
+def _share(fell: int, stood: int, undecided: int) -> str:
+    number = fell + stood + undecided
+    return percents(fell / number, (fell + undecided) / number) if number else n.NONE
 
 
 def _by_record(records: Sequence[Mapping[str, Any]]) -> Rows:

@@ -98,10 +98,13 @@ class Note:
     texts : sequence of str
     look : str
         ``verdict``, ``fair`` (a warning), ``bad``; several in one text. Plain if left out.
+    first : int
+        How many of the texts of a verdict stand on the first page of a report of several results as well.
     """
 
     texts: Sequence[str]
     look: str = ""
+    first: int = 1
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,9 @@ from ..version import __version__
 from . import numbers as n
 from .page import Code, Facts, Item, Note, Points, Rows, Section
 
+#: What begins a text that the reader must know before relying on a result.
+NOTE = "Note: "
+
 #: Options that are results, told elsewhere.
 FOUND = ("limit_analysis_g",)
 
@@ -123,7 +126,7 @@ def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
         found.append(
             f"Changed by somebody since stylobate wrote {'it' if len(changed) == 1 else 'them'}: {', '.join(changed)}."
         )
-    return [Note([f"Note: {text}" for text in dict.fromkeys(found)], "fair")] if found else []
+    return [Note([f"{NOTE}{text}" for text in dict.fromkeys(found)], "fair")] if found else []
 
 
 def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapping[str, Any]) -> Section:

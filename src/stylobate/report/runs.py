@@ -91,8 +91,8 @@ def _verdict(run: RunResult) -> Note:
             "How sure this verdict is was not computed: only columns are computed with varied properties. It is that of "
             "exactly this geometry, these joints and this motion, and near collapse small differences decide."
         )
-    texts += [*filter(None, [doubt_of(r)]), _scope(run)]
-    return Note(texts, verdict_look(r, bool(beside_them(run.summary))))
+    texts += filter(None, [doubt_of(r)])
+    return Note([*texts, _scope(run)], verdict_look(r, bool(beside_them(run.summary))), first=len(texts))
 
 
 def _how_far(r: Response) -> list[str]:

@@ -7,9 +7,10 @@ from typing import Any
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER
 from ..analysis.evidence import evidence
 from ..analysis.fragility import FEWEST
-from ..analysis.side_by_side import median_words, shares
+from ..analysis.side_by_side import median_name, median_words, shares
 from ..motion.intensity_specs import parse_measure
 from ..percent import percents
+from ..response.links import YIELDS
 from ..results import Numbers
 from . import numbers as n
 from .page import Item, Note, Points, Rows
@@ -34,8 +35,8 @@ def states_items(result: Numbers) -> list[Item]:
     basis = [f"“{one['state']}” against “{one['against']}”. {one['basis']}" for one in s["differences"]]
     items: list[Item] = [Points(basis + _at_capacity(s["links"]))]
     shown = verb.replace("collapse", "collapses").replace("exceed ", "exceeds ")
-    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "95 % interval", "failed"]
-    header.append("median intensity")
+    header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "95 % of the share", "failed"]
+    header.append(median_name(*(one["fragility"] or None for one in s["states"])).replace("median", "median intensity"))
     body = []
     for one in s["states"]:
         row = [one["label"], *(n.plain(one[key]) for key in ("same_runs", "exceeded", "not_exceeded", "undecided"))]
@@ -81,7 +82,7 @@ def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
             words = f"“{state}”: {full['link']}{', most of all,' * (len(mine) > 1)} was at its capacity in "
             words += f"{full['at_capacity']} of {full['runs']} runs"
             words += f"; {broken['link']} broke in {broken['broken']}" if broken["broken"] else ", and none broke"
-            said.append(f"{words}. A link at its capacity yields or slips, and stays so.")
+            said.append(f"{words}. {YIELDS}")
     return said
 
 

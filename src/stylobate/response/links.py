@@ -14,6 +14,12 @@ from ..percent import percent
 #: Names of the histories of links, in the order in which models record them.
 NAMES = ("shear", "tension", "slip", "elongation")
 
+#: A link that bears this share of its capacity bears all of it, but for rounding.
+AT_CAPACITY = 1.0 - 1e-9
+
+#: What that means.
+YIELDS = "A link at its capacity yields or slips, and stays so."
+
 
 @dataclass(frozen=True, eq=False)
 class LinkHistories:
@@ -45,7 +51,7 @@ class LinkMeasures:
     joint : int
         That it crosses, from 1; 0 of a tie or core.
     broken_at : float
-        When it broke [s]; NaN if it is whole.
+        When it broke [s]; NaN if it did not.
     peak_shear, peak_tension : float
         [N]
     peak_slip, peak_elongation : float
@@ -116,13 +122,19 @@ def row_of(links: Sequence[LinkMeasures]) -> dict[str, Any]:
 
 
 def sentence_of(links: Sequence[LinkMeasures]) -> str:
-    """How many links broke, and the first of them, in a sentence; empty without links."""
+    """How many links broke, and the first of them, and how many others came to their capacity; empty without links."""
     kinds = {one.kind for one in links if one.kind != "layer" or one.broken}
     if not kinds:
         return ""
     counted = [one for one in links if one.kind in kinds]
     many = kinds.pop() + "s" if len(kinds) == 1 else "links"
     broken = sorted((one for one in counted if one.broken), key=lambda one: one.broken_at)
+    full = [one for one in counted if not one.broken and one.utilisation >= AT_CAPACITY]
+    if not broken and full:
+        if len(counted) == 1:
+            return f"The {full[0].kind} did not break, but was at its capacity. {YIELDS}"
+        which = "Neither of both" if len(counted) == 2 else f"None of {len(counted)}"
+        return f"{which} {many} broke, but {_at_capacity(full)}. {YIELDS}"
     if not broken:
         most = max(counted, key=lambda one: one.utilisation)
         all_of_them = {1: f"The {most.kind} is", 2: f"Both {many} are"}.get(
@@ -135,4 +147,11 @@ def sentence_of(links: Sequence[LinkMeasures]) -> str:
     which = (
         f"The {first.kind} broke" if len(counted) == 1 else f"{len(broken)} of {len(counted)} {many} broke, the first"
     )
-    return f"{which} at {first.broken_at:.2f} s{where}."
+    others = f" Of those that did not break, {_at_capacity(full)}. {YIELDS}" if full else ""
+    return f"{which} at {first.broken_at:.2f} s{where}.{others}"
+
+
+def _at_capacity(full: Sequence[LinkMeasures]) -> str:
+    """Which links were at their capacity: how many, and one of them by name."""
+    one = f"the {full[0].name}"
+    return f"{one} was at its capacity" if len(full) == 1 else f"{len(full)} were at their capacity, such as {one}"
