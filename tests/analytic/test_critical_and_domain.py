@@ -1,6 +1,7 @@
 """Critical amplitudes and domains of a model whose verdict is known for every amplitude and frequency."""
 
 import math
+import os
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -32,14 +33,12 @@ class Threshold(Model):
     undecided_at: tuple = ()
 
     name: ClassVar[str] = "threshold"
-    stop_after: ClassVar[int | None] = None
-    runs: ClassVar[int] = 0
 
     def run_many(self, cases, options, threads):
         for index in reversed(range(len(cases))):  # in another order than asked for
-            if Threshold.runs == Threshold.stop_after:
+            if os.environ["THRESHOLD_RUNS"] == os.environ.get("THRESHOLD_STOPS"):
                 raise KeyboardInterrupt
-            Threshold.runs += 1
+            os.environ["THRESHOLD_RUNS"] = str(int(os.environ["THRESHOLD_RUNS"]) + 1)
             yield index, self.measures(cases[index].motion)
 
     def measures(self, motion):
@@ -57,9 +56,19 @@ class Threshold(Model):
         return Measures(outcome, decided, time, amplitude, 0.0, 0.1, 0.1, 0.0, 0.0, 1e-3, 10)
 
 
+def count(stops=None):
+    """Count runs from zero, and stop after so many: beside the model, whose values decide which runs are its own."""
+    os.environ |= {"THRESHOLD_RUNS": "0", "THRESHOLD_STOPS": str(stops)}
+
+
+def runs():
+    return int(os.environ["THRESHOLD_RUNS"])
+
+
 @pytest.fixture(autouse=True)
-def _count_from_zero():
-    Threshold.runs, Threshold.stop_after = 0, None
+def _count_from_zero(monkeypatch):
+    monkeypatch.setenv("THRESHOLD_RUNS", "0")
+    monkeypatch.setenv("THRESHOLD_STOPS", "None")
 
 
 def critical(model, **options):
@@ -173,14 +182,14 @@ def test_the_domain_on_disk(tmp_path):
 
 def test_an_interrupt_keeps_what_is_finished_and_the_same_call_goes_on(tmp_path):
     whole = domain()
-    Threshold.runs, Threshold.stop_after = 0, 10
+    count(stops=10)
     part = domain(out=tmp_path)
     assert not part.complete
     assert part.counts["not run"] == 26
     assert [path.name for path in tmp_path.glob("*.nc")] == []
-    Threshold.runs, Threshold.stop_after = 0, None
+    count()
     again = domain(out=tmp_path)
-    assert Threshold.runs == 26
+    assert runs() == 26
     assert again.rows == whole.rows
     assert sorted(path.name for path in tmp_path.iterdir()) == ["domain.csv", "domain.nc", RUNS_FILE]
 
@@ -188,9 +197,9 @@ def test_an_interrupt_keeps_what_is_finished_and_the_same_call_goes_on(tmp_path)
 def test_runs_of_another_domain_are_not_mixed_in(tmp_path):
     domain(out=tmp_path)
     for change in ({"model": Threshold(limit=0.3)}, {"duration": 5.0}, {"tail": 1.0}):
-        Threshold.runs = 0
+        count()
         assert domain(**change, out=tmp_path).rows == domain(**change).rows
-        assert Threshold.runs == 2 * 36
+        assert runs() == 2 * 36
 
 
 def test_a_killed_campaign_goes_on(tmp_path):
@@ -206,9 +215,9 @@ here["domain"](out={str(tmp_path)!r}, progress=killed)
     ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert ended.returncode == -9, ended.stderr
     whole = domain()
-    Threshold.runs = 0
+    count()
     assert domain(out=tmp_path).rows == whole.rows
-    assert Threshold.runs == 26
+    assert runs() == 26
 
 
 def test_a_file_that_is_no_ledger_is_set_aside(tmp_path):
