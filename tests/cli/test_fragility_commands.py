@@ -254,10 +254,37 @@ def test_what_is_not_known_of_a_risk_is_said(place, capsys):
     assert "Which column stood, in which model with which parameters, and the motions" in basis.items[1].texts[0]
     pairs = dict(basis.items[0].pairs)
     assert pairs["runs"] == "96 of 12 records"
-    assert pairs["column, as the table calls it"] == "not told"
+    assert pairs["column or state, as the table calls it"] == "not told"
     assert pairs["SHA-256 of runs.csv"] == digest(place / "runs.csv")
     older = dataclasses.replace(result, asked=dataclasses.replace(result.asked, sources=()))
     assert "does not keep what runs" in str(sections_of(older, set()))
+
+
+def test_states_are_chosen_among_as_columns_are(tmp_path, records, capsys):
+    """All states were silently one curve, and the folder of states was said to be none of stylobate."""
+    for width in (0.4, 0.6):
+        write_column(rocking_block(2.0, width / 4.0), tmp_path / f"w{width}.toml")
+    out = tmp_path / "states"
+    said(
+        capsys, "states", records, "--as-built", tmp_path / "w0.4.toml", "--as-found", tmp_path / "w0.6.toml", "--model",
+        "housner", "--im", "pgv", "--levels", "0.05m/s:1.2m/s:6", "--threads", "1", "--out", out, "--json",
+    )  # fmt: skip
+    both = said(capsys, "fragility", out, "--json")["curves"]
+    assert [(one["name"], one["runs"]) for one in both] == [("as built", 60), ("as found", 60)]
+    hazard = tmp_path / "hazard.csv"
+    hazard.write_text("pgv_m_s,annual_rate\n0.01,1\n9,1e-6\n")
+    for source in (out, out / "states.csv"):
+        why = said(capsys, "risk", source, "--hazard", hazard, code=2).err
+        assert "2 columns or states (as built, as found); choose one with --of." in why
+        asked = ("--of", "as found", "--hazard", hazard, "--out", tmp_path / "risk", "--json")
+        found = said(capsys, "risk", source, *asked)
+        assert (found["name"], found["fragility"]["runs"]) == ("as found", 60)
+        (result,) = read_results([tmp_path / "risk"])
+        (told,) = result.asked.sources
+        assert (told["columns"], told["not_told"], told["command"][0]) == (["as found"], None, "states")
+        assert [one.name for one in result.asked.stood] == [rocking_block(2.0, 0.15).name]
+    assert "no runs of a column or state 'core'; it has as built" in said(capsys, "risk", out, "--of", "core", "--hazard",
+                                                                        hazard, code=2).err  # fmt: skip
 
 
 def test_how_the_columns_of_an_ida_vary_is_told(capsys):

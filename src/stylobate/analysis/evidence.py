@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     import pandas
 
 #: Tables of runs that a folder may hold, the first that is there.
-TABLES = ("runs.csv", "runs.parquet", "study.csv", "study.parquet", "suite.csv")
+TABLES = ("runs.csv", "runs.parquet", "states.csv", "study.csv", "study.parquet", "suite.csv")
+
+#: Columns that say what stood, the first that a table has: by name, or as which state of one column.
+STOOD = ("column", "state")
 
 #: Other names that tables have for a measure, by its key.
 ALSO = {
@@ -93,8 +96,8 @@ def table_of(source: str | Path) -> Path:
     found = next((place / one for one in TABLES if (place / one).is_file()), None)
     if found is None:
         raise InputError(
-            f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA or a suite, "
-            "or a CSV file with the columns record, im, collapsed."
+            f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA, a "
+            "suite or states, or a CSV file with the columns record, im, collapsed."
         )
     return found
 
@@ -127,6 +130,13 @@ def read_table(source: str | Path) -> pandas.DataFrame:
             f"{shown(place)} has no runs with a column 'record'; it needs the columns record, im, collapsed."
         )
     return table
+
+
+def names_in(table: pandas.DataFrame) -> list[str] | None:
+    """What stood in each run, as the table calls it, with the model where there are several; None if it does not say."""
+    who = [one for one in STOOD if one in table][:1]
+    who += [one for one in ("model",) if one in table and table[one].nunique(dropna=False) > 1]
+    return [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else None
 
 
 def evidence(
