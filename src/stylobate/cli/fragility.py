@@ -29,7 +29,8 @@ State = Annotated[
     str, typer.Option("--state", metavar="STATE", help="collapse, or a level such as top:0.35d or drums:0.01d.")
 ]
 Of = Annotated[
-    list[str] | None, typer.Option("--of", metavar="COLUMN", help="Only the runs of this column, or state; may be repeated.")
+    list[str] | None,
+    typer.Option("--of", metavar="COLUMN", help="Only the runs of this column, or state; may be repeated."),
 ]
 RecordsAreOne = Annotated[
     bool, typer.Option("--records-are-one", help="Take every run for a record of its own, where there are few records.")
@@ -125,7 +126,9 @@ def curves(
         if of:
             missing = [one for one in of if one not in names]
             if missing:
-                raise InputError(f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}.")
+                raise InputError(
+                    f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}."
+                )
             names = [one for one in names if one in of]
         if single and len(names) > 1:
             raise InputError(
