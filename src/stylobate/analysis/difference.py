@@ -32,8 +32,7 @@ NO_MEASURE_YET = (
 
 def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
     """What stands before any advice on these states, because of the model; empty where nothing does."""
-    plane = "y" not in model.axes or getattr(model, "planar", False)
-    if not plane or all(one.section != "circular" for one in columns):
+    if not model.is_plane(model.parameters()) or all(one.section != "circular" for one in columns):
         return ""
     return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(one not in NO_MEASURE for one in labels) + "."
 

@@ -65,6 +65,8 @@ class Evidence:
         Levels were chosen to bracket the capacity under each record (an IDA).
     curves : array, shape (n,), optional
         Which runs have one capacity: those under one motion of a record with one column; all of a record by default.
+    doubt : str
+        What stands before all that rests on these runs, because of the model; empty where nothing does.
     """
 
     records: np.ndarray
@@ -76,6 +78,7 @@ class Evidence:
     name: str
     brackets: bool = False
     curves: np.ndarray | None = None
+    doubt: str = ""
 
     def count(self, code: int) -> int:
         """Number of runs that say so."""
@@ -145,6 +148,7 @@ def evidence(
     state: LimitState | str = "collapse",
     name: str = "runs",
     unit: str = "-",
+    doubt: str = "",
 ) -> Evidence:
     """What a table of runs tells about a state.
 
@@ -159,6 +163,8 @@ def evidence(
     name : str
     unit : str
         Of the column ``im`` where no measure is given.
+    doubt : str
+        Of the evidence.
 
     Raises
     ------
@@ -222,6 +228,7 @@ def evidence(
         name,
         "hunted" in table and bool(table["hunted"].iloc[0]),
         table.groupby(alike, dropna=False).ngroup().to_numpy()[~zero],
+        doubt,
     )
 
 

@@ -87,7 +87,8 @@ class Fragility:
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
         )
-        return [f"{one}." for one in (self.outside, alone * self.records_are_one) if one]
+        said = [f"{one}." for one in (self.outside, alone * self.records_are_one) if one]
+        return [self.evidence.doubt, *said] if self.evidence.doubt else said
 
     @property
     def median(self) -> float:

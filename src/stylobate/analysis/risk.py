@@ -200,7 +200,7 @@ class Survival:
                 for k, one in enumerate(self.risks)
             ],
             "state": self.risks[0].fragility.evidence.state,
-            "warnings": [text for one in self.risks for text in one.warnings],
+            "warnings": list(dict.fromkeys(text for one in self.risks for text in one.warnings)),
         }
 
 

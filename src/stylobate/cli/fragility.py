@@ -83,6 +83,8 @@ def fragility(
     if as_json:
         console.emit(result)
         return
+    for doubt in dict.fromkeys(one.evidence.doubt for one in found if one.evidence.doubt):
+        print(doubt)
     for one in found:
         describe(one)
     console.print_files(files)
@@ -135,12 +137,18 @@ def curves(
                 f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of."
             )
         chosen: Any = table[[one in names for one in labels]]
-        used.append(Source(source, table_of(source), chosen))
+        place = table_of(source)
+        used.append(Source(source, place, chosen))
         for name in names:
             rows: Any = table[[one == name for one in labels]]
             shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
             found.append(
-                fit(evidence(rows, measure, level, shown), method=method, seed=seed, records_are_one=records_are_one)
+                fit(
+                    evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt),
+                    method=method,
+                    seed=seed,
+                    records_are_one=records_are_one,
+                )
             )
     if len({one.evidence.unit for one in found}) > 1:
         raise InputError("the sources are over different intensities; choose one with --im.")

@@ -8,8 +8,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..analysis.difference import ROUND_IN_THE_PLANE
 from ..analysis.evidence import STOOD
 from ..errors import InputError
+from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
 from .asked import Asked, asked_file, scales_of
 
@@ -78,6 +80,21 @@ class Source:
         """Models of these runs, as kept by the command."""
         asked, names = self.asked, self.names("model")
         return [one for one in (asked.models if asked is not None else ()) if not names or one["name"] in names]
+
+    @property
+    def doubt(self) -> str:
+        """What stands before all that rests on these runs: that round columns were computed in a plane, where they were."""
+        round_ = any(
+            drum.get("section") == "circular"
+            for one in self.structures
+            for drum in (one.get("column") or {}).get("drums", ())
+        )
+        plane = any(
+            model_class(one["name"]).is_plane(one.get("parameters") or {})
+            for one in self.models
+            if one["name"] in MODELS
+        )
+        return f"{ROUND_IN_THE_PLANE}." if round_ and plane else ""
 
     @property
     def motions(self) -> list[dict[str, Any]]:
