@@ -10,7 +10,7 @@ from functools import partial
 from ..column import Column
 from ..models.base import Model
 from ..percent import whole
-from .fragility import FEWEST
+from .fragility_checks import FEWEST
 
 #: What a difference comes to.
 STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"

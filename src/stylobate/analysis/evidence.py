@@ -138,7 +138,7 @@ def read_table(source: str | Path) -> pandas.DataFrame:
 def names_in(table: pandas.DataFrame) -> list[str] | None:
     """What stood in each run, as the table calls it, with the model where there are several; None if it does not say."""
     who = [one for one in STOOD if one in table][:1]
-    who += [one for one in ("model",) if one in table and table[one].nunique(dropna=False) > 1]
+    who += [one for one in ("model",) if one in table and len(set(table[one])) > 1]
     return [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else None
 
 
