@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from functools import partial
 
 from ..column import Column
+from ..column.structure import Structure
 from ..models.base import Model
 from ..percent import whole
 from .fragility_checks import FEWEST
@@ -28,6 +29,14 @@ NO_MEASURE_YET = (
     ", and what helps here need not help there. No measure is to be adopted before a model in space (dem3d) has told "
     "the same"
 )
+
+
+def round_drums(columns: Sequence[Structure], model: Model) -> str:
+    """What stands before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
+    if not model.is_plane(model.parameters()):
+        return ""
+    several = any(one.section == "circular" and one.stack is not None and one.stack.n > 1 for one in columns)
+    return f"{ROUND_IN_THE_PLANE}, under one component too." if several else ""
 
 
 def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:

@@ -218,13 +218,12 @@ class Fragility:
         if self.bracket is None:
             return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
         low, high = self.bracket
+        run = "decided run" if self.ends else "run"
         if low == high:
-            return (
-                f"{e.name}: no run below {e.measure} = {low:.4g}{unit} brings {e.state}, and every run above it does."
-            )
+            return f"{e.name}: no {run} below {e.measure} = {low:.4g}{unit} brings {e.state}, and every {run} above it does."
         return (
-            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no run up to "
-            "the one brings it, and every run from the other on does."
+            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no {run} up to "
+            f"the one brings it, and every {run} from the other on does."
         )
 
     def summary(self) -> dict[str, Any]:
