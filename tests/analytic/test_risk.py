@@ -77,9 +77,28 @@ def test_runs_that_the_curve_leaves_out_are_told_with_the_rate(curve):
     most, least = found.extremes
     assert least < most
     assert found.warnings == [
-        "3 undecided and 1 failed runs left out of the curve, and the interval holds none of this: counted as collapse the "
-        f"annual rate by a is {most:.3g}, counted as none {least:.3g}."
+        f"3 undecided and 1 failed of {len(codes)} runs: counted as collapse the annual rate by a is {most:.3g}, counted as "
+        f"none {least:.3g}; the curve leaves them out, its interval holds both."
     ]
+
+
+def test_the_interval_of_a_rate_holds_those_of_both_ends_of_open_runs(curve):
+    """It was that of the decided runs alone, as if nobody had looked at the others."""
+    middle = (curve.evidence.im > 0.5) & (curve.evidence.im < 2.0) & np.isin(curve.evidence.records, ["r0", "r1", "r2"])
+    open_ = dataclasses.replace(curve.evidence, codes=np.where(middle, OPEN, curve.evidence.codes))
+    hazard = Hazard(x := np.geomspace(0.01, 10.0, 9), 1e-3 * x**-2.0, "m/s", "a", "PGV")
+    told = fragility(open_, samples=200)
+    found = risk(told, hazard)
+    most, least = (risk(one, hazard) for one in told.ends)
+    assert (most.rate, least.rate) == pytest.approx(found.extremes)
+    assert (
+        0.0 < found.low == least.low < least.rate < found.rate < most.rate < most.high - most.beyond < found.high < 1.0
+    )
+    alone = risk(dataclasses.replace(told, ends=()), hazard)
+    assert found.low < 0.98 * alone.low
+    assert found.high > 1.02 * alone.high
+    nothing = risk(dataclasses.replace(told, ends=(None, None)), hazard)  # neither end makes a curve
+    assert (nothing.low, nothing.high) == (0.0, hazard.rate[0])
 
 
 def test_survival(curve):

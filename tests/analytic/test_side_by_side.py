@@ -10,7 +10,8 @@ import stylobate as st
 from stylobate.analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference, reference
 from stylobate.analysis.directions import compass_of_shares
 from stylobate.analysis.evidence import Evidence, evidence
-from stylobate.analysis.fragility import FEWEST, fragility
+from stylobate.analysis.fragility import fragility
+from stylobate.analysis.fragility_checks import FEWEST
 from stylobate.analysis.limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from stylobate.analysis.side_by_side import codes_of, median_words, shares
 from stylobate.analysis.states import _with_undecided

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.analysis.difference import ROUND_IN_THE_PLANE
 from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.cli.main import call
 from stylobate.column.files import write_column
@@ -132,6 +133,7 @@ def test_an_intensity_that_is_not_named_is_not_guessed(place, capsys, header, im
 
 def test_a_hazard_curve_names_its_intensity_or_it_is_said_what_it_is_taken_for(place, capsys):
     text = (place / "A.csv").read_text()
+    (place / "runs.csv").write_text((place / "runs.csv").read_text().replace(",\n", ",0\n"))
     for name in ("pgv_m_s", "cav_m_s", "pgv_cm_s"):
         (place / f"{name}.csv").write_text(text.replace("im_m_s", name))
     risk = ("risk", place / "runs.csv", "--hazard")
@@ -255,10 +257,59 @@ def test_what_is_not_known_of_a_risk_is_said(place, capsys):
     assert "Which column stood, in which model with which parameters, and the motions" in basis.items[1].texts[0]
     pairs = dict(basis.items[0].pairs)
     assert pairs["runs"] == "96 of 12 records"
-    assert pairs["column, as the table calls it"] == "not told"
+    assert pairs["column or state, as the table calls it"] == "not told"
     assert pairs["SHA-256 of runs.csv"] == digest(place / "runs.csv")
     older = dataclasses.replace(result, asked=dataclasses.replace(result.asked, sources=()))
     assert "does not keep what runs" in str(sections_of(older, set()))
+
+
+def test_states_are_chosen_among_as_columns_are(tmp_path, records, capsys):
+    """All states were silently one curve, and the folder of states was said to be none of stylobate."""
+    for width in (0.4, 0.6):
+        write_column(rocking_block(2.0, width / 4.0), tmp_path / f"w{width}.toml")
+    out = tmp_path / "states"
+    said(
+        capsys, "states", records, "--as-built", tmp_path / "w0.4.toml", "--as-found", tmp_path / "w0.6.toml", "--model",
+        "housner", "--im", "pgv", "--levels", "0.05m/s:1.2m/s:6", "--threads", "1", "--out", out, "--json",
+    )  # fmt: skip
+    both = said(capsys, "fragility", out, "--json")["curves"]
+    assert [(one["name"], one["runs"]) for one in both] == [("as built", 60), ("as found", 60)]
+    hazard = tmp_path / "hazard.csv"
+    hazard.write_text("pgv_m_s,annual_rate\n0.01,1\n9,1e-6\n")
+    for source in (out, out / "states.csv"):
+        why = said(capsys, "risk", source, "--hazard", hazard, code=2).err
+        assert "2 columns or states (as built, as found); choose one with --of." in why
+    found = said(capsys, "risk", out, "--of", "as found", "--hazard", hazard, "--out", tmp_path / "risk", "--json")
+    assert (found["name"], found["fragility"]["runs"]) == ("as found", 60)
+    (result,) = read_results([tmp_path / "risk"])
+    (told,) = result.asked.sources
+    assert (told["columns"], told["not_told"], told["command"][0]) == (["as found"], None, "states")
+    assert [one.name for one in result.asked.stood] == [rocking_block(2.0, 0.15).name]
+    assert "no runs of a column or state 'core'; it has as built" in said(capsys, "risk", out, "--of", "core", "--hazard",
+                                                                        hazard, code=2).err  # fmt: skip
+
+
+def test_what_a_plane_says_of_round_columns_is_doubted_wherever_its_runs_go(tmp_path, capsys):
+    """An IDA did not say what it left out, and nothing that rests on one said that it was computed in a plane."""
+    (folder := tmp_path / "records").mkdir()
+    for k, f in enumerate(np.linspace(0.6, 2.4, 10)):
+        pulse = half_sine_pulse(float(f), 0.4 * st.g, 8.0)
+        write_csv(pulse.replace(lateral=pulse.samples), folder / f"{k}.csv")
+    block = rocking_block(2.0, 0.2)
+    round_ = [dataclasses.replace(one, section="circular") for one in block.drums]
+    write_column(block.replace(drums=round_), tmp_path / "round.toml")
+    asked = (folder, "--model", "housner", "--im", "pgv", "--runs", "6", "--threads", "1", "--out", tmp_path / "ida")
+    err = said(capsys, "ida", tmp_path / "round.toml", *asked).err
+    assert err.count("warning: housner leaves out what shakes a round column across") == 1
+    hazard = tmp_path / "hazard.csv"
+    hazard.write_text("pgv_m_s,annual_rate\n0.01,1\n9,1e-6\n")
+    doubt = f"{ROUND_IN_THE_PLANE}."
+    two = ("--hazard", hazard)
+    for command, *more in (("fragility",), ("risk", *two), ("survival", *two, "--age", "100y")):
+        assert said(capsys, command, tmp_path / "ida", *more, "--out", tmp_path / command).out.count(doubt) == 1
+        (result,) = read_results([tmp_path / command])
+        assert result.summary["warnings"].count(doubt) == 1
+        assert doubt in str(sections_of(result, set())[0])
 
 
 def test_how_the_columns_of_an_ida_vary_is_told(capsys):

@@ -9,9 +9,11 @@ import pytest
 
 import stylobate as st
 from stylobate.cli.main import call
-from stylobate.motion import write_csv
+from stylobate.motion import half_sine_pulse, write_csv
+from stylobate.report.others import sections_of
 from stylobate.response import SpaceMeasures
 from stylobate.response.words import doubt_of, longer_tail, sentence_of
+from stylobate.results import read_results
 
 BLOCK = ("run", "paper-monolithic", "--model", "housner")
 
@@ -98,6 +100,16 @@ def test_a_run_in_space_says_its_doubt(capsys, tmp_path):
         "top_width = 0.4\ndrums = 2\n[joint]\nnormal_stiffness = 2.0e9\nshear_stiffness = 1.0e9\n"
         "friction_coefficient = 0.7\n"
     )
+    plane = said(capsys, "run", column, "--harmonic", "1Hz,0.3g,0.5s", "--replicates", "0")
+    assert plane.count("Round drums, computed in a plane: in space they wobble out of it by themselves") == 1
+    assert "Round drums" not in said(capsys, "run", column, "--harmonic", "1Hz,0.01g,0.5s", "--replicates", "0")
+    pulse = write_csv(half_sine_pulse(1.0, 0.3 * st.g, 2.0), tmp_path / "one.csv")
+    for command in (("suite", column, pulse), ("ida", column, pulse, "--im", "pga", "--levels", "0.1g:0.2g:2")):
+        doubt = "in space they can fall under much weaker motions, under one component too."
+        assert said(capsys, *command, "--out", tmp_path / command[0]).count(doubt) == 1
+        (result,) = read_results([tmp_path / command[0]])
+        assert doubt in result.summary["doubt"]
+        assert doubt in str(sections_of(result, set())[0])
     text = said(capsys, "run", column, "--model", "dem3d", "--harmonic", "1Hz,0.3g,1s", "--replicates", "0")
     assert "Nothing damped its wobble, and in space a verdict can hang on that, either way" in text
     assert "--set stiffness_damping=1e-4" in text

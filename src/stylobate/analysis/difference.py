@@ -8,9 +8,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from ..column import Column
+from ..column.structure import Structure
 from ..models.base import Model
 from ..percent import whole
-from .fragility import FEWEST
+from .fragility_checks import FEWEST
 
 #: What a difference comes to.
 STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"
@@ -30,10 +31,17 @@ NO_MEASURE_YET = (
 )
 
 
+def round_drums(columns: Sequence[Structure], model: Model) -> str:
+    """What stands before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
+    if not model.is_plane(model.parameters()):
+        return ""
+    several = any(one.section == "circular" and one.stack is not None and one.stack.n > 1 for one in columns)
+    return f"{ROUND_IN_THE_PLANE}, under one component too." if several else ""
+
+
 def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
     """What stands before any advice on these states, because of the model; empty where nothing does."""
-    plane = "y" not in model.axes or getattr(model, "planar", False)
-    if not plane or all(one.section != "circular" for one in columns):
+    if not model.is_plane(model.parameters()) or all(one.section != "circular" for one in columns):
         return ""
     return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(one not in NO_MEASURE for one in labels) + "."
 

@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     import pandas
 
 #: Tables of runs that a folder may hold, the first that is there.
-TABLES = ("runs.csv", "runs.parquet", "study.csv", "study.parquet", "suite.csv")
+TABLES = ("runs.csv", "runs.parquet", "states.csv", "study.csv", "study.parquet", "suite.csv")
+
+#: Columns that say what stood, the first that a table has: by name, or as which state of one column.
+STOOD = ("column", "state")
 
 #: Other names that tables have for a measure, by its key.
 ALSO = {
@@ -62,6 +65,8 @@ class Evidence:
         Levels were chosen to bracket the capacity under each record (an IDA).
     curves : array, shape (n,), optional
         Which runs have one capacity: those under one motion of a record with one column; all of a record by default.
+    doubt : str
+        What stands before all that rests on these runs, because of the model; empty where nothing does.
     """
 
     records: np.ndarray
@@ -73,6 +78,7 @@ class Evidence:
     name: str
     brackets: bool = False
     curves: np.ndarray | None = None
+    doubt: str = ""
 
     def count(self, code: int) -> int:
         """Number of runs that say so."""
@@ -93,8 +99,8 @@ def table_of(source: str | Path) -> Path:
     found = next((place / one for one in TABLES if (place / one).is_file()), None)
     if found is None:
         raise InputError(
-            f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA or a suite, "
-            "or a CSV file with the columns record, im, collapsed."
+            f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA, a "
+            "suite or states, or a CSV file with the columns record, im, collapsed."
         )
     return found
 
@@ -129,12 +135,20 @@ def read_table(source: str | Path) -> pandas.DataFrame:
     return table
 
 
+def names_in(table: pandas.DataFrame) -> list[str] | None:
+    """What stood in each run, as the table calls it, with the model where there are several; None if it does not say."""
+    who = [one for one in STOOD if one in table][:1]
+    who += [one for one in ("model",) if one in table and len(set(table[one])) > 1]
+    return [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else None
+
+
 def evidence(
     table: pandas.DataFrame,
     measure: IntensityMeasure | str | None = None,
     state: LimitState | str = "collapse",
     name: str = "runs",
     unit: str = "-",
+    doubt: str = "",
 ) -> Evidence:
     """What a table of runs tells about a state.
 
@@ -149,6 +163,8 @@ def evidence(
     name : str
     unit : str
         Of the column ``im`` where no measure is given.
+    doubt : str
+        Of the evidence.
 
     Raises
     ------
@@ -212,6 +228,7 @@ def evidence(
         name,
         "hunted" in table and bool(table["hunted"].iloc[0]),
         table.groupby(alike, dropna=False).ngroup().to_numpy()[~zero],
+        doubt,
     )
 
 

@@ -11,13 +11,11 @@ from scipy.special import ndtr
 
 from ..errors import InputError
 from . import likelihood_region, lognormal
-from .evidence import DIGITS, Evidence, intervals
+from .evidence import Evidence, intervals
+from .fragility_checks import check_number, check_shape
 from .fragility_points import Points, goodness, points_of
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from .lognormal import curve
-
-#: Fewest records of which a fragility is made: fewer say nothing about the next earthquake.
-FEWEST = 10
 
 #: Samples of the bootstrap.
 SAMPLES = 1000
@@ -51,6 +49,9 @@ class Fragility:
         run contradicts them: then the median lies between them, and of the dispersion only an upper limit is known.
     extremes : (Fit, Fit)
         Of all runs, open and failed ones counted as exceeded, and as not exceeded.
+    ends : tuple of Fragility or None
+        The same two with all that is known about them, None where one makes no curve; empty where all runs are decided.
+        Intervals hold theirs, too.
     points : Points
     distance, p_value : float
         Largest distance between the points and the curve [-], and the share of sets of runs drawn from the curve that have
@@ -74,6 +75,7 @@ class Fragility:
     p_value: float
     confidence: float
     records_are_one: bool = False
+    ends: tuple[Fragility | None, ...] = ()
 
     @property
     def counted(self) -> str:
@@ -87,7 +89,8 @@ class Fragility:
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
         )
-        return [f"{one}." for one in (self.outside, alone * self.records_are_one) if one]
+        said = [f"{one}." for one in (self.outside, alone * self.records_are_one) if one]
+        return [self.evidence.doubt, *said] if self.evidence.doubt else said
 
     @property
     def median(self) -> float:
@@ -124,17 +127,22 @@ class Fragility:
 
     def interval(self, im: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Confidence limits of :meth:`probability`, point by point: what the quantiles of the samples' curves hold, and the
-        curves of the region.
+        curves of the region; with open runs, from the lower ones of the curve if none exceeds to the upper ones if all do.
         """
         samples, plausible = (
             np.array([curve(im, m, math.exp(s)) for m, s in one]) for one in (self.samples, self.region)
         )
         low, high = np.quantile(samples, [self._share, 1.0 - self._share], axis=0)
-        return np.minimum(low, plausible.min(axis=0)), np.maximum(high, plausible.max(axis=0))
+        low, high = np.minimum(low, plausible.min(axis=0)), np.maximum(high, plausible.max(axis=0))
+        if self.ends:
+            most, least = self.ends
+            low = np.zeros_like(low) if least is None else np.minimum(low, least.interval(im)[0])
+            high = np.ones_like(high) if most is None else np.maximum(high, most.interval(im)[1])
+        return low, high
 
     @property
     def median_interval(self) -> tuple[float, float]:
-        """Confidence limits of θ; 0 and +inf where none is known."""
+        """Confidence limits of θ, whatever open runs come to; 0 and +inf where none is known."""
         middle, spread = self.samples.T
         endless = spread >= math.log(lognormal.BETAS[1]) - CLOSE
         im = np.log(self.evidence.im)
@@ -143,14 +151,17 @@ class Fragility:
         if self.bracket is not None:
             low, high = min(low, math.log(self.bracket[0])), max(high, math.log(self.bracket[1]))
         far = math.log(FAR)
-        return (
-            math.exp(low) if low > im.min() - far else 0.0,
-            math.exp(high) if high < im.max() + far else math.inf,
-        )
+        low = math.exp(low) if low > im.min() - far else 0.0
+        high = math.exp(high) if high < im.max() + far else math.inf
+        if self.ends:
+            most, least = self.ends
+            low = min(low, 0.0 if most is None else most.median_interval[0])
+            high = max(high, math.inf if least is None else least.median_interval[1])
+        return low, high
 
     @property
     def beta_interval(self) -> tuple[float, float]:
-        """Confidence limits of β; 0 and +inf where none is known."""
+        """Confidence limits of β, whatever open runs come to; 0 and +inf where none is known."""
         least, most = np.log(lognormal.BETAS)
         samples = np.where(self.samples[:, 1] >= most - CLOSE, np.inf, self.samples[:, 1])
         with np.errstate(divide="ignore"):
@@ -160,7 +171,8 @@ class Fragility:
             low, high = plausible.min(), max(high, plausible.max())
         else:
             low, high = self.limits(math.log(self.beta), samples, plausible)
-        return math.exp(low), math.exp(high)
+        ends = [(0.0, math.inf) if one is None else one.beta_interval for one in self.ends]
+        return min([math.exp(low), *(one for one, _ in ends)]), max([math.exp(high), *(one for _, one in ends)])
 
     def limits(self, best: float, samples: np.ndarray, plausible: np.ndarray) -> tuple[float, float]:
         """Confidence limits of a quantity: the wider ones of the bootstrap and of the likelihood.
@@ -206,13 +218,12 @@ class Fragility:
         if self.bracket is None:
             return f"{e.name}: half of the {self.counted} bring {where} = {self.median:.3g}{unit}."
         low, high = self.bracket
+        run = "decided run" if self.ends else "run"
         if low == high:
-            return (
-                f"{e.name}: no run below {e.measure} = {low:.4g}{unit} brings {e.state}, and every run above it does."
-            )
+            return f"{e.name}: no {run} below {e.measure} = {low:.4g}{unit} brings {e.state}, and every {run} above it does."
         return (
-            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no run up to "
-            "the one brings it, and every run from the other on does."
+            f"{e.name}: half of the {self.counted} bring {where} between {low:.4g} and {high:.4g}{unit}: no {run} up to "
+            f"the one brings it, and every {run} from the other on does."
         )
 
     def summary(self) -> dict[str, Any]:
@@ -289,14 +300,12 @@ def fragility(
     """
     clusters = np.arange(len(evidence.im)).astype(str).astype(object)
     used = replace(evidence, records=clusters, curves=None) if records_are_one else evidence
-    _check_number(used, records_are_one)
+    check_number(used, records_are_one)
     how = method or ("records" if evidence.brackets and not records_are_one else "runs")
     codes = evidence.codes
     low, high, owner = intervals(used, codes, how)
     best = lognormal.fit(low, high)
-    _check_shape(used, low, high, best)
-    below, above = float(low.max()), float(high.min())
-    bracket = (math.exp(below), math.exp(above)) if below <= above else None
+    check_shape(used, low, high, best)
     log_median, beta = (float(one[0]) for one in best)
     rng = np.random.default_rng(seed)
     extremes = []
@@ -305,15 +314,44 @@ def fragility(
         extremes.append(
             (math.nan, math.nan) if lognormal.falls(one) else (float(one.log_median[0]), float(one.beta[0]))
         )
-    points = points_of(used, codes, how)
+    points = points_of(used, codes, how, both_ways=True)
     distance, p_value = goodness(used, how, points, log_median, beta, rng)
-    number = len(np.unique(owner))
-    return Fragility(
-        used, how, log_median, beta, bootstrap(low, high, owner, samples, rng),
-        likelihood_region.region(low, high, number, confidence),
-        likelihood_region.dispersions(low, high, number, confidence), bracket,
-        (extremes[0], extremes[1]), points, distance, p_value, confidence, records_are_one,
+    found = Fragility(
+        used, how, log_median, beta, *_known(low, high, owner, samples, rng, confidence), (extremes[0], extremes[1]),
+        points, distance, p_value, confidence, records_are_one,
     )  # fmt: skip
+    if (codes >= 0).all():
+        return found
+    return replace(found, ends=tuple(_ended(found, counted, samples, seed) for counted in (EXCEEDED, NOT_EXCEEDED)))
+
+
+def _known(
+    low: np.ndarray, high: np.ndarray, owner: np.ndarray, samples: int, rng: np.random.Generator, confidence: float
+) -> tuple[np.ndarray, np.ndarray, tuple[float, float], tuple[float, float] | None]:
+    """What is known about the curve through intervals of ln capacity: samples, region, dispersions and bracket."""
+    below, above, number = float(low.max()), float(high.min()), len(np.unique(owner))
+    return (
+        bootstrap(low, high, owner, samples, rng),
+        likelihood_region.region(low, high, number, confidence),
+        likelihood_region.dispersions(low, high, number, confidence),
+        (math.exp(below), math.exp(above)) if below <= above else None,
+    )
+
+
+def _ended(found: Fragility, counted: int, samples: int, seed: int) -> Fragility | None:
+    """The curve as if every run without a verdict had come to the same one; None where that is none."""
+    one = found.evidence
+    one = replace(one, codes=np.where(one.codes < 0, counted, one.codes))
+    low, high, owner = intervals(one, one.codes, found.method)
+    best = lognormal.fit(low, high)
+    try:
+        check_shape(one, low, high, best)
+    except InputError:
+        return None
+    known = _known(low, high, owner, samples, np.random.default_rng(seed), found.confidence)
+    names = ("samples", "region", "dispersions", "bracket")
+    middle, spread = (float(each[0]) for each in best)
+    return replace(found, evidence=one, log_median=middle, beta=spread, **dict(zip(names, known)))
 
 
 def _seen(beta: float) -> float | None:
@@ -330,54 +368,6 @@ def between(low: float | None, high: float | None, unit: str = "-", digits: int 
             f"{low:.{digits}g} to {high:.{digits}g}{behind}" if high < math.inf else f"{low:.{digits}g}{behind} or more"
         )
     return f"up to {high:.{digits}g}{behind}" if high < math.inf else "no limits known"
-
-
-def _check_number(evidence: Evidence, records_are_one: bool) -> None:
-    """Refuse what is no sample of earthquakes, whatever its runs say."""
-    decided = evidence.codes >= 0
-    if not decided.any():
-        raise InputError(
-            f"none of the {len(decided)} runs of {evidence.name} is decided ({evidence.count(OPEN)} undecided, "
-            f"{evidence.count(FAILED)} failed), so that nothing is known of {evidence.state}; follow them longer, such as "
-            "with --tail 10s."
-        )
-    count, every = len(np.unique(evidence.records[decided])), len(np.unique(evidence.records))
-    if count >= FEWEST:
-        return
-    what = ("run" if records_are_one else "record") + ("" if count == 1 else "s")
-    what += f" (of {every}; the others have no decided run)" if count < every else ""
-    remedy = f"give at least {FEWEST}" + (
-        "" if records_are_one else ", or say --records-are-one to take every run for a record of its own"
-    )
-    raise InputError(f"a fragility of {count} {what} says nothing about the next earthquake; {remedy}.")
-
-
-def _check_shape(evidence: Evidence, low: np.ndarray, high: np.ndarray, best: lognormal.Fit) -> None:
-    """Refuse runs through which no fragility goes."""
-    state, unit = evidence.state, "" if evidence.unit == "-" else f" {evidence.unit}"
-    if math.isinf(best.log_median[0]):
-        every = best.log_median[0] < 0.0
-        raise InputError(
-            f"{'every decided run exceeds' if every else 'no decided run exceeds'} {state}, so that no curve can be drawn; "
-            f"give {'smaller' if every else 'larger'} intensities."
-        )
-    ends = np.concatenate((low, high))
-    ends = np.unique(np.round(ends[np.isfinite(ends)], DIGITS))
-    if len(ends) == 1:
-        raise InputError(
-            f"all runs of {evidence.name} are at one intensity, {evidence.measure} = {math.exp(ends[0]):.4g}{unit}, where "
-            f"{evidence.count(EXCEEDED)} of {int((evidence.codes >= 0).sum())} exceed {state}: what happens at others is "
-            "not known; give runs at several intensities."
-        )
-    if lognormal.falls(best):
-        with_it, without = (
-            math.exp(np.log(evidence.im[evidence.codes == one]).mean()) for one in (EXCEEDED, NOT_EXCEEDED)
-        )
-        raise InputError(
-            f"runs of {evidence.name} do not exceed {state} more often where {evidence.measure} is larger (its geometric "
-            f"mean is {with_it:.3g}{unit} where they do, {without:.3g}{unit} where they do not), and that is no fragility; "
-            "check which value of 'collapsed' is which, or give intensities farther apart."
-        )
 
 
 def bootstrap(

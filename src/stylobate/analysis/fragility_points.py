@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,7 +11,7 @@ from scipy.special import ndtri
 
 from . import lognormal
 from .evidence import DIGITS, Evidence, intervals
-from .limit_states import EXCEEDED
+from .limit_states import EXCEEDED, NOT_EXCEEDED
 from .verdicts import wilson_interval
 
 #: Sets of runs drawn from the curve to tell how good its fit is.
@@ -27,7 +28,8 @@ class Points:
     Parameters
     ----------
     im, share, low, high : array, shape (k,)
-        Intensity, share, and its Wilson interval; how often a record counts does not hang on how many runs it has.
+        Intensity, share of what is decided, and its Wilson interval, which holds what open runs could make of it; how
+        often a record counts does not hang on how many runs it has.
     records : array of int, shape (k,)
     """
 
@@ -38,42 +40,74 @@ class Points:
     records: np.ndarray
 
 
-def points_of(evidence: Evidence, codes: np.ndarray, method: str) -> Points:
-    """Shares of the records at the intensities that were run, or by groups of them."""
-    if method == "records":
-        low, high, owner = intervals(evidence, codes, method)
-        at = np.unique(high[np.isfinite(high)])
-        at = at[np.unique(np.linspace(0, len(at) - 1, min(MOST_POINTS, len(at))).round().astype(int))]
-        known = (high[:, None] <= at) | (low[:, None] >= at)
-        names, owner = np.unique(owner, return_inverse=True)
-        runs, hits = np.zeros((2, len(at), len(names)))
-        np.add.at(runs.T, owner, known)
+def points_of(evidence: Evidence, codes: np.ndarray, method: str, both_ways: bool = False) -> Points:
+    """Shares of the records at the intensities that were run, or by groups of them.
+
+    With ``both_ways`` the intervals hold what runs without a verdict could make of the shares.
+    """
+    at, counts = (_capacities if method == "records" else _groups)(evidence, codes)
+    share, low, high, trials = _shares(*counts(codes))
+    if both_ways and (codes < 0).any():
+        low = np.minimum(low, _shares(*counts(np.where(codes < 0, NOT_EXCEEDED, codes)))[1])
+        high = np.maximum(high, _shares(*counts(np.where(codes < 0, EXCEEDED, codes)))[2])
+    return Points(at, share, low, high, trials)
+
+
+#: By what runs say, how many statements of each record there are at each point, and how many that it is exceeded.
+Counts = Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+def _capacities(evidence: Evidence, codes: np.ndarray) -> tuple[np.ndarray, Counts]:
+    """Intensities at which capacities end, and what is known there of each."""
+    high = intervals(evidence, codes, "records")[1]
+    at = np.unique(high[np.isfinite(high)])
+    at = at[np.unique(np.linspace(0, len(at) - 1, min(MOST_POINTS, len(at))).round().astype(int))]
+    number = len(np.unique(evidence.records))
+
+    def counts(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        low, high, owner = intervals(evidence, codes, "records")
+        runs, hits = np.zeros((2, len(at), number))
+        np.add.at(runs.T, owner, (high[:, None] <= at) | (low[:, None] >= at))
         np.add.at(hits.T, owner, high[:, None] <= at)
-        return _of_records(np.exp(at), runs, hits)
+        return runs, hits
+
+    return np.exp(at), counts
+
+
+def _groups(evidence: Evidence, codes: np.ndarray) -> tuple[np.ndarray, Counts]:
+    """Intensities of decided runs, or of groups of them, and how many runs are there."""
     told = codes >= 0
-    y, hit, owner = evidence.im[told], codes[told] == EXCEEDED, evidence.records[told]
-    y = np.exp(np.round(np.log(y), DIGITS))  # stripes that differ in their last digits are one
-    levels = np.unique(y)
+    y = np.exp(np.round(np.log(evidence.im), DIGITS))  # stripes that differ in their last digits are one
+    names, owner = np.unique(evidence.records, return_inverse=True)
+    levels = np.unique(y[told])
     if len(levels) > MOST_POINTS:
-        edges = np.quantile(y, np.linspace(0.0, 1.0, 1 + min(8, max(3, len(np.unique(owner)) // 5))))
-        group = np.clip(np.searchsorted(edges, y, side="right") - 1, 0, len(edges) - 2)
+        edges = np.quantile(y[told], np.linspace(0.0, 1.0, 1 + min(8, max(3, len(np.unique(owner[told])) // 5))))
+        group, there = (
+            np.clip(np.searchsorted(edges, y, side="right") - 1, 0, len(edges) - 2),
+            np.ones(len(y), dtype=bool),
+        )
     else:
-        group = np.searchsorted(levels, y)
-    names, owner = np.unique(owner, return_inverse=True)
-    cell = group * len(names) + owner
-    runs = np.bincount(cell, minlength=(group.max() + 1) * len(names)).reshape(-1, len(names))
-    hits = np.bincount(cell, hit, minlength=runs.size).reshape(runs.shape)
-    filled = runs.sum(axis=1) > 0
-    at = np.bincount(group, np.log(y)) / np.maximum(runs.sum(axis=1), 1)
-    return _of_records(np.exp(at[filled]), runs[filled], hits[filled])
+        group = np.minimum(np.searchsorted(levels, y), len(levels) - 1)
+        there = levels[group] == y  # no run is decided at another intensity: there is no point
+    filled = np.unique(group[told])
+    cell = np.searchsorted(filled, group) * len(names) + owner
+    there &= np.isin(group, filled)
+
+    def counts(codes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        known, shape = there & (codes >= 0), (len(filled), len(names))
+        runs = np.bincount(cell[known], minlength=math.prod(shape)).reshape(shape)
+        return runs, np.bincount(cell[known], codes[known] == EXCEEDED, math.prod(shape)).reshape(shape)
+
+    at = np.bincount(group[told], np.log(y[told]))[filled] / np.bincount(group[told])[filled]
+    return np.exp(at), counts
 
 
-def _of_records(at: np.ndarray, runs: np.ndarray, hits: np.ndarray) -> Points:
-    """Points of which is known how many runs of each record there are and exceed the state, shape (k, records)."""
+def _shares(runs: np.ndarray, hits: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Share, its limits and number of records, of so many runs of each at a point, shape (k, records)."""
     passed = np.divide(hits, runs, out=np.zeros(runs.shape), where=runs > 0).sum(axis=1)
     trials = (runs > 0).sum(axis=1)
     low, high = wilson_interval(passed, trials)
-    return Points(at, passed / np.maximum(trials, 1), low, high, trials)
+    return passed / np.maximum(trials, 1), low, high, trials
 
 
 def goodness(

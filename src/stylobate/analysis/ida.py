@@ -128,15 +128,14 @@ def ida(
             raise InputError(
                 f"{motion.name!r} is zero along x and cannot be scaled; leave a record without shaking out."
             )
-    taken = [model.taken(motion) for motion in motions]
     relation = (math.tan(column.slenderness), column.frequency_parameter)
     known = about or {}
     facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
     drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
     columns = [column] if drawn is None else list(drawn.columns)
     traces = []
-    for motion, fact in zip(taken, facts):
-        value, peak = fact[measure.key], float(level(motion, column).max())
+    for motion, fact in zip(motions, facts):
+        value, peak = fact[measure.key], float(level(model.taken(motion), column).max())
         start = value * (1.0 / peak) ** measure.power
         traces += [Trace(motion, one, k, value, start, [], []) for k, one in enumerate(columns)]
     stripes = None if levels is None else sorted({float(one) for one in levels})
@@ -147,7 +146,7 @@ def ida(
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
-    quiet, hasher = share_of(taken, whole), Hasher(model, tail)
+    quiet, hasher = share_of(motions, whole), Hasher(model, tail)
     try:
         with closing(Runs(ledger)) as kept:
             while asked := [(one, new) for one in traces for new in wanted(one)]:

@@ -43,7 +43,7 @@ class Risk:
         [1/y], of shaking from the first intensity of the hazard curve on; beyond its last one all counts with the
         probability that it has there.
     low, high : float
-        Interval by the bootstrap of the fragility [1/y].
+        Interval by the bootstrap of the fragility, whatever its runs without a verdict come to [1/y].
     beyond : float
         What stronger shaking than the last intensity could add at most [1/y].
     below : float
@@ -109,11 +109,10 @@ class Risk:
         counts = [f"{told[one]} {one}" for one in ("undecided", "failed") if told[one]]
         if not counts:
             return ""
-        several = "s" if told["undecided"] + told["failed"] > 1 else ""
         most, least = (f"{one:.3g}" if math.isfinite(one) else "not known" for one in self.extremes)
         return (
-            f"{' and '.join(counts)} run{several} left out of the curve, and the interval holds none of this: counted as "
-            f"{self.fragility.evidence.state} the annual rate by {self.hazard.name} is {most}, counted as none {least}."
+            f"{' and '.join(counts)} of {told['runs']} runs: counted as {self.fragility.evidence.state} the annual rate by "
+            f"{self.hazard.name} is {most}, counted as none {least}; the curve leaves them out, its interval holds both."
         )
 
     def summary(self) -> dict[str, Any]:
@@ -200,7 +199,7 @@ class Survival:
                 for k, one in enumerate(self.risks)
             ],
             "state": self.risks[0].fragility.evidence.state,
-            "warnings": [text for one in self.risks for text in one.warnings],
+            "warnings": list(dict.fromkeys(text for one in self.risks for text in one.warnings)),
         }
 
 
@@ -226,12 +225,7 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     kind = measure.partition("@")[0].partition(":")[0]
     doubt = hazard.doubt() if kind in ENVELOPED and hazard.unit in ("g", "m/s") else ""
     rate, edges, parts = _rate(hazard, fragility.log_median, fragility.beta)
-    samples, plausible = (
-        np.array([_rate(hazard, float(m), math.exp(s), split=False)[0] for m, s in one])
-        for one in (fragility.samples, fragility.region)
-    )
-    with np.errstate(divide="ignore"):
-        low, high = fragility.limits(math.log(max(rate, 1e-300)), np.log(samples), np.log(plausible))
+    low, high = _limits(hazard, fragility)
     last = float(curve(hazard.im[-1:], fragility.log_median, fragility.beta)[0])
     beyond = float(hazard.rate[-1]) * (1.0 - last)
     if beyond > rate:
@@ -247,8 +241,8 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
         fragility,
         hazard,
         rate,
-        math.exp(low),
-        min(math.exp(min(high, 700.0)) + beyond, float(hazard.rate[0])),
+        low,
+        min(high + beyond, float(hazard.rate[0])),
         beyond,
         float(curve(hazard.im[:1], fragility.log_median, fragility.beta)[0]),
         edges,
@@ -319,6 +313,23 @@ def _rate(hazard: Hazard, log_median: float, beta: float, split: bool = True) ->
     rate = float(parts.sum()) + last
     parts = np.add.reduceat(parts, np.searchsorted(y, bins[:-1] - 1e-12))
     return rate, np.append(np.exp(bins), np.inf), np.append(parts, last)
+
+
+def _limits(hazard: Hazard, fragility: Fragility) -> tuple[float, float]:
+    """Confidence limits of the rate [1/y], whatever open runs come to; 0 and +inf where none is known."""
+    rate = _rate(hazard, fragility.log_median, fragility.beta, split=False)[0]
+    samples, plausible = (
+        np.array([_rate(hazard, float(m), math.exp(s), split=False)[0] for m, s in one])
+        for one in (fragility.samples, fragility.region)
+    )
+    with np.errstate(divide="ignore"):
+        low, high = fragility.limits(math.log(max(rate, 1e-300)), np.log(samples), np.log(plausible))
+    low, high = math.exp(low), math.exp(min(high, 700.0))
+    if fragility.ends:
+        most, least = fragility.ends
+        low = 0.0 if least is None else min(low, _limits(hazard, least)[0])
+        high = math.inf if most is None else max(high, _limits(hazard, most)[1])
+    return low, high
 
 
 def _same(imt: str, measure: str) -> bool:

@@ -116,7 +116,7 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
         return [["critical", *given, *_options(**steps), *end]]
     if asked.kind == "domain":
         return [["domain", STUDY, f"--out={RESULT}"]]
-    from ..analysis.fragility import FEWEST
+    from ..analysis.fragility_checks import FEWEST
 
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")

@@ -19,7 +19,7 @@ Sources = Annotated[
     list[Path],
     typer.Argument(
         metavar="SOURCE...",
-        help="Folder of a study, an IDA or a suite, or a CSV file with the columns record, im, collapsed.",
+        help="Folder of a study, an IDA, a suite or states, or a CSV file with the columns record, im, collapsed.",
     ),
 ]
 Im = Annotated[
@@ -29,7 +29,8 @@ State = Annotated[
     str, typer.Option("--state", metavar="STATE", help="collapse, or a level such as top:0.35d or drums:0.01d.")
 ]
 Of = Annotated[
-    list[str] | None, typer.Option("--of", metavar="COLUMN", help="Only the runs of this column; may be repeated.")
+    list[str] | None,
+    typer.Option("--of", metavar="COLUMN", help="Only the runs of this column, or state; may be repeated."),
 ]
 RecordsAreOne = Annotated[
     bool, typer.Option("--records-are-one", help="Take every run for a record of its own, where there are few records.")
@@ -82,6 +83,8 @@ def fragility(
     if as_json:
         console.emit(result)
         return
+    for doubt in dict.fromkeys(one.evidence.doubt for one in found if one.evidence.doubt):
+        print(doubt)
     for one in found:
         describe(one)
     console.print_files(files)
@@ -95,9 +98,13 @@ def curves(
     method: str | None,
     records_are_one: bool,
     seed: int,
+    single: bool = False,
 ) -> tuple[list[Fragility], list[Source]]:
-    """The fragilities that are asked for, one per source and column; and the runs that they rest on, one per source."""
-    from ..analysis.evidence import evidence, read_table, scaled_to, table_of
+    """The fragilities that are asked for, one per source and column; and the runs that they rest on, one per source.
+
+    Where a ``single`` curve is wanted, a source of several columns is refused before any is fitted.
+    """
+    from ..analysis.evidence import evidence, names_in, read_table, scaled_to, table_of
     from ..analysis.fragility import fragility as fit
     from ..analysis.limit_states import parse_state
     from ..motion.intensity_specs import parse_measure
@@ -115,23 +122,33 @@ def curves(
         said = scaled_to(table)
         if measure is None and said not in (None, "factor"):
             measure = parse_measure(str(said))
-        who = [one for one in ("column", "model") if one in table and (one == "column" or len(set(table[one])) > 1)]
-        labels = (
-            [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else [Path(source).stem] * len(table)
-        )
+        who = names_in(table)
+        labels = who or [Path(source).stem] * len(table)
         names = list(dict.fromkeys(labels))
         if of:
             missing = [one for one in of if one not in names]
             if missing:
-                raise InputError(f"{source} has no runs of a column {missing[0]!r}; it has {', '.join(names)}.")
+                raise InputError(
+                    f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}."
+                )
             names = [one for one in names if one in of]
+        if single and len(names) > 1:
+            raise InputError(
+                f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of."
+            )
         chosen: Any = table[[one in names for one in labels]]
-        used.append(Source(source, table_of(source), chosen))
+        place = table_of(source)
+        used.append(Source(source, place, chosen))
         for name in names:
             rows: Any = table[[one == name for one in labels]]
             shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
             found.append(
-                fit(evidence(rows, measure, level, shown), method=method, seed=seed, records_are_one=records_are_one)
+                fit(
+                    evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt),
+                    method=method,
+                    seed=seed,
+                    records_are_one=records_are_one,
+                )
             )
     if len({one.evidence.unit for one in found}) > 1:
         raise InputError("the sources are over different intensities; choose one with --im.")
@@ -142,13 +159,8 @@ def one_curve(
     sources: Path, im: str | None, state: str, of: Sequence[str] | None, alone: bool, seed: int
 ) -> tuple[Fragility, list[Source]]:
     """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""
-    found, used = curves([sources], im, state, of, None, alone, seed)
-    if len(found) > 1:
-        raise InputError(
-            f"{sources} holds runs of {len(found)} columns ({', '.join(one.evidence.name for one in found)}); choose one "
-            "with --of."
-        )
-    return found[0], used
+    (found,), used = curves([sources], im, state, of, None, alone, seed, single=True)
+    return found, used
 
 
 def describe(found: Fragility) -> None:

@@ -62,6 +62,7 @@ def ida(
 
     Levels are hunted and filled, all records at a time; with the table of which intensity measure tells most.
     """
+    from ..analysis.difference import round_drums
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
@@ -101,6 +102,7 @@ def ida(
         best = which_tells_most(found.runs, edp=edp)
         result = found.summary() | {
             "edp": edp,
+            "doubt": round_drums([stone], how),
             "measures": best.astype(object).where(best.notna(), None).to_dict("records"),
             "refused": records.refused,
         }
@@ -124,6 +126,8 @@ def ida(
     if as_json:
         console.emit(result)
         return
+    if result["doubt"]:
+        print(result["doubt"])
     fell = sum(one["collapses_from"] is not None for one in result["capacities"])
     facts = {
         "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",

@@ -14,7 +14,7 @@ from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
 Source = Annotated[
     Path,
     typer.Argument(
-        metavar="SOURCE", help="Folder of a study, an IDA or a suite, or a CSV file: record, im, collapsed."
+        metavar="SOURCE", help="Folder of a study, an IDA, a suite or states, or a CSV file: record, im, collapsed."
     ),
 ]
 Site = Annotated[

@@ -68,6 +68,7 @@ def suite(
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
     from ..analysis.certainty import CHANCE, chance_words
+    from ..analysis.difference import round_drums
     from ..analysis.directions import compass_of_shares, harm_words, worst
     from ..analysis.suite import must_be_told, suite_shares, suite_table
     from ..errors import InputError
@@ -111,6 +112,7 @@ def suite(
             "refused": records.refused,
             "model": how.name,
         }
+        result["doubt"] = round_drums(stones, how)
         compass = compass_of_shares(result["runs"])
         result["worst"] = worst(result["runs"], compass if swept else None)
         found = suite_shares(result["runs"])
@@ -135,6 +137,8 @@ def suite(
     if as_json:
         console.emit(result)
         return
+    if result["doubt"]:
+        print(result["doubt"])
     table["chance"] = [chance_words(row) for row in result["runs"]]
     for one, (_, rows) in zip(found, table.groupby("column", sort=False), strict=True):
         print(one.collapses)

@@ -156,6 +156,11 @@ class Model:
                 stacklevel=4,
             )
 
+    @classmethod
+    def is_plane(cls, parameters: Mapping[str, Any]) -> bool:
+        """Whether a model of this kind, with these parameters, lets what stands move in one plane only."""
+        return "y" not in cls.axes or bool(parameters.get("planar", False))
+
     def taken(self, motion: Motion) -> Motion:
         """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
         return keep_axes(motion, self.axes)

@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER, Difference
-from ..analysis.fragility import FEWEST, Fragility, curve
+from ..analysis.fragility import Fragility, curve
+from ..analysis.fragility_checks import FEWEST
 from ..analysis.limit_states import FAILED, OPEN
 from ..analysis.side_by_side import median_name, median_words
 from ..analysis.states import StateComparison

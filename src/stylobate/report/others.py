@@ -110,9 +110,9 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
 
 
 def _doubts(result: Result) -> list[str]:
-    """What about a result that rests on the runs of others is to be doubted."""
+    """What about a result is to be doubted: because of its model, or of the runs of others that it rests on."""
     if result.kind not in FROM_RUNS:
-        return []
+        return [str(result.summary["doubt"])] if result.summary.get("doubt") else []
     curves = result.summary.get("curves") or [result.summary]
     return list(dict.fromkeys(str(text) for one in curves for text in one.get("warnings") or ()))
 

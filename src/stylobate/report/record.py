@@ -57,7 +57,7 @@ def basis_section(result: Result) -> Section:
         state = {True: ", as written", False: ", changed by somebody since it was written", None: ""}[one["unchanged"]]
         pairs = [
             ("runs", f"{one['runs']} of {len(records)} record{'' if len(records) == 1 else 's'}"),
-            ("column, as the table calls it", ", ".join(one["columns"]) or "not told"),
+            ("column or state, as the table calls it", ", ".join(one["columns"]) or "not told"),
             ("model, as the table calls it", ", ".join(one["models"]) or "not told"),
             ("records", ", ".join(records[:MOST_NAMES]) + (", …" if len(records) > MOST_NAMES else "")),
             (f"SHA-256 of {one['table']}", f"{one['sha256']}{state}"),

@@ -42,7 +42,7 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     if float(one.get("p_value") or 1.0) < 0.05:
         items.append(Note(["A lognormal curve fits these points badly; read the points, not the curve."], "fair"))
     items.append(_HOLDS.format(_over(one)))
-    return (sentence + open_runs(one, "left out of the curve"), ""), items
+    return (sentence + open_runs(one, "left out of the curve, and counted both ways in its interval"), ""), items
 
 
 #: What no interval of a fragility holds.

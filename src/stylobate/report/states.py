@@ -6,7 +6,7 @@ from typing import Any
 
 from ..analysis.difference import NOT_TOLD, STRONGER, WEAKER
 from ..analysis.evidence import evidence
-from ..analysis.fragility import FEWEST
+from ..analysis.fragility_checks import FEWEST
 from ..analysis.side_by_side import median_name, median_words, shares
 from ..motion.intensity_specs import parse_measure
 from ..percent import percents

@@ -29,8 +29,7 @@ def _of_column(response: Recorded) -> dict:
     row["peak_opening_per_joint_m"] = _finite(np.abs(h.opening[before]).max(axis=0))
     if m.space is None:
         row["residual_slip_per_joint_m"] = _finite(h.slip[-1, :, 0])
-    else:
-        row["doubt"] = doubt_of(response)
+    row["doubt"] = doubt_of(response)
     if m.collapsed:
         first = 1 if m.collapse is None or m.collapse.joint is None else m.collapse.joint
         row["residual_top_displacement_m"] = row["residual_joint_slip_m"] = None

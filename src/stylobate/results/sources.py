@@ -8,7 +8,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..analysis.difference import ROUND_IN_THE_PLANE
+from ..analysis.evidence import STOOD
 from ..errors import InputError
+from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
 from .asked import Asked, asked_file, scales_of
 
@@ -16,7 +19,7 @@ if TYPE_CHECKING:
     import pandas
 
 #: Commands by the stem of the table of runs that they write.
-COMMANDS = {"runs": "ida", "study": "study", "suite": "suite"}
+COMMANDS = {"runs": "ida", "states": "states", "study": "study", "suite": "suite"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,10 +61,18 @@ class Source:
         return list(dict.fromkeys(map(str, self.runs[column]))) if column in self.runs else []
 
     @property
+    def stood(self) -> list[str]:
+        """What stood in these runs, as the table calls it: columns, or states of one."""
+        return next((found for one in STOOD if (found := self.names(one))), [])
+
+    @property
     def structures(self) -> list[dict[str, Any]]:
         """What stood in these runs, as kept by the command."""
-        asked, names = self.asked, self.names("column")
+        asked, names = self.asked, self.stood
         kept = asked.structures if asked is not None else ()
+        labels = asked.options.get("states") if asked is not None else None
+        if labels and len(labels) == len(kept):
+            return [one for label, one in zip(labels, kept) if label in names]
         return [one for one in kept if not names or any(_named(one, name) for name in names)]
 
     @property
@@ -69,6 +80,21 @@ class Source:
         """Models of these runs, as kept by the command."""
         asked, names = self.asked, self.names("model")
         return [one for one in (asked.models if asked is not None else ()) if not names or one["name"] in names]
+
+    @property
+    def doubt(self) -> str:
+        """What stands before all that rests on these runs: that round columns were computed in a plane, where they were."""
+        round_ = any(
+            drum.get("section") == "circular"
+            for one in self.structures
+            for drum in (one.get("column") or {}).get("drums", ())
+        )
+        plane = any(
+            model_class(one["name"]).is_plane(one.get("parameters") or {})
+            for one in self.models
+            if one["name"] in MODELS
+        )
+        return f"{ROUND_IN_THE_PLANE}." if round_ and plane else ""
 
     @property
     def motions(self) -> list[dict[str, Any]]:
@@ -89,7 +115,7 @@ class Source:
             "unchanged": OwnFiles(self.table.parent).holds(self.table) if listed else None,
             "runs": len(self.runs),
             "records": records,
-            "columns": self.names("column"),
+            "columns": self.stood,
             "models": self.names("model"),
             "not_told": self.kept if isinstance(self.kept, str) else None,
             "command": None if asked is None else list(asked.command),

@@ -150,7 +150,7 @@ function verdict(r, words) {
     const piece = el("i", { class: name }); piece.style.width = `${100 * count / total}%`; return piece;
   }));
   return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar, beside && el("p", { class: "warning" }, beside),
-    r.doubt && el("p", { class: "warning" }, "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it.")];
+    r.doubt && el("p", { class: "warning" }, r.model !== "dem3d" ? r.doubt : "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it.")];
 }
 
 function measures(r) {

@@ -1,0 +1,63 @@
+"""What is no fragility: runs of too few records, or runs through which no curve goes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from ..errors import InputError
+from . import lognormal
+from .evidence import DIGITS, Evidence
+from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
+
+#: Fewest records of which a fragility is made: fewer say nothing about the next earthquake.
+FEWEST = 10
+
+
+def check_number(evidence: Evidence, records_are_one: bool) -> None:
+    """Refuse what is no sample of earthquakes, whatever its runs say."""
+    decided = evidence.codes >= 0
+    if not decided.any():
+        raise InputError(
+            f"none of the {len(decided)} runs of {evidence.name} is decided ({evidence.count(OPEN)} undecided, "
+            f"{evidence.count(FAILED)} failed), so that nothing is known of {evidence.state}; follow them longer, such as "
+            "with --tail 10s."
+        )
+    count, every = len(np.unique(evidence.records[decided])), len(np.unique(evidence.records))
+    if count >= FEWEST:
+        return
+    what = ("run" if records_are_one else "record") + ("" if count == 1 else "s")
+    what += f" (of {every}; the others have no decided run)" if count < every else ""
+    remedy = f"give at least {FEWEST}" + (
+        "" if records_are_one else ", or say --records-are-one to take every run for a record of its own"
+    )
+    raise InputError(f"a fragility of {count} {what} says nothing about the next earthquake; {remedy}.")
+
+
+def check_shape(evidence: Evidence, low: np.ndarray, high: np.ndarray, best: lognormal.Fit) -> None:
+    """Refuse runs through which no fragility goes."""
+    state, unit = evidence.state, "" if evidence.unit == "-" else f" {evidence.unit}"
+    if math.isinf(best.log_median[0]):
+        every = best.log_median[0] < 0.0
+        raise InputError(
+            f"{'every decided run exceeds' if every else 'no decided run exceeds'} {state}, so that no curve can be drawn; "
+            f"give {'smaller' if every else 'larger'} intensities."
+        )
+    ends = np.concatenate((low, high))
+    ends = np.unique(np.round(ends[np.isfinite(ends)], DIGITS))
+    if len(ends) == 1:
+        raise InputError(
+            f"all runs of {evidence.name} are at one intensity, {evidence.measure} = {math.exp(ends[0]):.4g}{unit}, where "
+            f"{evidence.count(EXCEEDED)} of {int((evidence.codes >= 0).sum())} exceed {state}: what happens at others is "
+            "not known; give runs at several intensities."
+        )
+    if lognormal.falls(best):
+        with_it, without = (
+            math.exp(np.log(evidence.im[evidence.codes == one]).mean()) for one in (EXCEEDED, NOT_EXCEEDED)
+        )
+        raise InputError(
+            f"runs of {evidence.name} do not exceed {state} more often where {evidence.measure} is larger (its geometric "
+            f"mean is {with_it:.3g}{unit} where they do, {without:.3g}{unit} where they do not), and that is no fragility; "
+            "check which value of 'collapsed' is which, or give intensities farther apart."
+        )
