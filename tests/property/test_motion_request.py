@@ -8,7 +8,7 @@ import pytest
 
 import stylobate as st
 from stylobate.errors import LeftOutWarning
-from stylobate.motion import keep_axes
+from stylobate.motion import keep_axes, write_csv
 from stylobate.motion.orientation import record_of
 from stylobate.motion.specs import parse_angle
 
@@ -143,7 +143,7 @@ def test_a_circle_of_azimuths_with_both_signs_is_told_to_be_computed_twice(recor
 @pytest.mark.parametrize("azimuths", [(), (0.0, 45.0)])
 @pytest.mark.parametrize("size", [{}, {"pga": 3.0}, {"scale": 0.5}])
 def test_both_signs_of_a_record_are_that_record_however_it_is_scaled(record, size, azimuths):
-    (record.parent / "other.csv").write_text(record.read_text())
+    write_csv(st.read_motion(record).scaled(2.0), record.parent / "other.csv")
     asked = st.MotionRequest(files=(record.parent,), azimuths=azimuths, signs="both", **size)
     motions = asked.expand().motions
     assert len(motions) == 4 * max(1, len(azimuths))
