@@ -27,6 +27,7 @@ from fuzz.record_files import (
 from stylobate.constants import g
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import Motion, read_motion, read_suite, write_csv
+from stylobate.motion.readers.numbers import read_numbers
 
 RECORDS = Path(__file__).resolve().parents[2].parent / "shared" / "records"
 
@@ -384,3 +385,12 @@ def test_a_suite_with_a_damaged_record_names_it(put, tmp_path):
         suite = read_suite(tmp_path)
     assert [motion.name for motion in suite.motions] == ["whole.asc"]
     assert "damaged or cut" in suite.refused["cut.asc"]
+
+
+@pytest.mark.parametrize("end", ["1.2", "1.2210000", "1.2210000E-0"])
+def test_a_number_that_is_cut_at_the_end_of_a_file_is_seen(end):
+    lines = ["  5.9500000E-01 -7.0900000E-01", f" -1.1260000E+00  {end}"]
+    with pytest.raises(InputError, match=r"line 8: the last number .* is shorter than those before it"):
+        read_numbers(lines, 6, "record.at2", "accelerations", count=4)
+    assert read_numbers([*lines[:1], " 1.0E+00 2.0E-10"], 6, "record.at2", "accelerations", count=4)[3] == 2e-10
+    assert read_numbers(["0.5 0.25", "0.125 1"], 6, "record.at2", "accelerations", count=4)[3] == 1.0

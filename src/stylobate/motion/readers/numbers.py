@@ -101,6 +101,11 @@ def read_numbers(
             f"{file}, lines {first + 1} to {first + len(lines)}: the header promises {count} numbers ({what}), "
             f"{len(values)} are there; the file is damaged or cut, fetch it again."
         )
+    if count is not None and _cut_short(lines):
+        raise InputError(
+            f"{file}, line {first + len(lines)}: the last number ({what}) is shorter than those before it; the file is "
+            "damaged or cut, fetch it again."
+        )
     return values
 
 
@@ -139,3 +144,10 @@ def _floats(text: str) -> np.ndarray | None:
         return np.array(text.split(), dtype=np.float64)
     except ValueError:
         return None
+
+
+def _cut_short(lines: Sequence[str]) -> bool:
+    """Whether the last number lacks its exponent, or a digit of it, where all before it in its lines have theirs."""
+    text = " ".join([line for line in lines[-4:] if line.strip()][-2:])
+    powers = [found[0].upper().partition("E")[2].lstrip("+-") for found in re.finditer(NUMBER, text)]
+    return len(powers) > 1 and len(powers[-1]) < min(map(len, powers[:-1]))
