@@ -21,7 +21,6 @@ from stylobate.analysis.replicates import collapse_probability
 from stylobate.analysis.step_sensitivity import compare_steps, halved_step
 from stylobate.analysis.verdicts import collapse_interval, share_collapsed, wilson_interval
 from stylobate.campaign import runs
-from stylobate.campaign.twins import in_space
 from stylobate.column import preset
 from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.motion.scatter import PHASES, MotionScatter, ScatteredSines
@@ -266,7 +265,11 @@ def test_probabilities_of_an_earlier_version_are_refused_as_such(tmp_path):
 
 def test_what_the_model_leaves_out_of_the_motions_is_told_as_left_out():
     plane = st.DistinctElement3D(planar=True)
-    assert [in_space(one) for one in (st.HousnerBlock(), plane, st.DistinctElement3D())] == [False, False, True]
+    assert [one.is_plane(one.parameters()) for one in (st.HousnerBlock(), plane, st.DistinctElement3D())] == [
+        True,
+        True,
+        False,
+    ]
     found = collapse_probability(
         preset("paper-monolithic"), st.HousnerBlock(), [1.0], [0.5], 0.1, replicates=1,
         motion_scatter=MotionScatter(phase=0.1, across=0.01),

@@ -30,7 +30,7 @@ DISPLACEMENTS = ("peak_top_displacement_m", "residual_top_displacement_m", "peak
 ENOUGH = 8
 
 
-#: What :func:`chance_words` tell, above a column of a table.
+#: Heading of a column of a table that holds :func:`chance_words`.
 CHANCE = "columns like it that collapse"
 
 

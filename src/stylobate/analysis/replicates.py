@@ -19,7 +19,7 @@ from ..campaign.digests import Hasher
 from ..campaign.grid import MAX_CELLS, grid_axis
 from ..campaign.ledger import RUNS_FILE
 from ..campaign.runs import Progress, Request, Runs
-from ..campaign.twins import in_space, the_twins
+from ..campaign.twins import the_twins
 from ..column import Column
 from ..column.scatter import Scatter
 from ..errors import InputError, check_range
@@ -94,7 +94,7 @@ def collapse_probability(
     a = grid_axis("amplitudes", amplitudes, 0.0, 1e4, "m/s²")
     check_range("confidence", confidence, 0.0, 1.0, open_low=True, open_high=True, remedy="0.95 is the default")
     shaking, beyond = MotionScatter() if motion_scatter is None else motion_scatter, ()
-    if shaking.across and not in_space(model):
+    if shaking.across and model.is_plane(model.parameters()):
         shaking, beyond = dataclasses.replace(shaking, across=0.0), ("across",)
     twins = the_twins(column, model, replicates, scatter, seed, alone=not shaking.given)
     number = len(twins.columns)

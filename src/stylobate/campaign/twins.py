@@ -42,11 +42,6 @@ def without(left_out: Sequence[str]) -> str:
     return f", without {', '.join(left_out).replace('_', ' ')}, which the model does not take" if left_out else ""
 
 
-def in_space(model: Model) -> bool:
-    """Whether a model moves columns out of the plane of x and z."""
-    return "y" in model.axes and not getattr(model, "planar", False)
-
-
 def the_twins(
     column: Structure, model: Model, replicates: int, scatter: Scatter | None, seed: int, *, alone: bool = True
 ) -> Twins:
@@ -65,4 +60,5 @@ def the_twins(
         raise InputError(
             f"nothing scatters{why}; give at least one coefficient of variation above 0, such as friction=10%."
         )
-    return Twins(scattered_columns(stack, size, replicates, seed, space=in_space(model)), size, seed, left_out)
+    space = not model.is_plane(model.parameters())
+    return Twins(scattered_columns(stack, size, replicates, seed, space=space), size, seed, left_out)
