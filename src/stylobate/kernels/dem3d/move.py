@@ -135,10 +135,8 @@ def drift(u, e, a, o, g, l):
 
 
 @law
-def rotate(u, l, lx, ly, lz, dt):
-    """Free rotation of a body over the step.  # Eq. (E7)"""
-    if u.px.shape[0] > 1:
-        half_about_i(u, l, lx, ly, lz, 0.5 * dt)
+def about_momentum(u, l, lx, ly, lz, dt):
+    """Free rotation of a body with A = B over the step; returns the angular velocity about its axis k.  # Eq. (E7)"""
     kx, ky, kz = u.kx[l], u.ky[l], u.kz[l]
     ia = u.ia[l]
     spin = u.ic[l] * (lx * kx + ly * ky + lz * kz)
@@ -149,12 +147,28 @@ def rotate(u, l, lx, ly, lz, dt):
     u.ix[l], u.iy[l], u.iz[l] = ix, iy, iz
     u.kx[l], u.ky[l], u.kz[l] = kx, ky, kz
     u.jx[l], u.jy[l], u.jz[l] = cross(kx, ky, kz, ix, iy, iz)
+    return spin
+
+
+@law
+def rotate_any(u, l, lx, ly, lz, dt):
+    """Free rotation of a body with three different moments over the step.  # Eqs. (E7), (E20)"""
+    half_about_i(u, l, lx, ly, lz, 0.5 * dt)
+    about_momentum(u, l, lx, ly, lz, dt)
+    half_about_i(u, l, lx, ly, lz, 0.5 * dt)
+    u.wx[l], u.wy[l], u.wz[l] = omega(u, l, lx, ly, lz)
+
+
+@law
+def rotate(u, l, lx, ly, lz, dt):
+    """Free rotation of a body over the step."""
     if u.px.shape[0] > 1:
-        half_about_i(u, l, lx, ly, lz, 0.5 * dt)
-        wx, wy, wz = omega(u, l, lx, ly, lz)
-        u.wx[l], u.wy[l], u.wz[l] = wx, wy, wz
+        rotate_any(u, l, lx, ly, lz, dt)
     else:
-        u.wx[l], u.wy[l], u.wz[l] = wx + spin * kx, wy + spin * ky, wz + spin * kz
+        spin = about_momentum(u, l, lx, ly, lz, dt)
+        ia = u.ia[l]
+        kx, ky, kz = u.kx[l], u.ky[l], u.kz[l]
+        u.wx[l], u.wy[l], u.wz[l] = lx * ia + spin * kx, ly * ia + spin * ky, lz * ia + spin * kz
 
 
 @apart

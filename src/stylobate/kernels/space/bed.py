@@ -1,0 +1,244 @@
+"""The elastic bed between two bodies in space: a force k_n times the volume of their overlap, with friction and torsion.
+
+It acts in the middle of the overlap along the vector area of its surface. One pair of convex shapes has one region of
+contact and one memory. Legend: ``records.py``.
+"""
+
+import math
+
+from ..dem3d.friction import kept, returned
+from ..dem3d.move import omega
+from ..jit import kernel, long_law
+from ..plane.contact import normal_dashpot, restitution_share
+from .nearest import parting
+from .overlap import DEEP_A, DEEP_B, MIDDLE, MOMENT, NORMAL, REF, SHADOW, SPREAD, VOLUME, overlap
+from .records import DRUM, GROUND
+from .solids import LESS, draw, reach
+from .vectors import across, along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
+
+#: (Mean distance from the middle)² over the mean of its square: of a line, and of a disc.  # Eq. (A5)
+OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
+
+#: A drum is touched on its side where the normal is farther from its axis than this, as a cosine; two are where their axes
+#: are farther from one another than this share of both radii.
+ON_SIDE, SIDES = 0.7, 0.97
+
+#: Shapes that are nearer than this share of the smaller one's size have their direction found anew in each step.
+NEAR = 0.01
+
+
+@long_law
+def lever(xx, yy, xy):
+    """Mean square distance of a face from its middle, and (mean distance)², from its second moments over its area.
+
+    Between a line and a disc by the share of the smaller of both principal moments: rectangles are met to 2e-3.
+    """
+    square = max(xx + yy, 0.0)
+    even = max(4.0 * (xx * yy - xy * xy), 0.0) / max(square * square, 1e-300)
+    return square, (OF_LINE + (OF_DISC - OF_LINE) * min(even, 1.0)) * square
+
+
+@long_law
+def in_plane(total, n, g, t, q):
+    """Second moments of the contact about its middle along t and q, across n, over its area [m²]."""
+    each = 1.0 / total[SHADOW]
+    a, b, c = total[SPREAD] * each, total[SPREAD + 1] * each, total[SPREAD + 2] * each
+    d, e, f = total[SPREAD + 3] * each, total[SPREAD + 4] * each, total[SPREAD + 5] * each
+    at = a * t[0] + d * t[1] + f * t[2], d * t[0] + b * t[1] + e * t[2], f * t[0] + e * t[1] + c * t[2]
+    aq = a * q[0] + d * q[1] + f * q[2], d * q[0] + b * q[1] + e * q[2], f * q[0] + e * q[1] + c * q[2]
+    x, y = dot(g, t), dot(g, q)
+    return dot(t, at) - x * x, dot(q, aq) - y * y, dot(t, aq) - x * y
+
+
+@long_law
+def spread_of(total, n, a, u, b, v):
+    """:func:`lever` of a contact; the width of a facet that stands for a drum's side is none."""
+    if total[SHADOW] <= 0.0:  # two bodies deep in one another, which the last direction does not fit
+        return 0.0, 0.0
+    g = total[MIDDLE] / total[SHADOW], total[MIDDLE + 1] / total[SHADOW], total[MIDDLE + 2] / total[SHADOW]
+    t = across(n)
+    flat = 1.0
+    for side in range(2):
+        s, w = (a, u) if side == 0 else (b, v)
+        if s.kind == DRUM:
+            e = axis(s, w)
+            up = abs(dot(n, e))
+            if up < flat:
+                flat = up
+                t = cross(e, n)
+                t = scaled(1.0 / max(length(t), 1e-300), t) if length(t) > 1e-9 else across(n)
+    xx, yy, xy = in_plane(total, n, g, t, cross(n, t))
+    return lever(flat * flat * xx, yy, flat * xy)
+
+
+@long_law
+def axis(s, u):
+    """Axis of a drum in space."""
+    return outward(u, of(s.e))
+
+
+@long_law
+def mobility(u, r, n):
+    """Acceleration of the point of a body at r along n by a unit force along n there [1/kg]."""
+    if u.fixed != 0:
+        return 0.0
+    c = cross(r, n)
+    return u.im[0] + dot(c, omega(u, 0, c[0], c[1], c[2]))
+
+
+@long_law
+def forget(p):
+    """The contact is open: nothing is left of it but the direction."""
+    p.t = p.kf = p.kt = p.fn = p.en = p.area = p.dt = 0.0
+    for c in range(3):
+        p.f[c] = p.d[c] = p.ta[c] = p.tb[c] = 0.0
+
+
+@kernel
+def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
+    """Whether two shapes overlap; the sums over the surface of their overlap then stand in ``work``.
+
+    The direction of the pair is that of the last contact; before there is one, that in which the shapes are apart.
+    ``wide`` is a length that no shape on the ground is larger than [m].
+    """
+    n = of(p.n)
+    ground = a.kind == GROUND or b.kind == GROUND
+    if a.kind == GROUND:
+        n = u.kx[0], u.ky[0], u.kz[0]
+    elif b.kind == GROUND:
+        n = -v.kx[0], -v.ky[0], -v.kz[0]
+    top = reach(a, u, vertex, 1.0, n[0], n[1], n[2])
+    low = -reach(b, v, vertex, LESS, -n[0], -n[1], -n[2])
+    round_ = a.kind == DRUM or b.kind == DRUM
+    if low - top >= (NEAR * min(u.r, v.r) if round_ and not ground else 0.0):
+        put(p.n, n)
+        return False
+    if p.area == 0.0 and not ground:
+        gap, nx, ny, nz = parting(a, u, b, v, LESS, vertex, n[0], n[1], n[2], simplex)
+        if gap > 0.0:
+            p.n[0], p.n[1], p.n[2] = nx, ny, nz
+            return False
+    if top <= low:
+        return False
+    put(p.n, n)
+    va, pa, ha, vb, pb, hb, _, _, _, _, total = work
+    back = scaled(-1.0, n)
+    ta = of(p.ta)
+    tb = of(p.tb)
+    na, fa = draw(a, u, vertex, plane, n, ta if dot(ta, ta) > 0.0 else n, 1.0, place(v), wide, va, pa, ha)
+    nb, fb = draw(b, v, vertex, plane, n, tb if dot(tb, tb) > 0.0 else back, LESS, place(u), wide, vb, pb, hb)
+    overlap(a, u, b, v, fa, fb, n[0], n[1], n[2], loop, corner, top, low, work)
+    s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
+    return total[VOLUME] > 0.0 and dot(s, s) > 0.0
+
+
+@kernel
+def face_contact(p, n, a, u, b, v, total):
+    """Turn the facets of drums that are touched on their sides to where they are touched, for the next step.
+
+    Two sides that touch are turned to one another, along the shortest way between the axes.
+    """
+    ea = axis(a, u)
+    eb = axis(b, v)
+    put(p.ta, (0.0, 0.0, 0.0))
+    put(p.tb, (0.0, 0.0, 0.0))
+    on_a = a.kind == DRUM and abs(dot(ea, n)) < ON_SIDE
+    on_b = b.kind == DRUM and abs(dot(eb, n)) < ON_SIDE
+    if on_a:
+        put(p.ta, of(total[DEEP_A + 1 : DEEP_A + 4]))
+    if on_b:
+        put(p.tb, of(total[DEEP_B + 1 : DEEP_B + 4]))
+    if on_a and on_b:
+        x, y, way = between_axes(a, u, ea, b, v, eb)
+        if length(way) > SIDES * (a.rb + x * (a.rt - a.rb) + b.rb + y * (b.rt - b.rb)):
+            put(p.ta, way)
+            put(p.tb, scaled(-1.0, way))
+
+
+@long_law
+def between_axes(a, u, ea, b, v, eb):
+    """Shares of the heights of two drums at which their axes are nearest, and the way from the first to the second there."""
+    w = minus(along(place(v), 1.0, outward(v, of(b.c))), along(place(u), 1.0, outward(u, of(a.c))))
+    c = dot(ea, eb)
+    p, q = dot(ea, w), dot(eb, w)
+    sine = 1.0 - c * c
+    x = 0.5 * a.h
+    if sine > 1e-12:
+        x = (p - c * q) / sine
+    x = min(max(x, 0.0), a.h)
+    y = min(max(c * x - q, 0.0), b.h)
+    x = min(max(p + c * y, 0.0), a.h)
+    return x / a.h, y / b.h, along(along(w, y, eb), -x, ea)
+
+
+@kernel
+def press(p, a, u, b, v, kn, ks, mu, share, now, total):
+    """Force of the bed at t_n on two bodies that overlap; brings its memory from t_{n−1} to t_n."""
+    dt = now.last
+    s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
+    area = length(s)
+    n = scaled(1.0 / area, s)
+    volume = total[VOLUME]
+    c = along(of(total[REF : REF + 3]), 1.0 / volume, of(total[MOMENT : MOMENT + 3]))
+    square, mean = spread_of(total, n, a, u, b, v)
+    ru = minus(c, place(u))
+    rv = minus(c, place(v))
+    w = minus(velocity(v, rv), velocity(u, ru))
+    vn = dot(w, n)
+    wt = along(w, -vn, n)
+    spin_u = dot((u.wx[0], u.wy[0], u.wz[0]), n)
+    spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
+    kn *= share
+    ks *= share
+    # pressure  # Eqs. (A4), (A2)
+    fn = kn * volume
+    dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
+    p.en -= 0.5 * (fn + p.fn) * vn * dt
+    # friction: the shear force turns with the contact  # Eq. (A5)
+    kf = ks * area
+    kt = kf * square
+    limit = mu * (fn + dn)
+    arm = math.sqrt(mean)
+    f = of(p.f)
+    size = length(f)
+    f = along(f, -dot(f, n), n)
+    f = scaled(size / max(length(f), 1e-300), f)
+    f = along(f, 0.5 * (spin_u + spin_v) * dt, cross(n, f))
+    old, turn = f, p.t
+    keep = kept(kf, p.kf)
+    f = along(scaled(keep, f), -kf * dt, wt)
+    twist = kept(kt, p.kt) * turn - kt * dt * (spin_v - spin_u)
+    keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
+    f = scaled(keep, f)
+    twist *= less
+    both = old[0] + f[0], old[1] + f[1], old[2] + f[2]
+    now.shear -= 0.5 * dt * (dot(both, wt) + (turn + twist) * (spin_v - spin_u))
+    # dashpots parallel to the springs; friction in sum stays within Coulomb's
+    g = along(f, -now.beta * kf, wt)
+    more = twist - now.beta * kt * (spin_v - spin_u)
+    keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
+    g = along(minus(scaled(keep, g), f), dn, n)
+    more = more * less - twist
+    other = g[0] + p.d[0], g[1] + p.d[1], g[2] + p.d[2]
+    now.visc -= 0.5 * dt * (dot(other, w) + (more + p.dt) * (spin_v - spin_u))
+    put(p.f, f)
+    put(p.d, g)
+    p.t, p.dt, p.kf, p.kt, p.fn = twist, more, kf, kt, fn
+    grown = max(area - p.area, 0.0)
+    p.area = area
+    put(p.n, n)
+    face_contact(p, n, a, u, b, v, total)
+    now.deepest = max(now.deepest, volume / area)
+    now.rate = max(now.rate, kn * (area + grown) * (mobility(u, ru, n) + mobility(v, rv, n)))
+    f = along((f[0] + g[0], f[1] + g[1], f[2] + g[2]), fn, n)
+    add(v, rv, f, n, twist + more)
+    add(u, ru, scaled(-1.0, f), n, -twist - more)
+
+
+@long_law
+def add(u, r, f, n, twist):
+    """Add a force at r and a moment about n to what acts on a body."""
+    m = along(cross(r, f), twist, n)
+    for c in range(3):
+        u.f[c] += f[c]
+        u.mo[c] += m[c]

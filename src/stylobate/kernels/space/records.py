@@ -1,0 +1,100 @@
+"""Records of bodies in space of which any two may touch; one lane. Positions at t_n, velocities at t_{n−1/2}.
+
+Legend::
+
+    body[i]    x y z … ib     as in ``dem3d/records.py``, of one lane each
+               f[3] mo[3]     force and moment of all contacts at t_n [N], [N m]
+               r              distance of the farthest point from the centroid [m]
+               travel         way that no point of the body can have exceeded since the pairs were listed [m]
+               fixed          1: it moves with the ground
+    shape[s]   body kind      whose it is; BLOCK, DRUM or GROUND (the half-space below the origin of its body, k is up)
+               first count    its vertices in ``vertex`` [m], in the axes of the body from its centroid
+               face faces     its faces: planes n·x ≤ d in ``plane``, and in ``loop`` where their corners are in ``corner``
+               m[3] r         middle of a sphere around it, in the axes of its body, and its radius [m]
+               c[3] e[3]      of drums: middle of the lower face, and the axis, in the axes of the body [m], [-]
+               h rb rt        height, radii of the lower and the upper face [m]
+    loop[f]    first count    corners of face f, numbers of vertices of the shape, counter-clockwise seen from outside
+    pair[p]    a b            shapes whose bodies may touch, a < b;  joint  number of the joint of two of their faces, or −1
+               n[3]           direction from a to b: normal of the contact, or an axis that parts them [-]
+               ta[3] tb[3]    directions in which drums a and b turn a facet, from their axes; along n where they are 0 [-]
+               f[3] t         shear force on b [N], torsion moment on b about n [N m]
+               kf kt          stiffness they were stored with [N/m], [N m]
+               fn en          normal force at the last step [N], elastic energy of the pressure [J]
+               d[3]           dashpots: force on b [N], and torsion [N m] in ``dt``
+               area           of the contact [m²], 0 where there is none
+    joint[j]   see joints.py
+    law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
+    now        dt last        step, and the last part of one that was taken [s]
+               eta calm       restitution: F is larger by eta while it closes, smaller while it opens; below the speed
+                              ``calm`` [m/s] in proportion to it
+               beta           stiffness-proportional damping [s];  local  Cundall's local damping, for settling [-]
+               g[3]           gravity, as an acceleration of the base: up is positive [m/s²]
+               skin           of the bounding spheres [m]
+               rate           largest (circular frequency)² of a contact at the last step [1/s²]
+               deepest        largest mean depth of the bed so far [m]
+               work shear visc  work of the input, of the friction springs on their surroundings reversed, of dampers [J]
+               pairs touched status  pairs listed; first step with a foreign contact, −1; RUNNING or FAILED
+    feed ground  as in ``dem3d/records.py``, of one lane
+"""
+
+import numpy as np
+
+#: Kinds of shapes.
+BLOCK, DRUM, GROUND = range(3)
+
+#: Facets of the prism that stands for a drum.
+FACETS = 12
+
+#: Most vertices and faces of a shape, most corners of a clipped face.
+MOST_VERTICES, MOST_FACES, MOST_CORNERS = 64, 128, 256
+
+
+def types() -> dict[str, np.dtype]:
+    """Record types by name."""
+
+    def fields(names: str, *rows: int, kind: type = np.float64) -> list[tuple]:
+        return [(name, kind, rows) if rows else (name, kind) for name in names.split()]
+
+    def counts(names: str) -> list[tuple]:
+        return fields(names, kind=np.int64)
+
+    axes = " ".join(f"{axis}{c}" for axis in "ijk" for c in "xyz")
+    return {
+        "body": np.dtype(
+            fields(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib", 1)
+            + fields("f mo", 3)
+            + fields("r travel")
+            + counts("fixed")
+        ),
+        "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
+        "loop": np.dtype(counts("first count")),
+        "pair": np.dtype(counts("a b joint") + fields("n ta tb f d", 3) + fields("t dt kf kt fn en area")),
+        "now": np.dtype(
+            fields("dt last eta calm beta local skin rate deepest work shear visc")
+            + fields("g", 3)
+            + counts("pairs touched status")
+        ),
+        "feed": np.dtype(fields("x y z last step", 1, kind=np.int64) + fields("ratio factor", 1) + fields("r", 9, 1)),
+        "ground": np.dtype(fields("a", 3, 1)),
+    }
+
+
+def workspace() -> tuple[np.ndarray, ...]:
+    """Arrays that one contact needs: of either shape vertices, planes and heights; polygons, faces that matter, sums."""
+    return (
+        np.zeros((MOST_VERTICES, 3)),
+        np.zeros((MOST_FACES, 4)),
+        np.zeros(MOST_VERTICES),
+        np.zeros((MOST_VERTICES, 3)),
+        np.zeros((MOST_FACES, 4)),
+        np.zeros(MOST_VERTICES),
+        np.zeros((MOST_CORNERS, 3)),
+        np.zeros((MOST_CORNERS, 3)),
+        np.zeros(MOST_FACES, dtype=np.int64),
+        np.zeros(MOST_FACES, dtype=np.int64),
+        np.zeros(SUMS),
+    )
+
+
+#: Sums over the surface of an overlap, see ``overlap.py``.
+SUMS = 28

@@ -1,0 +1,113 @@
+"""The step of bodies in space of which any two may touch: forces, motion, list of pairs, and the ledger.
+
+State, a tuple in this order: body, shape, vertex, plane, loop, corner, pair, spare, joined, law, now, feed, ground, work,
+simplex; see ``records.py``.
+"""
+
+import math
+
+from ..dem3d.step import base_acceleration
+from ..jit import kernel, strict
+from ..run_codes import CHUNK, FAILED
+from .bed import forget, press, touching
+from .motion import check, kinetic_and_gravitational, move
+from .search import list_pairs
+from .vectors import of
+
+#: A step is taken in parts of which none is longer than this over the circular frequency of the stiffest contact.
+PART = 0.25
+
+#: Most parts of a step.
+MOST_PARTS = 8
+
+
+@kernel
+def forces(state):
+    """Forces of all contacts on all bodies at t_n; brings their memory from t_{n−1} to t_n."""
+    body, shape, vertex, plane, loop, corner, pair, _, _, law, now_, feed, _, work, simplex = state
+    now = now_[0]
+    for i in range(body.shape[0]):
+        for c in range(3):
+            body[i].f[c] = body[i].mo[c] = 0.0
+    now.rate = 0.0
+    total = work[10]
+    for k in range(now.pairs):
+        p = pair[k]
+        a = shape[p.a]
+        b = shape[p.b]
+        u = body[a.body]
+        v = body[b.body]
+        share = 1.0
+        wide = 2.0 * max(min(a.r, b.r), 1e-3)
+        if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
+            numbers = law[min(a.body, b.body), max(a.body, b.body)]
+            press(p, a, u, b, v, numbers[0], numbers[1], numbers[2], share, now, total)
+            if now.touched < 0 and p.joint < 0:
+                now.touched = feed[0].step[0]
+        elif p.area > 0.0:
+            forget(p)
+
+
+@kernel
+def list_all(state):
+    """List anew all pairs of shapes that may touch."""
+    body, shape, vertex, _, _, _, pair, spare, joined, _, now, _, _, _, simplex = state
+    list_pairs(body, shape, vertex, pair, spare, joined, now[0], simplex)
+
+
+@kernel
+def advance(state, chunks):
+    """Advance by ``chunks`` × CHUNK steps."""
+    body, _, _, _, _, _, _, _, _, _, now_, feed, ground, _, _ = state
+    now = now_[0]
+    for _ in range(chunks):
+        base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
+        for k in range(CHUNK):
+            parts = min(max(int(math.ceil(now.dt * math.sqrt(now.rate) / PART)), 1), MOST_PARTS)
+            g = ground[k].a
+            h = ground[k + 1].a
+            each = 1.0 / parts
+            for q in range(parts):
+                x = q * each
+                y = x + each
+                forces(state)
+                farthest = move(
+                    body,
+                    now,
+                    (g[0, 0] + x * (h[0, 0] - g[0, 0]), g[1, 0] + x * (h[1, 0] - g[1, 0]), g[2, 0] + x * (h[2, 0] - g[2, 0])),
+                    (g[0, 0] + y * (h[0, 0] - g[0, 0]), g[1, 0] + y * (h[1, 0] - g[1, 0]), g[2, 0] + y * (h[2, 0] - g[2, 0])),
+                    now.dt * each,
+                )
+                if farthest > 0.5 * now.skin:
+                    list_all(state)
+            feed[0].step[0] += 1
+        check(body, now)
+        if now.status == FAILED:
+            break
+
+
+@strict
+def ledger(state, a, out):
+    """Ledger at t_n, after the forces there: input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J].
+
+    ``a`` is the acceleration of the base at t_n.
+    """
+    body, _, _, _, _, _, pair, _, _, _, now_, _, _, _, _ = state
+    now = now_[0]
+    elastic = 0.0
+    held = 0.0
+    for k in range(now.pairs):
+        p = pair[k]
+        if p.area > 0.0:
+            elastic += p.en
+            f = of(p.f)
+            held += 0.5 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / p.kf
+            if p.kt > 0.0:
+                held += 0.5 * p.t * p.t / p.kt
+    kinetic, height = kinetic_and_gravitational(body, now, (a[0], a[1], a[2]))
+    out[0] = now.work
+    out[1] = kinetic
+    out[2] = height
+    out[3] = elastic + held
+    out[4] = now.shear - held
+    out[5] = now.visc

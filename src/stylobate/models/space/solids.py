@@ -1,0 +1,183 @@
+"""Bodies in space as plain numbers, and the arrays that the kernels make of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ...column.shapes import Mesh
+from ...kernels.space.records import BLOCK, DRUM, FACETS, GROUND, MOST_FACES, MOST_VERTICES, types
+
+
+class Drum(NamedTuple):
+    """A frustum of a cone: middle of its lower face [m], unit axis, height and both radii [m], in the axes of its body."""
+
+    foot: np.ndarray
+    axis: np.ndarray
+    height: float
+    bottom: float
+    top: float
+
+
+class HalfSpace(NamedTuple):
+    """All that is below the origin of its body, across the third of its axes."""
+
+
+class Solid(NamedTuple):
+    """A rigid body of convex parts.
+
+    Parameters
+    ----------
+    parts : sequence of Mesh, Drum or HalfSpace
+        In the axes of the body, from its centroid.
+    place : array
+        Centroid [m], shape (3,).
+    axes : array
+        Axes of the body as columns, shape (3, 3).
+    mass : float
+        [kg]; 0 of what moves with the ground.
+    inertia : array
+        About the centroid, in the axes of the body [kg m²], shape (3, 3).
+    velocity, spin : array
+        [m/s], [rad/s], shape (3,).
+    """
+
+    parts: Sequence[Mesh | Drum | HalfSpace]
+    place: np.ndarray
+    axes: np.ndarray
+    mass: float = 0.0
+    inertia: np.ndarray = np.eye(3)
+    velocity: np.ndarray = np.zeros(3)
+    spin: np.ndarray = np.zeros(3)
+
+
+class Packed(NamedTuple):
+    """Records and arrays of bodies, as the kernels want them; ``turn`` leads from the axes of each body to its principal
+    ones, as columns."""
+
+    body: np.ndarray
+    shape: np.ndarray
+    vertex: np.ndarray
+    plane: np.ndarray
+    loop: np.ndarray
+    corner: np.ndarray
+    turn: np.ndarray
+
+
+def principal(inertia: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Moments about the principal axes i, j, k of a body [kg m²], and these as columns; k is the one that stands out."""
+    moments, axes = np.linalg.eigh(inertia)
+    if np.allclose(inertia, np.diag(np.diag(inertia)), rtol=0.0, atol=1e-12 * float(moments[-1])):
+        moments, axes = np.diag(inertia).copy(), np.eye(3)
+    order = np.argsort(moments)
+    alone = order[0] if moments[order[1]] - moments[order[0]] > moments[order[2]] - moments[order[1]] else order[2]
+    turn = [(alone + 1) % 3, (alone + 2) % 3, alone]
+    axes = axes[:, turn]
+    return moments[turn], axes * np.array([1.0, 1.0, np.linalg.det(axes)])
+
+
+def pack(solids: Sequence[Solid]) -> Packed:
+    """The arrays of bodies in their order."""
+    kinds = types()
+    body, rows = np.zeros(len(solids), kinds["body"]), _Rows()
+    turns = np.empty((len(solids), 3, 3))
+    for i, (solid, u) in enumerate(zip(solids, body, strict=True)):
+        moments, turn = principal(solid.inertia) if solid.mass else (np.ones(3), np.eye(3))
+        turns[i], axes = turn, solid.axes @ turn
+        u["fixed"] = 0 if solid.mass else 1
+        if solid.mass:
+            u["m"], u["im"] = solid.mass, 1.0 / solid.mass
+            b, a, c = moments
+            u["ia"], u["ib"], u["ic"] = 1.0 / a, 1.0 / b - 1.0 / a, 1.0 / c - 1.0 / a
+        momentum = axes @ (moments * (axes.T @ solid.spin)) * (1.0 if solid.mass else 0.0)
+        for c, name in enumerate("xyz"):
+            u[name], u["v" + name], u["w" + name], u["l" + name] = (
+                solid.place[c],
+                solid.velocity[c],
+                solid.spin[c],
+                momentum[c],
+            )
+            for k, axis in enumerate("ijk"):
+                u[axis + name] = axes[c, k]
+        u["r"] = max(rows.add(i, part, turn) for part in solid.parts)
+    return Packed(body, *rows.arrays(kinds), turns)
+
+
+class _Rows:
+    """Shapes and the rows of vertices, planes, loops and corners that they share."""
+
+    def __init__(self) -> None:
+        self.shapes: list[dict[str, Any]] = []
+        self.vertices: list[np.ndarray] = []
+        self.planes: list[np.ndarray] = []
+        self.loops: list[tuple[int, ...]] = []
+        self.faces_of_drum = -1
+
+    def add(self, body: int, part: Mesh | Drum | HalfSpace, turn: np.ndarray) -> float:
+        """Add a part of a body; returns the distance of its farthest point from the centroid [m]."""
+        if isinstance(part, HalfSpace):
+            self.shapes.append({"body": body, "kind": GROUND, "face": len(self.loops), "faces": 1, "r": 1e9})
+            self.loops.append((0, 1, 2, 3))
+            self.planes.append(np.zeros(4))
+            return 1e9
+        if isinstance(part, Drum):
+            foot, axis = turn.T @ part.foot, turn.T @ part.axis
+            rim = np.array([np.hypot(0.5 * part.height, radius) for radius in (part.bottom, part.top)])
+            middle = foot + 0.5 * part.height * axis
+            numbers = {"m": middle, "r": rim.max(), "c": foot, "e": axis, "h": part.height}
+            face = self._drum_faces()
+            self.shapes.append(
+                {"body": body, "kind": DRUM, "rb": part.bottom, "rt": part.top, "face": face, "faces": FACETS + 2} | numbers
+            )
+            return float(np.linalg.norm(middle) + rim.max())
+        vertices = np.asarray(part.vertices) @ turn
+        if len(vertices) > MOST_VERTICES or len(part.faces) > MOST_FACES:
+            raise ValueError(f"{len(vertices)} vertices, {len(part.faces)} faces")
+        middle = 0.5 * (vertices.min(axis=0) + vertices.max(axis=0))
+        self.shapes.append(
+            {
+                "body": body,
+                "kind": BLOCK,
+                "first": sum(map(len, self.vertices)),
+                "count": len(vertices),
+                "face": len(self.loops),
+                "faces": len(part.faces),
+                "m": middle,
+                "r": float(np.linalg.norm(vertices - middle, axis=1).max()),
+            }
+        )
+        self.vertices.append(vertices)
+        self.loops += part.faces
+        self.planes += [plane_of(vertices[list(face)]) for face in part.faces]
+        return float(np.linalg.norm(vertices, axis=1).max())
+
+    def _drum_faces(self) -> int:
+        """Where the faces of a prism are, which all drums share."""
+        if self.faces_of_drum < 0:
+            self.faces_of_drum, n = len(self.loops), FACETS
+            self.loops += [(k, (k + 1) % n, n + (k + 1) % n, n + k) for k in range(n)]
+            self.loops += [tuple(range(n - 1, -1, -1)), tuple(range(n, 2 * n))]
+            self.planes += [np.zeros(4)] * (n + 2)
+        return self.faces_of_drum
+
+    def arrays(self, kinds: dict[str, np.dtype]) -> tuple[np.ndarray, ...]:
+        """Shapes, vertices, planes, loops, corners."""
+        shape, loop = np.zeros(len(self.shapes), kinds["shape"]), np.zeros(len(self.loops), kinds["loop"])
+        for row, numbers in zip(shape, self.shapes, strict=True):
+            for name, value in numbers.items():
+                row[name] = value
+        loop["count"] = [len(face) for face in self.loops]
+        loop["first"] = np.cumsum([0, *loop["count"]])[:-1]
+        vertices = np.concatenate(self.vertices) if self.vertices else np.zeros((1, 3))
+        corners = np.array([k for face in self.loops for k in face], dtype=np.int64)
+        return shape, np.ascontiguousarray(vertices), np.array(self.planes), loop, corners
+
+
+def plane_of(polygon: np.ndarray) -> np.ndarray:
+    """Outward unit normal of a face and its distance from the origin, shape (4,)."""
+    after = np.roll(polygon, -1, axis=0)
+    normal = np.cross(polygon, after).sum(axis=0)
+    normal /= np.linalg.norm(normal)
+    return np.append(normal, float((polygon @ normal).mean()))

@@ -1,0 +1,103 @@
+"""Bodies in space for tests: boxes and cylinders as plain numbers, lanes of them, and what is read off."""
+
+import math
+
+import numpy as np
+
+from stylobate.column.shapes import Mesh
+from stylobate.models.space.loose import Loose
+from stylobate.models.space.solids import Drum, HalfSpace, Solid
+
+G, DENSITY = 9.81, 2700.0
+
+#: Turns the axis of a cylinder from z to y: it lies.
+SIDES = ((3, 2, 1, 0), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
+
+
+def turn(*vector):
+    """Rotation matrix of a rotation vector [rad]."""
+    angle = float(np.linalg.norm(vector))
+    if angle == 0.0:
+        return np.eye(3)
+    x, y, z = np.array(vector) / angle
+    k = np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])
+    return np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * k @ k
+
+
+LYING = turn(0.5 * math.pi, 0.0, 0.0)
+
+
+def box_mesh(sides):
+    around = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    return Mesh(np.array([[x, y, z] for z in (-1, 1) for x, y in around]) * 0.5 * np.array(sides), SIDES)
+
+
+def box(sides, place, axes=None, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0.0), fixed=False):
+    x, y, z = sides
+    mass = 0.0 if fixed else DENSITY * x * y * z
+    inertia = mass / 12.0 * np.diag([y * y + z * z, x * x + z * z, x * x + y * y])
+    return Solid([box_mesh(sides)], *_pose(place, axes), mass, inertia, np.array(velocity), np.array(spin))
+
+
+def cylinder(radius, height, place, axes=None, velocity=(0.0, 0.0, 0.0), spin=(0.0, 0.0, 0.0)):
+    mass = DENSITY * math.pi * radius**2 * height
+    inertia = mass * np.diag([(3.0 * radius**2 + height**2) / 12.0] * 2 + [0.5 * radius**2])
+    drum = Drum(np.array([0.0, 0.0, -0.5 * height]), np.array([0.0, 0.0, 1.0]), height, radius, radius)
+    return Solid([drum], *_pose(place, axes), mass, inertia, np.array(velocity), np.array(spin))
+
+
+def ground(place=(0.0, 0.0, 0.0), axes=None):
+    return Solid([HalfSpace()], *_pose(place, axes))
+
+
+def _pose(place, axes):
+    return np.array(place, dtype=float), np.eye(3) if axes is None else axes
+
+
+class Lane(Loose):
+    """Bodies with one law of contact, under gravity, in steps of ``step``."""
+
+    def __init__(self, *solids, kn=5e10, mu=0.7, restitution=1.0, step=4e-5, gravity=(0.0, 0.0, G), law=None, joints=()):
+        if law is None:
+            law = np.empty((len(solids), len(solids), 3))
+            law[...] = kn, 0.5 * kn, mu
+        super().__init__(solids, law, gravity, restitution, joints=joints)
+        self.step = step
+        self.start(step)
+
+    def run(self, duration, look=None, chunks=1):
+        """Advance; what ``look`` gives after every so many chunks, and the times [s]."""
+        times, seen = [], []
+        for _ in range(round(duration / self.step / 32 / chunks)):
+            self.advance(chunks)
+            if look is not None:
+                times.append(self.time)
+                seen.append(look())
+        assert not self.failed
+        return np.array(times), seen
+
+    @property
+    def time(self):
+        return self.feed["step"][0, 0] * self.step
+
+    def _vector(self, i, names):
+        return np.array([self.body[name][i, 0] for name in names.split()])
+
+    def place(self, i):
+        return self._vector(i, "x y z")
+
+    def velocity(self, i):
+        return self._vector(i, "vx vy vz")
+
+    def spin(self, i):
+        return self._vector(i, "wx wy wz")
+
+    def axes(self, i):
+        """Axes of the body as it was given, as columns."""
+        mine = np.array([[self.body[axis + c][i, 0] for axis in "ijk"] for c in "xyz"])
+        return mine @ self.packed.turn[i].T
+
+    def contact(self, a, b):
+        """Area of the contact of two shapes [m²]."""
+        pairs = self.pair[: self.now["pairs"][0]]
+        return float(pairs["area"][(pairs["a"] == a) & (pairs["b"] == b)].sum())
