@@ -6,14 +6,14 @@ contact and one memory. Legend: ``records.py``.
 
 import math
 
-from ..dem3d.friction import kept, returned
 from ..dem3d.move import omega
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
+from .friction import relax, rub
 from .nearest import parting
 from .overlap import DEEP_A, DEEP_B, MIDDLE, MOMENT, NORMAL, REF, SHADOW, SPREAD, VOLUME, overlap
-from .records import DRUM, GROUND
-from .solids import LESS, draw, reach
+from .records import DRUM, GROUND, LESS
+from .solids import draw, reach
 from .vectors import across, along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 
 #: (Mean distance from the middle)² over the mean of its square: of a line, and of a disc.  # Eq. (A5)
@@ -89,9 +89,10 @@ def mobility(u, r, n):
 @long_law
 def forget(p):
     """The contact is open: nothing is left of it but the direction."""
-    p.t = p.kf = p.kt = p.fn = p.en = p.area = p.dt = 0.0
+    relax(p)
+    p.fn = p.area = 0.0
     for c in range(3):
-        p.f[c] = p.d[c] = p.ta[c] = p.tb[c] = 0.0
+        p.ta[c] = p.tb[c] = 0.0
 
 
 @kernel
@@ -174,7 +175,6 @@ def between_axes(a, u, ea, b, v, eb):
 @kernel
 def press(p, a, u, b, v, kn, ks, mu, share, now, total):
     """Force of the bed at t_n on two bodies that overlap; brings its memory from t_{n−1} to t_n."""
-    dt = now.last
     s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
     area = length(s)
     n = scaled(1.0 / area, s)
@@ -185,7 +185,6 @@ def press(p, a, u, b, v, kn, ks, mu, share, now, total):
     rv = minus(c, place(v))
     w = minus(velocity(v, rv), velocity(u, ru))
     vn = dot(w, n)
-    wt = along(w, -vn, n)
     spin_u = dot((u.wx[0], u.wy[0], u.wz[0]), n)
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
     kn *= share
@@ -193,52 +192,28 @@ def press(p, a, u, b, v, kn, ks, mu, share, now, total):
     # pressure  # Eqs. (A4), (A2)
     fn = kn * volume
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
-    p.en -= 0.5 * (fn + p.fn) * vn * dt
-    # friction: the shear force turns with the contact  # Eq. (A5)
-    kf = ks * area
-    kt = kf * square
-    limit = mu * (fn + dn)
-    arm = math.sqrt(mean)
-    f = of(p.f)
-    size = length(f)
-    f = along(f, -dot(f, n), n)
-    f = scaled(size / max(length(f), 1e-300), f)
-    f = along(f, 0.5 * (spin_u + spin_v) * dt, cross(n, f))
-    old, turn = f, p.t
-    keep = kept(kf, p.kf)
-    f = along(scaled(keep, f), -kf * dt, wt)
-    twist = kept(kt, p.kt) * turn - kt * dt * (spin_v - spin_u)
-    keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
-    f = scaled(keep, f)
-    twist *= less
-    both = old[0] + f[0], old[1] + f[1], old[2] + f[2]
-    now.shear -= 0.5 * dt * (dot(both, wt) + (turn + twist) * (spin_v - spin_u))
-    # dashpots parallel to the springs; friction in sum stays within Coulomb's
-    g = along(f, -now.beta * kf, wt)
-    more = twist - now.beta * kt * (spin_v - spin_u)
-    keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
-    g = along(minus(scaled(keep, g), f), dn, n)
-    more = more * less - twist
-    other = g[0] + p.d[0], g[1] + p.d[1], g[2] + p.d[2]
-    now.visc -= 0.5 * dt * (dot(other, w) + (more + p.dt) * (spin_v - spin_u))
-    put(p.f, f)
-    put(p.d, g)
-    p.t, p.dt, p.kf, p.kt, p.fn = twist, more, kf, kt, fn
+    p.en -= 0.5 * (fn + p.fn) * vn * now.last
+    f, twist = rub(
+        p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u,
+        ks * area, ks * area * square, mu * (fn + dn), math.sqrt(mean), scaled(dn, n), w, now,
+    )  # fmt: skip
+    p.fn = fn
     grown = max(area - p.area, 0.0)
     p.area = area
     put(p.n, n)
     face_contact(p, n, a, u, b, v, total)
     now.deepest = max(now.deepest, volume / area)
     now.rate = max(now.rate, kn * (area + grown) * (mobility(u, ru, n) + mobility(v, rv, n)))
-    f = along((f[0] + g[0], f[1] + g[1], f[2] + g[2]), fn, n)
-    add(v, rv, f, n, twist + more)
-    add(u, ru, scaled(-1.0, f), n, -twist - more)
+    f = along(f, fn, n)
+    m = scaled(twist, n)
+    add(v, rv, f, m)
+    add(u, ru, scaled(-1.0, f), scaled(-1.0, m))
 
 
 @long_law
-def add(u, r, f, n, twist):
-    """Add a force at r and a moment about n to what acts on a body."""
-    m = along(cross(r, f), twist, n)
+def add(u, r, f, m):
+    """Add a force at r and a moment to what acts on a body."""
+    m = along(m, 1.0, cross(r, f))
     for c in range(3):
         u.f[c] += f[c]
         u.mo[c] += m[c]

@@ -22,11 +22,20 @@ Legend::
                fn en          normal force at the last step [N], elastic energy of the pressure [J]
                d[3]           dashpots: force on b [N], and torsion [N m] in ``dt``
                area           of the contact [m²], 0 where there is none
-    joint[j]   see joints.py
+    joint[j]   a b            shapes of the lower and the upper face, a body each
+               ml il jl       middle and two directions of the lower face in the axes of its body, il × jl out of it [m], [-]
+               mu iu ju       the same of the upper face, iu × ju into its body
+               rl ru          radii [m] of round faces, and of others from ``first_l`` and ``first_u`` on ``many_l`` and ``many_u``
+                              corners in ``edge`` [m], counter-clockwise, the lower face smaller by ``LESS``
+               kn ks tan co   stiffness and cohesion per area [N/m³], [Pa], tan φ
+               width          area of the smaller face [m²]
+               from_c to_c    cosines of the relative tilts from which the bed acts too, and alone
+               weight live    1 joint, 0 bed, between them both; 0: the faces have parted for good
+               f t kf kt d dt en  what is remembered, as of a pair;  over  area of the overlap [m²]
     law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
     now        dt last        step, and the last part of one that was taken [s]
-               eta calm       restitution: F is larger by eta while it closes, smaller while it opens; below the speed
-                              ``calm`` [m/s] in proportion to it
+               eta calm       restitution of the bed: F is larger by eta while it closes, smaller while it opens; below the speed
+                              ``calm`` [m/s] in proportion to it;  dull  the same of the joints
                beta           stiffness-proportional damping [s];  local  Cundall's local damping, for settling [-]
                g[3]           gravity, as an acceleration of the base: up is positive [m/s²]
                skin           of the bounding spheres [m]
@@ -44,6 +53,9 @@ BLOCK, DRUM, GROUND = range(3)
 
 #: Facets of the prism that stands for a drum.
 FACETS = 12
+
+#: The second of two shapes, and the lower one of two faces, is taken smaller by this factor: what is flush never coincides.
+LESS = 1.0 - 1.0e-10
 
 #: Most vertices and faces of a shape, most corners of a clipped face.
 MOST_VERTICES, MOST_FACES, MOST_CORNERS = 64, 128, 256
@@ -69,8 +81,13 @@ def types() -> dict[str, np.dtype]:
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
         "loop": np.dtype(counts("first count")),
         "pair": np.dtype(counts("a b joint") + fields("n ta tb f d", 3) + fields("t dt kf kt fn en area")),
+        "joint": np.dtype(
+            counts("a b first_l many_l first_u many_u live")
+            + fields("ml il jl mu iu ju f d", 3)
+            + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over")
+        ),
         "now": np.dtype(
-            fields("dt last eta calm beta local skin rate deepest work shear visc")
+            fields("dt last eta dull calm beta local skin rate deepest work shear visc")
             + fields("g", 3)
             + counts("pairs touched status")
         ),
@@ -94,6 +111,11 @@ def workspace() -> tuple[np.ndarray, ...]:
         np.zeros(MOST_FACES, dtype=np.int64),
         np.zeros(SUMS),
     )
+
+
+def workspace_of_joints() -> tuple[np.ndarray, ...]:
+    """Arrays that one joint needs: corners of the upper face, arcs, and sums, see ``boundary.py``."""
+    return np.zeros((MOST_VERTICES, 3)), np.zeros((MOST_VERTICES, 2)), np.zeros(16)
 
 
 #: Sums over the surface of an overlap, see ``overlap.py``.

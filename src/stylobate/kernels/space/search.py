@@ -33,6 +33,19 @@ def gap(s, u, t, v):
     return length(way) - s.r - t.r
 
 
+@long_law
+def before(p, a, b):
+    """Whether a pair comes before that of two shapes."""
+    one, two = min(p.a, p.b), max(p.a, p.b)
+    return one < a or (one == a and two < b)
+
+
+@long_law
+def is_of(p, a, b):
+    """Whether a pair is that of two shapes."""
+    return min(p.a, p.b) == a and max(p.a, p.b) == b
+
+
 @kernel
 def begin(p, s, u, t, v, vertex, simplex):
     """A pair that is new to the list: the direction in which its shapes are apart, or would be if one were smaller."""
@@ -47,14 +60,14 @@ def begin(p, s, u, t, v, vertex, simplex):
 
 
 @kernel
-def list_pairs(body, shape, vertex, pair, spare, joined, now, simplex):
-    """List anew all pairs of shapes that may touch; ``joined`` has rows of two shapes in order, joint by joint."""
+def list_pairs(body, shape, vertex, pair, spare, joint, now, simplex):
+    """List anew all pairs of shapes that may touch; joints come in the order of their shapes."""
     for i in range(body.shape[0]):
         body[i].travel = 0.0
     n = shape.shape[0]
     count = 0
     old = 0
-    joint = 0
+    next_ = 0
     for a in range(n):
         s = shape[a]
         u = body[s.body]
@@ -66,20 +79,18 @@ def list_pairs(body, shape, vertex, pair, spare, joined, now, simplex):
             if count == spare.shape[0]:
                 now.status = FAILED
                 return
-            while old < now.pairs and (pair[old].a < a or (pair[old].a == a and pair[old].b < b)):
+            while old < now.pairs and before(pair[old], a, b):
                 old += 1
             p = spare[count]
             count += 1
-            if old < now.pairs and pair[old].a == a and pair[old].b == b:
+            if old < now.pairs and is_of(pair[old], a, b):
                 spare[count - 1] = pair[old]
                 continue
             p.a = a
             p.b = b
-            while joint < joined.shape[0] and (
-                joined[joint, 0] < a or (joined[joint, 0] == a and joined[joint, 1] < b)
-            ):
-                joint += 1
-            p.joint = joint if joint < joined.shape[0] and joined[joint, 0] == a and joined[joint, 1] == b else -1
+            while next_ < joint.shape[0] and before(joint[next_], a, b):
+                next_ += 1
+            p.joint = next_ if next_ < joint.shape[0] and is_of(joint[next_], a, b) else -1
             begin(p, s, u, t, v, vertex, simplex)
     for k in range(count):
         pair[k] = spare[k]

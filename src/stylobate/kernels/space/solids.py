@@ -12,9 +12,6 @@ from ..jit import kernel, long_law
 from .records import BLOCK, DRUM, FACETS, GROUND
 from .vectors import across, along, cross, dot, inward, minus, of, outward, place, put, scaled
 
-#: The second of two shapes is taken smaller by this factor: faces that are flush are never the same plane.
-LESS = 1.0 - 1.0e-10
-
 #: Cosine and sine of the middle of every facet, and of the edge before it, from the middle of the first.
 RING = np.array(
     [

@@ -1,7 +1,7 @@
 """The step of bodies in space of which any two may touch: forces, motion, list of pairs, and the ledger.
 
-State, a tuple in this order: body, shape, vertex, plane, loop, corner, pair, spare, joined, law, now, feed, ground, work,
-simplex; see ``records.py``.
+State, a tuple in this order: body, shape, vertex, plane, loop, corner, pair, spare, joint, edge, law, now, feed, ground and
+the workspaces of a contact, of a joint and of a search; see ``records.py``.
 """
 
 import math
@@ -10,6 +10,7 @@ from ..dem3d.step import base_acceleration
 from ..jit import kernel, strict
 from ..run_codes import CHUNK, FAILED
 from .bed import forget, press, touching
+from .joints import on_joint
 from .motion import check, kinetic_and_gravitational, move
 from .search import list_pairs
 from .vectors import of
@@ -24,20 +25,25 @@ MOST_PARTS = 8
 @kernel
 def forces(state):
     """Forces of all contacts on all bodies at t_n; brings their memory from t_{n−1} to t_n."""
-    body, shape, vertex, plane, loop, corner, pair, _, _, law, now_, feed, _, work, simplex = state
+    body, shape, vertex, plane, loop, corner, pair, _, joint, edge, law, now_, feed, _, work, places, simplex = state
     now = now_[0]
     for i in range(body.shape[0]):
         for c in range(3):
             body[i].f[c] = body[i].mo[c] = 0.0
     now.rate = 0.0
     total = work[10]
+    up, arcs, sums = places
+    for j in range(joint.shape[0]):
+        e = joint[j]
+        if e.live != 0:
+            on_joint(e, body[shape[e.a].body], body[shape[e.b].body], edge, up, arcs, sums, now)
     for k in range(now.pairs):
         p = pair[k]
         a = shape[p.a]
         b = shape[p.b]
         u = body[a.body]
         v = body[b.body]
-        share = 1.0
+        share = 1.0 - joint[p.joint].weight if p.joint >= 0 and joint[p.joint].live != 0 else 1.0
         wide = 2.0 * max(min(a.r, b.r), 1e-3)
         if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
             numbers = law[min(a.body, b.body), max(a.body, b.body)]
@@ -51,14 +57,14 @@ def forces(state):
 @kernel
 def list_all(state):
     """List anew all pairs of shapes that may touch."""
-    body, shape, vertex, _, _, _, pair, spare, joined, _, now, _, _, _, simplex = state
-    list_pairs(body, shape, vertex, pair, spare, joined, now[0], simplex)
+    body, shape, vertex, _, _, _, pair, spare, joint, _, _, now, _, _, _, _, simplex = state
+    list_pairs(body, shape, vertex, pair, spare, joint, now[0], simplex)
 
 
 @kernel
 def advance(state, chunks):
     """Advance by ``chunks`` × CHUNK steps."""
-    body, _, _, _, _, _, _, _, _, _, now_, feed, ground, _, _ = state
+    body, _, _, _, _, _, _, _, _, _, _, now_, feed, ground, _, _, _ = state
     now = now_[0]
     for _ in range(chunks):
         base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
@@ -87,23 +93,33 @@ def advance(state, chunks):
 
 
 @strict
+def held_by(q):
+    """Energy that the friction springs of a contact hold [J]."""
+    f = of(q.f)
+    held = 0.0
+    if q.kf > 0.0:
+        held += 0.5 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / q.kf
+    if q.kt > 0.0:
+        held += 0.5 * q.t * q.t / q.kt
+    return held
+
+
+@strict
 def ledger(state, a, out):
     """Ledger at t_n, after the forces there: input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J].
 
     ``a`` is the acceleration of the base at t_n.
     """
-    body, _, _, _, _, _, pair, _, _, _, now_, _, _, _, _ = state
+    body, _, _, _, _, _, pair, _, joint, _, _, now_, _, _, _, _, _ = state
     now = now_[0]
     elastic = 0.0
     held = 0.0
+    for j in range(joint.shape[0]):
+        elastic += joint[j].en
+        held += held_by(joint[j])
     for k in range(now.pairs):
-        p = pair[k]
-        if p.area > 0.0:
-            elastic += p.en
-            f = of(p.f)
-            held += 0.5 * (f[0] * f[0] + f[1] * f[1] + f[2] * f[2]) / p.kf
-            if p.kt > 0.0:
-                held += 0.5 * p.t * p.t / p.kt
+        elastic += pair[k].en
+        held += held_by(pair[k])
     kinetic, height = kinetic_and_gravitational(body, now, (a[0], a[1], a[2]))
     out[0] = now.work
     out[1] = kinetic

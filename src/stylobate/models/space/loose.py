@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from ...kernels.run_codes import FAILED
-from ...kernels.space.records import types, workspace
-from .solids import Solid, pack
+from ...kernels.space.records import types, workspace, workspace_of_joints
+from .solids import FacesJoined, Solid, pack, pack_joints
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
 CALM = 0.02
@@ -32,6 +32,7 @@ class Loose:
         Share of the closing speed that contacts give back: 1 is elastic.
     stiffness_damping : float
         [s]
+    joints : sequence of FacesJoined
     """
 
     def __init__(
@@ -41,6 +42,7 @@ class Loose:
         gravity: Sequence[float],
         restitution: float = 1.0,
         stiffness_damping: float = 0.0,
+        joints: Sequence[FacesJoined] = (),
     ) -> None:
         from ...kernels.space import step as kernel
 
@@ -55,10 +57,10 @@ class Loose:
         now["skin"] = SKIN * min(row["r"] for row in packed.body if not row["fixed"])
         most = n * (n - 1) // 2
         self.pair, spare = np.zeros(most, kinds["pair"]), np.zeros(most, kinds["pair"])
-        joined = np.zeros((0, 2), dtype=np.int64)
+        self.joint, edge = pack_joints(joints, packed)
         self.state: tuple[Any, ...] = (
-            packed.body, packed.shape, packed.vertex, packed.plane, packed.loop, packed.corner, self.pair, spare, joined,
-            np.ascontiguousarray(law), now, self.feed, ground, workspace(), np.zeros((4, 3)),
+            packed.body, packed.shape, packed.vertex, packed.plane, packed.loop, packed.corner, self.pair, spare,
+            self.joint, edge, np.ascontiguousarray(law), now, self.feed, ground, workspace(), workspace_of_joints(), np.zeros((4, 3)),
         )  # fmt: skip
         self.body = packed.body
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...column.shapes import Mesh
-from ...kernels.space.records import BLOCK, DRUM, FACETS, GROUND, MOST_FACES, MOST_VERTICES, types
+from ...kernels.space.records import BLOCK, DRUM, FACETS, GROUND, LESS, MOST_FACES, MOST_VERTICES, types
 
 
 class Drum(NamedTuple):
@@ -51,6 +52,50 @@ class Solid(NamedTuple):
     inertia: np.ndarray = np.eye(3)
     velocity: np.ndarray = np.zeros(3)
     spin: np.ndarray = np.zeros(3)
+
+
+class Face(NamedTuple):
+    """A plane face of a body, in the axes of the body, from its centroid.
+
+    Parameters
+    ----------
+    middle : array
+        [m], shape (3,).
+    frame : array
+        Two directions along the face and its outward normal as columns, shape (3, 3).
+    corners : array
+        Along the face from its middle, counter-clockwise seen from outside [m], shape (k, 2); none of a disc.
+    radius : float
+        Of a disc [m].
+    """
+
+    middle: np.ndarray
+    frame: np.ndarray
+    corners: np.ndarray
+    radius: float = 0.0
+
+    @property
+    def area(self) -> float:
+        """[m²]"""
+        if not len(self.corners):
+            return math.pi * self.radius**2
+        x, y = self.corners.T
+        return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+
+class FacesJoined(NamedTuple):
+    """A joint of two faces: numbers of their parts over all bodies, the faces, k_n, k_s [N/m³], tan φ, cohesion [Pa], and the
+    relative tilt at which they have parted [rad]."""
+
+    lower: int
+    upper: int
+    below: Face
+    above: Face
+    kn: float
+    ks: float
+    tan_phi: float
+    cohesion: float
+    last: float
 
 
 class Packed(NamedTuple):
@@ -173,6 +218,28 @@ class _Rows:
         vertices = np.concatenate(self.vertices) if self.vertices else np.zeros((1, 3))
         corners = np.array([k for face in self.loops for k in face], dtype=np.int64)
         return shape, np.ascontiguousarray(vertices), np.array(self.planes), loop, corners
+
+
+def pack_joints(joints: Sequence[FacesJoined], packed: Packed) -> tuple[np.ndarray, np.ndarray]:
+    """Records of joints in the order of their shapes, and the corners of all faces, one after another."""
+    ordered = sorted(joints, key=lambda one: (min(one.lower, one.upper), max(one.lower, one.upper)))
+    records, rows, first = np.zeros(len(joints), types()["joint"]), [np.zeros((1, 2))], 1
+    for e, one in zip(records, ordered, strict=True):
+        e["a"], e["b"] = one.lower, one.upper
+        sides = (("l", one.lower, one.below, 1.0, LESS), ("u", one.upper, one.above, -1.0, 1.0))
+        for side, shape, face, way, size in sides:
+            turn = packed.turn[packed.shape["body"][shape]].T
+            # seen from above, the upper face's frame is turned over about its first direction
+            e["m" + side], e["i" + side], e["j" + side] = turn @ face.middle, turn @ face.frame[:, 0], way * turn @ face.frame[:, 1]
+            corners = face.corners if way > 0.0 else (face.corners * (1.0, -1.0))[::-1]
+            e["first_" + side], e["many_" + side], e["r" + side] = first, len(corners), face.radius
+            rows.append(size * corners)
+            first += len(corners)
+        e["kn"], e["ks"], e["tan"], e["co"] = one.kn, one.ks, one.tan_phi, one.cohesion
+        e["width"] = min(one.below.area, one.above.area)
+        e["from_c"], e["to_c"] = math.cos(0.7 * one.last), math.cos(one.last)
+        e["live"], e["weight"] = 1, 1.0
+    return records, np.concatenate(rows)
 
 
 def plane_of(polygon: np.ndarray) -> np.ndarray:

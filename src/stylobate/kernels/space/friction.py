@@ -1,0 +1,68 @@
+"""Friction of a contact: a shear force and a torsion moment that remember, in axes of space that turn with the contact.
+
+The limit surface is that of faces in ``dem3d``; legend of what is remembered: ``pair`` in ``records.py``.
+"""
+
+from ..dem3d.friction import kept, returned
+from ..jit import kernel
+from .vectors import along, cross, dot, length, of, put, scaled
+
+
+@kernel
+def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
+    """Friction at t_n; brings its memory from t_{n−1} to t_n.
+
+    Parameters
+    ----------
+    q : record
+        What remembers, of a pair or of a joint.
+    n : vector
+        Normal of the contact.
+    slip, rolling, spin : vector, float, float
+        Velocity of the second body over the first one across n; mean and difference of the spins about n.
+    kf, kt, limit, arm : float
+        Stiffness in shear and torsion, friction times pressure, and the arm of its torsion.
+    push, velocity : vector, vector
+        What dissipates besides in pressure, and the velocity against which it does.
+
+    Returns
+    -------
+    force, twist : vector, float
+        On the second body, with ``push``: shear force and torsion moment about n.
+    """
+    dt = now.last
+    f = of(q.f)
+    size = length(f)
+    f = along(f, -dot(f, n), n)
+    f = scaled(size / max(length(f), 1e-300), f)
+    f = along(f, rolling * dt, cross(n, f))
+    keep = kept(kf, q.kf)
+    old, turn = f, q.t
+    f = along(scaled(keep, f), -kf * dt, slip)
+    twist = kept(kt, q.kt) * turn - kt * dt * spin
+    keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
+    f = scaled(keep, f)
+    twist *= less
+    now.shear -= 0.5 * dt * (dot(along(old, 1.0, f), slip) + (turn + twist) * spin)
+    # dashpots parallel to the springs; friction in sum stays within Coulomb's
+    g = along(f, -now.beta * kf, slip)
+    more = twist - now.beta * kt * spin
+    keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
+    g = along(along(push, keep, g), -1.0, f)
+    more = more * less - twist
+    now.visc -= 0.5 * dt * (dot(along(g, 1.0, of(q.d)), velocity) + (more + q.dt) * spin)
+    put(q.f, f)
+    put(q.d, g)
+    q.t = twist
+    q.dt = more
+    q.kf = kf
+    q.kt = kt
+    return along(f, 1.0, g), twist + more
+
+
+@kernel
+def relax(q):
+    """Nothing is remembered any more."""
+    q.t = q.dt = q.kf = q.kt = q.en = 0.0
+    for c in range(3):
+        q.f[c] = q.d[c] = 0.0

@@ -1,0 +1,104 @@
+"""Joints of two plane faces in space: pressure on the edge of their overlap, friction, and how they hand over to the bed."""
+
+import math
+
+from ..jit import kernel, long_law
+from ..plane.contact import normal_dashpot, restitution_share
+from ..plane.loose import handover
+from .bed import add, mobility
+from .boundary import AREA, EDGE, FIRST, LENGTH, LOWER, PRESS, SECOND, SQUARE, boundary
+from .friction import relax, rub
+from .vectors import along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
+
+#: Torsion over shear stiffness and ρ², limit of torsion over that of shear and ρ: a closed disc has K_s R²/2 and 2R/3.
+TORSION, LEVER = 0.5, 2.0 / 3.0
+
+#: Keeps quotients of nothing by nothing at nothing.
+NOTHING = 1e-30
+
+
+@long_law
+def seen(v, i, j, k):
+    """Components of a vector along three directions."""
+    return dot(v, i), dot(v, j), dot(v, k)
+
+
+@kernel
+def face_pressure(e, u, v, edge, up, arcs, sums):
+    """Pressure of a joint between its faces, of the lower body u and the upper one v.
+
+    Returns its force on the upper body and its moment about the middle of the lower face [N], [N m], the same middle from the
+    lower centroid [m], force, middle from there and mean square distance from it, elastic energy, area that touches,
+    area of the overlap, and cosine of the tilt.
+    """
+    i, j = outward(u, of(e.il)), outward(u, of(e.jl))
+    z = cross(i, j)
+    p, q = outward(v, of(e.iu)), outward(v, of(e.ju))
+    n = cross(p, q)
+    ml = outward(u, of(e.ml))
+    c = minus(along(place(v), 1.0, outward(v, of(e.mu))), along(place(u), 1.0, ml))
+    at = seen(c, i, j, z)
+    p, q = seen(p, i, j, z), seen(q, i, j, z)
+    for k in range(e.many_u):
+        x, y = edge[e.first_u + k, 0], edge[e.first_u + k, 1]
+        put(up[k], along(along(at, x, p), y, q))
+    low = edge[e.first_l : e.first_l + max(e.many_l, 1)]
+    boundary(seen(n, i, j, z), at, low, e.many_l, e.rl, up, e.many_u, e.ru, arcs, sums)
+    area = 0.5 * sums[AREA]
+    k = e.kn * max(area, 0.0) / max(sums[EDGE], NOTHING)
+    upper, lower = k * sums[PRESS], k * sums[LOWER + PRESS]
+    first = scaled(k, (sums[FIRST], sums[FIRST + 1], sums[FIRST + 2]))
+    other = scaled(k, (sums[LOWER + FIRST], sums[LOWER + FIRST + 1], sums[LOWER + FIRST + 2]))
+    first = along(along(scaled(first[0], i), first[1], j), first[2], z)
+    other = along(along(scaled(other[0], i), other[1], j), other[2], z)
+    pressing = upper + lower
+    middle = scaled(1.0 / max(pressing, NOTHING), along(first, 1.0, other))
+    spread = k * (sums[SECOND] + sums[LOWER + SECOND]) / max(pressing, NOTHING) - dot(middle, middle)
+    stored = 0.5 * k * (sums[SQUARE] + sums[LOWER + SQUARE])
+    closed = max(area, 0.0) / max(sums[EDGE], NOTHING) * (sums[LENGTH] + sums[LOWER + LENGTH])
+    force = along(scaled(upper, z), lower, n)
+    moment = along(cross(first, z), 1.0, cross(other, n))
+    return force, moment, ml, pressing, middle, max(spread, 0.0), stored, closed, area, dot(z, n)
+
+
+@kernel
+def on_joint(e, u, v, edge, up, arcs, sums, now):
+    """Force of a joint at t_n on its two bodies, by its weight; brings its memory from t_{n−1} to t_n."""
+    force, moment, ml, pressing, middle, spread, stored, closed, area, cosine = face_pressure(e, u, v, edge, up, arcs, sums)
+    e.over = area
+    e.weight = handover(cosine, area, e)
+    if e.weight == 0.0:
+        e.live = 0
+        relax(e)
+        return
+    if pressing == 0.0:
+        relax(e)
+        return
+    n = scaled(1.0 / length(force), force)
+    at = along(ml, 1.0, middle)
+    ru = at
+    rv = minus(along(place(u), 1.0, at), place(v))
+    w = minus(velocity(v, rv), velocity(u, ru))
+    vn = dot(w, n)
+    spin_u = dot((u.wx[0], u.wy[0], u.wz[0]), n)
+    spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
+    share = e.weight
+    pressing *= share
+    kf = share * e.ks * closed
+    dn = normal_dashpot(pressing, share * now.beta * e.kn * closed, vn, restitution_share(now.dull, now.calm, vn))
+    f, twist = rub(
+        e, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u,
+        kf, TORSION * kf * spread, e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread),
+        scaled(dn, n), w, now,
+    )  # fmt: skip
+    e.en = share * stored
+    now.rate = max(now.rate, share * e.kn * closed * (mobility(u, ru, n) + mobility(v, rv, n)))
+    # pressure, at the middle of the lower face, and friction at the middle of pressure
+    force, moment = scaled(share, force), scaled(share, moment)
+    rv = minus(along(place(u), 1.0, ml), place(v))
+    add(v, rv, force, moment)
+    add(u, ml, scaled(-1.0, force), scaled(-1.0, moment))
+    m = scaled(twist, n)
+    rv = minus(along(place(u), 1.0, at), place(v))
+    add(v, rv, f, m)
+    add(u, at, scaled(-1.0, f), scaled(-1.0, m))
