@@ -36,6 +36,8 @@ from .column.links import Layer as Layer
 from .column.links import Pad as Pad
 from .column.links import Tie as Tie
 from .column.scatter import Scatter as Scatter
+from .column.spatial.assembly import SpatialAssembly as SpatialAssembly
+from .column.spatial.stone import Stone as Stone
 from .column.specimen import Specimen as Specimen
 from .constants import g as g
 from .errors import InputError as InputError

@@ -166,6 +166,11 @@ class Structure:
         """The joints between its bodies, in their order."""
         return ()
 
+    @property
+    def space_joints(self) -> tuple[Any, ...] | None:
+        """The joints of bodies in space; None of what a plane or a stack tells."""
+        return None
+
     @cached_property
     def placed_links(self) -> tuple[PlacedLink, ...]:
         """All links in numbers, at their places, in their order."""
