@@ -31,7 +31,7 @@ NEAR = 0.01
 def lever(xx, yy, xy):
     """Mean square distance of a face from its middle, and (mean distance)², from its second moments over its area.
 
-    Between a line and a disc by the share of the smaller of both principal moments: rectangles are met to 2e-3.
+    Between a line and a disc by the share of the smaller of both principal moments: rectangles are met to 1 %.
     """
     square = max(xx + yy, 0.0)
     even = max(4.0 * (xx * yy - xy * xy), 0.0) / max(square * square, 1e-300)
