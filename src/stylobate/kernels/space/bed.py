@@ -19,9 +19,11 @@ from .vectors import across, along, cross, dot, length, minus, of, outward, plac
 #: (Mean distance from the middle)² over the mean of its square: of a line, and of a disc.  # Eq. (A5)
 OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
 
-#: A drum is touched on its side where the normal is farther from its axis than this, as a cosine; two are where their axes
-#: are farther from one another than this share of both radii.
-ON_SIDE, SIDES = 0.7, 0.97
+#: A drum is touched on its side where the normal is across its axis, to this cosine.
+ON_SIDE = 0.05
+
+#: The second of two shapes is taken so much smaller to see in which direction it lies, which is known to this angle [rad].
+SMALLER, AGREE = 0.92, 0.01
 
 #: Shapes that are nearer than this share of the smaller one's size have their direction found anew in each step.
 NEAR = 0.01
@@ -134,26 +136,37 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
 
 
 @kernel
-def face_contact(p, n, a, u, b, v, total):
-    """Turn the facets of drums that are touched on their sides to where they are touched, for the next step.
+def face_contact(p, n, a, u, b, v, vertex, total, simplex):
+    """Turn the facets of drums to where they are touched, for the next step.
 
-    Two sides that touch are turned to one another, along the shortest way between the axes.
+    On the side of a drum a block touches where it is deepest inside, another drum along the shortest way between the axes.
+    Rims turn to the normal, which is that of the face they press on; or where they press on edges, of which the normal is
+    the facet's own, in the direction in which both shapes are apart when one is a little smaller.
     """
     ea = axis(a, u)
     eb = axis(b, v)
-    put(p.ta, (0.0, 0.0, 0.0))
-    put(p.tb, (0.0, 0.0, 0.0))
-    on_a = a.kind == DRUM and abs(dot(ea, n)) < ON_SIDE
-    on_b = b.kind == DRUM and abs(dot(eb, n)) < ON_SIDE
-    if on_a:
-        put(p.ta, of(total[DEEP_A + 1 : DEEP_A + 4]))
-    if on_b:
-        put(p.tb, of(total[DEEP_B + 1 : DEEP_B + 4]))
-    if on_a and on_b:
+    side_a = a.kind == DRUM and abs(dot(n, ea)) < ON_SIDE
+    side_b = b.kind == DRUM and abs(dot(n, eb)) < ON_SIDE
+    ta = n
+    tb = scaled(-1.0, n)
+    if side_a and side_b:
         x, y, way = between_axes(a, u, ea, b, v, eb)
-        if length(way) > SIDES * (a.rb + x * (a.rt - a.rb) + b.rb + y * (b.rt - b.rb)):
-            put(p.ta, way)
-            put(p.tb, scaled(-1.0, way))
+        if max(abs(dot(way, ea)), abs(dot(way, eb))) < ON_SIDE * length(way):
+            ta = way
+            tb = scaled(-1.0, way)
+    elif side_a and b.kind != DRUM:
+        ta = of(total[DEEP_A + 1 : DEEP_A + 4])
+    elif side_b and a.kind != DRUM:
+        tb = of(total[DEEP_B + 1 : DEEP_B + 4])
+    elif a.kind != GROUND and b.kind != GROUND:
+        gap, nx, ny, nz = parting(a, u, b, v, SMALLER, vertex, n[0], n[1], n[2], simplex)
+        if gap > 0.0:
+            other = minus((nx, ny, nz), n)
+            share = min(max(length(other) / AGREE - 1.0, 0.0), 1.0)
+            ta = along(n, share, other)
+            tb = scaled(-1.0, ta)
+    put(p.ta, ta)
+    put(p.tb, tb)
 
 
 @long_law
@@ -173,7 +186,7 @@ def between_axes(a, u, ea, b, v, eb):
 
 
 @kernel
-def press(p, a, u, b, v, kn, ks, mu, share, now, total):
+def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     """Force of the bed at t_n on two bodies that overlap; brings its memory from t_{n−1} to t_n."""
     s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
     area = length(s)
@@ -201,7 +214,8 @@ def press(p, a, u, b, v, kn, ks, mu, share, now, total):
     grown = max(area - p.area, 0.0)
     p.area = area
     put(p.n, n)
-    face_contact(p, n, a, u, b, v, total)
+    if a.kind == DRUM or b.kind == DRUM:
+        face_contact(p, n, a, u, b, v, vertex, total, simplex)
     now.deepest = max(now.deepest, volume / area)
     now.rate = max(now.rate, kn * (area + grown) * (mobility(u, ru, n) + mobility(v, rv, n)))
     f = along(f, fn, n)

@@ -47,7 +47,7 @@ def forces(state):
         wide = 2.0 * max(min(a.r, b.r), 1e-3)
         if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
             numbers = law[min(a.body, b.body), max(a.body, b.body)]
-            press(p, a, u, b, v, numbers[0], numbers[1], numbers[2], share, now, total)
+            press(p, a, u, b, v, vertex, numbers[0], numbers[1], numbers[2], share, now, total, simplex)
             if now.touched < 0 and p.joint < 0:
                 now.touched = feed[0].step[0]
         elif p.area > 0.0:
