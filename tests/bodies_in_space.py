@@ -6,7 +6,7 @@ import numpy as np
 
 from stylobate.column.shapes import Mesh
 from stylobate.models.space.loose import Loose
-from stylobate.models.space.solids import Drum, HalfSpace, Solid
+from stylobate.models.space.solids import Drum, Face, FacesJoined, HalfSpace, Solid
 
 G, DENSITY = 9.81, 2700.0
 
@@ -57,7 +57,9 @@ def _pose(place, axes):
 class Lane(Loose):
     """Bodies with one law of contact, under gravity, in steps of ``step``."""
 
-    def __init__(self, *solids, kn=5e10, mu=0.7, restitution=1.0, step=4e-5, gravity=(0.0, 0.0, G), law=None, joints=()):
+    def __init__(
+        self, *solids, kn=5e10, mu=0.7, restitution=1.0, step=4e-5, gravity=(0.0, 0.0, G), law=None, joints=()
+    ):
         if law is None:
             law = np.empty((len(solids), len(solids), 3))
             law[...] = kn, 0.5 * kn, mu
@@ -101,3 +103,36 @@ class Lane(Loose):
         """Area of the contact of two shapes [m²]."""
         pairs = self.pair[: self.now["pairs"][0]]
         return float(pairs["area"][(pairs["a"] == a) & (pairs["b"] == b)].sum())
+
+    @property
+    def local_damping(self):
+        return float(self.now["local"][0])
+
+    @local_damping.setter
+    def local_damping(self, share):
+        self.now["local"] = share
+
+    def energies(self):
+        """The ledger now: input, kinetic, gravitational, elastic, friction, viscous [J]."""
+        out = np.empty(6)
+        self.kernel.forces(self.state)
+        self.kernel.ledger(self.state, np.zeros(3), out)
+        return out
+
+
+def _frame(up):
+    return np.eye(3) if up else np.diag([1.0, -1.0, -1.0])
+
+
+def square_face(half, height, up=True, x=0.0):
+    """A square face of a body across its axis z."""
+    corners = half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    return Face(np.array([x, 0.0, height]), _frame(up), corners)
+
+
+def disc_face(radius, height, up=True):
+    return Face(np.array([0.0, 0.0, height]), _frame(up), np.zeros((0, 2)), radius)
+
+
+def faces_joined(lower, upper, below, above, kn, mu=0.7):
+    return FacesJoined(lower, upper, below, above, kn, 0.5 * kn, mu, 0.0, math.radians(50.0))

@@ -30,7 +30,9 @@ def sums_of(low, up, place, rotation):
     radii = [float(face) if np.isscalar(face) else 0.0 for face in (low, up)]
     place = np.array(place, dtype=float)
     above = place + corners[1] @ rotation[:, :2].T
-    boundary(tuple(rotation[:, 2]), tuple(place), LESS * corners[0], many[0], radii[0], above, many[1], radii[1], arcs, sums)
+    boundary(
+        tuple(rotation[:, 2]), tuple(place), LESS * corners[0], many[0], radii[0], above, many[1], radii[1], arcs, sums
+    )
     return sums
 
 
@@ -143,7 +145,9 @@ def test_no_jump_with_the_twist():
     """Corners of the overlap come and go; the moment does not jump by 1e-6 of itself."""
     face = rectangle(0.8, 0.8)
     flush = bending(face, face)[0]
-    assert [bending(face, face, twist=twist)[0] for twist in (1e-12, 1e-9, 1e-6)] == pytest.approx([flush] * 3, rel=3e-6)
+    assert [bending(face, face, twist=twist)[0] for twist in (1e-12, 1e-9, 1e-6)] == pytest.approx(
+        [flush] * 3, rel=3e-6
+    )
     assert bending(face, face, twist=0.1)[0] == pytest.approx(0.6152117 / 0.6826667 * flush, rel=1e-5)
 
 

@@ -28,7 +28,9 @@ class Pair:
 
     def touches(self):
         p = self.packed
-        return bed.touching(self.pair, *self.arguments, p.vertex, p.plane, p.loop, p.corner, 4.0, self.work, self.simplex)
+        return bed.touching(
+            self.pair, *self.arguments, p.vertex, p.plane, p.loop, p.corner, 4.0, self.work, self.simplex
+        )
 
     @property
     def total(self):
@@ -48,7 +50,9 @@ def half_spaces(solid):
 def reference(one, other):
     """Volume and middle of the overlap; 0 if there is none to speak of."""
     planes = np.concatenate([half_spaces(one), half_spaces(other)])
-    found = linprog([0, 0, 0, -1], A_ub=np.c_[planes[:, :3], np.ones(len(planes))], b_ub=-planes[:, 3], bounds=(None, None))
+    found = linprog(
+        [0, 0, 0, -1], A_ub=np.c_[planes[:, :3], np.ones(len(planes))], b_ub=-planes[:, 3], bounds=(None, None)
+    )
     if found.x[3] < 1e-9:
         return 0.0, None
     corners = HalfspaceIntersection(planes, found.x[:3]).intersections
@@ -82,7 +86,10 @@ def direction(rng):
 def poses(seed, count):
     rng = np.random.default_rng(seed)
     for _ in range(count):
-        meshes = [box_mesh(rng.uniform(0.3, 1.2, 3)), prism(rng.integers(3, 12), rng.uniform(0.2, 0.6), rng.uniform(0.3, 1.0))]
+        meshes = [
+            box_mesh(rng.uniform(0.3, 1.2, 3)),
+            prism(rng.integers(3, 12), rng.uniform(0.2, 0.6), rng.uniform(0.3, 1.0)),
+        ]
         turns = [turn(*rng.normal(size=3)) for _ in range(2)]
         yield solid(meshes[0], (0, 0, 0), turns[0]), solid(meshes[1], direction(rng) * rng.uniform(0.35, 0.9), turns[1])
 
@@ -180,6 +187,8 @@ def test_two_lying_drums_turn_to_one_another():
     pair = Pair(cylinder(0.4, 1.0, (0, 0, 0), LYING), cylinder(0.4, 1.0, 0.7999 * way, LYING), way)
     assert pair.touches()
     p, shape, body = pair.pair, pair.packed.shape, pair.packed.body
-    bed.face_contact(p, (0.0, 0.0, 1.0), shape[0], body[0], shape[1], body[1], pair.total)
+    bed.face_contact(
+        p, (0.6, 0.0, 0.8), shape[0], body[0], shape[1], body[1], pair.packed.vertex, pair.total, pair.simplex
+    )
     assert p["ta"] / np.linalg.norm(p["ta"]) == pytest.approx(way, abs=1e-12)
     assert p["tb"] / np.linalg.norm(p["tb"]) == pytest.approx(-way, abs=1e-12)

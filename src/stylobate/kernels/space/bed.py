@@ -98,6 +98,78 @@ def forget(p):
 
 
 @kernel
+def face_contact(p, n, a, u, b, v, vertex, total, simplex):
+    """Turn the facets of drums to where they are touched, for the next step; returns whether they are touched there.
+
+    On the side of a drum a block touches where it is deepest inside, another drum along the shortest way between the axes.
+    Rims turn to the normal, which is that of the face they press on; or where they press on edges, of which the normal is
+    the facet's own, in the direction in which both shapes are apart when one is a little smaller.
+    """
+    ea = axis(a, u)
+    eb = axis(b, v)
+    side_a = a.kind == DRUM and abs(dot(n, ea)) < ON_SIDE
+    side_b = b.kind == DRUM and abs(dot(n, eb)) < ON_SIDE
+    ta = n
+    tb = scaled(-1.0, n)
+    meet = True
+    p.side = 0
+    if side_a and side_b:
+        x, y, way = between_axes(a, u, ea, b, v, eb)
+        if max(abs(dot(way, ea)), abs(dot(way, eb))) < ON_SIDE * length(way):
+            ta = way
+            tb = scaled(-1.0, way)
+            p.side = 1
+    elif side_a and b.kind != DRUM:
+        ta = of(total[DEEP_A + 1 : DEEP_A + 4])
+        meet = total[DEEP_A] > 0.0
+        p.side = 1
+    elif side_b and a.kind != DRUM:
+        tb = of(total[DEEP_B + 1 : DEEP_B + 4])
+        meet = total[DEEP_B] > 0.0
+        p.side = 2
+    elif a.kind != GROUND and b.kind != GROUND:
+        gap, nx, ny, nz = parting(a, u, b, v, SMALLER, vertex, n[0], n[1], n[2], simplex)
+        if gap > 0.0:
+            other = minus((nx, ny, nz), n)
+            share = min(max(length(other) / AGREE - 1.0, 0.0), 1.0)
+            ta = along(n, share, other)
+            tb = scaled(-1.0, ta)
+    put(p.ta, ta)
+    put(p.tb, tb)
+    return meet
+
+
+@long_law
+def between_axes(a, u, ea, b, v, eb):
+    """Shares of the heights of two drums at which their axes are nearest, and the way from the first to the second there."""
+    w = minus(along(place(v), 1.0, outward(v, of(b.c))), along(place(u), 1.0, outward(u, of(a.c))))
+    c = dot(ea, eb)
+    p, q = dot(ea, w), dot(eb, w)
+    sine = 1.0 - c * c
+    x = 0.5 * a.h
+    if sine > 1e-12:
+        x = (p - c * q) / sine
+    x = min(max(x, 0.0), a.h)
+    y = min(max(c * x - q, 0.0), b.h)
+    x = min(max(p + c * y, 0.0), a.h)
+    return x / a.h, y / b.h, along(along(w, y, eb), -x, ea)
+
+
+@kernel
+def drawn(p, n, a, u, b, v, vertex, plane, loop, corner, wide, top, low, work):
+    """Whether two shapes overlap as they are drawn, drums with their facets; ``top`` and ``low``: see ``overlap``."""
+    va, pa, ha, vb, pb, hb, _, _, _, _, total = work
+    ta = of(p.ta)
+    tb = of(p.tb)
+    na, fa = draw(a, u, vertex, plane, n, ta if dot(ta, ta) > 0.0 else n, 1.0, place(v), wide, va, pa, ha)
+    turn = tb if dot(tb, tb) > 0.0 else scaled(-1.0, n)
+    nb, fb = draw(b, v, vertex, plane, n, turn, LESS, place(u), wide, vb, pb, hb)
+    overlap(a, u, b, v, fa, fb, n[0], n[1], n[2], loop, corner, top, low, work)
+    s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
+    return total[VOLUME] > 0.0 and dot(s, s) > 0.0
+
+
+@kernel
 def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
     """Whether two shapes overlap; the sums over the surface of their overlap then stand in ``work``.
 
@@ -124,65 +196,27 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
     if top <= low:
         return False
     put(p.n, n)
-    va, pa, ha, vb, pb, hb, _, _, _, _, total = work
-    back = scaled(-1.0, n)
-    ta = of(p.ta)
-    tb = of(p.tb)
-    na, fa = draw(a, u, vertex, plane, n, ta if dot(ta, ta) > 0.0 else n, 1.0, place(v), wide, va, pa, ha)
-    nb, fb = draw(b, v, vertex, plane, n, tb if dot(tb, tb) > 0.0 else back, LESS, place(u), wide, vb, pb, hb)
-    overlap(a, u, b, v, fa, fb, n[0], n[1], n[2], loop, corner, top, low, work)
-    s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
-    return total[VOLUME] > 0.0 and dot(s, s) > 0.0
-
-
-@kernel
-def face_contact(p, n, a, u, b, v, vertex, total, simplex):
-    """Turn the facets of drums to where they are touched, for the next step.
-
-    On the side of a drum a block touches where it is deepest inside, another drum along the shortest way between the axes.
-    Rims turn to the normal, which is that of the face they press on; or where they press on edges, of which the normal is
-    the facet's own, in the direction in which both shapes are apart when one is a little smaller.
-    """
-    ea = axis(a, u)
-    eb = axis(b, v)
-    side_a = a.kind == DRUM and abs(dot(n, ea)) < ON_SIDE
-    side_b = b.kind == DRUM and abs(dot(n, eb)) < ON_SIDE
-    ta = n
-    tb = scaled(-1.0, n)
-    if side_a and side_b:
-        x, y, way = between_axes(a, u, ea, b, v, eb)
-        if max(abs(dot(way, ea)), abs(dot(way, eb))) < ON_SIDE * length(way):
-            ta = way
-            tb = scaled(-1.0, way)
-    elif side_a and b.kind != DRUM:
-        ta = of(total[DEEP_A + 1 : DEEP_A + 4])
-    elif side_b and a.kind != DRUM:
-        tb = of(total[DEEP_B + 1 : DEEP_B + 4])
-    elif a.kind != GROUND and b.kind != GROUND:
-        gap, nx, ny, nz = parting(a, u, b, v, SMALLER, vertex, n[0], n[1], n[2], simplex)
-        if gap > 0.0:
-            other = minus((nx, ny, nz), n)
-            share = min(max(length(other) / AGREE - 1.0, 0.0), 1.0)
-            ta = along(n, share, other)
-            tb = scaled(-1.0, ta)
-    put(p.ta, ta)
-    put(p.tb, tb)
+    meet = drawn(p, n, a, u, b, v, vertex, plane, loop, corner, wide, top, low, work)
+    if meet and round_ and p.area == 0.0:
+        # facets that come down for the first time are turned to where they would touch before they do
+        total = work[10]
+        s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
+        meet = face_contact(p, scaled(1.0 / length(s), s), a, u, b, v, vertex, total, simplex)
+        meet = meet and drawn(p, n, a, u, b, v, vertex, plane, loop, corner, wide, top, low, work)
+        if not meet:
+            forget(p)
+    return meet
 
 
 @long_law
-def between_axes(a, u, ea, b, v, eb):
-    """Shares of the heights of two drums at which their axes are nearest, and the way from the first to the second there."""
-    w = minus(along(place(v), 1.0, outward(v, of(b.c))), along(place(u), 1.0, outward(u, of(a.c))))
-    c = dot(ea, eb)
-    p, q = dot(ea, w), dot(eb, w)
-    sine = 1.0 - c * c
-    x = 0.5 * a.h
-    if sine > 1e-12:
-        x = (p - c * q) / sine
-    x = min(max(x, 0.0), a.h)
-    y = min(max(c * x - q, 0.0), b.h)
-    x = min(max(p + c * y, 0.0), a.h)
-    return x / a.h, y / b.h, along(along(w, y, eb), -x, ea)
+def on_line(p, c, a, u, b, v):
+    """Middle of a contact, which on the side of a drum lies on the line that touches, not somewhere on the facet."""
+    if p.side == 0:
+        return c
+    s, w, t = (a, u, of(p.ta)) if p.side == 1 else (b, v, of(p.tb))
+    across_ = cross(axis(s, w), t)
+    foot = along(place(w), 1.0, outward(w, of(s.c)))
+    return along(c, -dot(minus(c, foot), across_) / max(dot(across_, across_), 1e-300), across_)
 
 
 @kernel
@@ -193,6 +227,9 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     n = scaled(1.0 / area, s)
     volume = total[VOLUME]
     c = along(of(total[REF : REF + 3]), 1.0 / volume, of(total[MOMENT : MOMENT + 3]))
+    if a.kind == DRUM or b.kind == DRUM:
+        face_contact(p, n, a, u, b, v, vertex, total, simplex)
+        c = on_line(p, c, a, u, b, v)
     square, mean = spread_of(total, n, a, u, b, v)
     ru = minus(c, place(u))
     rv = minus(c, place(v))
@@ -214,8 +251,6 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     grown = max(area - p.area, 0.0)
     p.area = area
     put(p.n, n)
-    if a.kind == DRUM or b.kind == DRUM:
-        face_contact(p, n, a, u, b, v, vertex, total, simplex)
     now.deepest = max(now.deepest, volume / area)
     now.rate = max(now.rate, kn * (area + grown) * (mobility(u, ru, n) + mobility(v, rv, n)))
     f = along(f, fn, n)

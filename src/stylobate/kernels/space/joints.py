@@ -64,7 +64,9 @@ def face_pressure(e, u, v, edge, up, arcs, sums):
 @kernel
 def on_joint(e, u, v, edge, up, arcs, sums, now):
     """Force of a joint at t_n on its two bodies, by its weight; brings its memory from t_{n−1} to t_n."""
-    force, moment, ml, pressing, middle, spread, stored, closed, area, cosine = face_pressure(e, u, v, edge, up, arcs, sums)
+    force, moment, ml, pressing, middle, spread, stored, closed, area, cosine = face_pressure(
+        e, u, v, edge, up, arcs, sums
+    )
     e.over = area
     e.weight = handover(cosine, area, e)
     if e.weight == 0.0:

@@ -16,7 +16,8 @@ Legend::
     loop[f]    first count    corners of face f, numbers of vertices of the shape, counter-clockwise seen from outside
     pair[p]    a b            shapes whose bodies may touch, a < b;  joint  number of the joint of two of their faces, or −1
                n[3]           direction from a to b: normal of the contact, or an axis that parts them [-]
-               ta[3] tb[3]    directions in which drums a and b turn a facet, from their axes; along n where they are 0 [-]
+               ta[3] tb[3]    directions in which drums a and b turn a facet, from their axes; along n where they are 0
+               side           1, 2: it is the side of drum a, or b, that is touched
                f[3] t         shear force on b [N], torsion moment on b about n [N m]
                kf kt          stiffness they were stored with [N/m], [N m]
                fn en          normal force at the last step [N], elastic energy of the pressure [J]
@@ -80,7 +81,7 @@ def types() -> dict[str, np.dtype]:
         ),
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
         "loop": np.dtype(counts("first count")),
-        "pair": np.dtype(counts("a b joint") + fields("n ta tb f d", 3) + fields("t dt kf kt fn en area")),
+        "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d", 3) + fields("t dt kf kt fn en area")),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
             + fields("ml il jl mu iu ju f d", 3)

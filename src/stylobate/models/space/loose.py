@@ -49,7 +49,9 @@ class Loose:
         self.kernel, kinds = kernel, types()
         self.packed = packed = pack(solids)
         n, e = len(packed.shape), restitution
-        self.now, self.feed, ground = (np.zeros(rows, kinds[name]) for name, rows in (("now", 1), ("feed", 1), ("ground", 33)))
+        self.now, self.feed, ground = (
+            np.zeros(rows, kinds[name]) for name, rows in (("now", 1), ("feed", 1), ("ground", 33))
+        )
         self.feed["r"][0, :, 0] = np.eye(3).ravel()
         now = self.now
         now["g"], now["beta"], now["touched"] = gravity, stiffness_damping, -1

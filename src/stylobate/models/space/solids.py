@@ -174,7 +174,8 @@ class _Rows:
             numbers = {"m": middle, "r": rim.max(), "c": foot, "e": axis, "h": part.height}
             face = self._drum_faces()
             self.shapes.append(
-                {"body": body, "kind": DRUM, "rb": part.bottom, "rt": part.top, "face": face, "faces": FACETS + 2} | numbers
+                {"body": body, "kind": DRUM, "rb": part.bottom, "rt": part.top, "face": face, "faces": FACETS + 2}
+                | numbers
             )
             return float(np.linalg.norm(middle) + rim.max())
         vertices = np.asarray(part.vertices) @ turn
@@ -230,7 +231,11 @@ def pack_joints(joints: Sequence[FacesJoined], packed: Packed) -> tuple[np.ndarr
         for side, shape, face, way, size in sides:
             turn = packed.turn[packed.shape["body"][shape]].T
             # seen from above, the upper face's frame is turned over about its first direction
-            e["m" + side], e["i" + side], e["j" + side] = turn @ face.middle, turn @ face.frame[:, 0], way * turn @ face.frame[:, 1]
+            e["m" + side], e["i" + side], e["j" + side] = (
+                turn @ face.middle,
+                turn @ face.frame[:, 0],
+                way * turn @ face.frame[:, 1],
+            )
             corners = face.corners if way > 0.0 else (face.corners * (1.0, -1.0))[::-1]
             e["first_" + side], e["many_" + side], e["r" + side] = first, len(corners), face.radius
             rows.append(size * corners)
