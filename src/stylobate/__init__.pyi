@@ -9,6 +9,7 @@ from .analysis.fragility import fragility as fragility
 from .analysis.hazard import read_hazard as read_hazard
 from .analysis.ida import ida as ida
 from .analysis.limit import limit_analysis as limit_analysis
+from .analysis.limit_directions import limit_directions as limit_directions
 from .analysis.pushover import pushover as pushover
 from .analysis.replicates import collapse_probability as collapse_probability
 from .analysis.risk import risk as risk

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from ..column.assembly import Assembly
 from ..column.assembly_files import read_assembly
@@ -36,9 +36,14 @@ def assembly_of(text: str) -> Assembly:
         path.write_text(text, encoding="utf-8")
         try:
             _only_presets(parse_toml(path).get("column"))
-            return read_assembly(path)
+            found = read_assembly(path)
         except InputError as error:
             raise InputError(str(error).replace(f"{folder}/", "")) from None
+    if found.space_joints is not None:
+        raise InputError(
+            f"{found.name!r} is {found.described}, which the page does not show; use 'stylobate limit' and 'draw'."
+        )
+    return cast(Assembly, found)
 
 
 def _only_presets(tables: Any) -> None:

@@ -52,9 +52,6 @@ class SpatialAssembly(Structure):
 
     kind: ClassVar[str] = "assembly in space"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
-    computed_by: ClassVar[str] = (
-        "limit, columns and draw, which are what knows assemblies in space so far, or describe it in the plane"
-    )
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
 
@@ -252,6 +249,21 @@ class SpatialAssembly(Structure):
             return ""
         gap, name = min(best)
         return f", {1000.0 * gap:.3g} mm from {name}"
+
+    # -- what asks for less --------------------------------------------------------------------------------------------
+
+    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
+        """Refuse every model: none moves such bodies.
+
+        Raises
+        ------
+        InputError
+        """
+        del shapes
+        raise InputError(
+            f"{what} cannot shake {self.name!r}, which is {self.described}; what is known of it so far are its statics "
+            "('stylobate limit'), its masses ('columns') and its picture ('draw')."
+        )
 
     # -- provenance ----------------------------------------------------------------------------------------------------
 

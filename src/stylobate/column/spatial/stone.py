@@ -112,14 +112,14 @@ class Stone(Outlined):
         **others
             Of :class:`Stone`; an ``orientation`` turns it about its centroid.
         """
-        return cls._standing((Placed(box_shape(sides, _who(others))),), at, density, others)
+        return cls._standing(Placed(box_shape(sides, _who(others))), at, density, others)
 
     @classmethod
     def drum(
         cls, bottom: float, top: float, height: float, at: Sequence[float], density: float = 0.0, **others: Any
     ) -> Stone:
         """A round drum of two diameters and a height [m]; the rest as of :meth:`box`."""
-        return cls._standing((Placed(drum_shape(bottom, top, height, _who(others))),), at, density, others)
+        return cls._standing(Placed(drum_shape(bottom, top, height, _who(others))), at, density, others)
 
     @classmethod
     def hull(cls, vertices: Any, density: float = 0.0, **others: Any) -> Stone:
@@ -128,9 +128,9 @@ class Stone(Outlined):
         return cls((Placed(shape),), _triple(middle), density, **others)
 
     @classmethod
-    def _standing(cls, parts: tuple[Placed, ...], at: Sequence[float], density: float, others: Any) -> Stone:
-        foot = triple(f"at of {_who(others)}", at, FARTHEST, "m")
-        return cls(parts, (foot[0], foot[1], foot[2] - lowest(parts)), density, **others)
+    def _standing(cls, part: Placed, at: Sequence[float], density: float, others: Any) -> Stone:
+        x, y, z = triple(f"at of {_who(others)}", at, FARTHEST, "m")
+        return cls((part,), (x, y, z - float(part.mesh(4).vertices[:, 2].min())), density, **others)
 
     # -- what it is made of --------------------------------------------------------------------------------------------
 
@@ -300,11 +300,10 @@ def hull_shape(vertices: Any, who: str) -> tuple[ConvexSolid, np.ndarray]:
     return ConvexSolid(corners - shift), middle + shift
 
 
-def lowest(parts: Sequence[Placed]) -> float:
-    """Lowest level of parts over the origin of their axes [m], from their common centroid."""
+def centre_of(parts: Sequence[Placed]) -> np.ndarray:
+    """Common centroid of parts, in the axes in which they are told [m], shape (3,)."""
     found = [Moments(moments_of(one.shape, 1.0).mass, np.array(one.place), np.zeros((3, 3))) for one in parts]
-    low = min(float(one.mesh(48).vertices[:, 2].min()) for one in parts)
-    return low - float(together(found).centroid[2])
+    return together(found).centroid
 
 
 def triple(name: str, values: Any, most: float, unit: str) -> Triple:
