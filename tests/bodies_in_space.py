@@ -112,13 +112,6 @@ class Lane(Loose):
     def local_damping(self, share):
         self.now["local"] = share
 
-    def energies(self):
-        """The ledger now: input, kinetic, gravitational, elastic, friction, viscous [J]."""
-        out = np.empty(6)
-        self.kernel.forces(self.state)
-        self.kernel.ledger(self.state, np.zeros(3), out)
-        return out
-
 
 def _frame(up):
     return np.eye(3) if up else np.diag([1.0, -1.0, -1.0])

@@ -14,6 +14,7 @@ from ...errors import InputError, check_range
 from ..block import FAR_AWAY, ground_block
 from ..column import GRAVITIES
 from ..joint import Joint, given
+from ..shapes import Glued
 from ..structure import Body, Structure
 from .stone import Stone
 from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation
@@ -253,17 +254,17 @@ class SpatialAssembly(Structure):
     # -- what asks for less --------------------------------------------------------------------------------------------
 
     def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
-        """Refuse every model: none moves such bodies.
+        """Refuse models that do not know bodies of several parts: they compute a plane, or a stack.
 
         Raises
         ------
         InputError
         """
-        del shapes
-        raise InputError(
-            f"{what} cannot shake {self.name!r}, which is {self.described}; what is known of it so far are its statics "
-            "('stylobate limit'), its masses ('columns') and its picture ('draw')."
-        )
+        if Glued not in shapes:
+            raise InputError(
+                f"{what} cannot shake {self.name!r}, which is {self.described}; dem3d can, and its statics are "
+                "'stylobate limit'."
+            )
 
     # -- provenance ----------------------------------------------------------------------------------------------------
 

@@ -94,7 +94,8 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
         scaled(dn, n), w, now,
     )  # fmt: skip
     e.en = share * stored
-    now.rate = max(now.rate, share * e.kn * closed * (mobility(u, ru, n) + mobility(v, rv, n)))
+    if now.dull > 0.0:
+        now.rate = max(now.rate, share * e.kn * closed * (mobility(u, ru, n) + mobility(v, rv, n)))
     # pressure, at the middle of the lower face, and friction at the middle of pressure
     force, moment = scaled(share, force), scaled(share, moment)
     rv = minus(along(place(u), 1.0, ml), place(v))

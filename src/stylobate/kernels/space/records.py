@@ -59,7 +59,7 @@ FACETS = 12
 LESS = 1.0 - 1.0e-10
 
 #: Most vertices and faces of a shape, most corners of a clipped face.
-MOST_VERTICES, MOST_FACES, MOST_CORNERS = 64, 128, 256
+MOST_VERTICES, MOST_FACES, MOST_CORNERS = 256, 512, 1024
 
 
 def types() -> dict[str, np.dtype]:

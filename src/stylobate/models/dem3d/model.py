@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, ClassVar, NamedTuple
@@ -11,22 +12,25 @@ import numpy as np
 
 from ...column import Column
 from ...column.found_in_space import shares_left
-from ...column.shapes import DRUMS, ConvexSolid
+from ...column.shapes import DRUMS, ConvexSolid, Glued
 from ...column.specimen import Specimen
+from ...column.structure import Structure
 from ...errors import InputError, check_range
 from ...kernels.dem3d.records import types
 from ...motion import Motion
-from ...response import Response
-from ..base import RunOptions
+from ...response import Measures, Response
+from ..base import Case, RunOptions
 from ..drums.barriers import lowest_barrier
 from ..drums.bodies import Topology
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
+from ..plane.assemblies import measures_of_assemblies
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
+from ..space.assemblies import SpatialNumbers, expected_step, run_in_space
 from .arrays import Records
 from .block import SpaceBlock
 from .found_start import found_start
@@ -133,7 +137,8 @@ class DistinctElement3D(SteppedDrums):
     )
     axes: ClassVar[str] = "xyz"
     takes_start: ClassVar[bool] = True
-    computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid)
+    computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid, Glued)
+    follows_to_rest: ClassVar[bool] = True
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
     takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
@@ -173,7 +178,11 @@ class DistinctElement3D(SteppedDrums):
         return damping_for(with_beds_alone(column), replace(self, restitution=None), self.restitution)
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
-        """One run with histories; says what damping a restitution has led to."""
+        """One run with histories, of an assembly down to the ground; says what damping a restitution has led to."""
+        if column.space_joints is not None:
+            return self.run_in_space(column, motion, options)
+        if options.until_rest:
+            raise InputError(f"dem3d follows assemblies in space until rest, and {column.name!r} is {column.described}.")
         response = super().run(column, motion, options)
         if self.restitution is None:
             return response
@@ -184,8 +193,66 @@ class DistinctElement3D(SteppedDrums):
         }
         return replace(response, provenance=response.provenance | chosen)
 
+    def run_in_space(
+        self, structure: Structure, motion: Motion, options: RunOptions, *, recorded: bool = True
+    ) -> Response:
+        """One run of an assembly in space, with histories where they are wanted.
+
+        Raises
+        ------
+        InputError
+            A start, or something that its engine does not know, is asked for.
+        """
+        if options.start is not None:
+            raise InputError(
+                f"a start from a pose is for columns, and {structure.name!r} is {structure.described}; give its bodies "
+                "orientations and velocities, and leave start out."
+            )
+        return run_in_space(structure, motion, self.spatial_numbers, options, recorded=recorded)
+
+    def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
+        """Many runs in lanes, or of assemblies one by one in threads; never of both in one batch."""
+        if len(cases) and cases[0].column.space_joints is not None:
+            return measures_of_assemblies(self.run_in_space, cases, options, threads)
+        return super().run_many(cases, options, threads)
+
+    def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:
+        """Time step and its cost [s]; of an assembly as long as it stands."""
+        if column.space_joints is None:
+            return super().expected_step(column, motion)
+        return expected_step(column, self.spatial_numbers)
+
+    @property
+    def spatial_numbers(self) -> SpatialNumbers:
+        """What assemblies in space are computed with."""
+        return SpatialNumbers(self.name, self.stiffness_damping, self.step_factor, self.time_step, self.restitution)
+
+    def _check_assembly(self, structure: Structure, motion: Motion) -> None:
+        del motion
+        defaults = DistinctElement3D()
+        unknown = ("law", "pivot_friction", "rolling_resistance", "planar", "block_modulus", "mass_damping")
+        given = next((name for name in unknown if getattr(self, name) != getattr(defaults, name)), None)
+        if given is not None:
+            raise InputError(
+                f"{given} is {getattr(self, given)!r}, which assemblies in space such as {structure.name!r} do not know; "
+                "leave it out."
+            )
+
+    def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
+        """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
+        if column.space_joints is None:
+            super().check_length(column, motion, options)
+
+    def carried(self, column: Any) -> int:
+        """How many are taken along: what may come loose is alone in its lane."""
+        return 0 if column.space_joints is not None else super().carried(column)
+
     def check(self, column: Any, motion: Motion) -> None:
         """Refuse joints too soft, what is found that space does not know, and a step unstable or too long for the motion."""
+        if column.space_joints is not None:
+            super().check(column, motion)
+            self._check_assembly(column, motion)
+            return
         if self.rolling_resistance and column.section != "circular":
             raise InputError(
                 f"rolling_resistance = {self.rolling_resistance:g} is for round drums, and {column.name!r} has corners; "

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from ...kernels.run_codes import FAILED
+from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.space.records import types, workspace, workspace_of_joints
+from ...motion import Motion
+from ..shared.settling import LOCAL_DAMPING, settled
+from ..shared.stable_step import highest_frequency, stable_step
 from .solids import FacesJoined, Solid, pack, pack_joints
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
@@ -16,6 +20,22 @@ CALM = 0.02
 
 #: Skin of the spheres of the contact search, as a share of the smallest body's radius.
 SKIN = 0.1
+
+#: Most pairs of parts that may touch at once, for each part.
+MOST_NEAR = 64
+
+#: At rest: nothing has moved by this share of the smallest body's radius, for so long [s].
+REST_WAY, REST_TIME = 2.0e-4, 0.5
+
+#: Bodies are in equilibrium as drawn if their accelerations fall below this [m/s²] within so many steps of local damping,
+#: while none goes farther than this share of the smallest one's radius.
+SETTLED, SETTLE_STEPS, AS_DRAWN = 1e-4, 40_000, 0.02
+
+#: Step times the circular frequency of a body on its largest face, at the usual share of the largest stable step.
+STRUCK, USUAL = 0.5, 0.4
+
+#: Round faces count with so many corners where the largest stable step is looked for.
+ROUND = 8
 
 
 class Loose:
@@ -29,7 +49,7 @@ class Loose:
     gravity : sequence of float
         As an acceleration of the base: up is positive [m/s²].
     restitution : float
-        Share of the closing speed that contacts give back: 1 is elastic.
+        Share of the closing speed that contacts of the bed give back: 1 is elastic.
     stiffness_damping : float
         [s]
     joints : sequence of FacesJoined
@@ -49,34 +69,204 @@ class Loose:
         self.kernel, kinds = kernel, types()
         self.packed = packed = pack(solids)
         n, e = len(packed.shape), restitution
-        self.now, self.feed, ground = (
-            np.zeros(rows, kinds[name]) for name, rows in (("now", 1), ("feed", 1), ("ground", 33))
-        )
+        self.now, self.feed = np.zeros(1, kinds["now"]), np.zeros(1, kinds["feed"])
         self.feed["r"][0, :, 0] = np.eye(3).ravel()
         now = self.now
         now["g"], now["beta"], now["touched"] = gravity, stiffness_damping, -1
         now["eta"], now["calm"] = (1.0 - e * e) / (1.0 + e * e), CALM
-        now["skin"] = SKIN * min(row["r"] for row in packed.body if not row["fixed"])
-        most = n * (n - 1) // 2
+        self.free = packed.body["fixed"] == 0
+        self.smallest = float(packed.body["r"][self.free].min())
+        now["skin"] = SKIN * self.smallest
+        most = min(n * (n - 1) // 2, MOST_NEAR * n)
         self.pair, spare = np.zeros(most, kinds["pair"]), np.zeros(most, kinds["pair"])
         self.joint, edge = pack_joints(joints, packed)
+        self.body, self.law = packed.body, np.ascontiguousarray(law)
         self.state: tuple[Any, ...] = (
             packed.body, packed.shape, packed.vertex, packed.plane, packed.loop, packed.corner, self.pair, spare,
-            self.joint, edge, np.ascontiguousarray(law), now, self.feed, ground, workspace(), workspace_of_joints(), np.zeros((4, 3)),
+            self.joint, edge, self.law, now, self.feed, np.zeros(CHUNK + 1, kinds["ground"]),
+            workspace(), workspace_of_joints(), np.zeros((4, 3)),
         )  # fmt: skip
-        self.body = packed.body
+        self.dt = 0.0
+        self.stood_at, self.stood_since = np.full((len(solids), 12), np.inf), 0.0
+        self.lowest_level = float((packed.body["z"][:, 0] - packed.body["r"])[self.free].min()) - 10.0 * self.smallest
 
     def start(self, step: float) -> None:
-        """Set the step; velocities half a step back, as the forces at the start ask for."""
+        """Set the step and list who may touch; velocities are those of the start."""
+        self.dt = step
         self.now["dt"] = step
         self.now["last"] = 0.0
         self.kernel.list_all(self.state)
+
+    def shake(self, motion: Motion) -> None:
+        """Let the base move with a motion, which is kept."""
+        self.motion, feed = motion, self.feed[0]
+        for name, samples in (("x", motion.samples), ("y", motion.y_samples), ("z", motion.z_samples)):
+            feed[name][0] = 0 if samples is None else samples.ctypes.data
+        feed["last"][0], feed["ratio"][0], feed["factor"][0] = motion.steps - 1, self.dt / motion.dt, motion.factor
 
     def advance(self, chunks: int) -> None:
         """Advance by some chunks of steps."""
         self.kernel.advance(self.state, chunks)
 
     @property
+    def steps(self) -> int:
+        """Steps done."""
+        return int(self.feed["step"][0, 0])
+
+    @property
+    def time(self) -> float:
+        """Time of the present state [s]."""
+        return self.steps * self.dt
+
+    @property
     def failed(self) -> bool:
         """Whether the state is no longer finite."""
         return bool(self.now["status"][0] == FAILED)
+
+    # -- the step --------------------------------------------------------------------------------------------------
+
+    def stable_step(self) -> float:
+        """Largest stable step of the closed joints, and one in which the impact of a whole face is resolved [s]."""
+        u, n = self.packed.body, len(self.packed.body)
+        inverse = np.zeros((6 * n, 6 * n))
+        for i in np.flatnonzero(self.free):
+            axes = self._axes(i)
+            moments = u["ia"][i, 0] + np.array([u["ib"][i, 0], 0.0, u["ic"][i, 0]])
+            inverse[6 * i : 6 * i + 3, 6 * i : 6 * i + 3] = u["im"][i, 0] * np.eye(3)
+            inverse[6 * i + 3 : 6 * i + 6, 6 * i + 3 : 6 * i + 6] = axes @ np.diag(moments) @ axes.T
+        root = np.linalg.cholesky(inverse + 1e-30 * np.eye(6 * n))
+        stiffness = np.zeros((6 * n, 6 * n))
+        for e in self.joint:
+            lower, upper = (int(self.packed.shape["body"][e[name]]) for name in "ab")
+            points, frame, area = self._carried(e, upper)
+            spring = e["ks"] * np.eye(3) + (e["kn"] - e["ks"]) * np.outer(frame[:, 2], frame[:, 2])
+            for point in points:
+                row = np.zeros((3, 6 * n))
+                for number, sign in ((upper, 1.0), (lower, -1.0)):
+                    x, y, z = point - self.place(number)
+                    row[:, 6 * number : 6 * number + 3] = sign * np.eye(3)
+                    row[:, 6 * number + 3 : 6 * number + 6] = sign * np.array([[0, z, -y], [-z, 0, x], [y, -x, 0]])
+                stiffness += area / len(points) * row.T @ spring @ row
+        omega = highest_frequency(root.T @ stiffness @ root, np.ones(6 * n))
+        for i in np.flatnonzero(self.free):
+            struck = math.sqrt(float(self.law[:, :, 0].max()) * self._largest_face(i) * float(u["im"][i, 0]))
+            omega = max(omega, struck * USUAL * 2.0 / STRUCK)
+        return stable_step(omega, float(self.now["beta"][0]))
+
+    def _carried(self, e: Any, upper: int) -> tuple[np.ndarray, np.ndarray, float]:
+        """Corners of the smaller face of a joint in space [m], shape (k, 3), its axes as columns, and its area [m²]."""
+        lower = int(self.packed.shape["body"][e["a"]])
+        body, side = (upper, "u") if self._face_area(e, "u") <= self._face_area(e, "l") else (lower, "l")
+        axes = self._axes(body)
+        i, j, middle = (axes @ e[name + side] for name in "ijm")
+        frame = np.stack((i, j, np.cross(i, j)), axis=1)
+        corners = self._face_corners(e, side)
+        return self.place(body) + middle + corners @ frame[:, :2].T, frame, float(e["width"])
+
+    def _face_corners(self, e: Any, side: str) -> np.ndarray:
+        many, first = int(e["many_" + side]), int(e["first_" + side])
+        if many:
+            return self.state[9][first : first + many]
+        angle = np.arange(ROUND) * (2.0 * math.pi / ROUND)
+        return float(e["r" + side]) * np.stack((np.cos(angle), np.sin(angle)), axis=1)
+
+    def _face_area(self, e: Any, side: str) -> float:
+        x, y = self._face_corners(e, side).T
+        return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+
+    def _largest_face(self, body: int) -> float:
+        """Area of the largest face of a body, of a drum the larger of its face and half of its side seen from there [m²]."""
+        best = 0.0
+        for s in self.packed.shape[self.packed.shape["body"] == body]:
+            if s["h"] > 0.0:
+                radius = max(float(s["rb"]), float(s["rt"]))
+                best = max(best, math.pi * radius**2, 0.54 * radius * float(s["h"]))
+            else:
+                vertices = self.packed.vertex[s["first"] : s["first"] + s["count"]]
+                for face in self.packed.loop[s["face"] : s["face"] + s["faces"]]:
+                    around = vertices[self.packed.corner[face["first"] : face["first"] + face["count"]]]
+                    best = max(best, 0.5 * float(np.linalg.norm(np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0))))
+        return best
+
+    # -- looks at the state, which change nothing ------------------------------------------------------------------
+
+    def _axes(self, body: int) -> np.ndarray:
+        return np.array([[self.body[axis + c][body, 0] for axis in "ijk"] for c in "xyz"])
+
+    def place(self, body: int) -> np.ndarray:
+        """Centroid of a body [m], shape (3,)."""
+        return np.array([self.body[c][body, 0] for c in "xyz"])
+
+    @property
+    def places(self) -> np.ndarray:
+        """Centroids of all bodies [m], shape (N, 3)."""
+        return np.stack([self.body[c][:, 0] for c in "xyz"], axis=-1)
+
+    @property
+    def axes_of_all(self) -> np.ndarray:
+        """Axes in which the bodies were given, as columns, shape (N, 3, 3)."""
+        principal = np.stack([np.stack([self.body[a + c][:, 0] for c in "xyz"], axis=-1) for a in "ijk"], axis=-1)
+        return principal @ self.packed.turn.transpose(0, 2, 1)
+
+    def _with_forces(self) -> tuple[Any, ...]:
+        """A copy of what the forces at the present positions change, with these."""
+        copies = {0, 6, 8, 11}  # bodies, pairs, joints, now
+        state = tuple(one.copy() if k in copies else one for k, one in enumerate(self.state))
+        self.kernel.forces(state)
+        return state
+
+    def energies(self, base: np.ndarray | None = None) -> np.ndarray:
+        """Ledger now: input, kinetic, gravitational, elastic, friction, viscous; the middle three absolute [J].
+
+        ``base`` is the acceleration of the base now [m/s²].
+        """
+        out = np.empty(6)
+        self.kernel.ledger(self._with_forces(), np.zeros(3) if base is None else base, out)
+        return out
+
+    def residual_acceleration(self) -> float:
+        """Largest acceleration of a body without input; of its farthest point, where it turns [m/s²]."""
+        u = self._with_forces()[0][self.free]
+        linear = np.abs(u["f"] * u["im"] - self.now["g"]).max()
+        easiest = u["ia"] + np.maximum(np.maximum(u["ib"], u["ic"]), 0.0)
+        turning = (np.abs(u["mo"]) * easiest).max(axis=1) * u["r"]
+        return float(max(linear, turning.max()))
+
+    def at_rest(self) -> bool:
+        """Whether nothing has moved for ``REST_TIME``, but what falls for ever; to be asked again and again."""
+        here = np.concatenate((self.places, self.axes_of_all.reshape(-1, 9) * self.body["r"][:, None]), axis=1)
+        way = np.abs(here - self.stood_at).max(axis=1)[self.free]
+        there = ~(self.places[self.free, 2] < self.lowest_level)
+        if way[there].max(initial=0.0) > REST_WAY * self.smallest:
+            self.stood_at, self.stood_since = here, self.time
+        return self.time - self.stood_since > REST_TIME
+
+    # -- the start -------------------------------------------------------------------------------------------------
+
+    def settle(self) -> bool:
+        """Close the contacts by the weight that they carry, with local damping.
+
+        Returns
+        -------
+        bool
+            Whether it rests, about where it was drawn; if not, everything is as it was.
+        """
+        arrays = (self.body, self.pair, self.joint, self.now, self.feed)
+        drawn, places = [one.copy() for one in arrays], self.places
+        self.now["local"], self.feed["last"] = LOCAL_DAMPING, 0
+        rests = settled(
+            self.advance, self.residual_acceleration, SETTLED, SETTLE_STEPS // CHUNK,
+            lost=lambda: self.failed or float(np.abs(self.places - places).max()) > AS_DRAWN * self.smallest,
+        )  # fmt: skip
+        before = drawn[3]
+        if rests:
+            for name in ("local", "work", "shear", "visc", "touched", "last"):
+                self.now[name] = before[name]
+            for c in "xyz":
+                for name in ("v", "w", "l"):
+                    self.body[name + c] = 0.0
+        else:
+            for array, old in zip(arrays, drawn, strict=True):
+                array[...] = old
+        self.feed[...] = drawn[4]
+        return rests

@@ -1,0 +1,201 @@
+"""One run of an assembly in space: closed under its weight, shaken, and followed to the end of the motion or until rest."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...column.structure import Structure
+from ...errors import OutOfRangeWarning
+from ...kernels.run_codes import CHUNK
+from ...motion import Motion
+from ...response import Response
+from ...response.space_measures import fallen, recorded_in_space
+from ..base import RunOptions, refuse_endless, refuse_long_histories
+from ..shared import ledger
+from ..shared.ground import BEFORE, ground_histories, value_at
+from ..shared.stable_step import chosen_step
+from .loose import Loose
+from .packing import joints_of, laws_of, solids_of
+
+#: Restitution of a run that waits for rest, where the model gives none; elastic contacts never come to rest.
+RESTITUTION_TO_REST = 0.3
+
+#: Time after the motion at which a run that waits for rest is given up [s].
+LONGEST_WAIT = 60.0
+
+#: Time after the last body has fallen at which a run ends, if nothing else is asked for [s].
+AFTER_THE_FALL = 5.0
+
+#: About what a step costs on one core for each joint and body [s].
+COST = 2e-6
+
+
+@dataclass(frozen=True)
+class SpatialNumbers:
+    """What a run is computed with.
+
+    Parameters
+    ----------
+    name : str
+        Of the model, for the response.
+    stiffness_damping : float
+        [s]
+    step_factor, time_step : float, float or None
+        Share of the largest stable step, or the step itself [s].
+    restitution : float or None
+        Of the bed; by default 1, and 0.3 in a run until rest.
+    """
+
+    name: str
+    stiffness_damping: float
+    step_factor: float
+    time_step: float | None
+    restitution: float | None
+
+
+def engine_of(structure: Structure, numbers: SpatialNumbers, restitution: float) -> Loose:
+    """The lane of an assembly in space."""
+    solids, first = solids_of(structure)
+    joints = joints_of(structure, solids, first)
+    gravity = (0.0, 0.0, structure.gravity)
+    return Loose(solids, laws_of(structure), gravity, restitution, numbers.stiffness_damping, joints)
+
+
+def expected_step(structure: Structure, numbers: SpatialNumbers) -> tuple[float, float]:
+    """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
+    engine = engine_of(structure, numbers, 1.0)
+    return step_for(engine, structure, numbers), COST * len(engine.body)
+
+
+def step_for(engine: Loose, structure: Structure, numbers: SpatialNumbers) -> float:
+    """Time step of a run [s].
+
+    Raises
+    ------
+    InputError
+        The step asked for is unstable.
+    """
+    return chosen_step(engine.stable_step(), numbers.step_factor, numbers.time_step, repr(structure.name))
+
+
+def run_in_space(
+    structure: Structure, motion: Motion, numbers: SpatialNumbers, options: RunOptions, *, recorded: bool = True
+) -> Response:
+    """One run of an assembly in space to the end of the motion and its tail, or until rest.
+
+    With neither ``until_end`` nor ``until_rest`` it ends some seconds after the last body has fallen. The contacts are closed
+    by the weight they carry; an assembly that is not in equilibrium begins as drawn, with a warning. Without histories
+    (``recorded``) the ledger is drawn up at the start and at the end only.
+
+    Raises
+    ------
+    InputError
+        The step asked for is unstable.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        The assembly is not in equilibrium as drawn.
+    """
+    restitution = numbers.restitution
+    if restitution is None:
+        restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
+    engine = engine_of(structure, numbers, restitution)
+    step = step_for(engine, structure, numbers)
+    duration = motion.duration + options.tail
+    length = duration + (LONGEST_WAIT if options.until_rest else 0.0)
+    refuse_endless(f"{structure.name!r} under {motion.name!r}", length, step, COST * len(engine.body))
+    refuse_long_histories(length / options.output_interval, len(engine.body))
+    engine.start(step)
+    balanced = None
+    if getattr(structure, "settle", True):
+        balanced = engine.settle()
+        if not balanced:
+            said = f"{structure.name!r} is not in equilibrium as drawn; it moves from the start."
+            warnings.warn(said, OutOfRangeWarning, stacklevel=4)
+    engine.shake(motion)
+    start = engine.energies()
+    states, still = _follow(engine, structure, motion, duration, options, recorded)
+    stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0]}
+    change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
+    imbalance = ledger.imbalance(
+        ledger.unaccounted(change[-1] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0)),
+        work=float(np.abs(change[:, 0]).max()), start=float(start[3]), barrier=0.0, released=ledger.released(change[-1]),
+    )  # fmt: skip
+    acceleration, displacement = ground_histories(motion, stack["time"])
+    made = recorded_in_space(
+        structure,
+        stack["time"],
+        stack["position"],
+        stack["axes"],
+        {name: change[:, k] for k, name in enumerate(ledger.TERMS)},
+        acceleration,
+        displacement,
+        at_rest=still,
+        in_equilibrium=balanced,
+        failed=engine.failed or bool(ledger.out_of_balance(imbalance)),
+        energy_imbalance=imbalance,
+        time_step=engine.dt,
+        steps=engine.steps,
+        model=numbers.name,
+        provenance={
+            "restitution": restitution,
+            "joints": len(engine.joint),
+            "deepest_penetration_m": float(engine.now["deepest"][0]),
+        },
+    )
+    return Response.of(made)
+
+
+def _follow(
+    engine: Loose, structure: Structure, motion: Motion, duration: float, options: RunOptions, recorded: bool
+) -> tuple[list[dict[str, Any]], bool]:
+    """Go on to where the run ends; the states on the way, and whether all lies still."""
+    chunks = math.ceil(duration / (CHUNK * engine.dt) * (1.0 - 1e-12))
+    every = max(1, min(chunks, round(options.output_interval / (CHUNK * engine.dt))))
+    states, still = [_state(engine, motion, True)], False
+    down, since = np.zeros(len(engine.body), dtype=bool), 0.0
+    while not engine.failed:
+        left = chunks - engine.steps // CHUNK
+        still = engine.at_rest()
+        if left <= 0:
+            engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
+        if left <= 0 and (not options.until_rest or still or engine.time > duration + LONGEST_WAIT):
+            break
+        engine.advance(min(every, left) if left > 0 else every)
+        states.append(_state(engine, motion, recorded))
+        if options.progress:
+            options.progress(min(engine.time, duration), duration)
+        if options.until_end or options.until_rest:
+            continue
+        now = fallen(structure, states[0]["position"], states[0]["axes"], states[-1]["position"], states[-1]["axes"])
+        if (now != down).any():
+            down, since = now, engine.time
+        if down.any() and engine.time - since > AFTER_THE_FALL:
+            break
+    if not recorded:
+        states[-1] = _state(engine, motion, True)
+    return states, still
+
+
+def _state(engine: Loose, motion: Motion, whole: bool) -> dict[str, Any]:
+    """What a history keeps of the present state; of its ledger the input alone where the whole of it is not wanted."""
+    if not whole:
+        energy = np.array([float(engine.now["work"][0]), *[math.nan] * 5])
+        return {"time": engine.time, "position": engine.places, "axes": engine.axes_of_all, "energy": energy}
+    place, base = engine.time / motion.dt, np.zeros(3)
+    if place <= motion.steps - 1:
+        for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):
+            if samples is not None:
+                base[c] = value_at(samples, place, BEFORE) * motion.factor
+    return {
+        "time": engine.time,
+        "position": engine.places,
+        "axes": engine.axes_of_all,
+        "energy": engine.energies(base),
+    }

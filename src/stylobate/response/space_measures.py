@@ -1,0 +1,152 @@
+"""What a run of an assembly in space comes down to: opening, slip and twist of its joints, what fell and when, the outcome."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..column.structure import Structure
+from ..outcome import Outcome, classify
+from .assembly_measures import TURNED, lowest_standing
+from .collapse import FELL, Collapse
+from .histories import Histories
+from .measures import BlockMeasures, Measures
+from .poses import quaternions
+from .recorded import Recorded
+
+
+def recorded_in_space(
+    structure: Structure,
+    time: np.ndarray,
+    position: np.ndarray,
+    axes: np.ndarray,
+    energy: dict[str, np.ndarray],
+    ground_acceleration: np.ndarray,
+    ground_displacement: np.ndarray,
+    *,
+    at_rest: bool,
+    failed: bool,
+    in_equilibrium: bool | None,
+    energy_imbalance: float,
+    time_step: float,
+    steps: int,
+    model: str,
+    provenance: dict[str, Any],
+) -> Recorded:
+    """A run of an assembly in space from the recorded poses of its bodies.
+
+    Parameters
+    ----------
+    structure : Structure
+    time : array
+        [s], shape (T,)
+    position, axes : array
+        Centroids of ``structure.bodies`` [m], shape (T, N, 3), and their axes as columns, shape (T, N, 3, 3).
+    energy : dict of str to array
+        Ledger [J], each term of shape (T,).
+    ground_acceleration, ground_displacement : array
+        [m/s²], [m], shape (T, 3)
+    at_rest, failed, in_equilibrium, energy_imbalance, time_step, steps, model, provenance
+        As of an assembly in the plane.
+    """
+    opening, slip, twist = joint_histories(structure, position, axes)
+    moved = np.linalg.norm(position - position[0], axis=-1)
+    down = fallen(structure, position[0], axes[0], position, axes)
+    since = {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
+    fell_at = tuple((structure.bodies[i].name, float(time[k])) for i, k in since.items())
+    collapsed = bool(fell_at) and not failed
+    first = min((when for _, when in fell_at), default=math.nan) if collapsed else math.nan
+    until = time <= first if collapsed else slice(None)
+    azimuth = None
+    if collapsed:
+        lost = min(since, key=lambda i: since[i])
+        way = position[-1, lost] - position[0, lost]
+        azimuth = math.atan2(way[1], way[0])
+    measures = Measures(
+        outcome=Outcome.FAILED if failed else _outcome(structure, moved, opening, slip, collapsed),
+        decided=not failed and (at_rest or collapsed),
+        collapse_time=first,
+        peak_top_displacement=math.nan,
+        residual_top_displacement=math.nan,
+        peak_rotation=float(np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))[until].max()),
+        peak_joint_opening=float(opening[until].max(initial=0.0)),
+        residual_joint_slip=float(np.linalg.norm(slip[-1], axis=-1).max(initial=0.0)),
+        energy_imbalance=energy_imbalance,
+        time_step=time_step,
+        steps=steps,
+        collapse=Collapse(first, None, FELL, azimuth) if collapsed else None,
+        blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
+    )
+    nowhere = np.full((len(time), 2), math.nan)
+    histories = Histories.in_space(
+        time, position, quaternions(axes), opening, slip, twist, nowhere, nowhere, ground_acceleration,
+        ground_displacement, energy,
+    )  # fmt: skip
+    return Recorded(structure, histories, measures, model, provenance, followed=True)
+
+
+def fallen(
+    structure: Structure, first: np.ndarray, first_axes: np.ndarray, position: np.ndarray, axes: np.ndarray
+) -> np.ndarray:
+    """Which bodies have fallen: lower than at the start by a share of their size, or tilted by more than 45°.
+
+    Parameters
+    ----------
+    structure : Structure
+    first, first_axes : array
+        Centroids and axes at the start [m], [-], shape (N, 3), (N, 3, 3).
+    position, axes : array
+        At other times, shape (…, N, 3), (…, N, 3, 3).
+    """
+    return (position[..., 2] < lowest_standing(structure, first[:, 2])) | (_upright(first_axes, axes) < math.cos(TURNED))
+
+
+def _upright(first: np.ndarray, axes: np.ndarray) -> np.ndarray:
+    """Cosine of the tilt since the start of what was vertical then, shape (…, N)."""
+    return np.einsum("nk,...nk->...n", first[:, 2, :], axes[..., 2, :])
+
+
+def joint_histories(
+    structure: Structure, position: np.ndarray, axes: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Largest gap of every joint [m], offset along it [m] and twist about its normal [rad] since the start.
+
+    Shapes (T, J), (T, J, 2), (T, J).
+    """
+    joints = structure.space_joints or ()
+    count = len(position), len(joints)
+    opening, slip, twist = np.zeros(count), np.zeros((*count, 2)), np.zeros(count)
+    for k, joint in enumerate(joints):
+        u, v = joint.lower, joint.upper
+        # what was at the joint on either body, from the middle of the joint, in the axes of the body below as it was drawn
+        turned = axes[:, u] @ axes[0, u].T
+        other = axes[:, v] @ axes[0, v].T
+        below = position[:, u] + np.einsum("tab,b->ta", turned, joint.origin - position[0, u])
+        corners = joint.origin + joint.corners @ joint.frame[:, :2].T - position[0, v]
+        above = position[:, v, None] + np.einsum("tab,kb->tka", other, corners)
+        seen = np.einsum("ac,tab,tkb->tkc", joint.frame, turned, above - below[:, None])
+        opening[:, k] = np.maximum((seen[..., 2] - seen[0, :, 2]).max(axis=1), 0.0)
+        slip[:, k] = (seen[..., :2] - seen[0, :, :2]).mean(axis=1)
+        relative = np.einsum("ac,tab,tbd,de->tce", joint.frame, turned, other, joint.frame)
+        twist[:, k] = np.unwrap(np.arctan2(relative[:, 1, 0] - relative[:, 0, 1], relative[:, 0, 0] + relative[:, 1, 1]))
+    return opening, slip, twist
+
+
+def _outcome(
+    structure: Structure, moved: np.ndarray, opening: np.ndarray, slip: np.ndarray, collapsed: bool
+) -> Outcome:
+    """Outcome as for columns; a body that no joint holds counts by its own displacement, as a share of its size."""
+    joints, bodies = structure.space_joints or (), structure.bodies
+    width = np.array([joint.width for joint in joints])
+    held = {i for joint in joints for i in (joint.lower, joint.upper)}
+    free = [i for i, body in enumerate(bodies) if i not in held and not body.fixed]
+    size = np.array([bodies[i].size for i in free])
+    opened = max(_largest(opening / width), _largest(moved[:, free] / size))
+    shifted = max(_largest(np.linalg.norm(slip[-1], axis=-1) / width), _largest(moved[-1, free] / size))
+    return classify(collapsed, False, opened, shifted)
+
+
+def _largest(values: np.ndarray) -> float:
+    return float(np.nan_to_num(values, nan=np.inf).max(initial=0.0))
