@@ -163,12 +163,12 @@ def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> Non
         raise InputError(
             f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
         )
-    if options.until_rest and not model.follows_to_rest:
-        raise InputError(
-            f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or leave "
-            "it off: --tail and --until-end are for every model."
-        )
     for column, motion in _to_check(cases):
+        if options.until_rest and not model.follows(column):
+            raise InputError(
+                f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or "
+                "leave it off: --tail and --until-end are for every model."
+            )
         model.check(column, motion)
         model.check_length(column, motion, options)
 

@@ -30,8 +30,20 @@ def sums_of(low, up, place, rotation):
     radii = [float(face) if np.isscalar(face) else 0.0 for face in (low, up)]
     place = np.array(place, dtype=float)
     above = place + corners[1] @ rotation[:, :2].T
+    still = 0.0, 0.0, 0.0
     boundary(
-        tuple(rotation[:, 2]), tuple(place), LESS * corners[0], many[0], radii[0], above, many[1], radii[1], arcs, sums
+        tuple(rotation[:, 2]),
+        tuple(place),
+        still,
+        still,
+        LESS * corners[0],
+        many[0],
+        radii[0],
+        above,
+        many[1],
+        radii[1],
+        arcs,
+        sums,
     )
     return sums
 
@@ -87,7 +99,7 @@ FACES = {
 }
 
 
-@pytest.mark.parametrize("low, up", FACES.values(), ids=FACES)
+@pytest.mark.parametrize(("low", "up"), FACES.values(), ids=FACES)
 def test_sums_over_the_edge_of_the_overlap(low, up):
     """Random offsets, twists and tilts, half open too; the quadrature's own error is 2e-4."""
     rng = np.random.default_rng(1)

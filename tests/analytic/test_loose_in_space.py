@@ -66,7 +66,7 @@ def test_a_drum_rolls_over_an_edge():
     assert x[np.argmax(z < RADIUS + 1e-3)] == pytest.approx(0.7795, rel=0.01)
 
 
-@pytest.mark.parametrize("mu, stands", [(0.25, False), (0.29, True)])
+@pytest.mark.parametrize(("mu", "stands"), [(0.25, False), (0.29, True)])
 def test_three_lying_drums(mu, stands):
     """Friction tan 15° between the drums holds the third one on two."""
     law = np.empty((4, 4, 3))
@@ -85,7 +85,7 @@ def test_three_lying_drums(mu, stands):
     assert (lane.place(3)[2] > height - 1e-3) == stands
 
 
-@pytest.mark.parametrize("degrees, holds", [(37.6, False), (40.6, True)])
+@pytest.mark.parametrize(("degrees", "holds"), [(37.6, False), (40.6, True)])
 def test_a_beam_leans_on_a_wall(degrees, holds):
     """tan = (1 − μ μ) L/(2 μ L + t (1 + μ μ)): 39.14° for 4 × 0.8 m and 0.4."""
     turned = turn(0.0, -math.radians(degrees), 0.0)
@@ -96,7 +96,7 @@ def test_a_beam_leans_on_a_wall(degrees, holds):
     assert (lane.place(2)[2] > reach[2] - 0.02) == holds
 
 
-@pytest.mark.parametrize("share, stands", [(0.97, True), (1.03, False)])
+@pytest.mark.parametrize(("share", "stands"), [(0.97, True), (1.03, False)])
 def test_overhang_of_five_slabs(share, stands):
     """The harmonic series."""
     slabs, x = [], -0.5
@@ -131,8 +131,8 @@ def test_a_drum_falls_on_its_rim():
     """Rigid impulse: 6.0535 rad/s and −1.1136 m/s after it; 2 % of what it had."""
     turned = turn(0.0, math.radians(20.0), 0.0)
     low = (turned @ [0.5, 0.0, -0.25])[2]
-    lane = Lane(ground(), cylinder(0.5, 0.5, (0.0, 0.0, 0.02 - low), turned, velocity=(0.0, 0.0, -math.sqrt(2.0 * G * 0.28))),
-                kn=5e12, mu=1e-9, restitution=0.5, step=4e-6)  # fmt: skip
+    drum = cylinder(0.5, 0.5, (0.0, 0.0, 0.02 - low), turned, velocity=(0.0, 0.0, -math.sqrt(2.0 * G * 0.28)))
+    lane = Lane(ground(), drum, kn=5e12, mu=1e-9, restitution=0.5, step=4e-6)
     spin, up = after_impact(lane, lambda: (lane.spin(1), lane.velocity(1)[2]))
     assert np.abs(spin) == pytest.approx([0.0, 6.0535, 0.0], abs=0.02 * 6.05)
     assert up == pytest.approx(-1.1136, abs=0.02 * 2.43)
@@ -199,7 +199,7 @@ def portal(tilt, kn, step, **others):
     return Lane(base, column(-1.2), column(1.2), beam, kn=kn, joints=joints, step=step, **others)
 
 
-@pytest.mark.parametrize("share, exact", [(0.25, 0.45727829), (0.5, 0.75647293)])
+@pytest.mark.parametrize(("share", "exact"), [(0.25, 0.45727829), (0.5, 0.75647293)])
 def test_a_portal_rocks(share, exact):
     """Equivalent block of Makris and Vassiliou (2013)."""
     lane = portal(share * math.atan(0.2), 5e11, 2e-5)

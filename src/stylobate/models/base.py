@@ -165,6 +165,11 @@ class Model:
         """The components of a motion that the model takes; what it leaves out is said in ``metadata["left_out"]``."""
         return keep_axes(motion, self.axes)
 
+    def follows(self, column: Any) -> bool:
+        """Whether it can go on until everything lies still, of what stands."""
+        del column
+        return self.follows_to_rest
+
     def carried(self, column: Any) -> int:
         """How many of its kind are taken along in a run of what stands."""
         del column

@@ -1,4 +1,4 @@
-"""What a run of an assembly in space comes down to: opening, slip and twist of its joints, what fell and when, the outcome."""
+"""What a run of an assembly in space comes down to: opening, slip, twist of its joints, what fell and when, the outcome."""
 
 from __future__ import annotations
 
@@ -100,7 +100,9 @@ def fallen(
     position, axes : array
         At other times, shape (…, N, 3), (…, N, 3, 3).
     """
-    return (position[..., 2] < lowest_standing(structure, first[:, 2])) | (_upright(first_axes, axes) < math.cos(TURNED))
+    return (position[..., 2] < lowest_standing(structure, first[:, 2])) | (
+        _upright(first_axes, axes) < math.cos(TURNED)
+    )
 
 
 def _upright(first: np.ndarray, axes: np.ndarray) -> np.ndarray:
@@ -130,7 +132,9 @@ def joint_histories(
         opening[:, k] = np.maximum((seen[..., 2] - seen[0, :, 2]).max(axis=1), 0.0)
         slip[:, k] = (seen[..., :2] - seen[0, :, :2]).mean(axis=1)
         relative = np.einsum("ac,tab,tbd,de->tce", joint.frame, turned, other, joint.frame)
-        twist[:, k] = np.unwrap(np.arctan2(relative[:, 1, 0] - relative[:, 0, 1], relative[:, 0, 0] + relative[:, 1, 1]))
+        twist[:, k] = np.unwrap(
+            np.arctan2(relative[:, 1, 0] - relative[:, 0, 1], relative[:, 0, 0] + relative[:, 1, 1])
+        )
     return opening, slip, twist
 
 

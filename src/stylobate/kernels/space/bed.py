@@ -114,7 +114,7 @@ def face_contact(p, n, a, u, b, v, vertex, total, simplex):
     meet = True
     p.side = 0
     if side_a and side_b:
-        x, y, way = between_axes(a, u, ea, b, v, eb)
+        way = between_axes(a, u, ea, b, v, eb)
         if max(abs(dot(way, ea)), abs(dot(way, eb))) < ON_SIDE * length(way):
             ta = way
             tb = scaled(-1.0, way)
@@ -141,7 +141,7 @@ def face_contact(p, n, a, u, b, v, vertex, total, simplex):
 
 @long_law
 def between_axes(a, u, ea, b, v, eb):
-    """Shares of the heights of two drums at which their axes are nearest, and the way from the first to the second there."""
+    """The shortest way from the axis of a drum to that of another one."""
     w = minus(along(place(v), 1.0, outward(v, of(b.c))), along(place(u), 1.0, outward(u, of(a.c))))
     c = dot(ea, eb)
     p, q = dot(ea, w), dot(eb, w)
@@ -152,7 +152,7 @@ def between_axes(a, u, ea, b, v, eb):
     x = min(max(x, 0.0), a.h)
     y = min(max(c * x - q, 0.0), b.h)
     x = min(max(p + c * y, 0.0), a.h)
-    return x / a.h, y / b.h, along(along(w, y, eb), -x, ea)
+    return along(along(w, y, eb), -x, ea)
 
 
 @kernel
@@ -161,9 +161,9 @@ def drawn(p, n, a, u, b, v, vertex, plane, loop, corner, wide, top, low, work):
     va, pa, ha, vb, pb, hb, _, _, _, _, total = work
     ta = of(p.ta)
     tb = of(p.tb)
-    na, fa = draw(a, u, vertex, plane, n, ta if dot(ta, ta) > 0.0 else n, 1.0, place(v), wide, va, pa, ha)
+    _, fa = draw(a, u, vertex, plane, n, ta if dot(ta, ta) > 0.0 else n, 1.0, place(v), wide, va, pa, ha)
     turn = tb if dot(tb, tb) > 0.0 else scaled(-1.0, n)
-    nb, fb = draw(b, v, vertex, plane, n, turn, LESS, place(u), wide, vb, pb, hb)
+    _, fb = draw(b, v, vertex, plane, n, turn, LESS, place(u), wide, vb, pb, hb)
     overlap(a, u, b, v, fa, fb, n[0], n[1], n[2], loop, corner, top, low, work)
     s = total[NORMAL], total[NORMAL + 1], total[NORMAL + 2]
     return total[VOLUME] > 0.0 and dot(s, s) > 0.0

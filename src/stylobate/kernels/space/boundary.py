@@ -2,22 +2,24 @@
 
 The stiffness k_n A of a joint sits evenly on the edge of the overlap of its two faces. Pieces of the upper face's edge press
 on the plane of the lower face, pieces of the lower one's edge on the plane of the upper face. Depth is linear along a
-straight piece, and d + g cos φ along an arc, so that force, moments and energy are elementary. Disc on disc it is the rim law.
+straight piece, and d + g cos φ along an arc, so that force, moments and energy are elementary. Disc on disc is the rim law.
 
 All in the frame of the lower face: origin in its middle, x and y along it, z out of it. Legend::
 
     n c            normal (up) and middle of the upper face
-    low up         corners of the lower and the upper face, counter-clockwise from above (none of a disc, of radius rl or ru)
+    v w            β times the velocity of that middle and the angular velocity of the upper face as seen from the lower one:
+                   depth is taken as depth plus β times its rate
+    low up         corners of the lower and the upper face, counter-clockwise from above; none of a disc, of radius rl or ru
     sums           of the pieces of the upper edge, then of those of the lower one: PRESS, integral of depth [m²];
-                   FIRST 3, of depth times place [m³]; SECOND, of depth times place squared [m⁴]; SQUARE, of depth squared [m³];
-                   LENGTH, that touches [m]; then AREA twice that of the overlap [m²], and EDGE, its length [m]
+                   FIRST 3, of depth times place [m³]; SECOND, of depth times place squared [m⁴]; SQUARE, of depth squared
+                   [m³]; LENGTH, that touches [m]; then AREA twice that of the overlap [m²], and EDGE, its length [m]
 """
 
 import math
 
 from ..dem3d.rim import overlap, press_askew
 from ..jit import kernel, long_law
-from .vectors import along, dot, minus, of
+from .vectors import along, cross, dot, minus, of
 
 #: Places in ``sums``, those of the lower edge behind those of the upper one.
 PRESS, FIRST, SECOND, SQUARE, LENGTH, LOWER, AREA, EDGE = 0, 1, 4, 5, 6, 7, 14, 15
@@ -88,13 +90,13 @@ def add_segment(sums, at, p, q, d0, d1):
 
 
 @kernel
-def add_arc(sums, at, c, e, t, radius, flat, depth, slope, x, y, psi, cos_psi, sin_psi):
+def add_arc(sums, at, c, e, t, radius, flat, depth, slope, side, x, y, psi, cos_psi, sin_psi):
     """Add an arc of half angle psi about the direction (x, y) along e and t, from the middle c of a disc.
 
-    The depth is ``depth`` in the middle and grows by ``slope`` to the rim along e; ``flat`` is the radius that is seen from
-    above.
+    The depth is ``depth`` in the middle and grows by ``slope`` to the rim along e, by ``side`` along t; ``flat`` is the
+    radius that is seen from above.
     """
-    length, n, along_e, along_t = press_askew(depth, slope, 0.0, x, y, psi, cos_psi, sin_psi)
+    length, n, along_e, along_t = press_askew(depth, slope, side, x, y, psi, cos_psi, sin_psi)
     sums[AREA] += 2.0 * flat * flat * psi  # what depends on the middle is added by the caller
     sums[EDGE] += 2.0 * flat * psi
     m = along(along((0.0, 0.0, 0.0), along_e, e), along_t, t)
@@ -102,7 +104,7 @@ def add_arc(sums, at, c, e, t, radius, flat, depth, slope, x, y, psi, cos_psi, s
     for k in range(3):
         sums[at + FIRST + k] += radius * (n * c[k] + radius * m[k])
     sums[at + SECOND] += radius * (n * dot(c, c) + 2.0 * radius * dot(c, m) + radius * radius * n)
-    sums[at + SQUARE] += radius * (depth * n + slope * along_e)
+    sums[at + SQUARE] += radius * (depth * n + slope * along_e + side * along_t)
     sums[at + LENGTH] += flat * length
 
 
@@ -149,7 +151,7 @@ def arcs_within(x, y, radius, corners, count, arcs):
 
 
 @kernel
-def add_circle(sums, at, c, e, t, radius, flat, depth, slope, corners, count, arcs):
+def add_circle(sums, at, c, e, t, radius, flat, depth, slope, side, corners, count, arcs):
     """Add the arcs of a disc that are over a convex polygon."""
     some = arcs_within(c[0], c[1], flat, corners, count, arcs)
     for i in range(some):
@@ -159,13 +161,19 @@ def add_circle(sums, at, c, e, t, radius, flat, depth, slope, corners, count, ar
             x, y = math.cos(mid), math.sin(mid)
             sums[AREA] += flat * (c[0] * (math.sin(b) - math.sin(a)) - c[1] * (math.cos(b) - math.cos(a)))
             add_arc(
-                sums, at, c, e, t, radius, flat, depth, slope,
+                sums, at, c, e, t, radius, flat, depth, slope, side,
                 x * t[1] - y * t[0], x * t[0] + y * t[1], psi, math.cos(psi), math.sin(psi),
             )  # fmt: skip
 
 
+@long_law
+def rise(p, c, v, w):
+    """β times the velocity of the upper body at p as seen from the lower one."""
+    return along(v, 1.0, cross(w, minus(p, c)))
+
+
 @kernel
-def boundary(n, c, low, many_low, rl, up, many_up, ru, arcs, sums):
+def boundary(n, c, v, w, low, many_low, rl, up, many_up, ru, arcs, sums):
     """Sums over the edge of the overlap of two faces, a disc where there are no corners; up: x, y, z of its corners."""
     for k in range(sums.shape[0]):
         sums[k] = 0.0
@@ -176,17 +184,20 @@ def boundary(n, c, low, many_low, rl, up, many_up, ru, arcs, sums):
     d = n[2] * hx, n[2] * hy, -sine  # steepest descent in the upper face
     ra = ru * n[2]
     nothing = 0.0, 0.0, 0.0
+    lift = dot(minus(v, cross(w, c)), n)
+    at_u, along_u, side_u = -c[2] - v[2], ru * (sine - cross(w, d)[2]), -ru * cross(w, t)[2]
+    at_l, along_l, side_l = -dot(c, n) - lift, rl * (sine - dot(cross(w, h), n)), -rl * dot(cross(w, t), n)
     if many_low == 0 and many_up == 0:
         s = math.sqrt(c[0] * c[0] + c[1] * c[1])
         x, y = (1.0, 0.0) if s < 1e-9 else ((c[0] * hx + c[1] * hy) / s, (c[1] * hx - c[0] * hy) / s)
         psi_u, cos_u, sin_u, psi_l, cos_l, sin_l, area, rim = overlap(ra, rl, s)
-        add_arc(sums, 0, c, d, t, ru, ra, -c[2], ru * sine, -x, -y, psi_u, cos_u, sin_u)
-        add_arc(sums, LOWER, nothing, h, t, rl, rl, -dot(c, n), rl * sine, x, y, psi_l, cos_l, sin_l)
+        add_arc(sums, 0, c, d, t, ru, ra, at_u, along_u, side_u, -x, -y, psi_u, cos_u, sin_u)
+        add_arc(sums, LOWER, nothing, h, t, rl, rl, at_l, along_l, side_l, x, y, psi_l, cos_l, sin_l)
         sums[AREA], sums[EDGE] = 2.0 * area, rim
         return
     # the edge of the upper face over the lower one
     if many_up == 0:
-        add_circle(sums, 0, c, d, t, ru, ra, -c[2], ru * sine, low, many_low, arcs)
+        add_circle(sums, 0, c, d, t, ru, ra, at_u, along_u, side_u, low, many_low, arcs)
     for k in range(many_up):
         p = of(up[k])
         q = of(up[k + 1 if k + 1 < many_up else 0])
@@ -195,10 +206,10 @@ def boundary(n, c, low, many_low, rl, up, many_up, ru, arcs, sums):
             way = minus(q, p)
             q = along(p, b, way)
             p = along(p, a, way)
-            add_segment(sums, 0, p, q, -p[2], -q[2])
+            add_segment(sums, 0, p, q, -p[2] - rise(p, c, v, w)[2], -q[2] - rise(q, c, v, w)[2])
     # the edge of the lower face under the upper one
     if many_low == 0:
-        add_circle(sums, LOWER, nothing, h, t, rl, rl, -dot(c, n), rl * sine, up, many_up, arcs)
+        add_circle(sums, LOWER, nothing, h, t, rl, rl, at_l, along_l, side_l, up, many_up, arcs)
     for k in range(many_low):
         m = k + 1 if k + 1 < many_low else 0
         p = low[k, 0], low[k, 1], 0.0
@@ -208,4 +219,6 @@ def boundary(n, c, low, many_low, rl, up, many_up, ru, arcs, sums):
             way = minus(q, p)
             q = along(p, b, way)
             p = along(p, a, way)
-            add_segment(sums, LOWER, p, q, dot(minus(p, c), n), dot(minus(q, c), n))
+            d0 = dot(minus(minus(p, c), rise(p, c, v, w)), n)
+            d1 = dot(minus(minus(q, c), rise(q, c, v, w)), n)
+            add_segment(sums, LOWER, p, q, d0, d1)

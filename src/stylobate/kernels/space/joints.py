@@ -24,28 +24,31 @@ def seen(v, i, j, k):
 
 
 @kernel
-def face_pressure(e, u, v, edge, up, arcs, sums):
-    """Pressure of a joint between its faces, of the lower body u and the upper one v.
+def face_pressure(e, u, v, beta, edge, up, arcs, sums):
+    """Pressure of a joint between its faces, of the lower body u and the upper one v; its depth plus β times its rate.
 
-    Returns its force on the upper body and its moment about the middle of the lower face [N], [N m], the same middle from the
-    lower centroid [m], force, middle from there and mean square distance from it, elastic energy, area that touches,
+    Returns its force on the upper body and its moment about the middle of the lower face [N], [N m], the same middle from
+    the lower centroid [m], force, middle from there and mean square distance from it, elastic energy, area that touches,
     area of the overlap, and cosine of the tilt.
     """
     i, j = outward(u, of(e.il)), outward(u, of(e.jl))
     z = cross(i, j)
     p, q = outward(v, of(e.iu)), outward(v, of(e.ju))
     n = cross(p, q)
-    ml = outward(u, of(e.ml))
-    c = minus(along(place(v), 1.0, outward(v, of(e.mu))), along(place(u), 1.0, ml))
-    at = seen(c, i, j, z)
+    ml, mu = outward(u, of(e.ml)), outward(v, of(e.mu))
+    from_u = minus(along(place(v), 1.0, mu), place(u))
+    at = seen(minus(from_u, ml), i, j, z)
+    passing = scaled(beta, minus(velocity(v, mu), velocity(u, from_u)))
+    turning = scaled(beta, spin_over(u, v))
     p, q = seen(p, i, j, z), seen(q, i, j, z)
     for k in range(e.many_u):
         x, y = edge[e.first_u + k, 0], edge[e.first_u + k, 1]
         put(up[k], along(along(at, x, p), y, q))
     low = edge[e.first_l : e.first_l + max(e.many_l, 1)]
-    boundary(seen(n, i, j, z), at, low, e.many_l, e.rl, up, e.many_u, e.ru, arcs, sums)
-    area = 0.5 * sums[AREA]
-    k = e.kn * max(area, 0.0) / max(sums[EDGE], NOTHING)
+    passing, turning = seen(passing, i, j, z), seen(turning, i, j, z)
+    boundary(seen(n, i, j, z), at, passing, turning, low, e.many_l, e.rl, up, e.many_u, e.ru, arcs, sums)
+    area = max(0.5 * sums[AREA], 0.0)
+    k = e.kn * area / max(sums[EDGE], NOTHING)
     upper, lower = k * sums[PRESS], k * sums[LOWER + PRESS]
     first = scaled(k, (sums[FIRST], sums[FIRST + 1], sums[FIRST + 2]))
     other = scaled(k, (sums[LOWER + FIRST], sums[LOWER + FIRST + 1], sums[LOWER + FIRST + 2]))
@@ -55,53 +58,76 @@ def face_pressure(e, u, v, edge, up, arcs, sums):
     middle = scaled(1.0 / max(pressing, NOTHING), along(first, 1.0, other))
     spread = k * (sums[SECOND] + sums[LOWER + SECOND]) / max(pressing, NOTHING) - dot(middle, middle)
     stored = 0.5 * k * (sums[SQUARE] + sums[LOWER + SQUARE])
-    closed = max(area, 0.0) / max(sums[EDGE], NOTHING) * (sums[LENGTH] + sums[LOWER + LENGTH])
+    closed = area / max(sums[EDGE], NOTHING) * (sums[LENGTH] + sums[LOWER + LENGTH])
     force = along(scaled(upper, z), lower, n)
     moment = along(cross(first, z), 1.0, cross(other, n))
     return force, moment, ml, pressing, middle, max(spread, 0.0), stored, closed, area, dot(z, n)
 
 
+@long_law
+def spin_over(u, v):
+    """Angular velocity of a body as seen from another."""
+    return v.wx[0] - u.wx[0], v.wy[0] - u.wy[0], v.wz[0] - u.wz[0]
+
+
+@kernel
+def part(e):
+    """Nothing is left of the contact."""
+    relax(e)
+    put(e.gf, (0.0, 0.0, 0.0))
+    put(e.gm, (0.0, 0.0, 0.0))
+
+
 @kernel
 def on_joint(e, u, v, edge, up, arcs, sums, now):
     """Force of a joint at t_n on its two bodies, by its weight; brings its memory from t_{n−1} to t_n."""
-    force, moment, ml, pressing, middle, spread, stored, closed, area, cosine = face_pressure(
-        e, u, v, edge, up, arcs, sums
-    )
+    pressure = face_pressure(e, u, v, 0.0, edge, up, arcs, sums)
+    force, moment, ml, pressing, middle, spread, stored, closed, area, cosine = pressure
     e.over = area
     e.weight = handover(cosine, area, e)
     if e.weight == 0.0:
         e.live = 0
-        relax(e)
+        part(e)
         return
+    share = e.weight
+    e.en = share * stored
+    if now.beta > 0.0:
+        elastic, turning = force, moment
+        pressure = face_pressure(e, u, v, now.beta, edge, up, arcs, sums)
+        force, moment, _, pressing, middle, spread, _, closed, _, _ = pressure
+        drag, twist_ = scaled(share, minus(force, elastic)), scaled(share, minus(moment, turning))
+        rv = minus(along(place(u), 1.0, ml), place(v))
+        passing = minus(velocity(v, rv), velocity(u, ml))
+        power = dot(along(drag, 1.0, of(e.gf)), passing) + dot(along(twist_, 1.0, of(e.gm)), spin_over(u, v))
+        now.visc -= 0.5 * now.last * power
+        put(e.gf, drag)
+        put(e.gm, twist_)
     if pressing == 0.0:
+        stored = e.en
         relax(e)
+        e.en = stored
         return
     n = scaled(1.0 / length(force), force)
     at = along(ml, 1.0, middle)
-    ru = at
     rv = minus(along(place(u), 1.0, at), place(v))
-    w = minus(velocity(v, rv), velocity(u, ru))
+    w = minus(velocity(v, rv), velocity(u, at))
     vn = dot(w, n)
     spin_u = dot((u.wx[0], u.wy[0], u.wz[0]), n)
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
-    share = e.weight
     pressing *= share
     kf = share * e.ks * closed
-    dn = normal_dashpot(pressing, share * now.beta * e.kn * closed, vn, restitution_share(now.dull, now.calm, vn))
+    dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
     f, twist = rub(
         e, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u,
         kf, TORSION * kf * spread, e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread),
         scaled(dn, n), w, now,
     )  # fmt: skip
-    e.en = share * stored
     if now.dull > 0.0:
-        now.rate = max(now.rate, share * e.kn * closed * (mobility(u, ru, n) + mobility(v, rv, n)))
-    # pressure, at the middle of the lower face, and friction at the middle of pressure
-    force, moment = scaled(share, force), scaled(share, moment)
-    rv = minus(along(place(u), 1.0, ml), place(v))
-    add(v, rv, force, moment)
-    add(u, ml, scaled(-1.0, force), scaled(-1.0, moment))
+        now.rate = max(now.rate, share * e.kn * closed * (mobility(u, at, n) + mobility(v, rv, n)))
+    # friction at the middle of pressure, pressure at the middle of the lower face
     m = scaled(twist, n)
-    rv = minus(along(place(u), 1.0, at), place(v))
     add(v, rv, f, m)
     add(u, at, scaled(-1.0, f), scaled(-1.0, m))
+    force, moment = scaled(share, force), scaled(share, moment)
+    add(v, minus(along(place(u), 1.0, ml), place(v)), force, moment)
+    add(u, ml, scaled(-1.0, force), scaled(-1.0, moment))

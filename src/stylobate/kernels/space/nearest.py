@@ -90,8 +90,8 @@ def on_simplex(w, count):
 def parting(s, u, t, v, size, vertex, nx, ny, nz, w):
     """By how much two shapes are surely apart [m], 0 where they meet, and the unit direction from the first to the second.
 
-    ``n`` is a unit vector with which the search begins, ``w`` a workspace of four rows, ``size`` scales the second shape about its body's
-    centroid. Where they meet, ``n``.
+    ``n`` is a unit vector with which the search begins, ``w`` a workspace of four rows, ``size`` scales the second shape
+    about its body's centroid. Where they meet, ``n``.
     """
     at = best = nx, ny, nz
     between = minus(place(v), place(u))

@@ -26,17 +26,18 @@ Legend::
     joint[j]   a b            shapes of the lower and the upper face, a body each
                ml il jl       middle and two directions of the lower face in the axes of its body, il × jl out of it [m], [-]
                mu iu ju       the same of the upper face, iu × ju into its body
-               rl ru          radii [m] of round faces, and of others from ``first_l`` and ``first_u`` on ``many_l`` and ``many_u``
-                              corners in ``edge`` [m], counter-clockwise, the lower face smaller by ``LESS``
+               rl ru          radii of round faces [m]; of others from ``first_l`` on ``many_l`` corners (and ``_u``)
+                              in ``edge`` [m], counter-clockwise, the lower face smaller by ``LESS``
                kn ks tan co   stiffness and cohesion per area [N/m³], [Pa], tan φ
                width          area of the smaller face [m²]
                from_c to_c    cosines of the relative tilts from which the bed acts too, and alone
                weight live    1 joint, 0 bed, between them both; 0: the faces have parted for good
+               gf gm          force and moment of damping on the upper body about the middle of the lower face [N], [N m]
                f t kf kt d dt en  what is remembered, as of a pair;  over  area of the overlap [m²]
     law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
     now        dt last        step, and the last part of one that was taken [s]
-               eta calm       restitution of the bed: F is larger by eta while it closes, smaller while it opens; below the speed
-                              ``calm`` [m/s] in proportion to it;  dull  the same of the joints
+               eta calm       restitution of the bed: F is larger by eta while it closes, smaller while it opens; below the
+                              speed ``calm`` [m/s] in proportion to it;  dull  the same of the joints
                beta           stiffness-proportional damping [s];  local  Cundall's local damping, for settling [-]
                g[3]           gravity, as an acceleration of the base: up is positive [m/s²]
                skin           of the bounding spheres [m]
@@ -84,7 +85,7 @@ def types() -> dict[str, np.dtype]:
         "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d", 3) + fields("t dt kf kt fn en area")),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
-            + fields("ml il jl mu iu ju f d", 3)
+            + fields("ml il jl mu iu ju f d gf gm", 3)
             + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over")
         ),
         "now": np.dtype(

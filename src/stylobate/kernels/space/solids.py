@@ -59,7 +59,7 @@ def reach(s, u, vertex, size, nx, ny, nz):
 
 @kernel
 def draw(s, u, vertex, plane, n, turn, size, other, wide, points, planes, heights):
-    """Vertices and planes of a shape in space, for a drum a prism with a facet in the direction ``turn``; returns their numbers.
+    """Vertices and planes of a shape in space, a prism with a facet towards ``turn`` for a drum; returns their numbers.
 
     ``size`` scales the shape about its body's centroid; ``heights`` are those of its vertices along n. Of a half-space, a
     square so wide [m] below or above the point ``other``.

@@ -69,7 +69,7 @@ def advance(state, chunks):
     for _ in range(chunks):
         base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
         for k in range(CHUNK):
-            parts = min(max(int(math.ceil(now.dt * math.sqrt(now.rate) / PART)), 1), MOST_PARTS)
+            parts = min(max(math.ceil(now.dt * math.sqrt(now.rate) / PART), 1), MOST_PARTS)
             g = ground[k].a
             h = ground[k + 1].a
             each = 1.0 / parts
@@ -114,9 +114,9 @@ def held_by(q):
 
 @strict
 def ledger(state, a, out):
-    """Ledger at t_n, after the forces there: input, kinetic, gravitational (absolute), elastic (absolute), friction, viscous [J].
+    """Ledger at t_n, after the forces there: input, kinetic, gravitational, elastic, friction, viscous [J].
 
-    ``a`` is the acceleration of the base at t_n.
+    The middle three are absolute. ``a`` is the acceleration of the base at t_n.
     """
     body, _, _, _, _, _, pair, _, joint, _, _, now_, _, _, _, _, _ = state
     now = now_[0]

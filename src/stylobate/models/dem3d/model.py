@@ -138,7 +138,6 @@ class DistinctElement3D(SteppedDrums):
     axes: ClassVar[str] = "xyz"
     takes_start: ClassVar[bool] = True
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid, Glued)
-    follows_to_rest: ClassVar[bool] = True
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
     takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
@@ -181,8 +180,6 @@ class DistinctElement3D(SteppedDrums):
         """One run with histories, of an assembly down to the ground; says what damping a restitution has led to."""
         if column.space_joints is not None:
             return self.run_in_space(column, motion, options)
-        if options.until_rest:
-            raise InputError(f"dem3d follows assemblies in space until rest, and {column.name!r} is {column.described}.")
         response = super().run(column, motion, options)
         if self.restitution is None:
             return response
@@ -242,6 +239,10 @@ class DistinctElement3D(SteppedDrums):
         """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
         if column.space_joints is None:
             super().check_length(column, motion, options)
+
+    def follows(self, column: Any) -> bool:
+        """Whether it can go on until everything lies still: of assemblies in space."""
+        return column.space_joints is not None
 
     def carried(self, column: Any) -> int:
         """How many are taken along: what may come loose is alone in its lane."""

@@ -88,9 +88,9 @@ def run_in_space(
 ) -> Response:
     """One run of an assembly in space to the end of the motion and its tail, or until rest.
 
-    With neither ``until_end`` nor ``until_rest`` it ends some seconds after the last body has fallen. The contacts are closed
-    by the weight they carry; an assembly that is not in equilibrium begins as drawn, with a warning. Without histories
-    (``recorded``) the ledger is drawn up at the start and at the end only.
+    With neither ``until_end`` nor ``until_rest`` it ends some seconds after the last body has fallen. The contacts are
+    closed by the weight they carry; an assembly that is not in equilibrium begins as drawn, with a warning. Without
+    histories (``recorded``) the ledger is drawn up at the start and at the end only.
 
     Raises
     ------

@@ -174,7 +174,7 @@ class Loose:
         x, y = self._face_corners(e, side).T
         return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
-    def _largest_face(self, body: int) -> float:
+    def _largest_face(self, body: Any) -> float:
         """Area of the largest face of a body, of a drum the larger of its face and half of its side seen from there [m²]."""
         best = 0.0
         for s in self.packed.shape[self.packed.shape["body"] == body]:
@@ -185,15 +185,17 @@ class Loose:
                 vertices = self.packed.vertex[s["first"] : s["first"] + s["count"]]
                 for face in self.packed.loop[s["face"] : s["face"] + s["faces"]]:
                     around = vertices[self.packed.corner[face["first"] : face["first"] + face["count"]]]
-                    best = max(best, 0.5 * float(np.linalg.norm(np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0))))
+                    best = max(
+                        best, 0.5 * float(np.linalg.norm(np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0)))
+                    )
         return best
 
     # -- looks at the state, which change nothing ------------------------------------------------------------------
 
-    def _axes(self, body: int) -> np.ndarray:
+    def _axes(self, body: Any) -> np.ndarray:
         return np.array([[self.body[axis + c][body, 0] for axis in "ijk"] for c in "xyz"])
 
-    def place(self, body: int) -> np.ndarray:
+    def place(self, body: Any) -> np.ndarray:
         """Centroid of a body [m], shape (3,)."""
         return np.array([self.body[c][body, 0] for c in "xyz"])
 

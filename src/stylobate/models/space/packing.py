@@ -1,4 +1,4 @@
-"""An assembly in space as the engine wants it: its bodies as plain numbers, the laws between them, the joints of their faces."""
+"""An assembly in space as the engine wants it: bodies as plain numbers, laws between them, joints of their faces."""
 
 from __future__ import annotations
 

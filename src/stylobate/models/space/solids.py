@@ -84,8 +84,8 @@ class Face(NamedTuple):
 
 
 class FacesJoined(NamedTuple):
-    """A joint of two faces: numbers of their parts over all bodies, the faces, k_n, k_s [N/m³], tan φ, cohesion [Pa], and the
-    relative tilt at which they have parted [rad]."""
+    """A joint of two faces: numbers of their parts over all bodies, the faces, k_n, k_s [N/m³], tan φ, cohesion [Pa], and
+    the relative tilt at which they have parted [rad]."""
 
     lower: int
     upper: int
@@ -208,7 +208,7 @@ class _Rows:
             self.planes += [np.zeros(4)] * (n + 2)
         return self.faces_of_drum
 
-    def arrays(self, kinds: dict[str, np.dtype]) -> tuple[np.ndarray, ...]:
+    def arrays(self, kinds: dict[str, np.dtype]) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Shapes, vertices, planes, loops, corners."""
         shape, loop = np.zeros(len(self.shapes), kinds["shape"]), np.zeros(len(self.loops), kinds["loop"])
         for row, numbers in zip(shape, self.shapes, strict=True):
