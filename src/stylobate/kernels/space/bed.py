@@ -16,7 +16,7 @@ from .records import DRUM, GROUND, LESS
 from .solids import draw, reach
 from .vectors import across, along, cross, dot, length, minus, of, outward, place, put, scaled, velocity
 
-#: (Mean distance from the middle)² over the mean of its square: of a line, and of a disc.  # Eq. (A5)
+#: (Mean distance from the middle)² over the mean of its square: of a line, and of a disc.  # Eq. (Q3)
 OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
 
 #: A drum is touched on its side where the normal is across its axis, to this cosine.
@@ -239,7 +239,7 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
     kn *= share
     ks *= share
-    # pressure  # Eqs. (A4), (A2)
+    # pressure  # Eq. (Q2)
     fn = kn * volume
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.en -= 0.5 * (fn + p.fn) * vn * now.last

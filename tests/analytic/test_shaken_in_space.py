@@ -1,0 +1,74 @@
+"""Assemblies in space under motions, from the structure to the response: a portal under pulses, and what is refused."""
+
+import math
+
+import numpy as np
+import pytest
+
+import stylobate as st
+
+TAN_PHI = math.degrees(math.atan(0.7))
+
+
+def portal(kn=5e10, phi=TAN_PHI):
+    stones = [
+        st.Stone.box((0.8, 0.8, 4.0), (-1.2, 0.0, 0.0), 2700.0, name="left"),
+        st.Stone.box((0.8, 0.8, 4.0), (1.2, 0.0, 0.0), 2700.0, name="right"),
+        st.Stone.box((3.2, 0.8, 0.6), (0.0, 0.0, 4.0), 2700.0, name="beam"),
+    ]
+    return st.SpatialAssembly(tuple(stones), st.Joint(kn, 0.5 * kn, phi), name="portal")
+
+
+def pulse(share, duration, cycles, azimuth=0.0):
+    """Half a sine, or a whole one, in shares of gravity."""
+    t = np.arange(0.0, duration + 1e-9, 0.0025)
+    a = share * 9.81 * np.sin(2.0 * np.pi * cycles * t / duration)
+    if azimuth:
+        return st.Motion(0.0025, a * math.cos(azimuth), lateral=a * math.sin(azimuth))
+    return st.Motion(0.0025, a)
+
+
+def test_a_portal_at_rest_stays():
+    response = st.simulate(portal(), st.Motion(0.01, np.zeros(21)), st.DistinctElement3D())
+    assert response.measures.outcome == st.Outcome.AT_REST
+    assert response.measures.blocks.in_equilibrium
+    assert response.measures.blocks.peak_displacement < 1e-7
+    assert response.histories.joint_slip.shape == (len(response.histories.time), 4, 2)
+
+
+@pytest.mark.parametrize(
+    ("share", "duration", "cycles", "peak"), [(0.35, 0.8, 0.5, 0.08719524), (0.35, 0.8, 1.0, 0.016169558)]
+)
+def test_first_peak_of_a_portal_under_a_pulse(share, duration, cycles, peak):
+    """The equivalent block of Makris and Vassiliou (2013): 2 %."""
+    response = st.simulate(
+        portal(5e11), pulse(share, duration, cycles), st.DistinctElement3D(), tail=0.6, until_end=True
+    )
+    lean = np.abs(response.histories.poses.axis[:, 1, 0])
+    first = np.argmax(lean[1:-1] > np.maximum(np.maximum.accumulate(lean)[:-2] - 1e-12, lean[2:] + 1e-9)) + 1
+    assert response.measures.blocks.fell_at == ()
+    assert math.asin(lean[first]) == pytest.approx(peak, rel=0.02)
+
+
+def test_a_portal_falls_and_comes_to_rest():
+    """Every body tells when it fell; the ledger accounts for what was set free."""
+    model = st.DistinctElement3D(stiffness_damping=1e-4)
+    response = st.simulate(portal(5e9), pulse(0.6, 0.6, 0.5), model, until_rest=True)
+    measures = response.measures
+    assert measures.outcome == st.Outcome.COLLAPSED
+    assert {name for name, _ in measures.blocks.fell_at} == {"left", "right", "beam"}
+    assert measures.blocks.at_rest
+    assert measures.energy_imbalance < 0.01
+    assert response.poses.position[-1, 1:, 2].min() > 0.25
+
+
+def test_what_is_not_known_is_refused():
+    still = st.Motion(0.01, np.zeros(11))
+    with pytest.raises(st.InputError, match=r"law is 'bed', which assemblies in space such as 'portal' do not know"):
+        st.simulate(portal(), still, st.DistinctElement3D(law="bed"))
+    with pytest.raises(
+        st.InputError, match=r"a start from a pose is for columns, and 'portal' is an assembly in space"
+    ):
+        st.simulate(portal(), still, st.DistinctElement3D(), start=st.Start(tilt=0.01))
+    with pytest.raises(st.InputError, match=r"time_step is 0.5 s; the largest stable step for 'portal' is"):
+        st.simulate(portal(), still, st.DistinctElement3D(time_step=0.5))
