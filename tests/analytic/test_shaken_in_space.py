@@ -28,8 +28,13 @@ def pulse(share, duration, cycles, azimuth=0.0):
     return st.Motion(0.0025, a)
 
 
-def test_a_portal_at_rest_stays():
+def test_a_portal_at_rest_stays(tmp_path):
+    """And its response is read from its file again."""
     response = st.simulate(portal(), st.Motion(0.01, np.zeros(21)), st.DistinctElement3D())
+    response.save(tmp_path / "response.nc")
+    again = st.Response.load(tmp_path / "response.nc")
+    assert np.array_equal(again.poses.position, response.poses.position)
+    assert again.measures.blocks == response.measures.blocks
     assert response.measures.outcome == st.Outcome.AT_REST
     assert response.measures.blocks.in_equilibrium
     assert response.measures.blocks.peak_displacement < 1e-7

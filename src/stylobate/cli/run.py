@@ -274,7 +274,7 @@ def write(response: Response, motion: Motion, folder: Path, figures: bool = True
     pictures = {"histories": plots.draw_histories(response), "filmstrip": plots.draw_filmstrip(response)}
     if response.histories.top is not None:
         pictures["joints"] = plots.draw_joints(response)
-    if response.dims == "xyz":
+    if response.dims == "xyz" and response.histories.top is not None:
         drawn = plots.draw_orbit, plots.draw_uplift, plots.draw_residuals
         pictures |= {name: draw(response) for name, draw in zip(SPACE_PICTURES, drawn, strict=True)}
     pictures |= {"energy": plots.draw_energy(response), "motion": plots.draw_motion(motion)}
@@ -346,7 +346,8 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
     """Verdict on an assembly, what it is, and its measures."""
     from . import console
 
-    assembly, m, blocks = response.assembly, response.measures, response.measures.blocks
+    structure: Any = response.structure
+    m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
     sentence = response.describe()
     if response.at_rest:
@@ -356,7 +357,7 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
         waited = response.provenance.get("until_rest", False)
         remedy = "damp it with --set mass_damping=0.5" if waited else "go on with --until-rest"
         sentence += f" Not everything lies still{change}; {remedy}."
-    fixed = sum(block.fixed for block in assembly.blocks)
+    fixed = sum(block.fixed for block in structure.bodies[-structure.n :])
     supports = f", {fixed} of them fixed" if fixed else ""
     until, whose = (", until the first block fell", ", at the end") if response.collapsed else ("", "")
     facts = {
@@ -367,6 +368,7 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
         "residual joint slip" + whose: console.length(m.residual_joint_slip),
         "energy imbalance": f"{response.energy_imbalance:.1e} of the energy at stake",
     }
-    joints = f"{len(assembly.joints)} {'joint' if len(assembly.joints) == 1 else 'joints'}"
-    what = f"{assembly.name}, {len(assembly.blocks)} blocks{supports}, {joints}"
+    joined = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    joints = f"{len(joined)} {'joint' if len(joined) == 1 else 'joints'}"
+    what = f"{structure.name}, {structure.n} blocks{supports}, {joints}"
     return sentence, {"assembly": what}, facts

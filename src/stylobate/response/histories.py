@@ -122,13 +122,13 @@ class Histories:
         joint_opening: np.ndarray,
         joint_slip: np.ndarray,
         joint_twist: np.ndarray,
-        base_displacement: np.ndarray,
-        top_displacement: np.ndarray,
+        base_displacement: np.ndarray | None,
+        top_displacement: np.ndarray | None,
         ground_acceleration: np.ndarray,
         ground_displacement: np.ndarray,
         energy: dict[str, np.ndarray],
     ) -> Histories:
-        """A column or a single body in space.
+        """A column, a single body or an assembly in space.
 
         Parameters
         ----------
@@ -142,8 +142,8 @@ class Histories:
             [m], [rad], shape (T, n)
         joint_slip : array
             [m], shape (T, n, 2)
-        base_displacement, top_displacement : array
-            Along x and y, from the start [m], shape (T, 2).
+        base_displacement, top_displacement : array or None
+            Along x and y, from the start [m], shape (T, 2); None of an assembly.
         ground_acceleration, ground_displacement : array
             [m/s²], [m], shape (T, 3)
         energy : dict of str to array

@@ -230,7 +230,7 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
     joint = {"joint_opening": get("joint_opening"), "joint_slip": get("joint_slip")}
     if "body_orientation" in data:
         names = ("body_position", "body_orientation", "joint_twist")
-        ends = ("base_displacement", "top_displacement", "ground_acceleration", "ground_displacement")
+        ends = {name: get(name) if name in data else None for name in ("base_displacement", "top_displacement")}
         position, orientation, twist = map(get, names)
         _check(position, (steps, bodies, 3))
         _check(orientation, (steps, bodies, 4))
@@ -240,7 +240,10 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
             orientation,
             **joint,
             joint_twist=twist,
-            **{name: get(name) for name in ends},
+            base_displacement=ends["base_displacement"],
+            top_displacement=ends["top_displacement"],
+            ground_acceleration=get("ground_acceleration"),
+            ground_displacement=get("ground_displacement"),
             energy=energy,
         )
         return dataclasses.replace(found, links=links)

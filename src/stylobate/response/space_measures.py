@@ -79,9 +79,8 @@ def recorded_in_space(
         collapse=Collapse(first, None, FELL, azimuth) if collapsed else None,
         blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
     )
-    nowhere = np.full((len(time), 2), math.nan)
     histories = Histories.in_space(
-        time, position, quaternions(axes), opening, slip, twist, nowhere, nowhere, ground_acceleration,
+        time, position, quaternions(axes), opening, slip, twist, None, None, ground_acceleration,
         ground_displacement, energy,
     )  # fmt: skip
     return Recorded(structure, histories, measures, model, provenance, followed=True)
