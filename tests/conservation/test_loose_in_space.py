@@ -32,7 +32,7 @@ def test_a_free_body_of_three_moments_keeps_its_momenta_and_energy():
 
 @pytest.mark.parametrize("kinds", ["bb", "bc", "cc"])
 def test_collisions_keep_both_momenta_and_nearly_the_energy(kinds):
-    """Elastic ones, with friction, in any position: no pair is known to gain or lose more than a tenth."""
+    """Elastic ones, with friction, in any position: none of these gains or loses more than a tenth."""
     rng = np.random.default_rng(3)
     missing = []
     for _ in range(8):
