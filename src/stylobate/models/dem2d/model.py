@@ -25,10 +25,9 @@ from ..drums.links import link_stiffness, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
 from ..plane.assemblies import AssemblyNumbers, expected_step, measures_of_assemblies, run_assembly
-from ..plane.block import Law
 from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
-from ..plane.laws import point_law
+from ..plane.laws import Types, point_law
 from ..plane.loose import Contacts
 from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
@@ -122,13 +121,13 @@ class DistinctElement2D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def law(self, linked: bool) -> Law:
-        """The law of the joints, for columns with links or without."""
+    def record_types(self, linked: bool) -> Types:
+        """Types of the records by the law of the joints, for columns with links or without."""
         return point_law(self.points, self.damped, LANES, linked)
 
     def block_for(self, kind: Topology, options: RunOptions) -> ColumnLanes:
         """A block of lanes for columns of a kind."""
-        return ColumnLanes(self.law(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
+        return ColumnLanes(self.record_types(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
 
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it, settled if asked for."""
@@ -220,7 +219,7 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
         state, shear = _settled(column, model)
         drums |= state
     joint = joint_fields(column, kn, ks) | {"fs": shear}
-    types = point_law(model.points, model.damped, 1, bool(column.links)).types
+    types = point_law(model.points, model.damped, 1, bool(column.links))
     damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
     fields = drums, joint, lane_fields(column, damp, model.points)
     return pack_column(column, types, fields, model.step_for(column), point_toes(column, kn, float(share[-1])))

@@ -101,7 +101,7 @@ class _ColumnRun:
         for name in OF_BODY:
             here.body[name][:, 0] = there.body[name][:, 0]
         for name in there.joint.dtype.names or ():
-            if name not in ("dn", "ds") or there.joint[name].shape[1] == here.joint[name].shape[1]:
+            if there.joint[name].shape[:-1] == here.joint[name].shape[:-1]:
                 here.joint[name][..., 0] = there.joint[name][..., 0]
         for name in ("work", "shear", "visc", "g", "gx", "xi", "sh"):
             here.lane[name][..., 0] = there.lane[name][..., 0]

@@ -107,8 +107,8 @@ class Loose:
         self.kernel, self.ties, self.structure, self.motion = kernel, ties, structure, motion
         bodies, topology = structure.bodies, Topology.of(structure)
         n = len(bodies)
-        law = point_law(contacts.points, True, 1, bool(topology.links))
-        self.records = records = Records(law, topology, spare=n * (n - 1) // 2)
+        types = point_law(contacts.points, True, 1, bool(topology.links), turned=True)
+        self.records = records = Records(types, topology, spare=n * (n - 1) // 2)
         now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
         lane = lane_fields(
             structure, damping_rows(True, contacts.stiffness_damping, contacts.mass_damping), contacts.points
@@ -116,7 +116,7 @@ class Loose:
         records.fill(
             0,
             body=body_fields(structure),
-            joint=joint_fields(structure, *joint_stiffnesses(structure, contacts.block_modulus)),
+            joint=joint_fields(structure, *joint_stiffnesses(structure, contacts.block_modulus), turned=True),
             lane=lane,
         )
         corner = fill_shapes(shape, structure)
@@ -208,7 +208,7 @@ class Loose:
             if self.safe > 0:
                 self.records.link["dt"] = self.dt
                 self.records.forget_pairs()  # none of them touches, but their last loads are kept
-                self.records.law.advance(self.records.state, piece)
+                self.records.kernel.advance(self.records.state, piece)
                 self.safe -= piece
             else:
                 self.records.bond["near"] = 1
