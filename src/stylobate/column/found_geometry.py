@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,13 +13,11 @@ from ..constants import DEGREE
 from ..errors import InputError
 from .as_found import FoundDrum
 from .drum import Drum
+from .drum_stack import DrumStack
 from .found_in_space import inside_overlap, space_geometry, space_load
 from .links.loads import pull_on_part
 from .shapes import CHIP_SLOPE
 from .structure import Standing, Structure
-
-if TYPE_CHECKING:
-    from .column import Column
 
 
 class Geometry(NamedTuple):
@@ -45,12 +43,12 @@ class Geometry(NamedTuple):
         return self.origin[joint] + place * np.array([math.cos(self.lean[joint]), math.sin(self.lean[joint])])
 
 
-def geometry(column: Column) -> Geometry:
+def geometry(column: DrumStack) -> Geometry:
     """Where a column's drums and contacts are.
 
     Parameters
     ----------
-    column : Column
+    column : DrumStack
     """
     n, found = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
     offset = np.array([one.offset for one in found])
@@ -89,7 +87,7 @@ class JointLoad(NamedTuple):
     place: float
 
 
-def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
+def joint_load(column: DrumStack, at: Geometry, joint: int) -> JointLoad:
     """Load of a joint under the weight of what stands on it."""
     mass = column.masses[joint:]
     weight = float(mass.sum()) * gravity_vector(column)
@@ -104,7 +102,7 @@ def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
     return JointLoad(pressing, float(weight @ along), float(arm @ along + (arm @ normal) * (weight @ along) / pressing))
 
 
-def _pulled_load(column: Column, at: Geometry, joint: int, weight: np.ndarray, along: np.ndarray) -> JointLoad:
+def _pulled_load(column: DrumStack, at: Geometry, joint: int, weight: np.ndarray, along: np.ndarray) -> JointLoad:
     """As :func:`joint_load`, with the pull of pretensioned links."""
     angle = at.lean + at.tilt
     c, s, none, one = np.cos(angle), np.sin(angle), np.zeros(column.n), np.ones(column.n)
@@ -121,7 +119,7 @@ def _pulled_load(column: Column, at: Geometry, joint: int, weight: np.ndarray, a
     return JointLoad(pressing, float(total @ along), -float(turning) / pressing)
 
 
-def uplift_accelerations(column: Column) -> np.ndarray:
+def uplift_accelerations(column: DrumStack) -> np.ndarray:
     """Static horizontal accelerations of the ground that open each joint of the rigid stack above it [m/s²].
 
     Returns
@@ -151,7 +149,7 @@ def uplift_accelerations(column: Column) -> np.ndarray:
     return out
 
 
-def check_as_found(column: Column) -> None:
+def check_as_found(column: DrumStack) -> None:
     """Refuse what cannot stand: the weight above each joint must pass through its contact, and not slide on it.
 
     Pretensioned links pull with it.
@@ -189,7 +187,7 @@ def check_as_found(column: Column) -> None:
         _check_joint(column, j, load.normal, abs(load.shear), beyond)
 
 
-def _check_in_space(column: Column) -> None:
+def _check_in_space(column: DrumStack) -> None:
     at = space_geometry(column)
     for j, drum in enumerate(column.drums):
         left, right, front, back = column.as_found.of(j + 1).chips
@@ -200,7 +198,7 @@ def _check_in_space(column: Column) -> None:
         _check_joint(column, j, load.normal, float(np.hypot(*load.shear)), -inside)
 
 
-def _check_joint(column: Column, j: int, normal: float, shear: float, beyond: float) -> None:
+def _check_joint(column: DrumStack, j: int, normal: float, shear: float, beyond: float) -> None:
     """Refuse a joint that slides under its load [N], or that its load passes beyond its contact [m]."""
     name, law = repr(column.name), column.joint_laws[j]
     friction = column.friction[j] * normal + law.cohesion * column.joint_areas[j]

@@ -126,6 +126,22 @@ class Stack:
         return np.cumsum(self.masses[::-1])[::-1] * self.gravity
 
     @cached_property
+    def parts_above(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mass of the part above each joint [kg], and height of its centroid over that joint [m], each of shape (n,)."""
+        mass, height = np.empty(self.n), np.empty(self.n)
+        for j, level in enumerate(self.joint_heights):
+            each = self.masses[j:]
+            mass[j] = each.sum()
+            height[j] = each @ (self.centroid_heights[j:] - level) / mass[j]
+        return mass, height
+
+    @cached_property
+    def lowest_barrier(self) -> float:
+        """Smallest energy that overturns the part above some joint of the upright column as one body [J]."""
+        parts = zip(*(one.tolist() for one in (*self.parts_above, 0.5 * self.joint_widths)), strict=True)
+        return min(self.gravity * mass * (math.hypot(half, height) - height) for mass, height, half in parts)
+
+    @cached_property
     def joint_closures(self) -> np.ndarray:
         """By how much each joint closes under the weight that it carries [m], shape (n,)."""
         return self.joint_weights / (np.array([joint.normal_stiffness for joint in self.joints]) * self.joint_areas)

@@ -104,6 +104,12 @@ class PlacedLink(Numbers):
         return self.lower <= joint < self.upper
 
 
+def stands_at(place: tuple[float, float], angle: float, arm: Sequence[float] | np.ndarray) -> Point:
+    """Where a point is that is so far from the place of a body, in axes that are inclined by an angle [m], [rad]."""
+    (x, y, z), c, s = (float(one) for one in arm), math.cos(angle), math.sin(angle)
+    return place[0] + (c * x - s * z), y, place[1] + (s * x + c * z)
+
+
 class Stroke(NamedTuple):
     """A line that stands for a link: of either end the body, its place in that body's axes, and the place as drawn [m]."""
 

@@ -97,7 +97,7 @@ class DistinctElement2D(SteppedDrums):
     takes_as_found: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad", "clamp"})
+    takes_links: ClassVar[frozenset[str]] = SteppedDrums.takes_links | {"clamp"}
 
     points: int = 2
     block_modulus: float | None = None

@@ -19,9 +19,9 @@ from ..drums.bodies import Topology, body_fields
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_snapshot
 from ..drums.records import UNSEEN
-from ..drums.whole_steps import whole_steps
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
+from ..shared.stable_step import whole_steps
 from .beds import bed_laws, fill_hands, fill_shapes
 from .block import Records, base_acceleration, slope_base
 from .laws import point_law

@@ -10,7 +10,6 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import gravity_vector
 from ...column.structure import Structure
-from ..drums.barriers import lowest_barrier
 from ..drums.bodies import Topology
 from ..drums.joints import contact_points
 from ..drums.links import bonds
@@ -32,7 +31,7 @@ def pack_column(
     face = {"th": top.height, "tc": top.direction[0], "ts": top.direction[1]}
     records.fill(0, body=body, joint=joint, lane=lane, watch=UNSEEN | face)
     records.link[...] = links_at_rest(column, records.body)
-    return Packed(records.taken(0), bonds(column), step, column.joint_widths, lowest_barrier(column), toes)
+    return Packed(records.taken(0), bonds(column), step, column.joint_widths, column.lowest_barrier, toes)
 
 
 #: Fields of a body that a run begins with.

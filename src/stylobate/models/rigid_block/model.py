@@ -22,7 +22,7 @@ from ..plane.columns import ColumnLanes
 from ..plane.laws import Types, interface_law
 from ..plane.packing import face_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
-from ..shared.toes import centroids_above, point_toes
+from ..shared.toes import point_toes
 from .block_stack import BlockStack
 
 
@@ -75,7 +75,6 @@ class RigidBlock(SteppedDrums):
         "A drum touches its neighbours only; what comes down is not followed.",
         "Columns that are not as built are refused, and links with pretension.",
     )
-    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
 
     compressive_strength: float | None = None
     step_factor: float = 0.2
@@ -152,7 +151,7 @@ def _toes(column: Column, strength: float | None) -> np.ndarray:
     if strength is None:
         return toes
     inset = half * column.joint_weights / (strength * column.joint_areas)
-    return toes + column.joint_weights * inset * half / np.hypot(half, centroids_above(column))
+    return toes + column.joint_weights * inset * half / np.hypot(half, column.parts_above[1])
 
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
