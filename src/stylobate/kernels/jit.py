@@ -69,6 +69,15 @@ cpu.CPUTargetOptions.noalias = options.TargetOptions.Mapping("noalias")
 types.Record.can_convert_to = lambda *_: None
 
 
+def _called(record: Any) -> tuple[str, tuple[str]]:
+    # The name of a record in that of compiled code is of what it holds. The compiler would number records in each process,
+    # so that code for two of them, kept on disk by two processes, could bear one name, and the one be run for the other.
+    return "Record", (hashlib.sha256(record.name.encode()).hexdigest()[:32],)
+
+
+types.Record.mangling_args = property(_called)
+
+
 class _OwnCode(codegen.JITCodeLibrary):
     """The code of a kernel, which calls the copies of other kernels that were compiled into it.
 
