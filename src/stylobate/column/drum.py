@@ -122,14 +122,7 @@ class Drum:
         Integral over the height of (own second moment of the slice + slice area × distance²); the integrand is a
         polynomial of degree 4 at most, so three Gauss points are exact.
         """
-        b, t, h, zc = self.bottom_width, self.top_width, self.height, self.centroid_height
-        total = 0.0
-        for x, weight in GAUSS_POINTS:
-            z = 0.5 * h * (1.0 + x)
-            q, w = b + (t - b) * z / h, self.depth_at(z)
-            area, second = section_area(self.section, q, w), section_second_moment(self.section, q, w)
-            total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
-        return self.density * total
+        return self._turned(across=False)
 
     @property
     def cross_inertia(self) -> float:
@@ -137,14 +130,16 @@ class Drum:
 
         As :attr:`inertia`, with the second moments of the slices about the other axis.
         """
-        if self.circular:
-            return self.inertia
+        return self.inertia if self.circular else self._turned(across=True)
+
+    def _turned(self, *, across: bool) -> float:
         b, t, h, zc = self.bottom_width, self.top_width, self.height, self.centroid_height
         total = 0.0
         for x, weight in GAUSS_POINTS:
             z = 0.5 * h * (1.0 + x)
             q, w = b + (t - b) * z / h, self.depth_at(z)
-            area, second = section_area(self.section, q, w), section_second_moment(self.section, w, q)
+            second = section_second_moment(self.section, *((w, q) if across else (q, w)))
+            area = section_area(self.section, q, w)
             total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
         return self.density * total
 

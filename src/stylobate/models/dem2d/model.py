@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -24,7 +24,7 @@ from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
 from ..drums.links import link_stiffness, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
-from ..plane.assemblies import AssemblyNumbers, expected_step, measures_of_assemblies, run_assembly
+from ..plane.assemblies import expected_step, measures_of_assemblies, run_assembly
 from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
 from ..plane.laws import Types, point_law
@@ -33,9 +33,6 @@ from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
-
-if TYPE_CHECKING:
-    from ..plane.collapse import FollowedColumn
 
 MAX_POINTS = 32
 
@@ -148,20 +145,20 @@ class DistinctElement2D(SteppedDrums):
         if options.until_end or options.until_rest:
             from ..plane.collapse import follow
 
-            return follow(column, motion, self.followed(column, options), options)
+            return follow(column, motion, self.followed(column, options), self.contacts, options)
         return super().run(column, motion, options)
 
     @property
     def contacts(self) -> Contacts:
-        """Numbers of the contacts, for the engine of assemblies."""
-        return Contacts(self.points, self.stiffness_damping, self.mass_damping, self.block_modulus)
+        """Numbers for what may come loose."""
+        return Contacts(
+            self.name, self.points, self.stiffness_damping, self.mass_damping, self.block_modulus, self.restitution,
+            self.step_factor, self.time_step, self.start == "settle",
+        )  # fmt: skip
 
-    def followed(self, column: Column, options: RunOptions) -> FollowedColumn:
-        """What a column that is followed to the ground is computed with."""
-        from ..plane.collapse import FollowedColumn
-
-        block = self.block_for(self.kind(column), replace(options, until_end=True))
-        return FollowedColumn(self.name, block, self.contacts, self.step_for(column), self.restitution)
+    def followed(self, column: Column, options: RunOptions) -> ColumnLanes:
+        """Lanes for a column that is followed to the ground."""
+        return self.block_for(self.kind(column), replace(options, until_end=True))
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs of columns in lanes, or of assemblies one by one in threads; never of both in one batch."""
@@ -179,13 +176,13 @@ class DistinctElement2D(SteppedDrums):
         InputError
             The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
         """
-        return run_assembly(assembly, motion, self.assembly_numbers(), options, recorded=recorded)
+        return run_assembly(assembly, motion, self.contacts_of_blocks(), options, recorded=recorded)
 
     def expected_step(self, column: Structure, motion: Motion) -> tuple[float, float]:
         """Time step and its cost [s]; of an assembly as long as it stands."""
         if column.stack is not None:
             return super().expected_step(column.stack, motion)
-        return expected_step(column.must_be("assembly"), motion, self.assembly_numbers())
+        return expected_step(column.must_be("assembly"), motion, self.contacts_of_blocks())
 
     def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
         """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
@@ -196,14 +193,13 @@ class DistinctElement2D(SteppedDrums):
         """How many are taken along: of columns only, what may come loose is alone in its lane."""
         return 0 if column.stack is None else self.carries
 
-    def assembly_numbers(self) -> AssemblyNumbers:
-        """What assemblies are computed with."""
+    def contacts_of_blocks(self) -> Contacts:
+        """Numbers for assemblies, whose blocks are rigid."""
         if self.block_modulus is not None:
             raise InputError(
                 f"block_modulus is {self.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
             )
-        settle = self.start == "settle"
-        return AssemblyNumbers(self.name, self.contacts, self.step_factor, self.time_step, self.restitution, settle)
+        return self.contacts
 
 
 @lru_cache(maxsize=4096)

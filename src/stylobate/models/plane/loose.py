@@ -15,6 +15,7 @@ from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
 from ...motion import Motion
+from ..base import RunOptions
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_snapshot
@@ -65,22 +66,41 @@ SKIN = 0.1
 
 
 class Contacts(NamedTuple):
-    """Numbers of the contacts of an assembly.
+    """Numbers of a model for what may come loose.
 
     Parameters
     ----------
+    name : str
+        Of the model, for the response.
     points : int
         Contact points of a joint.
     stiffness_damping, mass_damping : float
         [s], [1/s]
     block_modulus : float or None
         Of the stone of a column, in series with its joints [Pa].
+    restitution : float or None
+        Of the bed; by default 1, and 0.3 in a run until rest.
+    step_factor, time_step : float, float or None
+        Of assemblies: share of the largest stable step, or the step itself [s].
+    must_settle : bool
+        Refuse an assembly that is not in equilibrium as drawn.
     """
 
+    name: str
     points: int
     stiffness_damping: float
     mass_damping: float
     block_modulus: float | None
+    restitution: float | None
+    step_factor: float
+    time_step: float | None
+    must_settle: bool
+
+    def given_back(self, options: RunOptions) -> float:
+        """Restitution of the bed in a run [-]."""
+        if self.restitution is not None:
+            return self.restitution
+        return RESTITUTION_TO_REST if options.until_rest else 1.0
 
 
 class Loose:
