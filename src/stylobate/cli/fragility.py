@@ -43,15 +43,11 @@ def fragility(
     im: Im = None,
     state: State = "collapse",
     of: Of = None,
-    method: Annotated[
-        str | None,
-        typer.Option("--method", metavar="M", help="runs: every run counts; records: the capacity under each record."),
-    ] = None,
+    method: str | None = o.option("M", "runs: every run counts; records: the capacity under each record."),
     records_are_one: RecordsAreOne = False,
     seed: Seed = 0,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    *,
+    execution: o.Plain,
 ) -> None:
     """Fragility: how probable a state is, over the intensity of the shaking.
 
@@ -60,13 +56,11 @@ def fragility(
     from ..results.sources import kept_of
     from . import console
 
-    o.the_threads(threads)
     found, used = curves(sources, im, state, of, method, records_are_one, seed)
     summaries = [one.summary() for one in found]
     result = summaries[0] | ({"curves": summaries} if len(found) > 1 else {})
-    files: list[Path] = []
-    with console.folder(out, "fragility.csv", "fragility.json", "fragility", "asked-fragility.json") as folder:
-        if folder is not None:
+    with execution.files("fragility", "fragility.csv", "fragility.json", "fragility") as files:
+        if files.wanted:
             import pandas
 
             from .. import plots
@@ -74,14 +68,11 @@ def fragility(
             rows = [
                 {key: value for key, value in one.items() if not isinstance(value, (list, dict))} for one in summaries
             ]
-            files = [
-                console.write_table(pandas.DataFrame(rows), folder / "fragility.csv"),
-                *plots.save(plots.draw_fragility(found), folder / "fragility"),
-                console.asked(folder, "fragility", **kept_of(used), state=state, im=im, method=method),
-            ]
-            console.write_summary(result, files, folder / "fragility.json")
-    if as_json:
-        console.emit(result)
+            files.table(pandas.DataFrame(rows), "fragility.csv")
+            files.picture(plots.draw_fragility(found), "fragility")
+            files.asked(**kept_of(used), state=state, im=im, method=method)
+            files.summary(result, "fragility.json")
+    if execution.emits(result):
         return
     for doubt in dict.fromkeys(one.evidence.doubt for one in found if one.evidence.doubt):
         print(doubt)

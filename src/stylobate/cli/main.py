@@ -40,6 +40,7 @@ from . import (
     survival,
 )
 from .added import STUDIES, added_commands, missing_command
+from .groups import takes
 from .helping import WIDTH, Command
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
@@ -85,12 +86,12 @@ for _room in (
     spectrum, columns, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
-    app.command(_name, cls=Command)(_passing_on(getattr(_room, _name)))
+    app.command(_name, cls=Command)(_passing_on(takes(getattr(_room, _name))))
 
 
 _studies = typer.Typer(help="Many runs from one file: columns, records, levels, models, realisations.")
 for _part in (study.run, study.status, study.export):
-    _studies.command(_part.__name__, cls=Command)(_passing_on(_part))
+    _studies.command(_part.__name__, cls=Command)(_passing_on(takes(_part)))
 app.add_typer(_studies, name="study")
 
 
@@ -168,7 +169,7 @@ def commands() -> Any:
     program: Any = typer.main.get_command(app)
     for name, function in added_commands(program.commands).items():
         room = typer.Typer(add_completion=False, rich_markup_mode=None)
-        room.command(name, cls=Command)(_passing_on(function))
+        room.command(name, cls=Command)(_passing_on(takes(function)))
         program.add_command(typer.main.get_command(room), name)
     return program
 

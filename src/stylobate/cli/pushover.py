@@ -33,34 +33,19 @@ Strength = Annotated[
 
 def pushover(
     column: o.ColumnName,
-    to: Annotated[
-        str | None, typer.Option("--to", metavar="M", help="Displacement of the top at which to stop, in metres.")
-    ] = None,
-    control: Annotated[
-        str, typer.Option("--control", metavar="WAY", help="displacement or arc-length.")
-    ] = "displacement",
-    linear: Annotated[bool, typer.Option("--linear", help="Equilibrium in the undisplaced state.")] = False,
-    direction: Annotated[
-        str | None,
-        typer.Option(
-            "--direction", metavar="0|180", help="Forces to the right or to the left; the weaker one by default."
-        ),
-    ] = None,
-    check: Annotated[
-        str | None,
-        typer.Option(
-            "--check",
-            metavar="CODE,…",
-            help="By a code: ec8,ag=0.25g,soil=B,type=1,knowledge=KL2, or ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,….",
-        ),
-    ] = None,
+    to: str | None = o.option("M", "Displacement of the top at which to stop, in metres."),
+    control: str = o.option("WAY", "displacement or arc-length.", "displacement"),
+    linear: bool = o.option(None, "Equilibrium in the undisplaced state.", False),
+    direction: str | None = o.option("0|180", "Forces to the right or to the left; the weaker one by default."),
+    check: str | None = o.option(
+        "CODE,…", "By a code: ec8,ag=0.25g,soil=B,type=1,knowledge=KL2, or ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,…."
+    ),
     pattern: Pattern = None,
     tilt: Tilt = "0",
     compressive_strength: Strength = None,
     project: o.Project = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    *,
+    execution: o.Plain,
 ) -> None:
     """Pushover curve of a column of rigid blocks.
 
@@ -73,7 +58,6 @@ def pushover(
     from ..analysis.pushover import pushover as follow
     from . import console
 
-    o.the_threads(threads)
     stone = o.the_column(column, project)
     loads = the_loads(pattern, tilt, compressive_strength)
     far = None if to is None else number("--to", to)
@@ -82,28 +66,24 @@ def pushover(
         loads["direction"] = number("--direction", direction)
     elif stone.as_found and stone.as_found.in_plane:
         loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
-    with console.folder(out, "pushover.csv", "pushover.json", "pushover", "asked-pushover.json") as folder:
+    with execution.files("pushover", "pushover.csv", "pushover.json", "pushover") as files:
         path = follow(stone, control=control, geometric=not linear, to=far, **loads)
-        summary, files = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}, []
+        summary = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}
         checked = None if site is None else code_check(towards(stone, summary["direction_deg"]), path, site)
         if checked is not None:
             summary["check"] = checked.summary()
-        if folder is not None:
+        if files.wanted:
             from .. import plots
 
             limit = limit_analysis(stone, **loads).multiplier
             stack = towards(stone, loads.get("direction", 0.0))
             figure = plots.draw_pushover(stack, path, limit, stone.name)
-            files = [
-                path.save(folder / "pushover.csv"),
-                console.write_json(folder / "pushover.json", summary),
-                *plots.save(figure, folder / "pushover"),
-            ]
-            options = {"control": control, "linear": linear, "limit_analysis_g": limit} | loads
-            files.append(console.asked(folder, "pushover", structures=[stone], **options))
-            summary["files"] = [str(file) for file in files]
-    if as_json:
-        console.emit(summary)
+            files.append(path.save(files / "pushover.csv"))
+            files.json(summary, "pushover.json")
+            files.picture(figure, "pushover")
+            files.asked(structures=[stone], control=control, linear=linear, limit_analysis_g=limit, **loads)
+            summary["files"] = files.names
+    if execution.emits(summary):
         return
     facts = {"column": stone.name}
     if stone.as_found:
