@@ -23,7 +23,7 @@ from stylobate.campaign import cluster as module
 from stylobate.campaign.chunk import Chunk, law, pack, results_of, unpack
 from stylobate.campaign.cluster import on_cluster
 from stylobate.campaign.digests import Hasher
-from stylobate.campaign.executor import compute
+from stylobate.campaign.executor import executor
 from stylobate.campaign.hand_out import HandOut
 from stylobate.campaign.local_workers import started
 from stylobate.campaign.runs import Request, run_all
@@ -80,7 +80,7 @@ def test_the_libraries_of_the_cluster_say_nothing_of_their_own(cluster):
 
 def test_a_case_that_kills_its_workers_is_a_run_that_failed(cluster):
     for _ in range(2):  # so often that the one who starts the worker again gives up and is replaced
-        found = dict(compute([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous(), RunOptions()))
+        found = dict(executor()([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous(), RunOptions(), None))
         assert found[0].row()["outcome"] == "rocked"
         assert found[1].row()["outcome"] == "failed"
         assert found[1].reason == "the workers that computed it died, each time"

@@ -20,7 +20,7 @@ from ..simulate import check_cases, run_options
 from .campaign import USUAL, Campaign, Progress
 from .cluster import on_cluster
 from .digests import Digests, Hasher
-from .executor import compute
+from .executor import executor
 from .ledger import Ledger, finished_runs_in, rows_in
 
 #: Cases that run together: their numbers, their model, and how they are run.
@@ -149,7 +149,7 @@ class Runs:
         for numbers, model, options in request.groups:
             left = numbers[todo[numbers]]
             if len(left):
-                with closing(compute(_some(request.cases, left), model, options, self.campaign.threads)) as finished:
+                with closing(executor()(_some(request.cases, left), model, options, self.campaign.threads)) as finished:
                     for index, measures in finished:
                         yield from self._keep(digests, int(left[index]), measures.row())
 

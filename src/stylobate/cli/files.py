@@ -8,7 +8,6 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..results.asked import asked_file
 from . import console
 
 if TYPE_CHECKING:
@@ -77,8 +76,18 @@ class Files(list[Path]):
         self += plots.save(figure, self / name)
 
     def asked(self, **what: Any) -> None:
-        """Write what the command was asked, as :func:`stylobate.cli.console.asked` takes it."""
-        self.append(console.asked(self / "", self.command, **what))
+        """Write what the command was asked, with the command line and its warnings.
+
+        Parameters
+        ----------
+        **what
+            ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them, or
+            what :func:`stylobate.results.sources.kept_of` says of the runs that it rests on.
+        """
+        from ..results.asked import Asked, asked_file
+
+        found = Asked.of(console.COMMAND, warnings=[*what.pop("earlier", ()), *console.WARNED], **what)
+        self.json(found.to_dict(), asked_file(self.command))
 
     def summary(self, result: dict[str, Any], name: str) -> None:
         """Write the JSON object of the command, which lists its files, as the last of them."""
@@ -90,5 +99,10 @@ class Files(list[Path]):
 @contextmanager
 def files(out: Path | None, command: str, *writes: str) -> Iterator[Files]:
     """Files of a command; the folder is made and tried before anything is computed, see :func:`console.folder`."""
+    if out is None:
+        yield Files(command, None)
+        return
+    from ..results.asked import asked_file
+
     with console.folder(out, *writes, asked_file(command)) as folder:
         yield Files(command, folder)

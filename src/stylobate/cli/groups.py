@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, fields
 from functools import wraps
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
@@ -51,8 +52,15 @@ class But:
         self.names = names
 
 
-def takes(command: Callable[..., None]) -> Callable[..., None]:
-    """The command with its options, and those of its groups in their places; it is called with the groups as values."""
+def takes(command: Callable[..., None], within: Callable[[], AbstractContextManager[None]]) -> Callable[..., None]:
+    """The command with its options, and those of its groups in their places; it is called with the groups as values.
+
+    Parameters
+    ----------
+    command : callable
+    within : callable
+        Makes what the command is called in.
+    """
     signature = inspect.signature(command, eval_str=True)
     options: list[inspect.Parameter] = []
     groups: dict[str, tuple[type[Group], list[str], dict[str, Any]]] = {}
@@ -72,11 +80,12 @@ def takes(command: Callable[..., None]) -> Callable[..., None]:
 
     @wraps(command)
     def taking(**given: Any) -> None:
-        values = {
-            name: kind(**{one: given.pop(one) for one in names}, **left_out)
-            for name, (kind, names, left_out) in groups.items()
-        }
-        command(**given, **values)
+        with within():
+            values = {
+                name: kind(**{one: given.pop(one) for one in names}, **left_out)
+                for name, (kind, names, left_out) in groups.items()
+            }
+            command(**given, **values)
 
     taking.__signature__ = inspect.Signature(options)  # type: ignore[attr-defined]
     taking.__annotations__ = {one.name: one.annotation for one in options}

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from . import options as o
-from .pushover import Pattern, Strength, Tilt, mechanism_rows, the_loads
+from .pushover import Loads, mechanism_rows
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -22,11 +22,9 @@ def limit(
     directions: str | None = o.option(
         "A:A:N", "In space: where the forces push to, such as 0:345:24, from x towards y."
     ),
-    pattern: Pattern = None,
-    tilt: Tilt = "0",
-    compressive_strength: Strength = None,
-    project: o.Project = None,
     *,
+    pushing: Loads,
+    project: o.Project = None,
     execution: o.Plain,
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.
@@ -40,10 +38,10 @@ def limit(
     from . import console
 
     stone = o.the_column(column, project)
-    loads = the_loads(pattern, tilt, compressive_strength)
+    loads = pushing.arguments
     azimuths = None if directions is None else azimuth_range(directions).tolist()
     around = azimuths is not None or bool(stone.as_found)
-    if around and loads != the_loads(None, "0", None) and (azimuths is not None or not stone.as_found.in_plane):
+    if around and pushing.typed and (azimuths is not None or not stone.as_found.in_plane):
         raise InputError(
             "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
             "--directions out for a column found in the plane."

@@ -2,33 +2,43 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.pushover import PushoverResult
 
-Pattern = Annotated[
-    str | None,
-    typer.Option("--pattern", metavar="P,P,…", help="Relative force on each drum, bottom to top; by mass by default."),
-]
-Tilt = Annotated[
-    str,
-    typer.Option(
-        "--tilt",
-        metavar="DEGREES",
-        help="Tilt of the base, downhill to the right, where the forces push; base_tilt of columns as found is opposite.",
-    ),
-]
-Strength = Annotated[
-    str | None,
-    typer.Option(
-        "--compressive-strength", metavar="P", help="Strength of the joints, such as 2MPa; unlimited by default."
-    ),
-]
+
+@dataclass(frozen=True)
+class Loads(o.Group):
+    """How a column is pushed."""
+
+    pattern: str | None = o.option("P,P,…", "Relative force on each drum, bottom to top; by mass by default.")
+    tilt: str = o.option(
+        "DEGREES",
+        "Tilt of the base, downhill to the right, where the forces push; base_tilt of columns as found is opposite.",
+        "0",
+    )
+    compressive_strength: str | None = o.option("P", "Strength of the joints, such as 2MPa; unlimited by default.")
+
+    @property
+    def typed(self) -> bool:
+        """Whether they are others than usual."""
+        return self.arguments != Loads(None, "0", None).arguments
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Arguments of the analyses."""
+        from ..motion.specs import parse_pressure
+
+        shares, strength = self.pattern, self.compressive_strength
+        return {
+            "pattern": None if shares is None else [number("--pattern", one) for one in shares.split(",")],
+            "base_tilt": number("--tilt", self.tilt),
+            "compressive_strength": None if strength is None else parse_pressure(strength),
+        }
 
 
 def pushover(
@@ -40,11 +50,9 @@ def pushover(
     check: str | None = o.option(
         "CODE,…", "By a code: ec8,ag=0.25g,soil=B,type=1,knowledge=KL2, or ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,…."
     ),
-    pattern: Pattern = None,
-    tilt: Tilt = "0",
-    compressive_strength: Strength = None,
-    project: o.Project = None,
     *,
+    pushing: Loads,
+    project: o.Project = None,
     execution: o.Plain,
 ) -> None:
     """Pushover curve of a column of rigid blocks.
@@ -59,7 +67,7 @@ def pushover(
     from . import console
 
     stone = o.the_column(column, project)
-    loads = the_loads(pattern, tilt, compressive_strength)
+    loads = pushing.arguments
     far = None if to is None else number("--to", to)
     site = None if check is None else CodeSite.typed(check)
     if direction is not None:
@@ -146,14 +154,3 @@ def number(option: str, text: str) -> float:
     from ..motion.specs import parse_number
 
     return parse_number(option, text, "in SI units, such as 0.5")
-
-
-def the_loads(pattern: str | None, tilt: str, compressive_strength: str | None) -> dict:
-    """Arguments of the analyses that the options describe."""
-    from ..motion.specs import parse_pressure
-
-    return {
-        "pattern": None if pattern is None else [number("--pattern", one) for one in pattern.split(",")],
-        "base_tilt": number("--tilt", tilt),
-        "compressive_strength": (None if compressive_strength is None else parse_pressure(compressive_strength)),
-    }

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from . import options as o
-from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
+from .fragility import Curves
 
 Source = Annotated[
     Path,
@@ -25,13 +25,9 @@ Site = Annotated[
 def risk(
     source: Source,
     hazard: Path = o.option("FILE", "Hazard curve: annual_rate and pga_g, pgv_m_s …; or OpenQuake's.", ...),
-    im: Im = None,
-    state: State = "collapse",
-    of: Of = None,
-    site: Site = None,
-    records_are_one: RecordsAreOne = False,
-    seed: Seed = 0,
     *,
+    asked: Curves,
+    site: Site = None,
     execution: o.Plain,
 ) -> None:
     """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""
@@ -42,7 +38,7 @@ def risk(
     from . import console
 
     curve = read_hazard(hazard, the_site(site))
-    fragility, used = one_curve(source, im, state, of, records_are_one, seed)
+    fragility, used = asked.one(source)
     found = rate_of(fragility, curve)
     result = found.summary()
     with execution.files("risk", "risk.csv", "risk.json", "risk") as files:
@@ -53,7 +49,7 @@ def risk(
 
             files.table(pandas.DataFrame(result["deaggregation"]), "risk.csv")
             files.picture(plots.draw_risk(found), "risk")
-            files.asked(**kept_of(used), **hazards_of([hazard], site), state=state, im=im)
+            files.asked(**kept_of(used), **hazards_of([hazard], site), state=asked.state, im=asked.im)
             files.summary(result, "risk.json")
     if execution.emits(result):
         return

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from . import options as o
-from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
+from .fragility import Curves
 from .risk import Site, Source, hazards_of, the_site
 
 
@@ -13,13 +13,9 @@ def survival(
     source: Source,
     age: str = o.option("AGE", "Years that it has stood as it is, such as 2400y.", ...),
     hazard: list[Path] = o.option("FILE", "Hazard curve; repeat it to compare several.", ...),
-    im: Im = None,
-    state: State = "collapse",
-    of: Of = None,
-    site: Site = None,
-    records_are_one: RecordsAreOne = False,
-    seed: Seed = 0,
     *,
+    asked: Curves,
+    site: Site = None,
     execution: o.Plain,
 ) -> None:
     """Survival: the probability that a column would still stand after its age, for each of several hazard curves."""
@@ -37,7 +33,7 @@ def survival(
         raise InputError(
             f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own."
         )
-    fragility, used = one_curve(source, im, state, of, records_are_one, seed)
+    fragility, used = asked.one(source)
     found = survive(fragility, years, hazards)
     result = found.summary()
     with execution.files("survival", "survival.csv", "survival.json", "survival") as files:
@@ -48,7 +44,7 @@ def survival(
 
             files.table(pandas.DataFrame(result["hazards"]), "survival.csv")
             files.picture(plots.draw_survival(found), "survival")
-            files.asked(**kept_of(used), **hazards_of(hazard, site), state=state, age_y=years)
+            files.asked(**kept_of(used), **hazards_of(hazard, site), state=asked.state, age_y=years)
             files.summary(result, "survival.json")
     if execution.emits(result):
         return
