@@ -89,6 +89,10 @@ class Campaign:
         for name, value, high in (("replicates", self.replicates, MAX_TWINS), ("seed", self.seed, 2**63 - 1)):
             if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not 0 <= value <= high:
                 raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from 0 to {high}.")
+        if not (self.scatter is None or isinstance(self.scatter, Scatter)):
+            raise InputError(
+                f"scatter is {as_typed(self.scatter)}; allowed is a Scatter, such as Scatter(friction=0.1)."
+            )
         check_range("tail", self.tail, 0.0, 1e4, unit="s")
         if self.threads is not None:
             check_range("threads", self.threads, 1, 1024, remedy="leave it out to use all cores")
@@ -146,7 +150,7 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
     def of(function: Function) -> Function:
         if isinstance(function, type):
             function.__init__ = of(function.__init__)  # type: ignore[misc]
-            function.__doc__ = _told(function.__doc__ or "", [one.name for one in taken])
+            function.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
             return function  # type: ignore[return-value]
         named = function.__qualname__.removesuffix(".__init__")
         own = inspect.signature(function)
@@ -173,13 +177,13 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
             for one in taken
         ]
         taking.__signature__ = own.replace(parameters=[*before, *spread, last.replace(default=None)])  # type: ignore[attr-defined]
-        taking.__doc__ = _told(function.__doc__ or "", [one.name for one in taken])
+        taking.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
         return taking  # type: ignore[return-value]
 
     return of
 
 
-def _told(text: str, names: list[str]) -> str:
+def _documented(text: str, names: list[str]) -> str:
     """A docstring with the fields of a campaign behind the campaign, in the words of :class:`Campaign`."""
     found = re.search(r"\n( *)campaign : Campaign(?:, optional)?\n(?:\1 +.*\n)+", text)
     entries = re.findall(r"\n {4}(\w+) : (.*)((?:\n {8,}.*)+)", Campaign.__doc__ or "")

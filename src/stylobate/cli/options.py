@@ -149,8 +149,8 @@ class Population(Group):
         from ..column.scatter import LARGEST, Scatter
 
         if self.replicates is None:
-            for option, value in {"--scatter": self.scatter, "--seed": self.seed}.items():
-                for_replicates(option, value)
+            for flag, value in {"--scatter": self.scatter, "--seed": self.seed}.items():
+                for_replicates(flag, value)
             return {}
         example = "--scatter friction=10%,joint_stiffness=20%"
         return {
