@@ -40,8 +40,9 @@ def test_its_fields_are_keywords_with_their_words_and_one_default(made, fields):
     usual = {"replicates": {st.certainty: 15, st.collapse_probability: 20}.get(made, 0)}
     for name in fields:
         assert found[name].default == usual.get(name, getattr(st.Campaign(), name)), name
-    documented = re.findall(r"^ {4}(\w+) : ", made.__doc__ or "", re.MULTILINE)
-    if "Parameters" in (made.__doc__ or ""):  # the others name the function whose parameters they share
+    words = inspect.getdoc(made) or ""
+    documented = re.findall(r"^(\w+) : ", words, re.MULTILINE)
+    if "Parameters" in words:  # the others name the function whose parameters they share
         assert [name for name in documented if name in ALL] == fields
 
 

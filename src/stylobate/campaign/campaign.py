@@ -49,7 +49,7 @@ class Campaign:
     Parameters
     ----------
     replicates : int
-        Number of columns like each one, its twins; none by default.
+        Number of columns like each one, its twins; 0 for none.
     scatter : Scatter, optional
         How they differ; by default as columns of their material do.
     seed : int
@@ -184,14 +184,9 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
 
 
 def _documented(text: str, names: list[str]) -> str:
-    """A docstring with the fields of a campaign behind the campaign, in the words of :class:`Campaign`."""
-    found = re.search(r"\n( *)campaign : Campaign(?:, optional)?\n(?:\1 +.*\n)+", text)
-    entries = re.findall(r"\n {4}(\w+) : (.*)((?:\n {8,}.*)+)", Campaign.__doc__ or "")
-    if found is None:
-        return text
-    told = "".join(
-        f"{found[1]}{name} : {kind}{lines.replace(chr(10) + ' ' * 4, chr(10) + found[1])}\n"
-        for name, kind, lines in entries
-        if name in names
-    )
-    return text[: found.start() + 1] + told + text[found.start() + 1 :]
+    """A docstring with the fields of a campaign in front of the campaign, in the words of :class:`Campaign`."""
+    own = inspect.cleandoc(text)
+    before, entry, after = own.partition("\ncampaign : Campaign")
+    entries = re.findall(r"^((\w+) : .*(?:\n {4}.*)+)", inspect.cleandoc(Campaign.__doc__ or ""), re.MULTILINE)
+    told = "".join(f"\n{words}" for words, name in entries if name in names)
+    return f"{before}{told}{entry}{after}" if entry else own
