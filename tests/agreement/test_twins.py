@@ -7,7 +7,7 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.certainty import Population, batch
-from stylobate.campaign.twins import the_twins
+from stylobate.campaign.twins import Twins, the_twins
 from stylobate.column.scatter import scattered_columns
 from stylobate.models.base import Case
 
@@ -32,7 +32,7 @@ def row(outcome: str, **changes) -> dict:
 
 
 def population(*rows: dict) -> Population:
-    return Population([COLUMN] * len(rows), rows, st.Scatter(), 0)
+    return Population(Twins([COLUMN] * len(rows), st.Scatter(), 0, ()), rows)
 
 
 def test_a_run_that_is_no_example_of_its_twins_says_so():
@@ -142,8 +142,8 @@ def test_a_model_of_columns_as_built_leaves_the_offsets_out_and_says_so():
     found = st.certainty(
         COLUMN, st.sine_pulse(frequency=0.9, amplitude=2.0, duration=1.2), st.RigidBlock(), replicates=2
     )
-    assert found.population.left_out == ("offset",)
-    assert found.population.scatter.offset == 0.0
+    assert found.population.drawn.left_out == ("offset",)
+    assert found.population.drawn.scatter.offset == 0.0
 
 
 @pytest.mark.parametrize(

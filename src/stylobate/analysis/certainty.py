@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -11,9 +10,8 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
-from ..campaign.twins import the_twins
+from ..campaign.twins import Twins, the_twins
 from ..column import Column
-from ..column.scatter import Scatter
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..percent import percents
@@ -41,23 +39,15 @@ class Population:
 
     Parameters
     ----------
-    twins : tuple of Column
+    drawn : Twins
     rows : tuple of dict
         One per twin, with the keys of ``Measures.row()``.
-    scatter : Scatter
-        As far as the model takes it.
-    seed : int
-    left_out : tuple of str
-        Parts of the scatter that the model does not take.
     confidence : float
         Level of the interval.
     """
 
-    twins: Sequence[Column]
+    drawn: Twins
     rows: tuple[dict, ...]
-    scatter: Scatter
-    seed: int
-    left_out: tuple[str, ...] = ()
     confidence: float = 0.95
 
     @property
@@ -129,7 +119,7 @@ class Population:
         """One row per twin."""
         import pandas
 
-        named = zip(self.twins, self.verdicts, self.rows, strict=True)
+        named = zip(self.drawn.columns, self.verdicts, self.rows, strict=True)
         return pandas.DataFrame([{"column": twin.name, "verdict": one, **row} for twin, one, row in named])
 
     @property
@@ -182,9 +172,7 @@ class Population:
                 "sentence": self.sentence,
                 **{one: counts[one] for one in v.MADE},
                 "confidence": self.confidence,
-                "scatter": dataclasses.asdict(self.scatter),
-                "left_out": list(self.left_out),
-                "seed": self.seed,
+                **self.drawn.told,
                 "percentiles": [16, 50, 84],
                 **self.spread,
                 "median_twin": None if middle is None else middle + 1,
@@ -338,7 +326,7 @@ def certainty(
     )  # fmt: skip
     rows = [one.row() for one in response.twins]
     rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
-    population = Population(twins, tuple(rows), drawn.scatter, drawn.seed, drawn.left_out)
+    population = Population(drawn, tuple(rows))
     return Certainty(response, population, time.perf_counter() - began)
 
 

@@ -128,7 +128,7 @@ def suite_table(
         if drawn:
             some = drawn[i // len(motions)]
             of_twins = [one for one in found[own + i * number : own + (i + 1) * number] if one is not None]
-            line |= Population(some.columns, tuple(of_twins), some.scatter, some.seed, some.left_out).columns
+            line |= Population(some, tuple(of_twins)).columns
     return pandas.DataFrame(rows)
 
 

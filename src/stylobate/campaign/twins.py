@@ -23,6 +23,11 @@ class Twins(NamedTuple):
     left_out: tuple[str, ...]
 
     @property
+    def words(self) -> str:
+        """How many there are and how they differ."""
+        return described(len(self.columns), self.scatter, self.seed, self.left_out)
+
+    @property
     def told(self) -> dict[str, Any]:
         """How they differ, under the names of the JSON objects of commands."""
         return {"scatter": dataclasses.asdict(self.scatter), "left_out": list(self.left_out), "seed": self.seed}

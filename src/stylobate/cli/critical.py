@@ -137,7 +137,6 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
 def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
     from ..analysis.critical_words import as_recorded
-    from ..campaign.twins import described
     from ..constants import g
     from . import console
 
@@ -151,8 +150,7 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
         "grid": f"{low:.4g} to {high:.4g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }
     if likes is not None:
-        known = len(likes.verdicts), likes.scatter, likes.seed, likes.left_out
-        facts[f"{kind}s like this"] = f"{described(*known)}; at {len(likes.amplitudes)} of these amplitudes"
+        facts[f"{kind}s like this"] = f"{likes.drawn.words}; at {len(likes.amplitudes)} of these amplitudes"
     if (own := summary["as_recorded"]) is not None:
         facts["as recorded"] = as_recorded(own)
     for row in summary["alternation"]:

@@ -41,7 +41,6 @@ def ida(
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
-    from ..campaign.twins import described
     from ..motion.intensity_specs import parse_levels, parse_measure
     from ..motion.orientation import record_of
     from ..response.words import longer_tail
@@ -94,7 +93,7 @@ def ida(
         f"{_count(result['curves_with_resurrections'], 'curve')}",
     }
     if (drawn := found.twins) is not None:
-        facts["columns like this"] = described(len(drawn.columns), drawn.scatter, drawn.seed, drawn.left_out)
+        facts["columns like this"] = drawn.words
     if result["undecided"] or result["failed"]:
         facts["open"] = (
             f"{result['undecided']} undecided, {result['failed']} failed; go on with {longer_tail(campaign.tail)}"

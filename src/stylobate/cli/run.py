@@ -222,7 +222,7 @@ def write_population(
         return
     options = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
-    middle = simulate(population.twins[population.median], motion, model.paced(response.column), **options)
+    middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.column), **options)
     files.picture(plots.draw_filmstrip(middle), "median")
 
 
@@ -279,11 +279,9 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 def population_facts(population: Population) -> dict[str, str]:
     """What columns like this one are, and how much they moved."""
-    from ..campaign.twins import described
     from . import console
 
-    known = len(population.rows), population.scatter, population.seed, population.left_out
-    facts = {"columns like this": described(*known)}
+    facts = {"columns like this": population.drawn.words}
     for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
         if (spread := population.spread[f"{name}_top_displacement_m"]) is not None:
             facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)
