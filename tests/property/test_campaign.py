@@ -58,6 +58,8 @@ def test_what_is_not_taken_is_refused_by_name():
         st.collapse_domain(*GRID, replicates=3)
     with pytest.raises(st.InputError, match="collapse_domain takes no seed; leave it out"):
         st.collapse_domain(*GRID, campaign=st.Campaign(seed=3))
+    with pytest.raises(st.InputError, match="campaign is 3; allowed is a Campaign"):
+        st.collapse_domain(*GRID, campaign=3)  # pyright: ignore[reportArgumentType]
     with pytest.raises(TypeError, match=r"Study: .*'realisations'"):
         st.Study([COLUMN], [], [], realisations=3)  # pyright: ignore[reportCallIssue]
 

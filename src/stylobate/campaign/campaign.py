@@ -160,7 +160,12 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
         @wraps(function)
         def taking(*args: Any, **kwargs: Any) -> Any:
             changes = {one.name: kwargs.pop(one.name) for one in taken if one.name in kwargs}
-            made = replace(kwargs.pop("campaign", None) or standard, **changes)
+            value = kwargs.pop("campaign", None) or standard
+            if not isinstance(value, Campaign):
+                raise InputError(
+                    f"campaign is {as_typed(value)}; allowed is a Campaign, such as Campaign(replicates=30)."
+                )
+            made = replace(value, **changes)
             for one in others:
                 if getattr(made, one.name) != one.default:
                     raise InputError(f"{named} takes no {one.name}; leave it out of the campaign.")

@@ -154,9 +154,9 @@ class Population(Group):
             return {}
         example = "--scatter friction=10%,joint_stiffness=20%"
         return {
-            "replicates": whole("--replicates", self.replicates, 30),
+            "replicates": _whole_number("--replicates", self.replicates, 30),
             "scatter": None if self.scatter is None else Scatter(**_sizes("--scatter", self.scatter, LARGEST, example)),
-            "seed": 0 if self.seed is None else whole("--seed", self.seed, 1),
+            "seed": 0 if self.seed is None else _whole_number("--seed", self.seed, 1),
         }
 
 
@@ -285,14 +285,14 @@ def input_lines(motion: Motion) -> dict[str, str]:
     return found
 
 
-def whole(option: str, text: str, example: int) -> int:
+def _whole_number(option: str, text: str, example: int) -> int:
     """A whole number as typed after an option."""
     if not text.isdecimal():
         raise InputError(f"{option} is {text!r}; allowed is a whole number, such as {example}.")
     return int(text)
 
 
-def share(text: str, example: str) -> float:
+def _share(text: str, example: str) -> float:
     """A share as typed: ``1%`` or ``0.01``."""
     number, percent = text.strip().removesuffix("%"), text.strip().endswith("%")
     try:
@@ -337,5 +337,5 @@ def _sizes(option: str, text: str, names: Iterable[str], example: str) -> dict[s
         name, _, size = part.partition("=")
         if name.strip() not in sizes:
             raise InputError(f"{option} names {name.strip()!r}; names are {', '.join(sizes)}, e.g. {example}.")
-        sizes[name.strip()] = share(size, example)
+        sizes[name.strip()] = _share(size, example)
     return sizes
