@@ -17,6 +17,7 @@ from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
 from .analysis.states import compare_states as compare_states
 from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
+from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
 from .column import AsFound as AsFound
 from .column import Column as Column

@@ -22,6 +22,7 @@ from ..motion.readers.samples import PREFIX
 from ..motion.request import MotionRequest
 from ..motion.specs import parse_acceleration, parse_time, parse_velocity
 from ..reading import shown
+from .campaign import Campaign
 from .cases import Study
 from .grid import read_grid
 
@@ -121,19 +122,15 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     )
     suite = request.expand()
     im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
-    scatter = table.scatter
+    drawn: dict[str, Any] = {} if table.scatter is None else _drawn(table.scatter)
     study = Study(
         [load_structure(folder / one if (folder / one).is_file() else one) for one in names],
         suite.motions,
         [make_model(one, settings) for one in models],
         levels,
         im,
-        realisations=0 if scatter is None else _whole("realisations", scatter.realisations, 1),
-        scatter=None if scatter is None else _scatter(scatter),
-        seed=0 if scatter is None else _whole("seed", scatter.seed, 0),
-        tail=parse_time(table.tail) if isinstance(table.tail, str) else _seconds(table.tail),
-        whole=table.whole,
         keep=table.keep,
+        campaign=Campaign(**drawn, tail=_seconds(table.tail), whole=table.whole),
     )
     return study, suite.refused
 
@@ -144,7 +141,7 @@ def _of_grid(path: str | Path) -> Study:
     for frequency, amplitude in product(grid.frequencies, grid.amplitudes):
         unit = harmonic(float(frequency), 1.0, grid.duration)
         motions.append(unit.scaled(float(amplitude)).replace(name=f"{frequency:.4g} Hz, {amplitude / g:.4g} g"))
-    return Study([grid.column], motions, [grid.model], tail=grid.tail)
+    return Study([grid.column], motions, [grid.model], campaign=Campaign(tail=grid.tail))
 
 
 def _listed(patterns: Sequence[str], folder: Path) -> list[str | Path]:
@@ -211,18 +208,19 @@ def _level(value: Any, unit: str) -> float:
     return float(value)
 
 
-def _scatter(table: ScatterTable) -> Scatter | None:
+def _drawn(table: ScatterTable) -> dict[str, Any]:
+    """Fields of a campaign of a study's twins."""
+    for name, value, low in (("realisations", table.realisations, 1), ("seed", table.seed, 0)):
+        if value < low:
+            raise InputError(f"{name} in [scatter] is {value}; allowed is a whole number from {low}.")
     sizes = {name: getattr(table, name) for name in LARGEST if getattr(table, name) is not None}
-    return Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
-
-
-def _whole(name: str, value: int, low: int) -> int:
-    if value < low:
-        raise InputError(f"{name} in [scatter] is {value}; allowed is a whole number from {low}.")
-    return value
+    scatter = Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
+    return {"replicates": table.realisations, "scatter": scatter, "seed": table.seed}
 
 
 def _seconds(value: Any) -> float:
+    if isinstance(value, str):
+        return parse_time(value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"tail is {as_typed(value)}; write it with its unit, such as '5s'.")
     return float(value)

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from . import options as o
@@ -18,12 +16,9 @@ if TYPE_CHECKING:
 
 
 def columns(
-    which: Annotated[
-        list[str] | None, typer.Argument(metavar="[COLUMN]...", help="Presets or column files; all presets by default.")
-    ] = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    which: list[str] | None = o.argument("[COLUMN]...", "Presets or column files; all presets by default.", None),
+    *,
+    execution: o.Plain,
 ) -> None:
     """Presets, and properties of columns.
 
@@ -33,18 +28,15 @@ def columns(
     from ..column.presets import PRESETS
     from . import console
 
-    o.the_threads(threads)
     chosen = [load_column(name) for name in which or PRESETS]
-    files = []
     names = [f"{Path(one.name).name or 'column'}.toml" for one in chosen]
     double = next((name for name in names if names.count(name) > 1), None)
-    if out is not None and double is not None:
+    if execution.out is not None and double is not None:
         raise InputError(f"two of the columns would be written to {double}; give each a name of its own.")
-    with console.folder(out, *names) as folder:
-        if folder is not None:
-            files = [write_column(one, folder / name) for one, name in zip(chosen, names)]
-    if as_json:
-        console.emit({"columns": [properties(one) for one in chosen], "files": [str(file) for file in files]})
+    with execution.files("columns", *names) as files:
+        if files.wanted:
+            files += [write_column(one, files / name) for one, name in zip(chosen, names)]
+    if execution.emits({"columns": [properties(one) for one in chosen], "files": files.names}):
         return
     for one in chosen:
         console.say(one.name, _facts(one))

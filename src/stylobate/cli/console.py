@@ -68,31 +68,6 @@ def write_json(path: Path, value: Any) -> Path:
     return write_text(path, as_json(value, indent=2))
 
 
-def write_summary(result: dict[str, Any], files: list[Path], path: Path) -> None:
-    """Write the JSON object of a command, which lists its files, as the last of them."""
-    files.append(path)
-    result["files"] = [str(file) for file in files]
-    write_json(path, result)
-
-
-def asked(folder: Path, command: str, **what: Any) -> Path:
-    """Write what a command was asked beside its results, with the command line and its warnings.
-
-    Parameters
-    ----------
-    folder : path
-    command : str
-        Its name.
-    **what
-        ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them, or
-        what :func:`stylobate.results.sources.kept_of` says of the runs that it rests on.
-    """
-    from ..results.asked import Asked, asked_file
-
-    found = Asked.of(COMMAND, warnings=[*what.pop("earlier", ()), *WARNED], **what)
-    return write_json(folder / asked_file(command), found.to_dict())
-
-
 def write_text(path: Path, text: str) -> Path:
     """Write a text and a line end, whole or not at all."""
     from ..atomic import replacing

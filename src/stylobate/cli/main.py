@@ -6,8 +6,9 @@ import errno
 import io
 import sys
 import warnings
-from collections.abc import Callable, Sequence
-from functools import cache, wraps
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import cache
 from typing import Annotated, Any
 
 import typer
@@ -40,6 +41,7 @@ from . import (
     survival,
 )
 from .added import STUDIES, added_commands, missing_command
+from .groups import takes
 from .helping import WIDTH, Command
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
@@ -59,25 +61,21 @@ class Interrupted(Exception):
     """A command was stopped; the message says what is kept of its work."""
 
 
-def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
-    """The command, whose end keeps its words: typer makes numbers of interrupts."""
-
-    @wraps(command)
-    def wrapped(*args: Any, **kwargs: Any) -> None:
-        signals.KEPT.clear()
-        try:
-            command(*args, **kwargs)
-        except KeyboardInterrupt as interrupt:
-            raise Interrupted(str(interrupt) or signals.sentence()) from None
-        except EOFError as error:  # typer reports it as an interrupt, which it is not: no command asks for input
-            raise RuntimeError(f"a file ended too soon: {error}") from error
-        except Exception as error:
-            ours = isinstance(error, StylobateError) and not isinstance(error, InputError)
-            if signals.TOLD.is_set() and not ours:  # compiled code of others makes something else of an interrupt
-                raise Interrupted(signals.sentence()) from None
-            raise
-
-    return wrapped
+@contextmanager
+def _passing_on() -> Iterator[None]:
+    """Around a command, whose end keeps its words: typer makes numbers of interrupts."""
+    signals.KEPT.clear()
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        raise Interrupted(str(interrupt) or signals.sentence()) from None
+    except EOFError as error:  # typer reports it as an interrupt, which it is not: no command asks for input
+        raise RuntimeError(f"a file ended too soon: {error}") from error
+    except Exception as error:
+        ours = isinstance(error, StylobateError) and not isinstance(error, InputError)
+        if signals.TOLD.is_set() and not ours:  # compiled code of others makes something else of an interrupt
+            raise Interrupted(signals.sentence()) from None
+        raise
 
 
 for _room in (
@@ -85,12 +83,12 @@ for _room in (
     spectrum, columns, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
-    app.command(_name, cls=Command)(_passing_on(getattr(_room, _name)))
+    app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))
 
 
 _studies = typer.Typer(help="Many runs from one file: columns, records, levels, models, realisations.")
 for _part in (study.run, study.status, study.export):
-    _studies.command(_part.__name__, cls=Command)(_passing_on(_part))
+    _studies.command(_part.__name__, cls=Command)(takes(_part, _passing_on))
 app.add_typer(_studies, name="study")
 
 
@@ -168,7 +166,7 @@ def commands() -> Any:
     program: Any = typer.main.get_command(app)
     for name, function in added_commands(program.commands).items():
         room = typer.Typer(add_completion=False, rich_markup_mode=None)
-        room.command(name, cls=Command)(_passing_on(function))
+        room.command(name, cls=Command)(takes(function, _passing_on))
         program.add_command(typer.main.get_command(room), name)
     return program
 
