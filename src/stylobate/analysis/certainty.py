@@ -17,6 +17,7 @@ from ..models.base import Case, Model
 from ..motion import Motion
 from ..percent import percents
 from ..response import Response
+from ..response.words import to_decide
 from ..simulate import simulate, simulate_iter
 from . import verdicts as v
 
@@ -50,6 +51,8 @@ class Population:
         Parts of the scatter that the model does not take.
     confidence : float
         Level of the interval.
+    to_decide : str
+        What decides those whose verdict is open, in a clause.
     """
 
     twins: Sequence[Column]
@@ -58,6 +61,7 @@ class Population:
     seed: int
     left_out: tuple[str, ...] = ()
     confidence: float = 0.95
+    to_decide: str = ""
 
     @property
     def verdicts(self) -> list[str]:
@@ -120,7 +124,7 @@ class Population:
         said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
         said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)})"
         if counts[v.UNDECIDED]:
-            said += f"; {_not_fallen(counts)}: go on with --tail 5s"
+            said += f"; {_not_fallen(counts)}{f': {self.to_decide}' if self.to_decide else ''}"
         return said + (f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else ".")
 
     @property
@@ -341,7 +345,8 @@ def certainty(
     rows = [one.row() for one in response.twins]
     tail, quiet = (following.get(name, 0.0) for name in ("tail", "quiet"))
     rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, threads, quiet)
-    population = Population(twins, tuple(rows), drawn.scatter, seed, drawn.left_out)
+    cure = to_decide(column, model.parameters(), tail)
+    population = Population(twins, tuple(rows), drawn.scatter, seed, drawn.left_out, to_decide=cure)
     return Certainty(response, population, time.perf_counter() - began)
 
 

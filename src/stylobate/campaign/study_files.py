@@ -13,7 +13,7 @@ from ..column.assembly_files import load_structure
 from ..column.scatter import LARGEST, Scatter
 from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
-from ..errors import InputError, as_typed
+from ..errors import InputError, as_typed, check_whole, within
 from ..models.registry import make_model
 from ..motion import harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
@@ -97,10 +97,8 @@ def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
     if "motions" not in found:
         raise InputError(f"{shown(path)} names no record; add [motions] with files = [...].")
     table = read_table(path, StudyFile)
-    try:
+    with within(shown(path)):
         return _study(table, Path(path).parent)
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
@@ -128,9 +126,9 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
         [make_model(one, settings) for one in models],
         levels,
         im,
-        realisations=0 if scatter is None else _whole("realisations", scatter.realisations, 1),
+        realisations=0 if scatter is None else check_whole("realisations in [scatter]", scatter.realisations, 1),
         scatter=None if scatter is None else _scatter(scatter),
-        seed=0 if scatter is None else _whole("seed", scatter.seed, 0),
+        seed=0 if scatter is None else check_whole("seed in [scatter]", scatter.seed, 0),
         tail=parse_time(table.tail) if isinstance(table.tail, str) else _seconds(table.tail),
         whole=table.whole,
         keep=table.keep,
@@ -214,12 +212,6 @@ def _level(value: Any, unit: str) -> float:
 def _scatter(table: ScatterTable) -> Scatter | None:
     sizes = {name: getattr(table, name) for name in LARGEST if getattr(table, name) is not None}
     return Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
-
-
-def _whole(name: str, value: int, low: int) -> int:
-    if value < low:
-        raise InputError(f"{name} in [scatter] is {value}; allowed is a whole number from {low}.")
-    return value
 
 
 def _seconds(value: Any) -> float:

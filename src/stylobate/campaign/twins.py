@@ -6,12 +6,10 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from ..column import Column
 from ..column.scatter import Scatter, scattered_columns, usual_scatter
 from ..column.structure import Structure
-from ..errors import InputError, as_typed
+from ..errors import InputError, check_whole
 from ..models.base import Model
 
 #: Largest number of twins.
@@ -48,10 +46,11 @@ def the_twins(
     """Twins of a column that the model can take; not ``alone`` where more than the columns differs."""
     stack = column.stack
     if stack is None:
-        raise InputError(f"{column.name!r} is no column, and only columns have twins; leave --replicates out.")
+        raise InputError(
+            f"{column.name!r} is no column, and only columns have twins; leave `replicates` out.", "replicates"
+        )
     for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
-            raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
+        check_whole(f"`{name}`", value, low, high)
     asked = usual_scatter(stack) if scatter is None else scatter
     left_out = tuple(name for name in asked.given if name in model.not_scattered)
     size = dataclasses.replace(asked, **dict.fromkeys(left_out, 0.0))

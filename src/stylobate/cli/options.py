@@ -228,7 +228,7 @@ def the_tail(text: str) -> float:
     """Time after the motion [s]."""
     from ..motion.specs import parse_time
 
-    return parse_time(text)
+    return parse_time(text, "tail")
 
 
 def the_request(context: typer.Context, **changes: Any) -> MotionRequest:
