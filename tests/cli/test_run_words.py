@@ -125,6 +125,35 @@ def column(tmp_path):
     return path
 
 
+@pytest.mark.parametrize(
+    ("command", "arguments"),
+    [
+        ("critical", ["--harmonic", "1Hz,?g,0.2s", "--from", "0.1g", "--to", "0.2g", "--step", "0.1g"]),
+        (
+            "critical",
+            ["--harmonic", "1Hz,?g,0.2s", "--signs", "both", "--from", "0.1g", "--to", "0.2g", "--step", "0.1g"],
+        ),
+        ("domain", ["--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2", "--duration", "0.2s"]),
+        ("domain", ["--frequencies", "1", "--amplitudes", "0.1g", "--duration", "0.2s", "--replicates", "2"]),
+        ("compare", ["--models", "dem2d", "--harmonic", "1Hz,0.1g,0.2s"]),
+        ("study", []),
+    ],
+)
+def test_what_a_plane_says_of_round_drums_is_doubted_before_it(command, arguments, column, capsys, tmp_path):
+    words = [command, column, *arguments]
+    if command == "study":
+        file = tmp_path / "study.toml"
+        write_csv(half_sine_pulse(1.0, 0.1 * st.g, 0.5), tmp_path / "one.csv")
+        file.write_text('model = "dem2d"\ncolumns = ["two.toml"]\n[motions]\nfiles = ["one.csv"]\n')
+        words = ["study", "run", file]
+    text = said(capsys, *words, "--out", tmp_path / "out")
+    assert text.startswith(DOUBT)
+    if command != "compare":
+        (result,) = read_results([tmp_path / "out"])
+        assert DOUBT in result.summary["doubt"]
+        assert DOUBT in str(sections_of(result, set())[0])
+
+
 def test_a_run_says_its_doubt(column, capsys, tmp_path):
     plane = said(capsys, "run", column, "--harmonic", "1Hz,0.3g,0.5s", "--replicates", "0")
     assert plane.count(DOUBT) == 1

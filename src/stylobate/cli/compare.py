@@ -62,6 +62,7 @@ def compare(
     States of one column, as built, as found and with a measure, are compared by 'stylobate states'.
     """
     from ..analysis.compare import compare_domains, compare_models
+    from ..analysis.difference import round_drums
     from ..motion.orientation import keep_axes
     from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
@@ -74,7 +75,8 @@ def compare(
     stone = o.the_column(column, project)
     chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
-    result: dict[str, Any] = {"models": names}
+    doubts = (round_drums([stone], one) for one in chosen)
+    result: dict[str, Any] = {"models": names, "doubt": next(filter(None, doubts), "")}
     said: dict[str, str] = {}
     if over_domain:
         if frequencies is None or amplitudes is None:
@@ -125,6 +127,7 @@ def compare(
     if as_json:
         console.emit(result)
     else:
+        console.print_doubt(result)
         for name, text in said.items():
             print(f"{name}: {text}")
         (console.print_table if over_domain else console.print_side_by_side)(table)

@@ -159,6 +159,12 @@ def _as_text(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
+def print_doubt(result: Mapping[str, Any]) -> None:
+    """Say what stands before all that rests on the runs of a result, because of their model; nothing where nothing does."""
+    if result.get("doubt"):
+        print(result["doubt"])
+
+
 #: Motions of which is told what is left out.
 MOST_LEFT_OUT = 12
 

@@ -71,6 +71,7 @@ def critical(
     folder of records, or several directions, is run on one grid, with columns like it by --replicates only.
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
+    from ..analysis.difference import round_drums
     from ..motion.specs import parse_acceleration
     from . import console
 
@@ -110,6 +111,7 @@ def critical(
                 ledger=ledger,
             )
         summary, files = result.summary() | o.input_facts(how.taken(shaking)), []
+        summary["doubt"] = round_drums([stone], how)
         if folder is not None:
             files = write(result, summary, folder)
             what = {"structures": [stone], "models": [how], "motions": [how.taken(shaking)]}
@@ -118,6 +120,7 @@ def critical(
     if as_json:
         console.emit(summary)
     else:
+        console.print_doubt(summary)
         describe(result, summary, how.taken(shaking), files)
 
 
@@ -135,6 +138,7 @@ def over_suite(
 ) -> None:
     """The critical amplitude under each record of a folder."""
     from ..analysis.critical_suite import critical_suite
+    from ..analysis.difference import round_drums
     from . import console
 
     with console.folder(out, *WRITES, "runs.csv", "directions") as folder:
@@ -152,7 +156,7 @@ def over_suite(
                 progress=progress,
                 ledger=ledger,
             )
-        summary, files = result.summary() | {"refused": suite.refused}, []
+        summary, files = result.summary() | {"refused": suite.refused, "doubt": round_drums([column], model)}, []
         if folder is not None:
             from .. import plots
 
@@ -173,6 +177,7 @@ def over_suite(
     if as_json:
         console.emit(summary)
         return
+    console.print_doubt(summary)
     print(summary["sentence"])
     console.print_table(with_bounds(result))
     console.print_refused(suite.refused)

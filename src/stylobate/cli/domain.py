@@ -60,6 +60,7 @@ def domain(
     With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
+    from ..analysis.difference import round_drums
     from ..analysis.domain import collapse_domain
     from ..analysis.step_sensitivity import compare_steps
     from ..campaign.runs import Stopped
@@ -85,12 +86,14 @@ def domain(
         if not result.complete:
             raise Stopped(result.rows.finished, len(result.rows), ledger)
         summary = result.summary() | ({"half_step": pair.summary()} if pair else {})
+        summary["doubt"] = round_drums([study.column], study.model)
         files = [] if folder is None else write(result, folder, summary)
         if folder is not None:
             files.append(asked(folder, study))
     if as_json:
         console.emit(summary | {"files": [str(file) for file in files]})
         return
+    console.print_doubt(summary)
     describe(result, files)
     if half_step:
         step = summary["half_step"]
@@ -120,6 +123,7 @@ def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
 
 def run_probability(study: HarmonicGrid, population: dict, threads: int, out: Path | None, as_json: bool) -> None:
     """The domain with many variations in every cell."""
+    from ..analysis.difference import round_drums
     from ..analysis.replicates import collapse_probability
     from ..campaign.runs import Stopped
     from . import console
@@ -132,6 +136,7 @@ def run_probability(study: HarmonicGrid, population: dict, threads: int, out: Pa
                 *_grid(study), **population, tail=study.tail, threads=threads, progress=progress, out=folder
             )
         summary = result.summary()
+        summary["doubt"] = round_drums([study.column], study.model)
         if not result.complete:
             raise Stopped(summary["runs"], result.codes.size, console.ledger(folder))
         files = []
@@ -148,6 +153,7 @@ def run_probability(study: HarmonicGrid, population: dict, threads: int, out: Pa
     if as_json:
         console.emit(summary | {"files": [str(file) for file in files]})
     else:
+        console.print_doubt(summary)
         describe_probability(result, files)
 
 

@@ -126,8 +126,7 @@ def ida(
     if as_json:
         console.emit(result)
         return
-    if result["doubt"]:
-        print(result["doubt"])
+    console.print_doubt(result)
     fell = sum(one["collapses_from"] is not None for one in result["capacities"])
     facts = {
         "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",

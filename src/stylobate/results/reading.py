@@ -177,7 +177,8 @@ def _read_study(place: Path) -> StudyFolder:
     study = StudyResult.in_folder(place)
     summary = study.summary()
     if (place / "study.json").is_file():
-        summary |= {"wall_s": read_json(place / "study.json").get("wall_s")}
+        written = read_json(place / "study.json")
+        summary |= {name: written.get(name) for name in ("wall_s", "doubt")}
     ranked, kept, names = study.ranked(), {}, [PLAN_FILE, "study.json", "study.csv", "study.parquet"]
     for name, number in {"median": (len(ranked) - 1) // 2, "worst": -1}.items() if ranked else ():
         file = f"histories/{study.plan.digests[ranked[number]]}.nc"
