@@ -10,6 +10,7 @@ from stylobate.analysis.certainty import Population, batch
 from stylobate.campaign.twins import Twins, the_twins
 from stylobate.column.scatter import scattered_columns
 from stylobate.models.base import Case
+from stylobate.response.words import to_decide
 
 COLUMN = st.Column.tapered(
     height=2.4, bottom_width=0.5, top_width=0.4, drums=3, density=2600.0, section="circular",
@@ -47,7 +48,9 @@ def test_a_run_that_is_no_example_of_its_twins_says_so():
     assert mostly.beside(row("collapsed")) == mostly.beside(row("failed", decided=False)) == ""
     assert mostly.summary(row("rocked"))["certainty"]["beside"] == said
     seldom = population(*[row("rocked")] * 14, row("rocked", decided=False))
-    assert seldom.sentence.endswith("; 14 stand and 1 is undecided: go on with --tail 5s.")
+    assert seldom.sentence.endswith("; 14 stand and 1 is undecided.")
+    advised = dataclasses.replace(seldom, to_decide=to_decide(COLUMN, {}, 5.0))
+    assert advised.sentence.endswith("is undecided: go on with a tail of 10 s.")
     fell = seldom.beside(row("collapsed"))
     assert "not the single run" not in fell
     assert fell == (

@@ -122,8 +122,8 @@ def test_motions_of_a_record_are_told_apart_from_records_and_what_is_undecided_i
     assert found["sentence"] == (
         "1 of 2 motions of 1 record collapse the column at some peak looked at, 0.2 to 0.5 g, 2 it or one like it. Most "
         "harm: a 1, which collapses it or one like it at 1.2 times the record, 0.3 g, the smallest factor at which any "
-        "does. 1 of 8 runs ended far from rest (a longer --tail decides them); 1 run of those like it ended far from rest "
-        "(a longer --tail decides them): not counted as collapse."
+        "does. 1 of 8 runs ended far from rest (a longer tail may decide them); 1 run of those like it ended far from rest "
+        "(a longer tail may decide them): not counted as collapse."
     )
     assert (found["lowest_collapse_g"], found["lowest_collapse_factor"]) == pytest.approx((0.3, 1.2))
     assert suite.compass.values.tolist() == pytest.approx([1.6, 1.2])  # as the sentence, not of the column alone

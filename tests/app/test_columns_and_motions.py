@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.app.fields import column_field, motion_field
 
 
 def test_a_column_has_the_properties_of_the_library(client, table):
@@ -135,9 +134,10 @@ def test_a_joint_without_contact_is_found_at_the_offset_above_it(client, table):
     assert found["field"] == "found.2.offset"
 
 
-def test_sentences_about_no_field_have_none(table):
-    assert column_field("the drums mix circular and rectangular things.", table) is None
-    assert motion_field("there is no sample of this name.") is None
+def test_errors_about_no_field_have_none(client, table):
+    assert client.post("/api/column", json=table | {"drum": []}).json()["field"] is None
+    asked = {"kind": "sample", "text": "nowhere"}
+    assert client.post("/api/motion", json={"motion": asked}).json()["field"] is None
 
 
 def test_a_column_file_goes_out_and_comes_back(client, table):

@@ -16,6 +16,7 @@ from ..models.base import Case, Model
 from ..motion import Motion
 from ..percent import percents
 from ..response import Response
+from ..response.words import to_decide
 from ..simulate import simulate, simulate_iter
 from . import verdicts as v
 
@@ -44,11 +45,14 @@ class Population:
         One per twin, with the keys of ``Measures.row()``.
     confidence : float
         Level of the interval.
+    to_decide : str
+        What decides those whose verdict is open, in a clause.
     """
 
     drawn: Twins
     rows: tuple[dict, ...]
     confidence: float = 0.95
+    to_decide: str = ""
 
     @property
     def verdicts(self) -> list[str]:
@@ -111,7 +115,7 @@ class Population:
         said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
         said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)})"
         if counts[v.UNDECIDED]:
-            said += f"; {_not_fallen(counts)}: go on with --tail 5s"
+            said += f"; {_not_fallen(counts)}{f': {self.to_decide}' if self.to_decide else ''}"
         return said + (f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else ".")
 
     @property
@@ -326,7 +330,7 @@ def certainty(
     )  # fmt: skip
     rows = [one.row() for one in response.twins]
     rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
-    population = Population(drawn, tuple(rows))
+    population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail))
     return Certainty(response, population, time.perf_counter() - began)
 
 

@@ -336,13 +336,14 @@ def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:
     """Amplitudes from ``start`` to ``stop`` in steps [m/s²]; the last one is the last step not beyond ``stop``."""
     low, high, width = (float(value) for value in (start, stop, step))
     least = "it must not be below the smallest"
-    check_range("the smallest amplitude", low / g, 0.0, 1e3, unit="g", open_low=True)
-    check_range("the largest amplitude", high / g, low / g, 1e3, unit="g", remedy=least)
-    check_range("the amplitude step", width / g, 0.0, 1e3, unit="g", open_low=True)
+    check_range("the smallest amplitude", low / g, 0.0, 1e3, unit="g", open_low=True, field="start")
+    check_range("the largest amplitude", high / g, low / g, 1e3, unit="g", remedy=least, field="stop")
+    check_range("the amplitude step", width / g, 0.0, 1e3, unit="g", open_low=True, field="step")
     steps = int((high - low) / width * (1.0 + 1e-12) + 1e-9)
     if steps >= MAX_AMPLITUDES:
         raise InputError(
-            f"the grid of amplitudes has {steps + 1} steps; allowed is up to {MAX_AMPLITUDES}: give a larger step."
+            f"the grid of amplitudes has {steps + 1} steps; allowed is up to {MAX_AMPLITUDES}: give a larger step.",
+            "step",
         )
     return low + width * np.arange(steps + 1)
 

@@ -98,8 +98,8 @@ def ida(
     """
     started = time.perf_counter()
     measure = parse_measure(im) if isinstance(im, str) else im
-    check_range("runs of a record", runs, 4, 1000)
-    check_range("largest factor", largest_factor, 0.0, 1e4, open_low=True)
+    check_range("runs of a record", runs, 4, 1000, field="runs")
+    check_range("`largest_factor`", largest_factor, 0.0, 1e4, open_low=True)
     if levels is not None and not (len(levels) and all(one > 0.0 for one in levels)):
         raise InputError("the levels are none, or not positive; give at least one positive level.")
     if not motions:

@@ -14,7 +14,7 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, run_all
 from ..campaign.twins import the_twins
 from ..column.structure import Structure
-from ..errors import InputError
+from ..errors import check_choice
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -62,8 +62,7 @@ def must_be_told(against: str, columns: Sequence[Structure]) -> None:
     """
     related = all(one.slenderness is not None for one in columns)
     known = [name for name in INTENSITIES if related or name not in RELATIVE]
-    if against not in known:
-        raise InputError(f"--against is {against!r}; allowed is {', '.join(known)}.")
+    check_choice("`against`", against, known)
 
 
 @campaigning(Fields)

@@ -38,7 +38,8 @@ def assembly_of(text: str) -> Assembly:
             _only_presets(parse_toml(path).get("column"))
             return read_assembly(path)
         except InputError as error:
-            raise InputError(str(error).replace(f"{folder}/", "")) from None
+            error.without(f"{folder}/")
+            raise
 
 
 def _only_presets(tables: Any) -> None:

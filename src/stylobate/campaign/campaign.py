@@ -10,10 +10,8 @@ from functools import wraps
 from pathlib import Path
 from typing import Any, TypedDict, TypeVar
 
-import numpy as np
-
 from ..column.scatter import Scatter
-from ..errors import InputError, as_typed, check_range
+from ..errors import InputError, as_typed, check_range, check_whole
 from .ledger import RUNS_FILE
 
 #: Largest number of twins.
@@ -86,16 +84,16 @@ class Campaign:
     ledger: str | Path | None = None
 
     def __post_init__(self) -> None:
-        for name, value, high in (("replicates", self.replicates, MAX_TWINS), ("seed", self.seed, 2**63 - 1)):
-            if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not 0 <= value <= high:
-                raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from 0 to {high}.")
+        check_whole("`replicates`", self.replicates, 0, MAX_TWINS)
+        check_whole("`seed`", self.seed, 0, 2**63 - 1)
         if not (self.scatter is None or isinstance(self.scatter, Scatter)):
             raise InputError(
-                f"scatter is {as_typed(self.scatter)}; allowed is a Scatter, such as Scatter(friction=0.1)."
+                f"`scatter` is {as_typed(self.scatter)}; allowed is a Scatter, such as Scatter(friction=0.1).",
+                "scatter",
             )
-        check_range("tail", self.tail, 0.0, 1e4, unit="s")
+        check_range("`tail`", self.tail, 0.0, 1e4, unit="s")
         if self.threads is not None:
-            check_range("threads", self.threads, 1, 1024, remedy="leave it out to use all cores")
+            check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
 
     @property
     def of_runs(self) -> Campaign:

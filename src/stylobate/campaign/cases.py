@@ -13,7 +13,7 @@ import numpy as np
 from ..column import Column
 from ..column.scatter import usual_scatter
 from ..column.structure import Structure
-from ..errors import InputError, check_range
+from ..errors import InputError, check_choice, check_range
 from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -105,10 +105,9 @@ class Study:
         if campaign.replicates and self.columns[0].stack is None:
             described = self.columns[0].described
             raise InputError(f"{names[0]!r} is {described}, and only columns have realisations; leave [scatter] out.")
-        if self.keep not in KEEP:
-            raise InputError(f"keep is {self.keep!r}; allowed is {' or '.join(KEEP)}.")
+        check_choice("keep", self.keep, KEEP)
         for level in self.levels:
-            check_range("one of the levels", level, 0.0, 1e6, open_low=True)
+            check_range("one of the levels", level, 0.0, 1e6, open_low=True, field="levels")
         if self.size > MAX_CASES:
             raise InputError(f"the study has {self.size} cases; allowed is up to {MAX_CASES}: give fewer.")
         object.__setattr__(self, "factors", np.array([self._factors(motion) for motion in self.motions]))

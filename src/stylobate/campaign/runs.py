@@ -85,7 +85,7 @@ class Stopped(KeyboardInterrupt):
     """
 
     def __init__(self, done: int, total: int, ledger: str | Path | None = None, rows: Rows | None = None) -> None:
-        said = f"interrupted after {done} of {total} runs; nothing is kept: with --out DIR it would go on from there."
+        said = f"interrupted after {done} of {total} runs; nothing is kept: with `out=DIR` it would go on from there."
         if ledger is not None:
             kept = f"{done} of {total} runs are kept in {Path(ledger).parent}"
             said = f"interrupted; {kept}: the same command goes on from there."

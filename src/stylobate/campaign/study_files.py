@@ -13,7 +13,7 @@ from ..column.assembly_files import load_structure
 from ..column.scatter import LARGEST, Scatter
 from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
-from ..errors import InputError, as_typed
+from ..errors import InputError, as_typed, check_whole, within
 from ..models.registry import make_model
 from ..motion import harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
@@ -98,10 +98,8 @@ def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
     if "motions" not in found:
         raise InputError(f"{shown(path)} names no record; add [motions] with files = [...].")
     table = read_table(path, StudyFile)
-    try:
+    with within(shown(path)):
         return _study(table, Path(path).parent)
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
@@ -210,12 +208,11 @@ def _level(value: Any, unit: str) -> float:
 
 def _drawn(table: ScatterTable) -> dict[str, Any]:
     """Fields of a campaign of a study's twins."""
-    for name, value, low in (("realisations", table.realisations, 1), ("seed", table.seed, 0)):
-        if value < low:
-            raise InputError(f"{name} in [scatter] is {value}; allowed is a whole number from {low}.")
+    number = check_whole("realisations in [scatter]", table.realisations, 1)
+    seed = check_whole("seed in [scatter]", table.seed, 0)
     sizes = {name: getattr(table, name) for name in LARGEST if getattr(table, name) is not None}
     scatter = Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
-    return {"replicates": table.realisations, "scatter": scatter, "seed": table.seed}
+    return {"replicates": number, "scatter": scatter, "seed": seed}
 
 
 def _seconds(value: Any) -> float:

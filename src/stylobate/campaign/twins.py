@@ -47,7 +47,9 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
     """Twins of a column that the model can take; not ``alone`` where more than the columns differs."""
     stack, replicates, seed = column.stack, campaign.replicates, campaign.seed
     if stack is None:
-        raise InputError(f"{column.name!r} is no column, and only columns have twins; leave --replicates out.")
+        raise InputError(
+            f"{column.name!r} is no column, and only columns have twins; leave `replicates` out.", "replicates"
+        )
     if not replicates:
         raise InputError(f"replicates is 0; allowed is a whole number from 1 to {MAX_TWINS}.")
     asked = usual_scatter(stack) if campaign.scatter is None else campaign.scatter

@@ -36,6 +36,7 @@ def compare(
     States of one column, as built, as found and with a measure, are compared by 'stylobate states'.
     """
     from ..analysis.compare import compare_domains, compare_models
+    from ..analysis.difference import round_drums
     from ..motion.orientation import keep_axes
     from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
@@ -48,7 +49,8 @@ def compare(
     stone = o.the_column(column, project)
     chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
-    result: dict[str, Any] = {"models": names}
+    doubts = (round_drums([stone], one) for one in chosen)
+    result: dict[str, Any] = {"models": names, "doubt": next(filter(None, doubts), "")}
     facts: dict[str, str] = {}
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
     if over_domain:
@@ -90,6 +92,7 @@ def compare(
     result["files"] = files.names
     if execution.emits(result):
         return
+    console.print_doubt(result)
     for name, text in facts.items():
         print(f"{name}: {text}")
     (console.print_table if over_domain else console.print_side_by_side)(table)

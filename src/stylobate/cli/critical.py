@@ -53,6 +53,7 @@ def critical(
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..analysis.critical_suite import critical_suite
+    from ..analysis.difference import round_drums
     from ..motion.specs import parse_acceleration
     from . import console
 
@@ -77,13 +78,15 @@ def critical(
     with execution.files("critical", "critical.csv", "critical.json", "critical", *writes) as files:
         with files.campaign(campaign) as asked:
             result: Any = make(campaign=asked)
-        summary = result.summary() | ({"refused": suite.refused} if request.several else o.input_facts(taken[0]))
+        summary = result.summary() | {"doubt": round_drums([stone], how)}
+        summary |= {"refused": suite.refused} if request.several else o.input_facts(taken[0])
         if files.wanted:
             (write_suite if request.several else write)(result, summary, files)
             files.asked(structures=[stone], models=[how], motions=taken, tail_s=campaign.tail)
             summary["files"] = files.names
     if execution.emits(summary):
         return
+    console.print_doubt(summary)
     if request.several:
         print(summary["sentence"])
         console.print_table(with_bounds(result))

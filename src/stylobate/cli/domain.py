@@ -37,10 +37,12 @@ def domain(
     With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
+    from ..analysis.difference import round_drums
     from ..analysis.domain import collapse_domain
     from ..analysis.replicates import collapse_probability
     from ..analysis.step_sensitivity import compare_steps
     from ..campaign.runs import Stopped
+    from . import console
 
     study = _study(what, model, frequencies, amplitudes, duration, tail, settings, project)
     grid: tuple[Any, ...] = study.column, study.model, study.frequencies, study.amplitudes, study.duration
@@ -62,6 +64,7 @@ def domain(
             else:
                 result = collapse_domain(*grid, campaign=asked)
         summary = result.summary() | ({"half_step": pair.summary()} if pair else {})
+        summary["doubt"] = round_drums([study.column], study.model)
         if not result.complete:
             raise Stopped(summary["runs"], summary["runs"] + summary["not_run"], asked.ledger)
         if files.wanted:
@@ -69,6 +72,7 @@ def domain(
             files.asked(structures=[study.column], models=[study.model], duration_s=study.duration, tail_s=study.tail)
     if execution.emits(summary | {"files": files.names}):
         return
+    console.print_doubt(summary)
     (describe_probability if likely else describe)(result, files)
     if pair:
         step = summary["half_step"]

@@ -82,8 +82,7 @@ def ida(
             files.summary(result, "ida.json")
     if execution.emits(result):
         return
-    if result["doubt"]:
-        print(result["doubt"])
+    console.print_doubt(result)
     fell = sum(one["collapses_from"] is not None for one in result["capacities"])
     facts = {
         "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",

@@ -119,7 +119,7 @@ def call(arguments: Sequence[str]) -> int:
         0 when the command did its work (a collapse is a result), 2 for bad input, 1 for a failure of ours, 130 after
         an interrupt.
     """
-    console.COMMAND[:], console.WARNED[:] = list(map(str, arguments)), []
+    console.COMMAND[:], console.WARNED[:], console.FIELD = list(map(str, arguments)), [], None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", OutOfRangeWarning)
@@ -133,11 +133,12 @@ def call(arguments: Sequence[str]) -> int:
                 raise InputError(missing_command(arguments[0]))
             code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
         except InputError as error:
-            return _complain(str(error), BAD_INPUT)
+            console.FIELD = error.field
+            return _complain(error, BAD_INPUT)
         except StylobateError as error:
-            return _complain(str(error), FAILURE)
+            return _complain(error, FAILURE)
         except Interrupted as error:
-            return _complain(str(error), INTERRUPTED)
+            return _complain(error, INTERRUPTED)
         except (KeyboardInterrupt, typer.Abort):
             code = INTERRUPTED
         except OSError as error:
@@ -188,7 +189,7 @@ class _Warner:
     """Prints each warning once, in one line, on standard error."""
 
     def __call__(self, message: Any, *_: Any, **__: Any) -> None:
-        text = str(message)
+        text = console.in_options(message)
         if text not in console.WARNED:
             console.WARNED.append(text)
             print(f"stylobate: warning: {text}", file=sys.stderr)
@@ -201,8 +202,8 @@ def _usage(error: Any) -> str:
     return f"{message.rstrip('.')}; see '{where} --help'."
 
 
-def _complain(text: str, code: int) -> int:
-    print(f"stylobate: {text}", file=sys.stderr)
+def _complain(what: object, code: int) -> int:
+    print(f"stylobate: {console.in_options(what)}", file=sys.stderr)
     return code
 
 

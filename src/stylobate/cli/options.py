@@ -129,7 +129,7 @@ class Following(Group):
         """Fields of the campaign."""
         from ..motion.specs import parse_time
 
-        return {"tail": parse_time(self.tail), "whole": self.whole}
+        return {"tail": parse_time(self.tail, "tail"), "whole": self.whole}
 
 
 @dataclass(frozen=True)

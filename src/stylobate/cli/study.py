@@ -27,6 +27,7 @@ def run(
 
     Finished runs are kept in the folder: a study that was stopped goes on, one that has grown computes only what is new.
     """
+    from ..analysis.difference import round_drums
     from ..analysis.studies import TABLES, keep_histories, run_study, write_table
     from ..campaign.study_files import read_plan
     from . import console
@@ -45,10 +46,12 @@ def run(
         what = {"structures": study.columns, "models": study.models, "runs": result.table}
         what |= {"motions": motions if more else [model.taken(one) for one in motions]}
         files.asked(**what, tail_s=study.campaign.tail)
-        summary = result.summary() | {"refused": refused}
+        doubts = (round_drums(study.columns, one) for one in study.models)
+        summary = result.summary() | {"refused": refused, "doubt": next(filter(None, doubts), "")}
         files.summary(summary, "study.json")
     if execution.emits(summary):
         return
+    console.print_doubt(summary)
     print(sentence(result))
     console.print_refused(refused)
     tables, histories = files[-3:], len(files) - 3

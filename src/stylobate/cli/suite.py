@@ -95,8 +95,7 @@ def suite(
             result["files"] = files.names
     if execution.emits(result):
         return
-    if result["doubt"]:
-        print(result["doubt"])
+    console.print_doubt(result)
     table["chance"] = [chance_words(row) for row in result["runs"]]
     for one, (_, rows) in zip(found, table.groupby("column", sort=False), strict=True):
         print(one.collapses)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning
+from ..errors import InputError, OutOfRangeWarning, within
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
@@ -88,10 +88,8 @@ def read_assembly(path: str | Path) -> Assembly:
         The file cannot be read or does not describe an assembly; the message names the block and the remedy.
     """
     table = read_table(path, AssemblyTable)
-    try:
+    with within(shown(path)):
         return _assembly(table, shown(Path(path).stem), Path(path).parent)
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, as_typed, check_range
+from ..errors import InputError, OutOfRangeWarning, check_range, check_whole
 from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
@@ -220,10 +220,9 @@ class Column(DrumStack):
         """
         joints = [joint] * len(drums)
         for index, other in (overrides or {}).items():
-            if not 1 <= index <= len(joints):
-                raise InputError(
-                    f"joint_override index is {index}; allowed is 1 (the joint with the base) to {len(joints)}."
-                )
+            check_whole(
+                "joint_override index", index, 1, len(joints), remedy="1 is at the base", field=f"override.{index}"
+            )
             joints[index - 1] = other
         return cls(tuple(drums), tuple(joints), name, gravity)
 
@@ -263,8 +262,7 @@ class Column(DrumStack):
         overrides, name, gravity
             As in :meth:`of_drums`.
         """
-        if isinstance(drums, bool) or not isinstance(drums, (int, np.integer)) or not 1 <= drums <= MAX_DRUMS:
-            raise InputError(f"drums is {as_typed(drums)}; allowed is a whole number from 1 to {MAX_DRUMS}.")
+        drums = check_whole("drums", drums, 1, MAX_DRUMS)
         whole = Drum(height, bottom_width, top_width, density, section, depth, top_depth)
         taper = (whole.top_width - whole.bottom_width) / drums
         widths = [whole.bottom_width + taper * i for i in range(drums)] + [whole.top_width]

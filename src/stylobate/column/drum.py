@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..errors import InputError, check_range
+from ..errors import InputError, check_choice, check_range
 
 SECTIONS = ("circular", "rectangular")
 
@@ -49,8 +49,7 @@ class Drum:
     top_depth: float | None = None
 
     def __post_init__(self) -> None:
-        if self.section not in SECTIONS:
-            raise InputError(f"section is {self.section!r}; allowed are {', '.join(SECTIONS)}.")
+        check_choice("section", self.section, SECTIONS)
         for name, unit, (low, high) in (
             ("height", "m", LENGTHS),
             ("bottom_width", "m", LENGTHS),
@@ -58,12 +57,14 @@ class Drum:
             ("density", "kg/m³", DENSITIES),
             ("depth", "m", LENGTHS),
         ):
-            value = check_range(f"{name} of a drum", getattr(self, name), low, high, unit=unit, remedy="use SI units")
+            value = check_range(name, getattr(self, name), low, high, unit=unit, remedy="use SI units", of="a drum")
             object.__setattr__(self, name, value)
         if self.top_depth is not None:
             if self.circular:
-                raise InputError(f"top_depth of a drum is {self.top_depth:g} m for a circular section; leave it out.")
-            value = check_range("top_depth of a drum", self.top_depth, *LENGTHS, unit="m", remedy="use SI units")
+                raise InputError(
+                    f"top_depth of a drum is {self.top_depth:g} m for a circular section; leave it out.", "top_depth"
+                )
+            value = check_range("top_depth", self.top_depth, *LENGTHS, unit="m", remedy="use SI units", of="a drum")
             object.__setattr__(self, "top_depth", None if value == self.depth else value)
 
     @property

@@ -163,16 +163,20 @@ def check_as_found(column: DrumStack) -> None:
     name = repr(column.name)
     for one in column.as_found.drums:
         if one.drum > column.n:
-            raise InputError(f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.")
+            raise InputError(
+                f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.", f"found.{one.drum}"
+            )
         if column.section == "circular" and (one.chip_front or one.chip_back):
             raise InputError(
                 f"drum {one.drum} of {name} is round, and chip_front = {one.chip_front:g}, chip_back = {one.chip_back:g} m; "
-                "round drums take chip_left and chip_right with a chip_azimuth."
+                "round drums take chip_left and chip_right with a chip_azimuth.",
+                f"found.{one.drum}.{'chip_front' if one.chip_front else 'chip_back'}",
             )
         if column.section != "circular" and one.chip_azimuth:
             raise InputError(
                 f"drum {one.drum} of {name} is rectangular, and its chip_azimuth is {one.chip_azimuth:g}°; such drums "
-                "take chip_left, chip_right, chip_front and chip_back along their edges: leave chip_azimuth out."
+                "take chip_left, chip_right, chip_front and chip_back along their edges: leave chip_azimuth out.",
+                f"found.{one.drum}.chip_azimuth",
             )
     if not column.as_found.in_plane:
         _check_in_space(column)
@@ -180,7 +184,10 @@ def check_as_found(column: DrumStack) -> None:
     at = geometry(column)
     parted = np.flatnonzero(at.high - at.low <= 0.0)
     if parted.size:
-        raise InputError(f"joint {parted[0] + 1} of {name} has no contact left; make its offsets or chips smaller.")
+        raise InputError(
+            f"joint {parted[0] + 1} of {name} has no contact left; make its offsets or chips smaller.",
+            f"found.{parted[0] + 1}.offset",
+        )
     for j in range(column.n):
         load = joint_load(column, at, j)
         beyond = max(load.place - at.high[j], at.low[j] - load.place)
@@ -192,7 +199,10 @@ def _check_in_space(column: DrumStack) -> None:
     for j, drum in enumerate(column.drums):
         left, right, front, back = column.as_found.of(j + 1).chips
         if left + right >= drum.bottom_width or front + back >= drum.depth:
-            raise InputError(f"joint {j + 1} of {column.name!r} has no contact left; make its chips smaller.")
+            raise InputError(
+                f"joint {j + 1} of {column.name!r} has no contact left; make its chips smaller.",
+                f"found.{j + 1}.chip_{'left' if left + right >= drum.bottom_width else 'front'}",
+            )
         load = space_load(column, at, j)
         inside = inside_overlap(column, at, j, load.place)
         _check_joint(column, j, load.normal, float(np.hypot(*load.shear)), -inside)
@@ -206,12 +216,14 @@ def _check_joint(column: DrumStack, j: int, normal: float, shear: float, beyond:
         raise InputError(
             f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "
             f"{shear - max(friction, 0.0):.4g} N of friction are missing; "
-            "make tilts or base_tilt smaller, or the friction larger."
+            "make tilts or base_tilt smaller, or the friction larger.",
+            "base_tilt" if column.as_found.base_tilt else f"found.{j + 1}.tilt",
         )
     if beyond > 0.0:
         raise InputError(
             f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
-            f"the contact, {normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller."
+            f"the contact, {normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller.",
+            "base_tilt" if column.as_found.base_tilt else f"found.{j + 1}.offset",
         )
 
 

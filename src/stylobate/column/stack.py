@@ -85,18 +85,23 @@ class Stack:
             if self.section != "circular":
                 raise InputError(
                     f"ring_width of joint {j + 1} is {joint.ring_width:g} m, and {self.name!r} has rectangular faces; "
-                    "rings are known for round ones: leave it out."
+                    "rings are known for round ones: leave it out.",
+                    f"override.{j + 1}.ring_width",
                 )
             width = float(self.joint_widths[j])
             if joint.ring_width > 0.5 * width:
                 raise InputError(
                     f"ring_width of joint {j + 1} of {self.name!r} is {joint.ring_width:g} m, thicker than its face, "
-                    f"of diameter {width:g} m; allowed is up to {0.5 * width:g} m, or leave it out for a whole face."
+                    f"of diameter {width:g} m; allowed is up to {0.5 * width:g} m, or leave it out for a whole face.",
+                    f"override.{j + 1}.ring_width",
+                    value=joint.ring_width,
+                    allowed=f"up to {0.5 * width:g} m",
                 )
             if max(self.sunken_widths(j)) >= width:
                 raise InputError(
                     f"the rings of joint {j + 1} of {self.name!r} do not meet: ring_width = {joint.ring_width:g} m, and one "
-                    f"face is that much wider than the other; make the ring wider."
+                    f"face is that much wider than the other; make the ring wider.",
+                    f"override.{j + 1}.ring_width",
                 )
 
     def sunken_widths(self, joint: int) -> tuple[float, float]:

@@ -13,7 +13,7 @@ from ...column import Column
 from ...column.assembly import Assembly
 from ...column.shapes import DRUMS, Prism
 from ...column.structure import Structure
-from ...errors import InputError, as_typed, check_range
+from ...errors import InputError, check_choice, check_range, check_whole
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import LANES
 from ...motion import Motion
@@ -103,12 +103,10 @@ class DistinctElement2D(SteppedDrums):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if isinstance(self.points, bool) or int(self.points) != self.points or not 2 <= self.points <= MAX_POINTS:
-            raise InputError(f"points is {as_typed(self.points)}; allowed is a whole number from 2 to {MAX_POINTS}.")
+        check_whole("points", self.points, 2, MAX_POINTS)
         if self.block_modulus is not None:
             check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
-        if self.start not in ("static", "settle"):
-            raise InputError(f"start is {self.start!r}; allowed are static, settle.")
+        check_choice("start", self.start, ("static", "settle"))
         if self.restitution is not None:
             check_range("restitution", self.restitution, 0.0, 1.0)
 

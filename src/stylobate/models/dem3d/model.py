@@ -13,7 +13,7 @@ from ...column import Column
 from ...column.found_in_space import shares_left
 from ...column.shapes import DRUMS, ConvexSolid
 from ...column.specimen import Specimen
-from ...errors import InputError, check_range
+from ...errors import InputError, check_choice, check_range
 from ...kernels.dem3d.records import types
 from ...motion import Motion
 from ...response import Response
@@ -144,8 +144,7 @@ class DistinctElement3D(SteppedDrums):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.law not in LAWS:
-            raise InputError(f"law is {self.law!r}; allowed is {', '.join(LAWS)}.")
+        check_choice("law", self.law, LAWS)
         check_range("pivot_friction", self.pivot_friction, 0.0, 1.0)
         check_range("rolling_resistance", self.rolling_resistance, 0.0, 1.0)
         if self.restitution is not None:

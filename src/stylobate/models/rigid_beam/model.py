@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...column import Column
-from ...errors import InputError, as_typed, check_range
+from ...errors import InputError, check_choice, check_range
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
@@ -127,8 +127,7 @@ class RigidBeam(Model):
             ("idealisation", ("true", "prism")),
             ("critical_angle", ("stack", "drum")),
         ):
-            if getattr(self, key) not in allowed:
-                raise InputError(f"{key} is {as_typed(getattr(self, key))}; allowed are {', '.join(allowed)}.")
+            check_choice(key, getattr(self, key), allowed)
         check_range("xi", self.xi, 0.0, 1.0, open_low=True, remedy="1 is the bi-linear law")
         check_range("stiffness_damping", self.stiffness_damping, 0.0, 1.0, unit="s")
         check_range("initial_rotation", self.initial_rotation, -1.0, 1.0, unit="rad")
