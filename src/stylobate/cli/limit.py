@@ -62,11 +62,7 @@ def limit(
     azimuths = None if directions is None else azimuth_range(directions).tolist()
     in_space = azimuths is not None or stone.stack is None
     around = in_space or bool(stone.as_found)
-    if (
-        around
-        and loads != the_loads(None, "0", None)
-        and (azimuths is not None or stone.stack is None or not stone.as_found.in_plane)
-    ):
+    if around and loads != the_loads(None, "0", None) and (in_space or not stone.as_found.in_plane):
         raise InputError(
             "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
             "--directions out for a column found in the plane."
@@ -88,7 +84,8 @@ def limit(
                 files += plots.save(plots.draw_mechanism(towards(stone, weakest), found), folder / "limit")
             if all_round is not None:
                 files += plots.save(plots.draw_limit_directions(all_round, stone.name), folder / "directions")
-            files.append(console.asked(folder, "limit", structures=[stone], flow=flow, **loads))
+            ruled = {"flow": flow} if stone.stack is not None else {}
+            files.append(console.asked(folder, "limit", structures=[stone], **ruled, **loads))
             summary["files"] = [str(file) for file in files]
     if as_json:
         console.emit(summary)
@@ -153,7 +150,12 @@ def _mechanism(found: DirectionLimit) -> dict:
     """Who moves, of an assembly."""
     if not found.moving:
         return {}
-    return {"between": list(found.between), "moving": list(found.moving), "upper_bound": found.upper_bound}
+    return {
+        "between": list(found.between),
+        "moving": list(found.moving),
+        "upper_bound": found.upper_bound,
+        "flow": "associated",
+    }
 
 
 def summarize(found: LimitResult) -> dict:

@@ -22,6 +22,7 @@ from . import (
     console,
     critical,
     domain,
+    draw,
     fragility,
     ida,
     limit,
@@ -82,7 +83,7 @@ def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
 
 for _room in (
     run, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, materials, animate, report, serve, cite
+    spectrum, columns, draw, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(_passing_on(getattr(_room, _name)))

@@ -166,7 +166,7 @@ class Stone(Outlined):
         """Its own axes as columns, in those of space [-], shape (3, 3)."""
         return matrix_of(self.orientation)
 
-    @cached_property
+    @property
     def placed(self) -> tuple[Placed, ...]:
         """Its parts where they stand, in the axes of space."""
         found = []
