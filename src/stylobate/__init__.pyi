@@ -9,6 +9,7 @@ from .analysis.fragility import fragility as fragility
 from .analysis.hazard import read_hazard as read_hazard
 from .analysis.ida import ida as ida
 from .analysis.limit import limit_analysis as limit_analysis
+from .analysis.limit_directions import limit_directions as limit_directions
 from .analysis.pushover import pushover as pushover
 from .analysis.replicates import collapse_probability as collapse_probability
 from .analysis.risk import risk as risk
@@ -37,6 +38,8 @@ from .column.links import Layer as Layer
 from .column.links import Pad as Pad
 from .column.links import Tie as Tie
 from .column.scatter import Scatter as Scatter
+from .column.spatial.assembly import SpatialAssembly as SpatialAssembly
+from .column.spatial.stone import Stone as Stone
 from .column.specimen import Specimen as Specimen
 from .constants import g as g
 from .errors import InputError as InputError

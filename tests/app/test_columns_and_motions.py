@@ -232,3 +232,14 @@ def test_what_is_wrong_in_a_file_is_said_without_where_it_lies(client):
     for text in ("name = ", "[[block]]\nvertices = [[0,0],[1,0],[1,1]]\n", "section = 'round'\n"):
         error = client.post("/api/column/file", content=text.encode()).json()["error"]
         assert error.startswith("your-")
+
+
+@pytest.mark.parametrize("path", ["/etc/passwd", "../../secret.obj"])
+def test_an_assembly_in_space_is_refused_before_its_mesh_is_read(client, path):
+    text = f'{ASSEMBLY}[[block]]\nname = "stone"\nmesh = "{path}"\n'
+    for answer in (
+        client.post("/api/column/file", content=text.encode()),
+        client.post("/api/assembly", json={"assembly": text}),
+    ):
+        assert "an assembly in space is nothing that the page shows" in answer.text
+        assert path not in answer.text

@@ -16,9 +16,22 @@ from stylobate.column.presets import preset
 from stylobate.column.structure import Structure
 
 SOURCES = Path(st.__file__).parent
-KINDS = {"Column", "Assembly", "Specimen"}
+KINDS = {"Column", "Assembly", "Specimen", "SpatialAssembly"}
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 LEANING = AsFound(drums=(FoundDrum(drum=2, offset=0.02), FoundDrum(drum=3, tilt=0.5)), base_tilt=0.2)
+
+
+def portal_in_space():
+    """Two round drums on a fixed step and a box on them, turned by 30 degrees."""
+    law, turned = (
+        st.Joint(5e9, 2.5e9, friction_coefficient=0.7),
+        (math.cos(math.pi / 12.0), 0.0, 0.0, math.sin(math.pi / 12.0)),
+    )
+    sides = [np.array([x * math.cos(math.pi / 6.0), x * math.sin(math.pi / 6.0), 0.2]) for x in (-1.0, 1.0)]
+    stones = [st.Stone.box((4.0, 3.0, 0.2), (0.0, 0.0, 0.0), name="step", fixed=True)]
+    stones += [st.Stone.drum(0.8, 0.7, 3.0, at, 2500.0, name=name) for at, name in zip(sides, "ab", strict=True)]
+    stones.append(st.Stone.box((2.8, 0.6, 0.5), (0.0, 0.0, 3.2), 2500.0, name="beam", orientation=turned))
+    return st.SpatialAssembly(stones, law, "portal in space")
 
 
 def standing():
@@ -30,6 +43,7 @@ def standing():
         "blocks": of_column(column),
         "found blocks": of_column(found),
         "specimen": st.Specimen(100.0, [20.0, 20.0, 20.0], CUBE, name="cube"),
+        "in space": portal_in_space(),
     }
 
 
@@ -84,7 +98,7 @@ def test_a_structure_is_made_again_from_its_plain_values(name):
     assert isinstance(one, Structure)
     again = FROM_DICT[one.kind](one.to_dict())
     assert again.digest == one.digest
-    assert again.described in ("a column", "an assembly", "a specimen")
+    assert again.described in ("a column", "an assembly", "a specimen", "an assembly in space")
 
 
 @pytest.mark.parametrize("name", STANDING)
@@ -92,7 +106,7 @@ def test_bodies_stand_where_their_outlines_are(name):
     """The centroid of the outline of a prism is where the body stands; every body that moves has a mass and an inertia."""
     one = STANDING[name]
     for body in one.bodies:
-        assert body.fixed == (body.mass == 0.0 or body.name == "ground")
+        assert body.fixed == (body.mass == 0.0 or body.name in ("ground", "step"))
         if not body.fixed:
             assert body.mass > 0.0
             assert body.inertia > 0.0
@@ -128,7 +142,7 @@ def test_a_column_and_its_drums_as_blocks_are_the_same_structure(column, blocks)
 
 
 def test_what_a_structure_has_not_is_none():
-    for name in ("blocks", "specimen"):
+    for name in ("blocks", "specimen", "in space"):
         one = STANDING[name]
         assert (
             one.stack is one.base_width is one.slenderness is one.uplift_acceleration is one.moving_acceleration is None
@@ -145,6 +159,9 @@ def test_what_a_model_does_not_know_is_refused():
         st.simulate(STANDING["specimen"], still, st.DistinctElement2D())
     with pytest.raises(st.InputError, match="is an assembly: use dem2d"):
         st.simulate(STANDING["blocks"], still, st.DistinctElement3D())
+    for model in (st.DistinctElement2D(), st.DistinctElement3D(), st.RigidBlock(), st.RigidBeam(), st.HousnerBlock()):
+        with pytest.raises(st.InputError, match=r"cannot shake 'portal in space', .* an assembly in space; .* limit"):
+            st.simulate(STANDING["in space"], still, model)
     with pytest.raises(st.InputError, match=r"a start from a pose is for columns, and .* is an assembly"):
         st.simulate(STANDING["blocks"], still, st.DistinctElement2D(), start=st.Start(tilt=0.01))
     with pytest.raises(st.InputError, match="dem2d carries up to 0"):

@@ -61,6 +61,38 @@ class LinkForce:
     idle: bool
 
 
+@dataclass(frozen=True)
+class DirectionLimit:
+    """What horizontal forces in one direction make of what stands in space.
+
+    Parameters
+    ----------
+    azimuth : float
+        Where the forces push to, from x towards y [degrees].
+    multiplier : float
+        λ at which the structure becomes a mechanism [g].
+    joint : int
+        That gives way first, from 1 at the base: the lowest one of the mechanism.
+    mode : str
+        ``rocking``, ``sliding`` or, with links, ``twisting``.
+    links : tuple of LinkForce
+        What each link must hold then; of shear its size.
+    between : tuple of str
+        The two bodies of that joint, and ``moving``, all that take part in the mechanism, by name; of an assembly.
+    upper_bound : bool
+        Whether stones slide or round faces twist on one another, where dry friction may bear less than λ; of an assembly.
+    """
+
+    azimuth: float
+    multiplier: float
+    joint: int
+    mode: str
+    links: tuple[LinkForce, ...] = ()
+    between: tuple[str, ...] = ()
+    moving: tuple[str, ...] = ()
+    upper_bound: bool = False
+
+
 @dataclass(frozen=True, eq=False)
 class LimitResult:
     """Result of :func:`limit_analysis`.
@@ -195,6 +227,10 @@ def towards(column: Column | BlockStack, direction: float) -> BlockStack:
     InputError
         A direction out of the plane.
     """
+    if not isinstance(column, BlockStack) and column.stack is None:
+        raise InputError(
+            f"limit_analysis is of columns in the plane, and {column.name!r} is {column.described}; use limit_directions."
+        )
     stack = column if isinstance(column, BlockStack) else BlockStack.of_column(column)
     if direction % 360.0 not in (0.0, 180.0):
         raise InputError(f"direction is {direction:g} degrees; allowed in the plane are 0 (to the right) and 180.")

@@ -1,4 +1,4 @@
-"""Limit analysis by direction: the multiplier all round a column as found, and where it is weakest."""
+"""Limit analysis by direction: the multiplier all round a column or an assembly, and where it is weakest."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ import numpy as np
 
 from ..column import Column
 from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
+from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError
-from .limit import LimitResult, LinkForce, limit_analysis
+from .limit import DirectionLimit, LimitResult, limit_analysis
+from .limit_assemblies import AssemblyProgramme
 from .limit_with_links import SpaceProgramme
 
 #: Directions that are looked at where nobody says which [degrees], and halvings of the multiplier.
@@ -20,31 +22,6 @@ ALL_ROUND, HALVINGS = tuple(float(one) for one in range(0, 360, 15)), 60
 
 #: A column that bears more than this is not held by its joints alone [g].
 LARGEST = 1e3
-
-
-@dataclass(frozen=True)
-class DirectionLimit:
-    """What horizontal forces in one direction make of a column in space.
-
-    Parameters
-    ----------
-    azimuth : float
-        Where the forces push to, from x towards y [degrees].
-    multiplier : float
-        λ at which the column becomes a mechanism [g].
-    joint : int
-        That gives way first, from 1 at the base: the lowest one of the mechanism.
-    mode : str
-        ``rocking``, ``sliding`` or, with links, ``twisting``.
-    links : tuple of LinkForce
-        What each link must hold then; of shear its size.
-    """
-
-    azimuth: float
-    multiplier: float
-    joint: int
-    mode: str
-    links: tuple[LinkForce, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,12 +48,12 @@ class LimitByDirection:
         return next(one for one in self.limits if one.multiplier <= least)
 
 
-def limit_directions(column: Column, azimuths: Sequence[float] | None = None, **loads: Any) -> LimitByDirection:
-    """Collapse multiplier of a column in several directions.
+def limit_directions(structure: Structure, azimuths: Sequence[float] | None = None, **loads: Any) -> LimitByDirection:
+    """Collapse multiplier of a column or of an assembly in space in several directions.
 
     Parameters
     ----------
-    column : Column
+    structure : Column or SpatialAssembly
     azimuths : sequence of float, optional
         Where the forces push to, from x towards y [degrees]. By default both directions of the plane for a column found in
         it, and every 15 degrees for any other.
@@ -86,13 +63,17 @@ def limit_directions(column: Column, azimuths: Sequence[float] | None = None, **
     Raises
     ------
     InputError
-        A direction that is not finite, or none; a column on rings.
+        A direction that is not finite, or none; a column on rings; an assembly that does not stand, or lies in a plane.
     """
-    if azimuths is None and column.as_found and column.as_found.in_plane:
+    column = structure.stack
+    if azimuths is None and column is not None and column.as_found and column.as_found.in_plane:
         return LimitByDirection(tuple(_in_plane(column, one, loads) for one in (0.0, 180.0)), "xz")
     asked = ALL_ROUND if azimuths is None else tuple(float(one) for one in azimuths)
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
+    if column is None:
+        known = AssemblyProgramme(structure)
+        return LimitByDirection(tuple(known.solve(one) for one in asked), "xyz")
     if not column.links:
         return LimitByDirection(tuple(limit_in_space(column, one) for one in asked), "xyz")
     column.must_carry_on_whole_faces("limit analysis in space")

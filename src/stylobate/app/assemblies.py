@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from ..column.assembly import Assembly
 from ..column.assembly_files import read_assembly
 from ..column.links.placed import strokes
 from ..column.presets import PRESETS
+from ..column.spatial.tables import describes_space
 from ..column.toml import parse_toml
 from ..errors import InputError
 from .words import doubted, warned
@@ -35,8 +36,13 @@ def assembly_of(text: str) -> Assembly:
         path = Path(folder) / FILE
         path.write_text(text, encoding="utf-8")
         try:
-            _only_presets(parse_toml(path).get("column"))
-            return read_assembly(path)
+            data = parse_toml(path)
+            if describes_space(data):  # before anything is read that the file names, such as a mesh of this machine
+                raise InputError(
+                    "an assembly in space is nothing that the page shows; use 'stylobate limit' and 'draw'."
+                )
+            _only_presets(data.get("column"))
+            return cast(Assembly, read_assembly(path))
         except InputError as error:
             error.without(f"{folder}/")
             raise

@@ -1,9 +1,9 @@
-"""``stylobate limit``: collapse multiplier of a column by limit analysis, from below and from above."""
+"""``stylobate limit``: collapse multiplier of a column or an assembly by limit analysis."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from . import options as o
@@ -12,12 +12,18 @@ from .pushover import Loads, mechanism_rows
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..analysis.limit import LimitResult, LinkForce
+    from ..analysis.limit import DirectionLimit, LimitResult, LinkForce
     from ..analysis.limit_directions import LimitByDirection
+
+#: What is said where a mechanism slides or twists.
+UPPER_BOUND = (
+    "stones slide or round faces twist in this mechanism, so that the multiplier is an upper bound; in slow ramps such "
+    "assemblies gave way at 0.8 to 0.93 of it"
+)
 
 
 def limit(
-    column: o.ColumnName,
+    column: o.StructureName,
     flow: str = o.option("RULE", "Friction in the mechanism: non-associated or associated.", "non-associated"),
     directions: str | None = o.option(
         "A:A:N", "In space: where the forces push to, such as 0:345:24, from x towards y."
@@ -30,18 +36,20 @@ def limit(
     """Collapse multiplier and mechanism of rigid blocks.
 
     Under horizontal forces to the right, by a static and a kinematic linear programme. A column as found: in both
-    directions, or all round in space, and the weakest of them; so any column with --directions.
+    directions, or all round in space, and the weakest of them; so any column with --directions, and assemblies in space.
     """
     from ..analysis.limit import limit_analysis
+    from ..analysis.limit_assemblies import listed
     from ..analysis.limit_directions import limit_directions
     from ..motion.ranges import azimuth_range
     from . import console
 
-    stone = o.the_column(column, project)
+    stone: Any = o.the_structure(column, project)
     loads = pushing.arguments
     azimuths = None if directions is None else azimuth_range(directions).tolist()
-    around = azimuths is not None or bool(stone.as_found)
-    if around and pushing.typed and (azimuths is not None or not stone.as_found.in_plane):
+    in_space = azimuths is not None or stone.stack is None
+    around = in_space or bool(stone.as_found)
+    if around and pushing.typed and (in_space or not stone.as_found.in_plane):
         raise InputError(
             "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
             "--directions out for a column found in the plane."
@@ -63,16 +71,22 @@ def limit(
                 files.picture(plots.draw_mechanism(towards(stone, weakest), found), "limit")
             if all_round is not None:
                 files.picture(plots.draw_limit_directions(all_round, stone.name), "directions")
-            files.asked(structures=[stone], flow=flow, **loads)
+            files.asked(structures=[stone], **({"flow": flow} if stone.stack is not None else {}), **loads)
             summary["files"] = files.names
     if execution.emits(summary):
         return
-    facts = {"column": stone.name}
-    sentence = f"The column becomes a mechanism at {summary['collapse_multiplier_g']:.4g} g"
+    facts = {stone.kind: stone.name}
+    sentence = f"The {stone.kind.partition(' ')[0]} becomes a mechanism at {summary['collapse_multiplier_g']:.4g} g"
     if all_round is not None:
         weak = all_round.weakest
         sentence += f", pushed towards {weak.azimuth:g} degrees"
-        facts["weakest direction"] = f"{weak.azimuth:g} degrees from x towards y: joint {weak.joint} {weak.mode}"
+        where = f" (between {weak.between[0]} and {weak.between[1]})" if weak.between else ""
+        facts["weakest direction"] = f"{weak.azimuth:g} degrees from x towards y: joint {weak.joint}{where} {weak.mode}"
+        if weak.moving:
+            free = sum(not one.fixed for one in stone.bodies)
+            facts["moving"] = f"all {free} bodies" if len(weak.moving) == free > 1 else listed(weak.moving)
+        if weak.upper_bound:
+            facts["mind"] = UPPER_BOUND
         most = int(all_round.multipliers.argmax())
         if not plane and stone.section == "circular" and any(any(one.low[:2]) for one in stone.placed_links):
             facts["mind"] = (
@@ -108,10 +122,24 @@ def around_summary(found: LimitByDirection) -> dict:
                 "joint": one.joint,
                 "mode": one.mode,
                 "links": link_rows(one.links),
+                **_mechanism(one),
             }
             for one in found.limits
         ],
         "links": link_rows(weak.links),
+        **_mechanism(weak),
+    }
+
+
+def _mechanism(found: DirectionLimit) -> dict:
+    """Who moves, of an assembly."""
+    if not found.moving:
+        return {}
+    return {
+        "between": list(found.between),
+        "moving": list(found.moving),
+        "upper_bound": found.upper_bound,
+        "flow": "associated",
     }
 
 

@@ -23,6 +23,7 @@ from . import (
     console,
     critical,
     domain,
+    draw,
     fragility,
     ida,
     limit,
@@ -80,7 +81,7 @@ def _passing_on() -> Iterator[None]:
 
 for _room in (
     run, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, materials, animate, report, serve, cite
+    spectrum, columns, draw, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
     app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))

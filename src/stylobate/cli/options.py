@@ -233,8 +233,8 @@ def _in_plane(structure: Any, project: str | None) -> Any:
     if project is None:
         return structure
     if structure.stack is None:
-        what = f"{structure.name!r} is {structure.described}, which lies in a plane"
-        raise InputError(f"--project is for columns, and {what}.")
+        lies = ", which lies in a plane" if structure.space_joints is None else ""
+        raise InputError(f"--project is for columns, and {structure.name!r} is {structure.described}{lies}.")
     try:
         azimuth = parse_angle(project)
     except InputError:

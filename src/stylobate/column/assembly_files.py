@@ -21,9 +21,12 @@ from .links.tables import BlockLinkTable, links_between
 from .materials import Material, material
 from .plausible import COLUMN, DENSITY, first, joint_doubts, sinking_doubt
 from .presets import PRESETS
+from .spatial.assembly import SpatialAssembly
+from .spatial.files import spatial_assembly
+from .spatial.tables import SpatialTable, describes_space, refuse_mixed
 from .standing import BeamTable, ColumnsTable, lay, stand
 from .tables import JointTable, describes_assembly, joint_fields
-from .toml import Table, parse_toml, read_table
+from .toml import Table, checked, parse_toml
 
 
 class BlockTable(Table):
@@ -65,7 +68,7 @@ def is_assembly(path: str | Path) -> bool:
     return describes_assembly(parse_toml(path))
 
 
-def load_structure(text: str | Path) -> Column | Assembly:
+def load_structure(text: str | Path) -> Column | Assembly | SpatialAssembly:
     """The column preset of that name, or what the file of that path describes: a column or an assembly.
 
     Raises
@@ -79,17 +82,23 @@ def load_structure(text: str | Path) -> Column | Assembly:
     return load_column(name)
 
 
-def read_assembly(path: str | Path) -> Assembly:
-    """Read an assembly file (TOML).
+def read_assembly(path: str | Path) -> Assembly | SpatialAssembly:
+    """Read an assembly file (TOML): it is in space where any of its entries is.
 
     Raises
     ------
     InputError
         The file cannot be read or does not describe an assembly; the message names the block and the remedy.
     """
-    table = read_table(path, AssemblyTable)
+    data, name, folder = parse_toml(path), shown(Path(path).stem), Path(path).parent
     with within(shown(path)):
-        return _assembly(table, shown(Path(path).stem), Path(path).parent)
+        if describes_space(data):
+            refuse_mixed(data)
+    table = checked(data, SpatialTable if describes_space(data) else AssemblyTable, shown(path))
+    with within(shown(path)):
+        if isinstance(table, SpatialTable):
+            return spatial_assembly(table, name, folder)
+        return _assembly(table, name, folder)
 
 
 def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:

@@ -9,6 +9,7 @@ from .assembly import Assembly
 from .assembly_files import assembly_from_dict
 from .column import Column
 from .files import column_from_dict
+from .spatial.assembly import SpatialAssembly
 from .specimen import Specimen
 from .structure import Structure
 
@@ -17,4 +18,5 @@ FROM_DICT: dict[str, Callable[[Any], Structure]] = {
     Column.kind: column_from_dict,
     Assembly.kind: assembly_from_dict,
     Specimen.kind: Specimen.from_dict,
+    SpatialAssembly.kind: SpatialAssembly.from_dict,
 }

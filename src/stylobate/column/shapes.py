@@ -12,9 +12,13 @@ import numpy as np
 from ..constants import DEGREE
 from .as_found import FoundDrum
 from .drum import Drum
+from .turning import UPRIGHT, Quaternion, matrix_of
 
 #: Height of a chip as a share of its width: a spall runs steeper than 45°.
 CHIP_SLOPE = 1.5
+
+#: Facets of a hull whose unit normals differ by less than this are one face [-].
+ONE_PLANE = 1e-6
 
 #: Decimals of a metre to which corners of a cut body are the same.
 SAME = 10
@@ -226,21 +230,96 @@ class ConvexSolid:
         return float(np.ptp(np.asarray(self.vertices)[:, 1]))
 
     def mesh(self, around: int = 32) -> Mesh:
-        """The surface, in triangles."""
+        """The surface, in flat faces; it has no circles."""
         del around
+        return Mesh(np.asarray(self.vertices, dtype=float), self._faces)
+
+    @cached_property
+    def _faces(self) -> tuple[tuple[int, ...], ...]:
         from scipy.spatial import ConvexHull
 
         points = np.asarray(self.vertices, dtype=float)
         found: Any = ConvexHull(points)
-        faces = []
-        for (a, b, c), outward in zip(found.simplices.tolist(), found.equations[:, :3], strict=True):
-            turned = float(np.cross(points[b] - points[a], points[c] - points[a]) @ outward) < 0.0
-            faces.append((a, c, b) if turned else (a, b, c))
-        return Mesh(points, tuple(faces))
+        normals, groups = found.equations[:, :3], list(range(len(found.simplices)))
+        for one, beside in enumerate(found.neighbors):  # triangles of one plane are one face, called by its first one
+            for other in beside:
+                if other < one and np.linalg.norm(normals[one] - normals[other]) < ONE_PLANE:
+                    old, new = groups[one], groups[other]
+                    groups = [new if group == old else group for group in groups]
+        return tuple(
+            _around(
+                points, {int(i) for k in np.flatnonzero(np.array(groups) == group) for i in found.simplices[k]}, normal
+            )
+            for group, normal in enumerate(normals)
+            if group in groups
+        )
+
+
+def _around(points: np.ndarray, members: set[int], normal: np.ndarray) -> tuple[int, ...]:
+    """Corners of a convex face in their order, counter-clockwise seen against its normal."""
+    order = sorted(members)
+    flat = points[order] - points[order].mean(axis=0)
+    across = np.cross(normal, flat[0])
+    angle = np.arctan2(flat @ across, (flat @ flat[0]) * np.linalg.norm(across) / np.linalg.norm(flat[0]))
+    return tuple(order[i] for i in np.argsort(angle))
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """A convex part of a body: its shape, where its centroid is, and how it is turned, in the axes of the body.
+
+    Parameters
+    ----------
+    shape : CircularFrustum, RectangularFrustum, Chipped, Prism or ConvexSolid
+    place : (float, float, float)
+        [m]
+    orientation : (float, float, float, float)
+        Unit quaternion, w first.
+    """
+
+    shape: CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid
+    place: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation: Quaternion = UPRIGHT
+
+    def mesh(self, around: int = 32) -> Mesh:
+        """The surface, where the part is."""
+        vertices, faces = self.shape.mesh(around)
+        return Mesh(vertices @ matrix_of(self.orientation).T + np.array(self.place), faces)
+
+
+@dataclass(frozen=True, eq=False)
+class Glued:
+    """Several convex parts that are one body.
+
+    Parameters
+    ----------
+    parts : tuple of Placed
+        From the centroid of all.
+    """
+
+    parts: tuple[Placed, ...]
+
+    @cached_property
+    def outline(self) -> np.ndarray:
+        """Corners (x, z) of the hull of what is seen along y [m], shape (k, 2)."""
+        return hull(self.mesh(128).vertices[:, [0, 2]])
+
+    @property
+    def depth(self) -> float:
+        """Largest thickness [m]."""
+        return float(np.ptp(self.mesh().vertices[:, 1]))
+
+    def mesh(self, around: int = 32) -> Mesh:
+        """The surfaces of all parts, one after another."""
+        meshes, faces, first = [one.mesh(around) for one in self.parts], [], 0
+        for one in meshes:
+            faces += [tuple(first + i for i in face) for face in one.faces]
+            first += len(one.vertices)
+        return Mesh(np.concatenate([one.vertices for one in meshes]), tuple(faces))
 
 
 #: What every shape gives: ``outline``, seen along y, ``depth`` along it, and ``mesh()``, its surface.
-Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid
+Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid | Glued
 
 #: Shapes of drums.
 DRUMS = (CircularFrustum, RectangularFrustum, Chipped)

@@ -1,0 +1,370 @@
+"""Linear programmes of contacts in space that grow: what joints of any bodies and what holds them can bear together.
+
+Each joint carries at points of the rim of its overlap, pressed only and within Coulomb's cone at each, with whatever
+distribution of pressure bears most; what holds carries up to its capacity. That is the exact multiplier for associated
+flow, and an upper bound for dry friction. Points and directions of friction are added where the mechanism of the last
+programme would open or slip against them, until none is left that changes the multiplier.  # theory/limit_analysis
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..errors import InputError, StylobateError
+from .contact_rims import Holder, Rim
+
+#: Points of a round rim and directions of friction to begin with; directions that are looked at for more.
+POINTS, WAYS, LOOKS = 8, 4, 360
+
+#: The same where nothing grows.
+CUT = 48, 16
+
+#: Rounds of growth, and the share of the multiplier between the bounds at which they end [-].
+ROUNDS, CLOSE = 60, 1e-7
+
+#: What is left over of all weight where bodies stand [-].
+BALANCED = 1e-9
+
+#: By how much the work of a mechanism may differ from that of the multiplier [g].
+SLACK = 1e-7
+
+#: A joint takes part in the mechanism with more than this share of the fastest one [-].
+MOVES = 1e-5
+
+_TIGHT = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+
+
+class Solved(NamedTuple):
+    """Multiplier [g], forces over the weight, velocities dual to them, shape (n, 6), prices of the holders' capacities."""
+
+    multiplier: float
+    forces: np.ndarray
+    rates: np.ndarray
+    prices: np.ndarray
+
+
+class ContactProgramme:
+    """The programme of bodies on joints: what has been added for one direction stays for the next.
+
+    Parameters
+    ----------
+    masses : array
+        Of the bodies that can move [kg], shape (n,).
+    centroids : array
+        [m], shape (n, 3)
+    gravity : float
+        [m/s²]
+    rims : sequence of Rim
+    holders : sequence of Holder
+    length : float
+        Over which moments are told, so that they are like forces [m].
+    name : str
+        What the bodies are together, for messages.
+    cut : bool
+        Whether arcs are cut into 48 corners and cones into 16 sides, once for all directions, instead of growing: a little
+        less than the exact multiplier, where growing would take minutes.
+    """
+
+    def __init__(
+        self,
+        masses: np.ndarray,
+        centroids: np.ndarray,
+        gravity: float,
+        rims: Sequence[Rim],
+        holders: Sequence[Holder],
+        length: float,
+        name: str = "the column",
+        cut: bool = False,
+    ) -> None:
+        self.cut = cut
+        self.n, self.centroids, self.length, self.name = len(masses), centroids, length, name
+        self.weight = float(masses.sum()) * gravity
+        self.shares = masses * gravity / self.weight
+        self.rims = list(rims)
+        self.holders = [*holders, *(rim.held for rim in self.rims if rim.cohesion > 0.0)]
+        self.columns: list[np.ndarray] = []
+        self.rows: list[np.ndarray] = []
+        self.owner: list[int] = []
+        self.ways: list[np.ndarray] = []
+        self.known: set[tuple] = set()
+
+    # -- what can act --------------------------------------------------------------------------------------------------
+
+    def body_force(self, direction: np.ndarray) -> np.ndarray:
+        """A force on every body in proportion to its mass, over the weight of all, shape (6 n,)."""
+        force = np.zeros((self.n, 6))
+        force[:, :3] = np.outer(self.shares, direction)
+        return force.ravel()
+
+    def _add(self, owner: int, way: np.ndarray, ends: tuple[tuple[int, np.ndarray], ...], force: np.ndarray) -> None:
+        """A force on the body at its first end and its reaction on that at the second one."""
+        rows, values = [], []
+        for (body, place), size in zip(ends, (force, -force), strict=True):
+            if body >= 0:
+                rows.append(np.arange(6 * body, 6 * body + 6))
+                values += [size, np.cross(place - self.centroids[body], size) / self.length]
+        self.owner.append(owner)
+        self.ways.append(way)
+        self.rows.append(np.concatenate(rows))
+        self.columns.append(np.concatenate(values))
+
+    def press(self, rim: Rim, place: np.ndarray, way: np.ndarray) -> None:
+        """Let a joint carry at a place, with friction in a direction."""
+        point = rim.in_space(place)
+        key = (id(rim), *np.round(place / rim.half, 9), *np.round(way, 9))
+        if key not in self.known:
+            self.known.add(key)
+            self._add(-1, way, ((rim.upper, point), (rim.lower, point)), rim.force(way))
+
+    def hold(self, k: int, way: np.ndarray) -> None:
+        """Let a holder hold in a direction of its axes."""
+        one = self.holders[k]
+        self._add(k, way, ((one.upper, one.high), (one.lower, one.low)), one.axes @ way)
+
+    def begin(self, push: np.ndarray) -> None:
+        """Points and directions to begin with, in the direction of a push."""
+        points, count = CUT if self.cut else (POINTS, WAYS)
+        for rim in self.rims:
+            first = 0.0 if self.cut else math.atan2(*(rim.frame.T @ push)[1::-1])
+            ways = [_way(first + 2.0 * math.pi * k / count) for k in range(count)]
+            corners = rim.corners
+            if corners is None:
+                corners = rim.places(first + 2.0 * math.pi * np.arange(points) / points)
+            for place in corners:
+                for way in ways if rim.friction > 0.0 else ways[:1]:
+                    self.press(rim, place, way)
+        for k, one in enumerate(self.holders):
+            if one.axes.shape[1] == 1:
+                self.hold(k, np.ones(1))
+                continue
+            first = math.atan2(*(one.axes.T @ push)[::-1])
+            for i in range(WAYS):
+                self.hold(k, _way(first + 2.0 * math.pi * i / WAYS))
+
+    # -- what is borne -------------------------------------------------------------------------------------------------
+
+    @property
+    def capacities(self) -> np.ndarray:
+        """Of the holders [N]."""
+        return np.array([one.capacity for one in self.holders])
+
+    def converged(self, dead: np.ndarray, live: np.ndarray, capacity: np.ndarray, enough: float = math.inf) -> Solved:
+        """The answer of the programme for capacities of the holders [N]: it grows until its bounds have met.
+
+        Or until the multiplier, of which it only knows more and more, is ``enough``.
+        """
+        gap = math.inf
+        for _ in range(ROUNDS):
+            found = self._solve(dead, live, capacity)
+            if found.multiplier >= enough or self.cut:
+                return found
+            gap = self._grow(found, capacity)
+            if gap <= CLOSE * max(abs(found.multiplier), 1e-3):
+                return found
+        raise StylobateError(
+            f"limit analysis in space did not come to an end: the bounds are {gap:.2g} g apart after {ROUNDS} rounds"
+        )
+
+    def unbalanced(self, dead: np.ndarray) -> tuple[float, np.ndarray]:
+        """How much of a load the joints cannot carry, over the weight, and velocities of what moves so, shape (n, 6)."""
+        capacity = self.capacities
+        for _ in range(ROUNDS):
+            found = self._solve(dead, None, capacity)
+            if -found.multiplier <= BALANCED:
+                return 0.0, found.rates
+            if self.cut or self._grow(found, capacity) <= CLOSE:
+                break
+        return -found.multiplier, found.rates  # pyright: ignore[reportPossiblyUnboundVariable]
+
+    def _solve(self, dead: np.ndarray, live: np.ndarray | None, capacity: np.ndarray) -> Solved:
+        """Largest multiplier with what there is; without a live load, minus the least that is not balanced."""
+        from scipy.optimize import linprog
+        from scipy.sparse import coo_array, csc_array, hstack
+
+        owner, size = np.array(self.owner), len(self.owner)
+        bounded = np.flatnonzero(np.isfinite(capacity) & (capacity > 0.0))
+        left_out = (owner >= 0) & (capacity[owner] == 0.0) if len(capacity) else np.zeros(size, dtype=bool)
+        row = np.full(len(self.holders) + 1, -1)
+        row[bounded] = np.arange(len(bounded))
+        held = np.flatnonzero(row[owner] >= 0)
+        each = np.eye(6 * self.n)
+        last = csc_array(np.hstack((each, -each)) if live is None else live[:, None])
+        extra = 2 * len(each) if live is None else 1
+        known = self._matrix()
+        strength = coo_array((np.ones(len(held)), (row[owner[held]], held)), (len(bounded), size + extra))
+        free = (None, None) if live is not None else (0.0, None)
+        for presolve in (True, False):  # on a face of many answers HiGHS may come to no end with its presolve
+            found = linprog(
+                np.append(np.zeros(size), np.full(extra, -1.0 if live is not None else 1.0)),
+                A_ub=strength if len(bounded) else None,
+                b_ub=capacity[bounded] / self.weight if len(bounded) else None,
+                A_eq=hstack((known, last), "csc"),
+                b_eq=-dead,
+                bounds=[(0.0, 0.0 if out else None) for out in left_out] + [free] * extra,
+                method="highs",
+                options=_TIGHT | {"presolve": presolve},
+            )
+            if found.status in (0, 3):
+                break
+        if found.status == 3:
+            endless = [one.name for one in self.holders if one.capacity == math.inf]
+            if not endless:
+                raise InputError(f"{self.name} bears any push in this direction: fixed bodies hold it.")
+            raise InputError(
+                f"{self.name} bears any push, because {' and '.join(endless[:2])} has no capacity; give it one [N]."
+            )
+        if found.status != 0:
+            raise StylobateError(f"the programme of the limit analysis was not solved: {found.message}")
+        prices = np.zeros(len(self.holders))
+        if len(bounded):
+            prices[bounded] = -found.ineqlin.marginals
+        rates = -found.eqlin.marginals.reshape(-1, 6)
+        for k in np.flatnonzero(capacity == 0.0):  # what the first newton of it would be worth
+            speed = self._strain_rate(self.holders[k], rates)
+            prices[k] = np.hypot(*speed) if len(speed) == 2 else max(-float(speed[0]), 0.0)
+        multiplier = float(found.x[-1]) if live is not None else -float(found.x[size:].sum())
+        return Solved(multiplier, found.x[:size], rates, prices)
+
+    def _matrix(self) -> Any:
+        """All that can act as columns, shape (6 n, columns)."""
+        from scipy.sparse import csc_array
+
+        pointer = np.cumsum([0, *(len(one) for one in self.rows)])
+        entries = np.concatenate(self.columns), np.concatenate(self.rows)
+        return csc_array((*entries, pointer), (6 * self.n, len(self.rows)))
+
+    def gentlest(self, dead: np.ndarray, live: np.ndarray, found: Solved) -> np.ndarray:
+        """Velocities of the mechanism of a multiplier in which joints slip and twist least, shape (n, 6).
+
+        Where several do the same work the one that a solver hands out is any of them; of what holds bodies it is that one.
+        """
+        from scipy.optimize import linprog
+        from scipy.sparse import csr_array, eye_array, hstack, vstack
+
+        if self.holders:
+            return found.rates
+        known, moves = self._matrix().T, self._moves()
+        count = 3 * len(self.rims)
+        each = eye_array(count)
+        power = hstack((csr_array(-dead[None]), csr_array((1, count))))
+        rows = vstack(
+            (
+                hstack((-known, csr_array((len(self.rows), count)))),
+                hstack((moves, -each)),
+                hstack((-moves, -each)),
+                power,
+            )
+        )
+        bound = np.append(np.zeros(len(self.rows) + 2 * count), found.multiplier + SLACK)
+        size = 6 * self.n
+        solved = linprog(
+            np.append(np.zeros(size), np.ones(count)),
+            A_ub=rows.tocsr(),
+            b_ub=bound,
+            A_eq=hstack((csr_array(live[None]), csr_array((1, count))), "csr"),
+            b_eq=[1.0],
+            bounds=[(None, None)] * size + [(0.0, None)] * count,
+            method="highs",
+        )
+        return solved.x[:size].reshape(-1, 6) if solved.status == 0 else found.rates
+
+    def _moves(self) -> Any:
+        """What makes slips along both axes of the joints and twists at their edge of velocities, shape (3 joints, 6 n)."""
+        from scipy.sparse import csr_array
+
+        out = np.zeros((3 * len(self.rims), 6 * self.n))
+        for j, rim in enumerate(self.rims):
+            for body, sign in ((rim.upper, 1.0), (rim.lower, -1.0)):
+                if body < 0:
+                    continue
+                part = slice(6 * body, 6 * body + 6)
+                arm = rim.in_space(rim.middle) - self.centroids[body]
+                for k, way in enumerate(rim.frame.T[:2]):
+                    out[3 * j + k, part] = sign * np.append(way, np.cross(arm, way) / self.length)
+                out[3 * j + 2, 6 * body + 3 : 6 * body + 6] = sign * rim.half / self.length * rim.frame[:, 2]
+        return csr_array(out)
+
+    def _strain_rate(self, one: Holder, rates: np.ndarray) -> np.ndarray:
+        """Velocity of the upper end of a holder from its lower one, along its axes."""
+        return one.axes.T @ (self.velocity(one.upper, one.high, rates) - self.velocity(one.lower, one.low, rates))
+
+    def _grow(self, found: Solved, capacity: np.ndarray) -> float:
+        """Add what the mechanism works against; how far the multiplier may be below the largest one, at most [g]."""
+        most = 1.0 + float(capacity[np.isfinite(capacity)].sum()) / self.weight
+        gap, rates, prices = 0.0, found.rates, found.prices
+        for rim in self.rims:
+            power, places, ways = self._worst(rim, rates)
+            gap += most * max(-float(power.min()), 0.0)
+            for i in np.flatnonzero(power < 0.0):
+                self.press(rim, places[i], ways[i])
+        for k, one in enumerate(self.holders):
+            if one.axes.shape[1] == 1:
+                continue
+            speed = self._strain_rate(one, rates)
+            size = float(np.hypot(*speed))
+            short = size - prices[k]
+            if short > 0.0 and size > 0.0:
+                gap += short * (capacity[k] / self.weight if math.isfinite(capacity[k]) else most)
+                self.hold(k, -speed / size)
+        return gap
+
+    def _worst(self, rim: Rim, rates: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Least powers of a unit of pressure on a rim, where they are, and the directions of its friction."""
+        ends = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
+        speeds = np.array([rim.frame.T @ self._apart(rim, rim.in_space(one), rates) for one in ends])
+
+        def at(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            speed = speeds[0] + places @ (speeds[1:] - speeds[0])
+            return speed[:, 2] - rim.friction * np.hypot(speed[:, 0], speed[:, 1]), speed[:, :2]
+
+        places = rim.corners
+        if places is None:
+            angle, wide = 2.0 * math.pi * np.arange(LOOKS) / LOOKS, 2.0 * math.pi / LOOKS
+            while True:
+                places = rim.places(angle)
+                best = int(np.argmin(at(places)[0]))
+                if wide < 1e-7:
+                    break
+                angle, wide = angle[best] + wide * np.linspace(-1.0, 1.0, 41), wide / 20.0
+            places = places[best : best + 1]
+        power, slip = at(places)
+        size = np.hypot(*slip.T)[:, None]
+        return power, places, np.where(size > 0.0, -slip / np.where(size > 0.0, size, 1.0), (1.0, 0.0))
+
+    # -- how it moves --------------------------------------------------------------------------------------------------
+
+    def _apart(self, rim: Rim, point: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        return self.velocity(rim.upper, point, rates) - self.velocity(rim.lower, point, rates)
+
+    def velocity(self, body: int, point: np.ndarray, rates: np.ndarray) -> np.ndarray:
+        """Of a point of a body."""
+        if body < 0:
+            return np.zeros(3)
+        one = rates[body]
+        return one[:3] + np.cross(one[3:] / self.length, point - self.centroids[body])
+
+    def movements(self, rates: np.ndarray) -> np.ndarray:
+        """How fast each joint rocks, slides and twists, all at its edge or middle, shape (joints, 3)."""
+        sizes = []
+        for rim in self.rims:
+            spins = [rates[body, 3:] if body >= 0 else np.zeros(3) for body in (rim.upper, rim.lower)]
+            turning = rim.frame.T @ (spins[0] - spins[1]) / self.length
+            slip = rim.frame.T @ self._apart(rim, rim.in_space(rim.middle), rates)
+            sizes.append((math.hypot(*turning[:2]) * rim.half, math.hypot(*slip[:2]), abs(turning[2]) * rim.half))
+        return np.array(sizes)
+
+    def held(self, forces: np.ndarray) -> np.ndarray:
+        """Size of what each holder holds [N], shape (holders,)."""
+        found = np.zeros((len(self.holders), 2))
+        owner = np.array(self.owner[: len(forces)])
+        for i in np.flatnonzero((owner >= 0) & (forces > 0.0)):
+            found[owner[i], : len(self.ways[i])] += forces[i] * self.ways[i]
+        return np.hypot(*found.T) * self.weight
+
+
+def _way(angle: float) -> Any:
+    return np.array([math.cos(angle), math.sin(angle)])

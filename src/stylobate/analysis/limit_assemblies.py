@@ -1,0 +1,141 @@
+"""Limit analysis of assemblies in space: what horizontal forces in a direction they bear, and who moves at more."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ..column.structure import Structure
+from ..constants import DEGREE
+from ..errors import InputError
+from .contact_programme import ContactProgramme
+from .contact_rims import Rim
+from .limit import DirectionLimit
+
+#: What moves with more than this share of the fastest takes part in the mechanism [-].
+MOVES = 1e-3
+
+#: Most joints, and what the programme of so many takes in one direction [s]; it grows with their number to this power.
+MOST_JOINTS, TAKES, GROWS = 800, 180.0, 2.5
+
+#: Most bodies that a sentence names.
+NAMED = 4
+
+
+class AssemblyProgramme:
+    """The programme of an assembly: what has been added for one direction stays for the next.
+
+    Parameters
+    ----------
+    structure : SpatialAssembly
+
+    Raises
+    ------
+    InputError
+        It does not stand under its own weight, or only rests on edges and corners.
+    """
+
+    def __init__(self, structure: Structure) -> None:
+        joints = structure.space_joints
+        if joints is None:
+            raise InputError(
+                f"limit analysis takes columns and assemblies in space, and {structure.name!r} is {structure.described} of "
+                "the plane; give its blocks as boxes, box = [x, y, z]."
+            )
+        if len(joints) > MOST_JOINTS:
+            minutes = TAKES / 60.0 * (len(joints) / MOST_JOINTS) ** GROWS
+            raise InputError(
+                f"{structure.name!r} has {len(joints)} joints, whose limit analysis would take about {minutes:.0f} minutes "
+                f"a direction; allowed are up to {MOST_JOINTS}: take a part of it."
+            )
+        if not structure.gravity:
+            raise InputError(
+                f"{structure.name!r} has no gravity, in parts of which forces are told; give it one [m/s²]."
+            )
+        bodies = structure.bodies
+        self.structure = structure
+        self.moving = [i for i, one in enumerate(bodies) if not one.fixed]
+        number = {body: k for k, body in enumerate(self.moving)}
+        stones = [bodies[i] for i in self.moving]
+        rims = [
+            Rim(
+                number.get(one.upper, -1), number.get(one.lower, -1), one.frame, one.origin, one.edges, np.zeros(2),
+                0.5 * one.width, one.law.tan_phi, one.law.cohesion * one.area,
+            )
+            for one in joints
+        ]  # fmt: skip
+        self.points = [one.vertices for one in stones]  # pyright: ignore[reportAttributeAccessIssue]
+        every = np.concatenate(self.points)
+        centroids = np.array([one.position for one in stones])  # pyright: ignore[reportAttributeAccessIssue]
+        masses = np.array([one.mass for one in stones])
+        length = float(np.ptp(every, axis=0).max())
+        self.programme = ContactProgramme(
+            masses, centroids, structure.gravity, rims, (), length, repr(structure.name), cut=True
+        )
+        self.dead = self.programme.body_force(np.array([0.0, 0.0, -1.0]))
+        self.programme.begin(np.array([1.0, 0.0, 0.0]))
+        self._must_stand()
+
+    def _must_stand(self) -> None:
+        resting = {body for one in self.structure.space_joints or () for body in (one.lower, one.upper)}
+        loose = next((i for i in self.moving if i not in resting), None)
+        if loose is not None:
+            raise InputError(
+                f"block {self.structure.bodies[loose].name!r} rests on no face, only on edges or corners; limit "
+                "analysis takes what lies on faces: lay it on one."
+            )
+        missing, rates = self.programme.unbalanced(self.dead)
+        if missing:
+            names = self._who(rates)
+            raise InputError(
+                f"{self.structure.name!r} does not stand under its own weight: {listed(names)} "
+                f"{'begins' if len(names) == 1 else 'begin'} to move; correct its geometry or its friction."
+            )
+
+    def solve(self, azimuth: float) -> DirectionLimit:
+        """The limit of horizontal forces in proportion to mass towards an azimuth [degrees]."""
+        angle, programme = azimuth * DEGREE, self.programme
+        push = np.array([math.cos(angle), math.sin(angle), 0.0])
+        live = programme.body_force(push)
+        found = programme.converged(self.dead, live, programme.capacities)
+        rates = programme.gentlest(self.dead, live, found)
+        sizes = programme.movements(rates)
+        active = np.flatnonzero(sizes.max(axis=1) > MOVES * sizes.max())
+        joint = int(min(active, key=lambda k: (round(float(programme.rims[k].origin[2]), 6), k)))
+        mode = ("rocking", "sliding", "twisting")[int(np.argmax(sizes[joint]))]
+        joints = self.structure.space_joints or ()
+        slides = bool((sizes[:, 1] > MOVES * sizes.max()).any())
+        twists = any(one.round and size > MOVES * sizes.max() for one, size in zip(joints, sizes[:, 2], strict=True))
+        between = joints[joint].lower, joints[joint].upper
+        return DirectionLimit(
+            azimuth,
+            found.multiplier + 0.0,
+            joint + 1,
+            mode,
+            between=tuple(self.structure.bodies[i].name for i in between),
+            moving=tuple(self._who(rates)),
+            upper_bound=slides or twists,
+        )
+
+    def _who(self, rates: np.ndarray) -> list[str]:
+        """Bodies that move, in their order."""
+        fastest = [
+            max(float(np.linalg.norm(self.programme.velocity(k, point, rates))) for point in corners)
+            for k, corners in enumerate(self.points)
+        ]
+        most = max(fastest)
+        return [self.structure.bodies[i].name for i, one in zip(self.moving, fastest) if one > MOVES * most]
+
+
+def listed(names: Sequence[str]) -> str:
+    """Names in a sentence, not too many of them; drums of one column together."""
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        column, _, drum = name.rpartition(", ")
+        groups.setdefault(column if column and drum.startswith("drum ") else name, []).append(name)
+    said = [some[0] if len(some) == 1 else f"{column} ({len(some)} drums)" for column, some in groups.items()]
+    if len(said) > NAMED:
+        return f"{', '.join(said[:NAMED])} and {len(said) - NAMED} more"
+    return " and ".join(filter(None, (", ".join(said[:-1]), said[-1])))

@@ -1,0 +1,331 @@
+"""An assembly in space: bodies of convex parts, dry joints where faces touch, a ground or fixed bodies under them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import combinations
+from typing import ClassVar
+
+import numpy as np
+
+from ...constants import g as STANDARD_GRAVITY
+from ...errors import InputError, check_range
+from ..block import FAR_AWAY, ground_block
+from ..column import GRAVITIES
+from ..joint import Joint, given
+from ..structure import Body, Structure
+from .stone import Stone
+from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation
+
+#: Most bodies; what a body costs in a second of shaking, intact and once it is loose [s].
+MOST, INTACT, LOOSE = 600, 0.02, 0.2
+
+#: Bodies may overlap by this share of the smaller body's size: rounding, not geometry.
+OVERLAPPING = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class SpatialAssembly(Structure):
+    """Bodies in space, the law of their contacts, and the ground.
+
+    Parameters
+    ----------
+    stones : sequence of Stone
+    joint : Joint
+        Law of all contacts, unless a body has its own.
+    name : str
+    gravity : float
+        [m/s²]
+    ground : float, optional
+        Level of the ground, a half-space [m]; None for none (fixed bodies are the only support).
+    overrides : sequence of (str, str, Joint)
+        Laws between two bodies by their names.
+    settle : bool
+        Whether it begins in equilibrium; False to begin as drawn, in the air and moving if need be.
+
+    Raises
+    ------
+    InputError
+        Bodies overlap, lie in the ground, hang in the air or share a name, or there are too many.
+    """
+
+    kind: ClassVar[str] = "assembly in space"
+    joints_are: ClassVar[str] = "joint, in the assembly's order"
+    first: ClassVar[int] = 0
+    relative: ClassVar[bool] = False
+
+    stones: tuple[Stone, ...]
+    joint: Joint
+    name: str = "assembly"
+    gravity: float = STANDARD_GRAVITY
+    ground: float | None = 0.0
+    overrides: tuple[tuple[str, str, Joint], ...] = ()
+    settle: bool = True
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "stones", tuple(self.stones))
+        object.__setattr__(self, "overrides", tuple(self.overrides))
+        if self.gravity != 0.0:
+            check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")
+        if self.ground is not None:
+            check_range("level of the ground", self.ground, -FAR_AWAY, FAR_AWAY, unit="m")
+        refuse_many(len(self.stones))
+        names = [one.name for one in self.stones]
+        double = next((one for one in names if names.count(one) > 1), None)
+        if double is not None:
+            raise InputError(f"two blocks are called {double!r}; give each a name of its own.")
+        if "ground" in names and self.ground is not None:
+            raise InputError("a block is called 'ground', which is the name of the ground; call it otherwise.")
+        if not any(not one.fixed for one in self.stones):
+            raise InputError(f"nothing of {self.name!r} can move; give a block that is not fixed.")
+        laws = (self.joint, *(law for *_, law in self.overrides), *(one.surface for one in self.stones))
+        if any(law is not None and law.ring_width is not None for law in laws):
+            raise InputError(f"a joint of {self.name!r} has a ring_width, which assemblies do not know; leave it out.")
+        self._check_overrides()
+        for one in self.stones:
+            _check_parts(one)
+        if self.settle:
+            self._refuse_hanging()
+        else:
+            self._contacts  # noqa: B018  refuses bodies that overlap
+
+    def _check_overrides(self) -> None:
+        known, pairs = {one.name for one in self.bodies}, []
+        for one, other, _ in self.overrides:
+            missing = next((name for name in (one, other) if name not in known), None)
+            if missing is not None:
+                raise InputError(f"a joint_override names block {missing!r}, which does not exist; correct its name.")
+            if one == other or {one, other} in pairs:
+                raise InputError(
+                    f"a joint_override names {one!r} and {other!r} twice; name two blocks, each pair once."
+                )
+            pairs.append({one, other})
+
+    # -- what it consists of -------------------------------------------------------------------------------------------
+
+    @cached_property
+    def bodies(self) -> tuple[Body, ...]:
+        """The ground, if there is one, and the bodies."""
+        return self.stones if self.ground is None else (ground_block(self.ground), *self.stones)
+
+    @property
+    def n(self) -> int:
+        """Number of bodies, without the ground."""
+        return len(self.stones)
+
+    @property
+    def space_joints(self) -> tuple[SpaceJoint, ...]:
+        """Faces that lie on one another, bodies by their numbers in :attr:`bodies`."""
+        return self._contacts[0]
+
+    @property
+    def surfaces(self) -> tuple[Joint, ...]:
+        """Of every body, the law of its contacts, other than joints, with those before it."""
+        return tuple(getattr(one, "surface", None) or self.joint for one in self.bodies)
+
+    @property
+    def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
+        """Overrides, by the numbers of their bodies."""
+        numbers = {one.name: i for i, one in enumerate(self.bodies)}
+        pairs = [(numbers[one], numbers[other], law) for one, other, law in self.overrides]
+        return tuple((min(i, k), max(i, k), law) for i, k, law in pairs)
+
+    def law_between(self, lower: int, upper: int) -> Joint:
+        """Law of the contacts of two bodies by number, the second of which comes later."""
+        return self._overridden.get((lower, upper)) or self.surfaces[upper]
+
+    @cached_property
+    def _overridden(self) -> dict[tuple[int, int], Joint]:
+        return {(one, other): law for one, other, law in self.laws_of_pairs}
+
+    @cached_property
+    def solids(self) -> tuple[tuple[Solid, ...], ...]:
+        """Of every stone its parts as they stand."""
+        return tuple(tuple(Solid(part) for part in one.placed) for one in self.stones)
+
+    @property
+    def extent(self) -> tuple[np.ndarray, np.ndarray]:
+        """Lowest and highest corner of the box around everything that can move [m], shape (3,) each."""
+        some = [part for one, parts in zip(self.stones, self.solids, strict=True) if not one.fixed for part in parts]
+        return np.min([one.low for one in some], axis=0), np.max([one.high for one in some], axis=0)
+
+    @cached_property
+    def _contacts(self) -> tuple[tuple[SpaceJoint, ...], tuple[tuple[int, int], ...]]:
+        """Faces that lie on one another, and all pairs of bodies that touch."""
+        joints: list[SpaceJoint] = []
+        pairs: list[tuple[int, int]] = []
+        first = len(self.bodies) - len(self.stones)
+        if first:
+            for i, parts in enumerate(self.solids):
+                self._on_ground(i, parts, joints, pairs)
+        low = np.array([np.min([part.low for part in parts], axis=0) for parts in self.solids])
+        high = np.array([np.max([part.high for part in parts], axis=0) for parts in self.solids])
+        size = (high - low).max(axis=1)
+        for i, one in enumerate(self.stones):
+            near = TOUCHING * np.minimum(size[i], size[i + 1 :])[:, None]
+            close = ((low[i] <= high[i + 1 :] + near) & (low[i + 1 :] <= high[i] + near)).all(axis=1)
+            for k in (i + 1 + np.flatnonzero(close)).tolist():
+                if one.fixed and self.stones[k].fixed:
+                    continue
+                met = self._between(i, k, float(near[k - i - 1, 0]), joints, first)
+                if met:
+                    pairs.append((first + i, first + k))
+        return tuple(joints), tuple(pairs)
+
+    def _between(self, i: int, k: int, near: float, joints: list[SpaceJoint], first: int) -> bool:
+        """Whether two stones touch; with their joints."""
+        met = False
+        for a, one in enumerate(self.solids[i]):
+            for b, other in enumerate(self.solids[k]):
+                gap, _ = separation(one, other, near)
+                if gap < -OVERLAPPING * min(one.size, other.size):
+                    names = f"block {self.stones[k].name!r} and block {self.stones[i].name!r}"
+                    raise InputError(f"{names} overlap by {_length(-gap)}; move one of them or correct its sizes.")
+                if gap > near:
+                    continue
+                met = True
+                law = self.law_between(first + i, first + k)
+                for below, above, over in overlaps(one, other, near):
+                    joints.append(SpaceJoint(first + i, first + k, a, b, law, below, above, *over))
+        return met
+
+    def _on_ground(
+        self, i: int, parts: tuple[Solid, ...], joints: list[SpaceJoint], pairs: list[tuple[int, int]]
+    ) -> None:
+        """Refuse a body in the ground; its joints with it."""
+        assert self.ground is not None
+        if self.stones[i].fixed:
+            return
+        for number, part in enumerate(parts):
+            gap, near = float(part.low[2]) - self.ground, TOUCHING * part.size
+            if gap < -OVERLAPPING * part.size:
+                name = self.stones[i].name
+                raise InputError(f"block {name!r} lies in the ground by {_length(-gap)}; move it or correct its sizes.")
+            if gap > near:
+                continue
+            pairs.append((0, i + 1))
+            law = self.law_between(0, i + 1)
+            for face in part.faces:
+                flat = face.frame[2, 2] < -np.cos(1e-4) and abs(float(face.middle[2]) - self.ground) <= 2.0 * near
+                over: Overlap | None = overlap_of(None, face, near) if flat else None
+                if over is not None:
+                    joints.append(SpaceJoint(0, i + 1, 0, number, law, face, face, *over))
+
+    # -- what cannot begin -----------------------------------------------------------------------------------------------
+
+    def _refuse_hanging(self) -> None:
+        """Refuse bodies that nothing carries down to the ground or to a fixed body."""
+        held = {i for i, one in enumerate(self.bodies) if one.fixed}
+        pairs, more = self._contacts[1], True
+        while more:
+            reached = {b for pair in pairs for b in pair if held & set(pair)} - held
+            held, more = held | reached, bool(reached)
+        first = len(self.bodies) - len(self.stones)
+        hanging = [i for i in range(len(self.stones)) if first + i not in held]
+        if not hanging:
+            return
+        lowest = min(hanging, key=lambda i: min(float(part.low[2]) for part in self.solids[i]))
+        over = self._height_over(lowest, [i for i in range(len(self.stones)) if first + i in held])
+        others = f", and {len(hanging) - 1} more with it" if len(hanging) > 1 else ""
+        raise InputError(
+            f"block {self.stones[lowest].name!r} hangs in the air{over}{others}; put it down, or let it fall with "
+            "settle = false."
+        )
+
+    def _height_over(self, i: int, held: list[int]) -> str:
+        """How far a body hangs over what is nearest under it, in words."""
+        best = (
+            [] if self.ground is None else [(float(min(p.low[2] for p in self.solids[i])) - self.ground, "the ground")]
+        )
+        for k in held:
+            gaps = [separation(a, b, np.inf)[0] for a in self.solids[i] for b in self.solids[k]]
+            best.append((max(min(gaps), 0.0), f"block {self.stones[k].name!r}"))
+        if not best:
+            return ""
+        gap, name = min(best)
+        return f", {_length(gap)} from {name}"
+
+    # -- what asks for less --------------------------------------------------------------------------------------------
+
+    def must_consist_of(self, shapes: tuple[type, ...], what: str) -> None:
+        """Refuse every model: none moves such bodies.
+
+        Raises
+        ------
+        InputError
+        """
+        del shapes
+        raise InputError(
+            f"{what} cannot shake {self.name!r}, which is {self.described}; what is known of it so far are its statics "
+            "('stylobate limit'), its masses ('columns') and its picture ('draw')."
+        )
+
+    # -- provenance ----------------------------------------------------------------------------------------------------
+
+    def to_dict(self) -> dict:
+        """Everything that defines it, as plain values in SI units."""
+        return {
+            "stones": [one.to_dict() for one in self.stones],
+            "joint": given(self.joint),
+            "name": self.name,
+            "gravity": self.gravity,
+            "ground": self.ground,
+            "overrides": [[one, other, given(law)] for one, other, law in self.overrides],
+            "settle": self.settle,
+        }
+
+    @classmethod
+    def from_dict(cls, data: dict) -> SpatialAssembly:
+        """The assembly that :meth:`to_dict` has written."""
+        special = {
+            "stones": tuple(Stone.from_dict(one) for one in data["stones"]),
+            "joint": Joint(**data["joint"]),
+            "overrides": tuple((one, other, Joint(**law)) for one, other, law in data["overrides"]),
+        }
+        return cls(**(dict(data) | special))
+
+
+def refuse_many(bodies: int) -> None:
+    """Refuse more bodies than can be computed, with what they would take.
+
+    Raises
+    ------
+    InputError
+    """
+    if bodies > MOST:
+        minutes = 10.0 * bodies / 60.0
+        raise InputError(
+            f"{bodies} bodies would take about {minutes * INTACT:.0f} minutes for ten seconds of shaking while they stand "
+            f"and {minutes * LOOSE:.0f} once they are loose, each of many runs; allowed are up to {MOST}: take a part of it."
+        )
+
+
+def _length(size: float) -> str:
+    """A length for people [m]."""
+    return f"{size:.3g} m" if size >= 1.0 else f"{1000.0 * size:.3g} mm"
+
+
+def _check_parts(one: Stone) -> None:
+    """Refuse parts of a body that overlap, which would count twice, or that do not hang together."""
+    solids = [Solid(part) for part in one.pieces]
+    joined = {0} if solids else set()
+    gaps = {}
+    for i, k in combinations(range(len(solids)), 2):
+        small = min(solids[i].size, solids[k].size)
+        gap = gaps[i, k] = separation(solids[i], solids[k], TOUCHING * small)[0] / small
+        if gap < -OVERLAPPING:
+            raise InputError(
+                f"parts {i + 1} and {k + 1} of block {one.name!r} overlap by {_length(-gap * small)}, which would "
+                "count twice; let them touch."
+            )
+    while True:
+        more = {b for pair, gap in gaps.items() if gap <= TOUCHING and joined & set(pair) for b in pair} - joined
+        if not more:
+            break
+        joined |= more
+    apart = next((i for i in range(len(solids)) if i not in joined), None)
+    if apart is not None:
+        raise InputError(
+            f"part {apart + 1} of block {one.name!r} touches no other part of it; make it a block of its own."
+        )

@@ -1,0 +1,98 @@
+"""Files of assemblies in space (TOML): read and checked."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ...errors import InputError, OutOfRangeWarning
+from ..joint import Joint
+from ..materials import material
+from ..plausible import COLUMN, DENSITY, first, joint_doubts
+from ..tables import JointTable, joint_fields
+from .assembly import SpatialAssembly, refuse_many
+from .placing import block_of, lay_beam, refuse_crossing, stand_in_space
+from .stone import Stone
+from .tables import SpatialTable
+
+
+def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> SpatialAssembly:
+    """The assembly that the tables of a file describe.
+
+    Parameters
+    ----------
+    table : SpatialTable
+    default_name : str
+        Of one that states none.
+    folder : Path
+        That paths in it start from.
+
+    Raises
+    ------
+    InputError
+        What cannot be, in one sentence that names it.
+    """
+    if table.ground is True:
+        raise InputError("ground is true; give its level in m, or false for none.")
+    if table.link:
+        raise InputError(
+            "assemblies in space take no [[link]] so far; leave it out, or describe the assembly in the plane."
+        )
+    if not (table.block or table.column):
+        raise InputError("there is neither [[block]] nor [[column]]; add one of the two.")
+    refuse_many(len(table.block or []))
+    ground = None if table.ground is False else float(table.ground)
+    standing, axes = stand_in_space(table.column or [], folder, table.gravity, ground)
+    stone = None if table.material is None else material(table.material)
+    common = table.density if table.density is not None or stone is None else stone.density.value
+    if table.joint is None and stone is None and not axes:
+        raise InputError("key 'joint' is missing; add it, or name a material.")
+
+    def law(given: Any, where: str) -> Joint:
+        values = {} if given is None else given.model_dump(exclude={"between"})
+        return Joint(**joint_fields(values, stone, where))
+
+    def surface(given: JointTable | None, who: str) -> Joint | None:
+        return None if given is None else law(given, f"the surface of {who}")
+
+    blocks = []
+    for i, one in enumerate(table.block or []):
+        name = one.name if one.name is not None else f"block {i + 1}"
+        density = one.density if one.density is not None else common
+        if density is None and not one.fixed:
+            raise InputError(f"block {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        blocks.append(block_of(one, name, density or 0.0, folder, surface(one.surface, f"block {name!r}")))
+    beams = []
+    for i, one in enumerate(table.beam or []):
+        name = one.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
+        density = one.density if one.density is not None else common
+        if density is None:
+            density = standing[-1].density if standing else None
+        if density is None:
+            raise InputError(f"beam {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        beams.append(lay_beam(one, name, density, axes, surface(one.surface, f"beam {name!r}")))
+    refuse_crossing(beams)
+    overrides = []
+    for one in table.joint_override or []:
+        if len(one.between) != 2:
+            raise InputError(f"a joint_override is between {len(one.between)} blocks; name two, e.g. ['a', 'b'].")
+        where = f"the [[joint_override]] between {one.between[0]!r} and {one.between[1]!r}"
+        overrides.append((*one.between, law(one, where)))
+    # without [joint], as between the drums of the columns
+    joint = axes[0].law if table.joint is None and stone is None else law(table.joint, "[joint]")
+    for doubt in _doubts(blocks, [joint, *(each for *_, each in overrides)]):
+        warnings.warn(doubt, OutOfRangeWarning, stacklevel=5)
+    stones = (*standing, *beams, *blocks)
+    name = table.name or default_name
+    return SpatialAssembly(stones, joint, name, table.gravity, ground, tuple(overrides), table.settle)
+
+
+def _doubts(blocks: Sequence[Stone], laws: Sequence[Joint]) -> list[str]:
+    """What looks like a slip of units, each kind once."""
+    free = [one for one in blocks if not one.fixed]
+    doubts = first(COLUMN.doubt(f"the size of block {one.name!r}", one.size, "stones have") for one in free)
+    doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in free)
+    every = [*laws, *(one.surface for one in blocks if one.surface)]
+    return doubts + first(joint_doubts(law) for law in dict.fromkeys(every))

@@ -1,0 +1,284 @@
+"""Files of assemblies in space: what is read, and what is refused with one sentence that says what and what to do."""
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.column.kinds import FROM_DICT
+
+HEAD = """
+density = 2500.0
+[joint]
+normal_stiffness = 5e9
+shear_stiffness = 2.5e9
+friction_angle = 35.0
+"""
+
+COLUMN = """
+name = "shaft"
+section = "circular"
+density = 2400.0
+[tapered]
+height = 4.0
+bottom_width = 0.8
+top_width = 0.7
+drums = 4
+[joint]
+normal_stiffness = 5e9
+shear_stiffness = 2.5e9
+friction_angle = 30.0
+"""
+
+TWO = """
+name = "two"
+[[column]]
+file = "shaft.toml"
+at = [[0.0, 0.0], [1.5, 2.0]]
+turn = 30.0
+[[beam]]
+between = ["column 1", "column 2"]
+section = [0.6, 0.5]
+overhang = [0.3, 0.2]
+"""
+
+CUBE = """
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+v 0 0 1
+v 1 0 1
+v 1 1 1
+v 0 1 1
+f 4 3 2 1
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+
+
+@pytest.fixture
+def read(tmp_path):
+    (tmp_path / "shaft.toml").write_text(COLUMN)
+    (tmp_path / "cube.obj").write_text(CUBE)
+
+    def file(text):
+        (tmp_path / "scene.toml").write_text(text)
+        return st.read_assembly(tmp_path / "scene.toml")
+
+    return file
+
+
+def block(more, name="a"):
+    return f'[[block]]\nname = "{name}"\n{more}\n'
+
+
+def test_columns_and_a_beam_from_axis_to_axis(read):
+    """Places, turns, densities and laws come with the columns; the beam lies along the line of their axes, 2.5 m apart."""
+    found = read(TWO)
+    names = [f"column {i}, drum {k}" for i in (1, 2) for k in (1, 2, 3, 4)]
+    assert [one.name for one in found.stones] == [*names, "architrave"]
+    beam = found.stones[-1]
+    assert (beam.mass, beam.density) == (pytest.approx(2400.0 * 3.0 * 0.6 * 0.5), 2400.0)
+    way = np.array([0.6, 0.8])
+    assert beam.position[:2] == pytest.approx(way * (0.5 * 3.0 - 0.3), abs=1e-12)
+    assert beam.position[2] == pytest.approx(4.25)
+    assert beam.axes[:2, 0] == pytest.approx(way, abs=1e-12)
+    assert found.stones[4].position[:2] == pytest.approx((1.5, 2.0))
+    assert found.stones[0].axes[:2, 0] == pytest.approx([math.cos(math.pi / 6.0), 0.5])
+    pairs = {(found.bodies[one.lower].name, found.bodies[one.upper].name) for one in found.space_joints}
+    assert ("column 1, drum 4", "architrave") in pairs
+    assert ("column 2, drum 4", "architrave") in pairs
+    assert len(pairs) == 10
+    assert {one.law.friction_angle for one in found.space_joints} == {30.0}
+    assert FROM_DICT[found.kind](found.to_dict()).digest == found.digest
+
+
+def test_blocks_of_every_shape(read):
+    """A box, a drum, a hull, a mesh in mm, a capital of two parts; turned, tilted, oriented, thrown, fixed."""
+    found = read(
+        HEAD.replace("density", "settle = false\ndensity")
+        + block("box = [0.6, 0.4, 1.8]\nat = [1.0, 2.0, 0.0]\nturn = 90.0", "box")
+        + block("drum = { bottom_diameter = 1.1, top_diameter = 1, height = 0.8 }\nat = [4, 0, 0]\nfixed = true", "drum")
+        + block("vertices = [[6,0,0],[7,0,0],[7,1,0],[6,1,0],[6.5,0.5,1]]\nvelocity = [1.0, 0.0, 0.0]", "hull")
+        + block('mesh = "cube.obj"\nat = [9.0, 0.0, 0.0]\nsurface = { friction_angle = 20.0, normal_stiffness = 1e9, '
+                "shear_stiffness = 1e9 }", "mesh")
+        + block("at = [12.0, 0.0, 0.0]\nparts = [{ drum = { bottom_diameter = 0.7, top_diameter = 1.0, height = 0.3 } }, "
+                "{ box = [1.0, 1.0, 0.2] }]", "capital")
+        + block("box = [1.0, 1.0, 1.0]\nat = [15.0, 0.0, 1.0]\ntilt = 10.0\ntowards = 90.0", "tilted")
+        + block("box = [1.0, 1.0, 1.0]\nat = [18.0, 0.0, 1.0]\norientation = [0.6, 0.8, 0.0, 0.0]", "oriented")
+    )  # fmt: skip
+    box, drum, hull, mesh, capital, tilted, oriented = found.stones
+    assert np.ptp(box.vertices, axis=0) == pytest.approx([0.4, 0.6, 1.8])
+    assert box.position == pytest.approx((1.0, 2.0, 0.9))
+    assert (drum.fixed, drum.vertices[:, 2].min()) == (True, pytest.approx(0.0, abs=1e-12))
+    assert hull.mass == pytest.approx(2500.0 / 3.0)
+    assert hull.position == pytest.approx((6.5, 0.5, 0.25))
+    assert hull.velocity == (1.0, 0.0, 0.0)
+    assert mesh.position == pytest.approx((9.5, 0.5, 0.5))
+    assert mesh.surface.friction_angle == 20.0
+    assert np.ptp(capital.vertices[:, 2]) == pytest.approx(0.5)
+    assert len(capital.parts) == 2
+    assert capital.position[:2] == (12.0, 0.0)
+    # tilted towards y: its axis leans there; at stays the middle of the lower face before it is turned
+    assert tilted.axes[:, 2] == pytest.approx([0.0, math.sin(math.radians(10.0)), math.cos(math.radians(10.0))])
+    assert tilted.position == pytest.approx((15.0, 0.0, 1.5))
+    assert oriented.orientation == (0.6, 0.8, 0.0, 0.0)
+    assert FROM_DICT[found.kind](found.to_dict()).digest == found.digest
+
+
+def test_parts_are_told_from_the_middle_of_the_lower_face(read):
+    """An L of two boxes: at is the origin of its parts, and the centroid, of 1 : 0.5, is aside of it."""
+    found = read(HEAD + block("at = [5.0, 1.0, 0.0]\nparts = [{ box = [1.0, 1.0, 1.0] }, "
+                              "{ box = [1.0, 1.0, 0.5], at = [1.0, 0.0, 0.0] }]"))  # fmt: skip
+    (one,) = found.stones
+    assert one.position == pytest.approx((5.0 + 1.0 / 3.0, 1.0, (0.5 + 0.125) / 1.5))
+    assert one.vertices.min(axis=0) == pytest.approx((4.5, 0.5, 0.0), abs=1e-12)
+    assert one.vertices.max(axis=0) == pytest.approx((6.5, 1.5, 1.0))
+
+
+def test_a_mesh_in_millimetres(read, tmp_path):
+    scaled = re.sub(r"\b1\b(?=.*)", "1", CUBE).replace("v ", "v ").splitlines()
+    lines = [
+        " ".join(["v", *(str(1000 * int(x)) for x in one.split()[1:])]) if one[:1] == "v" else one for one in scaled
+    ]
+    (tmp_path / "mm.obj").write_text("\n".join(lines))
+    with pytest.raises(
+        st.InputError, match=r"mm.obj is 1000 m, and stones have 0.05 to 60 m: was it meant in .*unit = "
+    ):
+        read(HEAD + block('mesh = "mm.obj"'))
+    assert read(HEAD + block('mesh = "mm.obj"\nunit = "mm"')).stones[0].mass == pytest.approx(2500.0)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("f 4 3 2 1\n", "", r"cube.obj has a hole at the edge of vertices 1 and 2 \(face on line 11\); close the mesh"),
+        ("f 4 3 2 1", "f 1 2 3 4", "cube.obj has faces of opposite directions at the edge of vertices"),
+        (
+            "v 1 1 1",
+            "v 0.4 0.4 0.6",
+            r"cube.obj is not convex at the face on line \d+: vertex \d stands 0.\d+ out",
+        ),
+        (
+            "f 4 3 2 1",
+            "o one\nf 4 3 2 1\no two",
+            r"cube.obj holds 2 parts \(one, two\); give each in a file of its own",
+        ),
+        ("v 0 0 0", "v 0 zero 0", "line 2 of .*cube.obj is 'v 0 zero 0', which is no line of an OBJ file"),
+        ("f 4 3 2 1", "f 4 3 2 99", "line 10 of .*cube.obj is 'f 4 3 2 99'"),
+        ("v 0 0 0", "v 0 0 nan", "cube.obj has a vertex that is not finite"),
+        (CUBE, "hello", "cube.obj holds 0 vertices and 0 faces; a solid has four of each at least"),
+    ],
+)
+def test_a_mesh_that_is_no_convex_stone(read, tmp_path, old, new, says):
+    (tmp_path / "cube.obj").write_text(CUBE.replace(old, new))
+    with pytest.raises(st.InputError, match=says):
+        read(HEAD + block('mesh = "cube.obj"'))
+
+
+BOX = "box = [1.0, 1.0, 1.0]\n"
+HERE = BOX + "at = [0.0, 0.0, 0.0]\n"
+TWICE = "at = [0.0, 0.0, 0.0]\nparts = [{ box = [1.0, 1.0, 1.0] }, { box = [1.0, 1.0, 1.0], at = [0.0, 0.0, %s] }]"
+
+
+@pytest.mark.parametrize(
+    ("text", "says"),
+    [
+        (HEAD + block(BOX), r"scene.toml: block 'a' has no at; give the middle of its lower face \[x, y, z\] in m"),
+        (HEAD + block(BOX + "at = [0.0, 0.0]"), r"at of block 'a' is \[0.0, 0.0\]; give three numbers, x, y and z \[m\]"),
+        (HEAD + block("at = [0.0, 0.0, 0.0]"), "block 'a' has no shape; give one of box, drum, vertices, mesh and parts"),
+        (HEAD + block(BOX + 'mesh = "cube.obj"'), "block 'a' has box and mesh; give one of box, drum"),
+        (HEAD + block("box = [1.0, 1.0, 0.0]\nat = [0.0, 0.0, 0.0]"), "a length of the box of block 'a' is 0 m; allowed is"),
+        (HEAD + block("vertices = [[0,0,0],[1,0,0],[1,1,0],[0,1,0]]"), "lie in one plane, and it has no thickness"),
+        (HEAD + block(HERE + "tilt = 3.0"), "block 'a' is tilted and has no towards"),
+        (HEAD + block(HERE + "turn = 3.0\norientation = [1.0, 0.0, 0.0, 0.0]"), "an orientation and a turn"),
+        (HEAD + block(HERE + "unit = 'mm'"), "block 'a' has a unit and no mesh; lengths are in m"),
+        (HEAD + block(HERE + "parts = []"), "block 'a' has parts and a box; give one of the two"),
+        (HEAD + block(TWICE % "0.5"),
+         "parts 1 and 2 of block 'a' overlap by 500 mm, which would count twice"),
+        (HEAD + block(TWICE % "2.0"),
+         "part 2 of block 'a' touches no other part of it; make it a block of its own"),
+        (HEAD.replace("2500.0", "2500.0\ndepth = 0.8") + block(BOX), "depth is of assemblies in the plane, and this"),
+        (HEAD + block(HERE) + block("vertices = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]]", "b"),
+         "block 'b' has vertices of two numbers, a polygon in the plane, among bodies in space; give x"),
+        (TWO.replace("[[0.0, 0.0], [1.5, 2.0]]", "[0.0, 2.6]"), r"at of a \[\[column\]\] holds numbers, as in .* pairs"),
+        (TWO.replace("[1.5, 2.0]", "[1.5]"), r"has a place \[1.5\] in at; give x and y of each axis"),
+        (TWO.replace("section = [0.6, 0.5]", "height = 0.5"), "beam without a name has no section, as in the plane"),
+        (TWO.replace("[0.6, 0.5]", "[0.6]"), r"section of beam 'architrave' is \[0.6\]; give \[across, height\] in m"),
+        (TWO.replace('"column 2"]', '"column 3"]'), "beam 'architrave' lies between 'column 3'; did you mean column"),
+        (TWO.replace("[0.3, 0.2]", "[0.3, -0.6]"), "beam 'architrave' ends in the air, 0.25 m from the top of 'column 2'"),
+        (TWO + '[[link]]\nkind = "dowel"\nbetween = ["a", "b"]', r"assemblies in space take no \[\[link\]\] so far"),
+        (TWO + '[[joint_override]]\nbetween = ["a", "ground"]\nnormal_stiffness = 1e9\nshear_stiffness = 1e9',
+         "a joint_override names block 'a', which does not exist"),
+        (TWO.replace('file = "shaft.toml"', 'file = "shaft.toml"\nheight = 3.0'), "unknown key 'height'"),
+        ("ground = false\n" + TWO, "columns stand on the ground, and ground is false"),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_is_refused(read, text, says):
+    with pytest.raises(st.InputError, match=says):
+        read(text)
+
+
+def test_the_file_of_the_documentation_stands(tmp_path):
+    root = Path(__file__).parents[2]
+    page = (root / "docs" / "assembly_files.md").read_text(encoding="utf-8").partition("## Assemblies in space")[2]
+    (tmp_path / "scene.toml").write_text(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1])
+    (tmp_path / "column5.toml").write_text((root / "gallery" / "assemblies" / "column5.toml").read_text())
+    found = st.read_assembly(tmp_path / "scene.toml")
+    assert [one.name for one in found.stones[-4:]] == ["architrave", "statue", "capital on the ground", "boulder"]
+    assert 0.1 < st.limit_directions(found, [0.0]).multipliers[0] < 0.3
+
+
+def test_beams_that_meet_on_an_axis(read):
+    """End to end they share the top; one that reaches beyond the axis is in the way of the other."""
+    three = TWO.replace("[1.5, 2.0]]", "[2.6, 0.0], [5.2, 0.0]]").replace("overhang = [0.3, 0.2]\n", "")
+    second = '[[beam]]\nbetween = ["column 2", "column 3"]\nsection = [0.6, 0.5]\n'
+    found = read(three + second)
+    names = [(found.bodies[one.lower].name, found.bodies[one.upper].name) for one in found.space_joints]
+    assert ("architrave 1", "architrave 2") in names
+    with pytest.raises(
+        st.InputError, match=r"'architrave 1' and 'architrave 2' reach beyond one another by 0\.1 m; end"
+    ):
+        read(three + second + "overhang = [0.1, 0.0]\n")
+
+
+@pytest.mark.parametrize(
+    ("more", "says"),
+    [
+        (
+            "[as_found]\nbase_tilt = 1.0\n",
+            "'shaft' stands on a base out of level",
+        ),
+        (
+            "[[as_found.drum]]\nindex = 2\ntilt = 1.0\n",
+            "drum 2 of 'shaft' is found tilted; an assembly in space",
+        ),
+        (
+            '[[link]]\nkind = "dowel"\njoint = 2\ndiameter = 0.02\nembedment = 0.1\nmaterial = "titanium"\n',
+            "'shaft' has a dowel",
+        ),
+    ],
+)
+def test_columns_that_assemblies_in_space_do_not_take(read, tmp_path, more, says):
+    (tmp_path / "shaft.toml").write_text(COLUMN + more)
+    with pytest.raises(st.InputError, match=says):
+        read(TWO)
+
+
+def test_a_column_as_found_enters_with_its_offsets_and_chips(read, tmp_path):
+    """An offset moves a drum, a chip leaves less of its joint: the area of the face less its segment of 60 mm."""
+    found = "[[as_found.drum]]\nindex = 2\noffset = 0.05\noffset_azimuth = 90.0\n"
+    found += "[[as_found.drum]]\nindex = 1\nchip_left = 0.06\n"
+    (tmp_path / "shaft.toml").write_text(COLUMN + found)
+    one = read('[[column]]\nfile = "shaft.toml"\nat = [[0.0, 0.0]]\n')
+    assert one.stones[1].position[1] == pytest.approx(0.05)
+    half = math.acos(1.0 - 0.06 / 0.4)
+    lost = 0.16 * (half - math.sin(half) * math.cos(half))
+    assert one.space_joints[0].area == pytest.approx(0.16 * math.pi - lost, rel=1e-3)
