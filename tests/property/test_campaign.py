@@ -67,15 +67,15 @@ def test_what_is_not_taken_is_refused_by_name():
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
-        ({"replicates": -1}, "replicates is -1; allowed is a whole number from 0 to 100000"),
-        ({"replicates": 2.5}, "replicates is 2.5; allowed is a whole number"),
-        ({"seed": True}, "seed is True; allowed is a whole number"),
+        ({"replicates": -1}, "`replicates` is -1; allowed is a whole number from 0 to 100000"),
+        ({"replicates": 2.5}, "`replicates` is 2.5; allowed is a whole number"),
+        ({"seed": True}, "`seed` is True; allowed is a whole number"),
         (
             {"scatter": "friction=10%"},
-            r"scatter is 'friction=10%'; allowed is a Scatter, such as Scatter\(friction=0.1\)",
+            r"`scatter` is 'friction=10%'; allowed is a Scatter, such as Scatter\(friction=0.1\)",
         ),
-        ({"tail": -1.0}, r"tail is -1 s; allowed is \[0, 10000\] s"),
-        ({"threads": 0}, r"threads is 0; allowed is \[1, 1024\]; leave it out"),
+        ({"tail": -1.0}, r"`tail` is -1 s; allowed is \[0, 10000\] s"),
+        ({"threads": 0}, r"`threads` is 0; allowed is \[1, 1024\]; leave it out"),
     ],
 )
 def test_a_number_that_is_not_allowed_is_refused_where_the_value_is_made(fields, words):
