@@ -154,7 +154,7 @@ def main(records: str, out: str, which: str = "bassae", where: str = "plane", on
     model = st.DistinctElement2D() if plane else st.DistinctElement3D()
     measure, levels = levels_of(MEASURES[where], LEVELS)
     found = compare_states(
-        states, motions, model, levels, measure, realisations=TWINS.get((which, where), 0), tail=TAIL[where], threads=1,
+        states, motions, model, levels, measure, replicates=TWINS.get((which, where), 0), tail=TAIL[where], threads=1,
         out=folder,
     )  # fmt: skip
     (folder / "states.json").write_text(json.dumps(found.summary(), indent=1))

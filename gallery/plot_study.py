@@ -20,8 +20,8 @@ Path("study").mkdir(exist_ok=True)
 # %%
 # Ten records, six levels, four columns that differ as masons would have made them; then twice as many columns.
 
-for realisations in (4, 8):
-    study = st.Study([column], records, [st.HousnerBlock()], levels, parse_measure("pgv"), realisations=realisations)
+for replicates in (4, 8):
+    study = st.Study([column], records, [st.HousnerBlock()], levels, parse_measure("pgv"), replicates=replicates)
     result = st.run_study(study, "study")
     print(f"{len(result.plan)} cases, {result.computed} of them computed now")
 

@@ -27,6 +27,7 @@ ORDER = (
     "plot_rocking_spectrum.py",
     "plot_collapse.py",
     "plot_portal.py",
+    "plot_in_space.py",
 )
 
 _shown: WeakSet[Figure] = WeakSet()

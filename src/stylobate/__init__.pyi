@@ -18,6 +18,7 @@ from .analysis.rocking_spectrum import rocking_spectrum as rocking_spectrum
 from .analysis.states import compare_states as compare_states
 from .analysis.studies import run_study as run_study
 from .analysis.suite import suite_table as suite_table
+from .campaign.campaign import Campaign as Campaign
 from .campaign.cases import Study as Study
 from .column import AsFound as AsFound
 from .column import Column as Column
@@ -68,6 +69,7 @@ from .motion.readers import read_suite as read_suite
 from .motion.readers import sample_motion as sample_motion
 from .motion.scatter import MotionScatter as MotionScatter
 from .outcome import Outcome as Outcome
+from .plots.inline import Film as Film
 from .response import Response as Response
 from .response import load_response as load_response
 from .simulate import simulate as simulate

@@ -2,11 +2,16 @@
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 #: A longer word is cut in messages.
 _ENDLESS = re.compile(r"\S{400,}")
+
+
+def _cut(message: str) -> str:
+    return _ENDLESS.sub(lambda word: f"{word[0][:100]}…", message)
 
 
 class StylobateError(Exception):
@@ -14,10 +19,76 @@ class StylobateError(Exception):
 
 
 class InputError(StylobateError, ValueError):
-    """Input that cannot be used. The message holds the value, the allowed range and the remedy."""
+    """Input that cannot be used. The message holds the value, the allowed range and the remedy.
 
-    def __init__(self, message: str = "") -> None:
-        super().__init__(_ENDLESS.sub(lambda word: f"{word[0][:100]}…", message))
+    Parameters
+    ----------
+    message : str
+        Parameters stand in backticks, with a value where one is advised: :func:`told`.
+    field : str, optional
+        Path of what is wrong, such as ``frequency``, ``drum.3.height`` or ``link.1.at``: drums, joints and links by number.
+    value, allowed, remedy : optional
+        What the message says of it, as far as they are known one by one.
+    """
+
+    def __init__(
+        self, message: str = "", field: str | None = None, *, value: Any = None, allowed: str = "", remedy: str = ""
+    ) -> None:
+        super().__init__(_cut(message))
+        self.field, self.value, self.allowed, self.remedy = field, value, allowed, remedy
+
+    def place(self, place: str, *path: object) -> None:
+        """Say where the error is, as :func:`within`."""
+        if place:  # a key of a table, a part of a file
+            self.args = (_cut(f"{place}: {told(str(self), str)}"),)
+        self.field = ".".join(map(str, (*path, *([self.field] if self.field else [])))) or None
+
+    def without(self, place: str) -> None:
+        """Say it without a place that its reader does not know."""
+        self.args = (str(self).replace(place, ""),)
+
+
+@contextmanager
+def within(place: str = "", *path: object) -> Iterator[None]:
+    """Put the place before what an :class:`InputError` inside says, and the path of that place before its field.
+
+    Parameters
+    ----------
+    place : str
+        In words: ``my-column.toml``, ``[[drum]] number 3``; parameters are keys there, and lose their marks.
+    *path
+        Such as ``"drum", 3``.
+    """
+    try:
+        yield
+    except InputError as error:
+        error.place(place, *path)
+        raise
+
+
+#: A parameter in a sentence: `scale`, `dt=0.01`, `unit='g'`.
+PARAMETER = re.compile(r"(?<!`)`([a-z][a-z0-9_]*)(?:=([^`]*))?`(?!`)")
+
+#: Units with which a person types the value of a parameter.
+UNITS = {"dt": "s", "tail": "s"}
+
+
+def told(sentence: str, called: Callable[[str], str]) -> str:
+    """A message whose parameters are called as its reader knows them: options, fields of a page, keys of a file.
+
+    Parameters
+    ----------
+    sentence : str
+        Parameters stand in backticks.
+    called : callable
+        From the name of a parameter to what the reader calls it.
+    """
+
+    def word(found: re.Match[str]) -> str:
+        name, value = found.groups()
+        return " ".join([called(name), *([value.strip("'") + UNITS.get(name, "")] if value else [])])
+
+    return PARAMETER.sub(word, sentence)
 
 
 class OutOfRangeWarning(UserWarning):
@@ -65,13 +136,15 @@ def check_range(
     open_low: bool = False,
     open_high: bool = False,
     remedy: str = "",
+    of: str = "",
+    field: str | None = None,
 ) -> float:
     """Return ``value`` as a float if it is finite and inside the interval, else raise :class:`InputError`.
 
     Parameters
     ----------
     name : str
-        What the value is, as the person who typed it would say.
+        What the value is: the name of a parameter or a key, or what it is called.
     value : float
     low, high : float
         Ends of the allowed interval, closed unless ``open_low`` / ``open_high``.
@@ -79,18 +152,61 @@ def check_range(
         Shown behind the numbers.
     remedy : str
         One clause that says what to do instead.
+    of : str
+        What has it, such as “a drum”.
+    field : str, optional
+        Of the error; by default the name, where it is that of a parameter.
     """
     unit_text = f" {unit}" if unit else ""
     interval = f"{'(' if open_low else '['}{low:g}, {high:g}{')' if open_high or math.isinf(high) else ']'}{unit_text}"
-    tail = f"; {remedy}" if remedy else ""
-    if isinstance(value, bool) or not hasattr(value, "__float__"):
-        raise InputError(f"{name} is {as_typed(value)}, not a number; allowed is {interval}{tail}.")
+    is_number = not isinstance(value, bool) and hasattr(value, "__float__")
     try:
-        number = float(value)
+        number = float(value) if is_number else math.nan
     except (TypeError, ValueError):
-        raise InputError(f"{name} is {as_typed(value)}, not a number; allowed is {interval}{tail}.") from None
+        number, is_number = math.nan, False
     too_low = number <= low if open_low else number < low
     too_high = number >= high if open_high else number > high
     if not math.isfinite(number) or too_low or too_high:
-        raise InputError(f"{name} is {number:g}{unit_text}; allowed is {interval}{tail}.")
+        shown = f"{number:g}{unit_text}" if is_number else f"{as_typed(value)}, not a number"
+        raise _wrong(name, value, shown, f"is {interval}", remedy, of, field)
     return number
+
+
+def check_whole(
+    name: str,
+    value: Any,
+    low: int,
+    high: int | None = None,
+    *,
+    of: str = "",
+    remedy: str = "",
+    field: str | None = None,
+) -> int:
+    """Return ``value`` if it is a whole number from ``low`` to ``high``, else raise :class:`InputError`.
+
+    Parameters are those of :func:`check_range`; numbers of numpy are whole numbers as well.
+    """
+    whole = hasattr(value, "__index__") and not isinstance(value, bool)
+    if not whole or value < low or (high is not None and value > high):
+        allowed = f"is a whole number from {low}{'' if high is None else f' to {high}'}"
+        raise _wrong(name, value, as_typed(value), allowed, remedy, of, field)
+    return int(value)
+
+
+def check_choice(
+    name: str, value: Any, known: Iterable[Any], *, of: str = "", remedy: str = "", field: str | None = None
+) -> None:
+    """Raise :class:`InputError` if ``value`` is none of those that are ``known``; else as :func:`check_range`."""
+    choices = list(known)
+    if value not in choices:
+        near = suggest(value, [one for one in map(str, choices) if len(one) > 2]) if isinstance(value, str) else ""
+        raise _wrong(name, value, as_typed(value), f"are {', '.join(map(str, choices))}", remedy, of, field, near)
+
+
+def _wrong(
+    name: str, value: Any, shown: str, allowed: str, remedy: str, of: str, field: str | None, near: str = ""
+) -> InputError:
+    """The error about a value that is not allowed."""
+    words = f"{name}{f' of {of}' if of else ''} is {shown}; {near}allowed {allowed}{f'; {remedy}' if remedy else ''}."
+    path = field or (name.strip("`") if name.strip("`").isidentifier() else None)
+    return InputError(words, path, value=value, allowed=allowed.partition(" ")[2], remedy=remedy)

@@ -59,7 +59,7 @@ class OwnFiles:
         """
         link = self._link(path)
         if link is not None:
-            raise InputError(f"{link} is a link to another folder, in which nothing is written; choose another --out.")
+            raise InputError(f"{link} is a link to another folder, in which nothing is written; choose another `out`.")
         if os.path.lexists(path) and not self.holds(path):
             changed = "was changed after stylobate wrote it" if self.lists(path) else "was not written by stylobate"
             raise InputError(f"{path} is there already and {changed}; choose another folder, or move it away.")

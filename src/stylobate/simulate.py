@@ -166,8 +166,8 @@ def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> Non
     for column, motion in _to_check(cases):
         if options.until_rest and not model.follows(column):
             raise InputError(
-                f"until_rest is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or "
-                "leave it off: --tail and --until-end are for every model."
+                f"`until_rest` is on, and {model.name} does not follow what comes down; use dem2d (DistinctElement2D), or "
+                "leave it off: `tail` and `until_end` are for every model."
             )
         model.check(column, motion)
         model.check_length(column, motion, options)
@@ -247,7 +247,7 @@ def thread_count(threads: int | None) -> int:
     """Number of threads to use: as asked, or one per core."""
     if threads is None:
         return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return int(check_range("threads", threads, 1, 1024, remedy="leave it out to use all cores"))
+    return int(check_range("`threads`", threads, 1, 1024, remedy="leave it out to use all cores"))
 
 
 #: Shortest wait that is told before it begins [s], and most cases of a batch from which it is guessed.
@@ -305,8 +305,8 @@ def run_options(
 ) -> RunOptions:
     """Options of runs, checked; parameters as in :func:`simulate`."""
     return RunOptions(
-        check_range("tail", tail, 0.0, 1e4, unit="s"),
-        check_range("output interval", output_interval, 0.0, 1e3, unit="s", open_low=True),
+        check_range("`tail`", tail, 0.0, 1e4, unit="s"),
+        check_range("`output_interval`", output_interval, 0.0, 1e3, unit="s", open_low=True),
         until_end,
         until_rest,
         quiet=check_range("quiet", quiet, 0.0, 0.5, remedy="0 steps the whole motion"),

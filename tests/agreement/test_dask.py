@@ -23,7 +23,7 @@ from stylobate.campaign import cluster as module
 from stylobate.campaign.chunk import Chunk, law, pack, results_of, unpack
 from stylobate.campaign.cluster import on_cluster
 from stylobate.campaign.digests import Hasher
-from stylobate.campaign.executor import compute
+from stylobate.campaign.executor import executor
 from stylobate.campaign.hand_out import HandOut
 from stylobate.campaign.local_workers import started
 from stylobate.campaign.runs import Request, run_all
@@ -56,7 +56,9 @@ def test_rows_are_those_of_threads_to_the_bit(cluster, tmp_path):
     motions = [st.harmonic(0.8, 1.0, 2.0), *(one.replace(ax=one.samples[:300], ay=None, az=None) for one in records)]
     columns = [st.preset("paper-monolithic"), st.preset("paper-12-drums")]
     cases = Cases(60, lambda n: Case(columns[n % 3 == 0], motions[n % len(motions)].scaled(0.3 + 0.05 * n)))
-    on_workers = run_all(Request.of(cases, Hasher(st.DistinctElement2D()), 0.1), ledger=tmp_path / "runs.sqlite")
+    on_workers = run_all(
+        Request.of(cases, Hasher(st.DistinctElement2D()), 0.1), st.Campaign(ledger=tmp_path / "runs.sqlite")
+    )
     by_threads = {number: one.row() for number, one in simulate_iter(cases, st.DistinctElement2D(), quiet=0.1)}
     assert list(map(repr, on_workers)) == [repr(by_threads[number]) for number in range(60)]
 
@@ -78,7 +80,7 @@ def test_the_libraries_of_the_cluster_say_nothing_of_their_own(cluster):
 
 def test_a_case_that_kills_its_workers_is_a_run_that_failed(cluster):
     for _ in range(2):  # so often that the one who starts the worker again gives up and is replaced
-        found = dict(compute([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous(), RunOptions()))
+        found = dict(executor()([Case(COLUMN, MOTION), Case(POISON, MOTION)], Poisonous(), RunOptions(), None))
         assert found[0].row()["outcome"] == "rocked"
         assert found[1].row()["outcome"] == "failed"
         assert found[1].reason == "the workers that computed it died, each time"

@@ -86,7 +86,7 @@ def test_no_declared_collapse_recovers(drums, section):
 
 
 def test_what_the_model_cannot_compute_is_refused_in_one_sentence():
-    with pytest.raises(st.InputError, match=r"law is 'points'; allowed is rim, bed\."):
+    with pytest.raises(st.InputError, match=r"law is 'points'; allowed are rim, bed\."):
         DistinctElement3D(law="points")
     with pytest.raises(st.InputError, match=r"the largest stable step for this column is 0\.0005186 s"):
         st.simulate(round_column(), shaking(0.0, 0.1), DistinctElement3D(time_step=1e-3))

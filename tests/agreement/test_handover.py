@@ -120,7 +120,7 @@ def test_what_may_come_loose_has_the_joints_of_the_lanes(column, certain, monkey
     model = DistinctElement2D(start="settle")
     lanes = simulate(column, motion, model)
     options = RunOptions()
-    run = _ColumnRun(column, motion, model.followed(column, options), options)
+    run = _ColumnRun(column, motion, model.followed(column, options), model.contacts, options)
     run.loose = True
     start = run.engine.records.body["x"][:, 0].copy()
     run.advance(run.engine.chunks)
@@ -164,7 +164,7 @@ def test_a_column_that_collapses_as_its_motion_ends_goes_on():
     whole = harmonic(0.5, 0.3 * g, 2.0)
     motion = Motion(whole.dt, whole.factor * whole.samples[: round(1.3 / whole.dt)])
     model, options = DistinctElement2D(restitution=1.0), RunOptions(until_rest=True)
-    run = _ColumnRun(column, motion, model.followed(column, options), options)
+    run = _ColumnRun(column, motion, model.followed(column, options), model.contacts, options)
     while run.chunks_left() > 0:
         run.advance(run.chunks_left())
     assert run.collapsed

@@ -107,7 +107,7 @@ def test_the_tail_changes_nothing_before_it():
     short, long = (simulate(COLUMN, motion, HousnerBlock(), tail=tail, output_interval=0.01) for tail in (0.0, 2.0))
     assert short.peak_rotation > 0.0
     assert np.array_equal(short.drum_rotation, long.drum_rotation[: len(short.time)])
-    block = RockingLanes(HousnerBlock().block, RunOptions(), 0.0, None, True)
+    block = RockingLanes(HousnerBlock(), RunOptions(), True)
     states = []
     for tail in (0.0, 2.0):
         block.options = RunOptions(tail=tail)
@@ -183,7 +183,7 @@ def test_the_largest_motion_of_a_batch_is_checked_in_any_order():
 def test_a_lane_that_has_ended_keeps_the_samples_that_the_kernel_still_reads(monkeypatch):
     # The loop over lanes reads the input of those, too, that nothing is left to run for.
     monkeypatch.setattr(rocking_lanes, "MOST_TABLES", 1)
-    block = RockingLanes(HousnerBlock().block, RunOptions(), 0.0, None, False)
+    block = RockingLanes(HousnerBlock(), RunOptions(), False)
     block.load(0, Case(COLUMN, harmonic(2.0, 0.01 * g, 1.0)))
     samples = weakref.ref(block.cases[0][2][0])
     while not block.is_over(0):

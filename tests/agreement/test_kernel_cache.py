@@ -68,6 +68,76 @@ def test_an_edited_law_is_used_by_a_cached_loop(tmp_path, monkeypatch):
     assert len(list((tmp_path / "cache" / "kernels").iterdir())) == 2
 
 
+#: A kernel too long to be written into the loop that calls it, and whose copies the code of that loop has.
+SUMS = "".join(f"    x += math.atan2(x, {k}.5) * math.hypot(x, {k}.25)\n" for k in range(30))
+LONG = f"import math\n\nfrom .jit import kernel\n\n@kernel\ndef rule(i):\n    x = float(i)\n{SUMS}    return x\n"
+COPIES = """
+from {name}.loop import total
+code = next(iter(total.overloads.values())).library
+kinds = [(one.name.count("rule") > 0, one.linkage.name) for one in code.get_defined_functions()]
+print(sorted(set(kinds)))
+"""
+
+
+def test_the_code_of_a_kernel_calls_its_own_copies_of_others(tmp_path, monkeypatch):
+    # Or the linker would take the first of that name in the process, and last bits would hang on what was compiled before.
+    package, script = trial(tmp_path)
+    (package / "rule.py").write_text(LONG, encoding="utf-8")
+    monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path / "cache"))
+    look = script + COPIES.format(name="trial.kernels")
+    done = subprocess.run([sys.executable, "-c", look], capture_output=True, text=True, check=True)
+    first, kinds = done.stdout.splitlines()
+    assert "(True, 'internal')" in kinds
+    assert "linkonce" not in kinds
+    again = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert again.stdout.splitlines()[0] == first  # from disk, to the last bit
+
+
+#: A kernel that calls a long one twice, for records of which each process compiles those that it is asked for.
+TWICE = f"""
+import math
+from .jit import strict
+
+@strict
+def last(record):
+    x = 0.0
+{SUMS}    return x + record[0].last
+
+@strict
+def twice(record):
+    return last(record) + last(record)
+"""
+RECORDS = """
+import sys
+import numpy as np
+sys.path.insert(0, {root!r})
+from {name}.rule import twice
+
+def record(names):
+    one = np.zeros(1, np.dtype([(name, float) for name in names]))
+    one["last"] = 7.0
+    return one
+
+print(*(twice(record(names)) for names in {records}))
+"""
+
+
+def test_code_for_two_records_by_two_processes_is_told_apart(tmp_path, monkeypatch):
+    # Both bore one name: slips of damped columns were read where undamped ones have something else, and were 1e20 m.
+    package, _ = trial(tmp_path)
+    (package / "rule.py").write_text(TWICE, encoding="utf-8")
+    monkeypatch.setenv("STYLOBATE_CACHE", str(tmp_path / "cache"))
+
+    def found(*records):
+        script = RECORDS.format(root=str(tmp_path), name="trial.kernels", records=records)
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+        return done.stdout.split()
+
+    short, long = ("last", "other"), ("a", "b", "c", "last")
+    assert found(short) == found(long) == ["14.0"]
+    assert found(short, long) == found(long, short) == ["14.0", "14.0"]
+
+
 RULE = "from .jit import law\n\n@law\ndef rule(i):\n    return 7 * i\n"
 DAMAGES = {
     "nothing left": lambda data: b"",

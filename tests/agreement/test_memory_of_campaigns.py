@@ -102,7 +102,7 @@ def test_a_stream_of_runs_keeps_their_digests_and_one_that_goes_on_no_more(tmp_p
             for number in range(count - left):
                 book.record(int(request.digests.keys[number]), {"case": request.digests[number], **row})
         yield
-        with closing(Runs(ledger)) as runs:
+        with closing(Runs(st.Campaign(ledger=ledger))) as runs:
             yield deque(runs.run(Request.of(distinct(count), Hasher(Instant()))), maxlen=0)
 
     # a digest of 16 bytes, its number and its place, while they are sorted each twice, and whether it is known

@@ -7,9 +7,10 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis.certainty import Population, batch
-from stylobate.campaign.twins import the_twins
+from stylobate.campaign.twins import Twins, the_twins
 from stylobate.column.scatter import scattered_columns
 from stylobate.models.base import Case
+from stylobate.response.words import to_decide
 
 COLUMN = st.Column.tapered(
     height=2.4, bottom_width=0.5, top_width=0.4, drums=3, density=2600.0, section="circular",
@@ -32,7 +33,7 @@ def row(outcome: str, **changes) -> dict:
 
 
 def population(*rows: dict) -> Population:
-    return Population([COLUMN] * len(rows), rows, st.Scatter(), 0)
+    return Population(Twins([COLUMN] * len(rows), st.Scatter(), 0, ()), rows)
 
 
 def test_a_run_that_is_no_example_of_its_twins_says_so():
@@ -47,7 +48,9 @@ def test_a_run_that_is_no_example_of_its_twins_says_so():
     assert mostly.beside(row("collapsed")) == mostly.beside(row("failed", decided=False)) == ""
     assert mostly.summary(row("rocked"))["certainty"]["beside"] == said
     seldom = population(*[row("rocked")] * 14, row("rocked", decided=False))
-    assert seldom.sentence.endswith("; 14 stand and 1 is undecided: go on with --tail 5s.")
+    assert seldom.sentence.endswith("; 14 stand and 1 is undecided.")
+    advised = dataclasses.replace(seldom, to_decide=to_decide(COLUMN, {}, 5.0))
+    assert advised.sentence.endswith("is undecided: go on with a tail of 10 s.")
     fell = seldom.beside(row("collapsed"))
     assert "not the single run" not in fell
     assert fell == (
@@ -88,7 +91,7 @@ def test_the_column_itself_does_not_change_to_the_bit(model, amplitude):
 def test_twins_that_ride_along_are_those_of_a_batch_to_the_bit(model):
     motion = st.sine_pulse(frequency=0.9, amplitude=0.5 * st.g, duration=2.0)
     ridden = st.certainty(COLUMN, motion, model, replicates=18, seed=3).population
-    twins = the_twins(COLUMN, model, 18, None, 3).columns
+    twins = the_twins(COLUMN, model, st.Campaign(replicates=18, seed=3)).columns
     again = batch([Case(one, motion) for one in twins], COLUMN, model, 0.0, threads=2)
     assert [str(one) for one in ridden.rows] == [str(one) for one in again]
     assert len({one["peak_top_displacement_m"] for one in ridden.rows}) == 18
@@ -142,8 +145,8 @@ def test_a_model_of_columns_as_built_leaves_the_offsets_out_and_says_so():
     found = st.certainty(
         COLUMN, st.sine_pulse(frequency=0.9, amplitude=2.0, duration=1.2), st.RigidBlock(), replicates=2
     )
-    assert found.population.left_out == ("offset",)
-    assert found.population.scatter.offset == 0.0
+    assert found.population.drawn.left_out == ("offset",)
+    assert found.population.drawn.scatter.offset == 0.0
 
 
 @pytest.mark.parametrize(

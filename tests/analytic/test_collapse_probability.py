@@ -128,7 +128,7 @@ def test_a_cell_agrees_with_the_columns_like_this_one_of_a_run_of_its_motion():
     beside = certainty(column, motion, model, replicates=number, seed=2, tail=2.0).population
     fell = np.array([bool(row["collapsed"]) for row in beside.rows])
     np.testing.assert_array_equal(paced.codes[0, 0] == CODES["C"], fell)
-    assert found.scatter == beside.scatter
+    assert found.scatter == beside.drawn.scatter
     low, high = wilson_interval(np.array([found.count("collapsed")[0, 0], fell.sum()]), np.full(2, number))
     assert 0.0 < low.max() <= high.min() < 1.0
 
@@ -158,7 +158,7 @@ def test_phase_starts_the_sine_elsewhere_and_shares_its_samples():
 def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
     column = preset("paper-monolithic")
     whole = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4)
-    asked, real = [], runs.compute
+    asked, real = [], runs.executor()
 
     def stopping(cases, *args, **kwargs):
         asked.append(len(cases))
@@ -167,7 +167,7 @@ def test_an_interrupted_probability_goes_on_where_it_was(tmp_path, monkeypatch):
                 raise KeyboardInterrupt
             yield item
 
-    monkeypatch.setattr(runs, "compute", stopping)
+    monkeypatch.setattr(runs, "executor", lambda: stopping)
     first = collapse_probability(column, st.HousnerBlock(), *GRID, replicates=4, out=tmp_path)
     assert not first.complete
     assert first.summary()["not_run"] == 23

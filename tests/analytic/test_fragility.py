@@ -240,7 +240,7 @@ def test_what_a_study_was_scaled_to_is_not_taken_for_another_measure():
 
 def test_too_few_records_and_runs_that_are_all_alike():
     e = stripes(np.random.default_rng(12), records=4)
-    with pytest.raises(InputError, match="--records-are-one"):
+    with pytest.raises(InputError, match="`records_are_one`"):
         fragility(e)
     assert fragility(e, records_are_one=True).records == 32
     for code, why in ((NOT_EXCEEDED, "larger intensities"), (EXCEEDED, "smaller intensities")):

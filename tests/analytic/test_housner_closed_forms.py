@@ -75,7 +75,7 @@ def test_a_motion_counts_up_to_its_last_sample(steps):
     speed = (push - alpha) * math.sinh(p * length)
     top = alpha - math.sqrt((alpha - turned) ** 2 - speed**2)
     model = HousnerBlock(linear=True)
-    block = RockingLanes(model.block, RunOptions(), 0.0, None, False)
+    block = RockingLanes(model, RunOptions(), False)
     block.load(0, Case(column, motion))
     while not block.is_over(0):
         block.advance()

@@ -207,6 +207,14 @@ def test_what_has_no_multiplier_is_said(stones, joint, says):
         limits(stones, [0.0], joint)
 
 
+def test_what_would_take_too_long_or_has_no_weight_is_refused(monkeypatch):
+    monkeypatch.setattr(limit_assemblies, "MOST_JOINTS", 3)
+    with pytest.raises(st.InputError, match=r"has 4 joints, .* about 6 minutes a direction; allowed are up to 3"):
+        limits(portal(), [0.0])
+    with pytest.raises(st.InputError, match="'assembly' has no gravity"):
+        limits([column(0, 0, "one")], [0.0], gravity=0.0)
+
+
 def test_assemblies_of_the_plane_and_limit_analysis_in_the_plane_are_refused():
     square = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
     flat = st.Assembly((st.Block(square, 2500.0),), LAW)

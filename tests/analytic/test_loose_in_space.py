@@ -228,3 +228,28 @@ def test_push_of_a_monolith(degrees):
             assert (math.hypot(*lean[:2]) < 0.005) == stands
             if not stands and face.radius:
                 assert math.degrees(math.atan2(lean[1], lean[0])) == pytest.approx(degrees, abs=0.5)
+
+
+@pytest.mark.parametrize(("restitution", "kept"), [(0.0, 0.5), (0.5, 0.75)])
+def test_a_monolith_hits_its_twin(restitution, kept):
+    """An impulse at the same lever about both edges: the twin turns with (1 + e)/2 of what comes, to 3 %.
+
+    That takes bases that hold the edges during the blow: where these are as soft as the contact, they give way, and the
+    twin has up to a fifth more (0) or a seventh less (0.5), at any stiffness.
+    """
+    stiff, soft, near, turning = 5e12, 5e9, 1.0, 1.0
+    lean = turn(0.0, math.asin(near / 4.0) - 0.004, 0.0)
+    place = lean @ np.array([-0.4, 0.0, 2.0])
+    law = np.full((3, 3, 3), 50.0)
+    law[:, :, :2] = stiff, 0.5 * stiff
+    law[1, 2] = soft, 0.5 * soft, 0.0
+    lane = Lane(
+        box((30.0, 10.0, 1.0), (0.0, 0.0, -0.5), fixed=True),
+        box((0.8, 0.8, 4.0), place, lean, np.cross([0.0, turning, 0.0], place), (0.0, turning, 0.0)),
+        box((0.8, 0.8, 4.0), (near + 0.4, 0.0, 2.0)),
+        joints=[faces_joined(0, 2, square_face(0.4, 0.5, x=near + 0.4), square_face(0.4, -2.0), stiff, mu=50.0)],
+        law=law, restitution=restitution, step=4e-6,
+    )  # fmt: skip
+    _, seen = lane.run(0.034, lambda: (lane.spin(2)[1], lane.contact(1, 2)))
+    assert max(area for _, area in seen) > 0.0
+    assert seen[-1][0] == pytest.approx(kept * turning, rel=0.03)

@@ -15,6 +15,7 @@ from stylobate.analysis.critical import CriticalAmplitude
 from stylobate.analysis.critical_population import CriticalPopulation
 from stylobate.analysis.critical_suite import CriticalSuite
 from stylobate.analysis.critical_words import as_recorded, sentence, sentence_of_suite
+from stylobate.campaign.twins import Twins
 from stylobate.column.presets import preset
 from stylobate.column.scatter import Scatter
 from stylobate.report.critical import critical_result
@@ -38,7 +39,7 @@ def over(own, twins=(), motion=RECORD):
     population = None
     if twins:
         codes = np.array([verdicts(one) for one in twins])
-        population = CriticalPopulation(AMPLITUDES * st.g, codes, Scatter(), 0, (), motion.pga)
+        population = CriticalPopulation(AMPLITUDES * st.g, codes, Twins((), Scatter(), 0, ()), motion.pga)
     rows = [row(one) for one in verdicts(own)]
     return CriticalAmplitude(COLUMN, motion, "dem2d", AMPLITUDES * st.g, rows, 1.0, motion.pga, population)
 
@@ -108,7 +109,7 @@ def test_only_amplitudes_that_stand_bound_what_is_not_seen():
 
 def test_the_next_lower_amplitude_is_told_of_both_grids():
     codes = np.array([verdicts("sc"), verdicts("ss")])
-    population = CriticalPopulation(AMPLITUDES[[0, 3]] * st.g, codes, Scatter(), 0, (), RECORD.pga)
+    population = CriticalPopulation(AMPLITUDES[[0, 3]] * st.g, codes, Twins((), Scatter(), 0, ()), RECORD.pga)
     found = dataclasses.replace(over("sssc"), population=population).summary()
     both = "(the next below that was looked at is 0.4 g, for those like it 0.2 g)"
     assert f"first falls at 0.5 g, 2 times the record {both}" in found["sentence"]
@@ -121,8 +122,8 @@ def test_motions_of_a_record_are_told_apart_from_records_and_what_is_undecided_i
     assert found["sentence"] == (
         "1 of 2 motions of 1 record collapse the column at some peak looked at, 0.2 to 0.5 g, 2 it or one like it. Most "
         "harm: a 1, which collapses it or one like it at 1.2 times the record, 0.3 g, the smallest factor at which any "
-        "does. 1 of 8 runs ended far from rest (a longer --tail decides them); 1 run of those like it ended far from rest "
-        "(a longer --tail decides them): not counted as collapse."
+        "does. 1 of 8 runs ended far from rest (a longer tail may decide them); 1 run of those like it ended far from rest "
+        "(a longer tail may decide them): not counted as collapse."
     )
     assert (found["lowest_collapse_g"], found["lowest_collapse_factor"]) == pytest.approx((0.3, 1.2))
     assert suite.compass.values.tolist() == pytest.approx([1.6, 1.2])  # as the sentence, not of the column alone

@@ -225,7 +225,7 @@ def test_only_a_conditioning_that_ends_the_drift_is_named(drift):
     assert displacement_drift(record) != 0.0
     with pytest.warns(OutOfRangeWarning, match="stand at the end") as seen:
         warn_of_drift(record)
-    named = re.search(r"\(--condition (\S+)\)", str(seen[0].message))
+    named = re.search(r"\(`condition='(\S+)'`\)", str(seen[0].message))
     assert named is not None
     assert mended(record, named[1])
 
@@ -233,7 +233,7 @@ def test_only_a_conditioning_that_ends_the_drift_is_named(drift):
 def test_no_conditioning_is_named_where_none_helps():
     with pytest.warns(OutOfRangeWarning, match="take no displacement from it") as seen:  # nothing but an offset
         warn_of_drift(Motion(0.01, np.full(1001, 0.02), name="r", metadata={"file": "r.csv"}))
-    assert "--condition" not in str(seen[0].message)
+    assert "`condition" not in str(seen[0].message)
 
 
 def test_no_conditioning_is_named_that_takes_the_shaking_or_is_longer_than_the_record():
@@ -255,7 +255,7 @@ def test_no_conditioning_is_named_that_takes_the_shaking_or_is_longer_than_the_r
 def test_el_centro_is_not_told_a_baseline_that_leaves_it_moving():
     record = sample_motion("el-centro-1940")
     assert not mended(record, "baseline")
-    with pytest.warns(OutOfRangeWarning, match=r"\(--condition highpass=0.1Hz\)"):
+    with pytest.warns(OutOfRangeWarning, match=r"\(`condition='highpass=0.1Hz'`\)"):
         warn_of_drift(record)
     assert mended(record, "highpass=0.1Hz")
 

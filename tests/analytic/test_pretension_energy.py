@@ -79,7 +79,7 @@ def test_a_dowel_out_of_its_hole_is_not_bent(model):
         body = block.records.body
         body["z"][1, 0] += lift
         body["x"][1, 0] += 0.03
-        forces = block.records.kernel.forces if model.axes == "xyz" else block.records.law.gather
+        forces = block.records.kernel.forces if model.axes == "xyz" else block.records.kernel.gather
         forces(block.records.state)
         one = links_of(block)
         assert (one["out"][0, 0], one["on"][0, 0]) == (out, out)

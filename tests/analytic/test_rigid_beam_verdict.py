@@ -42,7 +42,7 @@ def test_room_on_the_contacts_of_slid_drums():
 def test_lowest_barrier_of_rigid_drums():
     # One body of weight N, half width b, centroid at H: ½ N b²/H with small rotations. Joint 4 carries one drum.
     weight, half, height = 2000.0 * g, 0.5, 0.5
-    passes = RigidBeam(moment_law="bilinear", sliding=True).pack(prism(4)).passes
+    passes = RigidBeam(moment_law="bilinear", sliding=True).pack(prism(4))
     whole, top = 0.5 * 4.0 * weight * half**2 / 2.0, 0.5 * weight * half**2 / height
     assert passes.lowest(np.zeros(4)) == pytest.approx(min(whole, top), rel=1e-4)
     slip = np.array([3.0, 0.0, 0.0, 0.2])
@@ -51,17 +51,13 @@ def test_lowest_barrier_of_rigid_drums():
     assert passes.lowest(slip) == pytest.approx(near, rel=1e-4)
     assert passes.lowest(np.array([0.0, 0.0, 0.0, 0.6])) == -np.inf
     # A loose joint slides down its tilted face before the balance point: N (b μ − H μ²/2) for every part that holds it.
-    loose = (
-        RigidBeam(moment_law="bilinear", sliding=True)
-        .pack(
-            prism(4, overrides={4: Joint(1e14, 5e13, friction_coefficient=0.1)}),
-        )
-        .passes
+    loose = RigidBeam(moment_law="bilinear", sliding=True).pack(
+        prism(4, overrides={4: Joint(1e14, 5e13, friction_coefficient=0.1)}),
     )
     expected = weight * min(k * (half * 0.1 - 0.5 * (0.5 * k) * 0.1**2) for k in (1.0, 2.0, 3.0, 4.0))
     assert loose.lowest(np.zeros(4)) == pytest.approx(expected, rel=1e-2)
     alone = RigidBeam(moment_law="bilinear", sliding=True).pack(prism(1, Joint(1e14, 5e13, friction_coefficient=0.1)))
-    assert alone.passes.lowest(np.array([2.0])) == pytest.approx(whole, rel=1e-4)
+    assert alone.lowest(np.array([2.0])) == pytest.approx(whole, rel=1e-4)
 
 
 @pytest.mark.parametrize("law", ["winkler", "bilinear"])
@@ -71,7 +67,7 @@ def test_no_way_over_two_joints_is_lower_than_the_barrier(law, stiffness):
     column = Column.tapered(
         height=5.0, bottom_width=0.96, top_width=0.66, drums=2, density=1600.0, joint=Joint(stiffness, 0.5 * stiffness)
     )
-    passes = RigidBeam(moment_law=law).pack(column).passes
+    passes = RigidBeam(moment_law=law).pack(column)
     weight = passes.gravity[0]
     lowest = []
     for joint in (0, 1):
@@ -91,7 +87,7 @@ def test_no_way_over_two_joints_is_lower_than_the_barrier(law, stiffness):
 def test_a_soft_block_let_go_beyond_its_summit_falls(second_order, solver):
     # The bed without tension gives way: its balance point lies before b/H, and from there on the block falls by itself.
     column = Column.tapered(height=5.0, bottom_width=0.96, top_width=0.66, drums=1, density=1600.0, joint=SOFT)
-    passes = RigidBeam(second_order=second_order).pack(column).passes
+    passes = RigidBeam(second_order=second_order).pack(column)
     summit = float(passes.angles[passes.heights[:, 0].argmax(), 0])
     assert summit < 0.98 * passes.angles[-1, 0]
     for share, falls in ((0.98, False), (1.01, True)):

@@ -216,5 +216,5 @@ def test_runs_that_do_not_say_their_intensity_and_a_column_that_falls_all_the_ti
     silent = fragility(replace(SEPARABLE, measure="im", unit="-"), samples=20)
     hazard = Hazard(np.array([0.1, 10.0]), np.array([9.0, 2.0]), "m/s", "site.csv")
     told = " ".join(risk(silent, hazard).warnings)
-    assert "with --im" in told
+    assert "state the intensity of the runs" in told
     assert "leaves no such column" in told

@@ -127,7 +127,12 @@ def test_the_whole_story(open_page, tmp_path):
 
     # a domain streams in; by keyboard to a cell, and to its film
     page.click("[data-tab=domain]")
-    for name, value in (("f1", "1"), ("fn", "3"), ("an", "4"), ("duration", "2")):
+    for name, value in (
+        ("frequencies.last", "1"),
+        ("frequencies.number", "3"),
+        ("amplitudes.number", "4"),
+        ("duration", "2"),
+    ):
         page.fill(f'#domain [data-field="{name}"]', value)
     page.click("text=Map it")
     expect(page.locator("#domain-said .verdict")).to_contain_text("of 12 cells collapse", timeout=25_000)
@@ -140,7 +145,7 @@ def test_the_whole_story(open_page, tmp_path):
 
     # a long one is stopped, and says what is kept
     page.click("[data-tab=domain]")
-    page.fill('#domain [data-field="fn"]', "40")
+    page.fill('#domain [data-field="frequencies.number"]', "40")
     page.fill('#domain [data-field="duration"]', "30")
     page.click("text=Map it")
     expect(page.locator("#domain-said")).to_contain_text("Cancel")
@@ -310,8 +315,8 @@ def test_records_to_a_fragility_and_what_brings_it_down(open_page, tmp_path):
 
     page.click("[data-tab=run]")
     page.locator("#critical summary").click()
-    for name, value in (("first", "0.1"), ("last", "0.5"), ("step", "0.1")):
-        page.fill(f'[data-field="critical.{name}"]', value)
+    for name, value in (("start", "0.1"), ("stop", "0.5"), ("step", "0.1")):
+        page.fill(f'[data-field="{name}"]', value)
     page.click("text=Find it")
     said = page.locator("#run-said")
     expect(said.locator(".verdict:not(.sentence)")).to_contain_text("collapses at 0.4 g", timeout=30_000)
@@ -363,3 +368,16 @@ def test_an_assembly_and_links_through_the_page(open_page, tmp_path):
     page.click("[data-tab=column]")
     page.click("text=Back to the column")
     expect(page.locator('[data-field="link.1.diameter"]')).to_have_value("0.04")
+
+
+def test_what_the_process_of_jobs_refuses_is_marked_at_its_field(open_page):
+    page, expect = open_page(1440), playwright.expect
+    page.select_option("[data-field=preset]", "paper-monolithic")
+    page.click("[data-tab=domain]")
+    page.fill('#domain [data-field="amplitudes"]', "-1")
+    page.fill('#domain [data-field="amplitudes.number"]', "2")
+    page.click("text=Map it")
+    expect(page.locator('#domain [data-field="amplitudes"]')).to_have_attribute("aria-invalid", "true", timeout=25_000)
+    expect(page.locator("#domain .error")).to_have_text(
+        "One of the amplitudes is -9.81 m/s²; allowed is (0, 10000] m/s²."
+    )

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 import stylobate as st
-from stylobate.app.fields import column_field, motion_field
 
 
 def test_a_column_has_the_properties_of_the_library(client, table):
@@ -135,9 +134,10 @@ def test_a_joint_without_contact_is_found_at_the_offset_above_it(client, table):
     assert found["field"] == "found.2.offset"
 
 
-def test_sentences_about_no_field_have_none(table):
-    assert column_field("the drums mix circular and rectangular things.", table) is None
-    assert motion_field("there is no sample of this name.") is None
+def test_errors_about_no_field_have_none(client, table):
+    assert client.post("/api/column", json=table | {"drum": []}).json()["field"] is None
+    asked = {"kind": "sample", "text": "nowhere"}
+    assert client.post("/api/motion", json={"motion": asked}).json()["field"] is None
 
 
 def test_a_column_file_goes_out_and_comes_back(client, table):
@@ -232,3 +232,14 @@ def test_what_is_wrong_in_a_file_is_said_without_where_it_lies(client):
     for text in ("name = ", "[[block]]\nvertices = [[0,0],[1,0],[1,1]]\n", "section = 'round'\n"):
         error = client.post("/api/column/file", content=text.encode()).json()["error"]
         assert error.startswith("your-")
+
+
+@pytest.mark.parametrize("path", ["/etc/passwd", "../../secret.obj"])
+def test_an_assembly_in_space_is_refused_before_its_mesh_is_read(client, path):
+    text = f'{ASSEMBLY}[[block]]\nname = "stone"\nmesh = "{path}"\n'
+    for answer in (
+        client.post("/api/column/file", content=text.encode()),
+        client.post("/api/assembly", json={"assembly": text}),
+    ):
+        assert "an assembly in space is nothing that the page shows" in answer.text
+        assert path not in answer.text

@@ -11,6 +11,8 @@ from dataclasses import replace
 import pytest
 from page_server import ended, served
 
+from stylobate.cli import worker
+
 
 def test_a_job_is_done_and_its_files_are_listed(fresh, asked):
     made = fresh.post("/api/jobs", json=asked)
@@ -26,6 +28,7 @@ def test_a_job_is_done_and_its_files_are_listed(fresh, asked):
 def test_what_the_command_refuses_is_said_in_its_words(fresh, asked):
     job = ended(fresh, fresh.post("/api/jobs", json=asked | {"model": "refused"}).json()["id"])
     assert (job["state"], job["sentence"]) == ("refused", "the model is 'refused'; allowed is another.")
+    assert job["field"] == "model"
 
 
 def test_ten_jobs_wait_in_a_row_and_can_be_cancelled(fresh, asked):
@@ -40,6 +43,15 @@ def test_ten_jobs_wait_in_a_row_and_can_be_cancelled(fresh, asked):
     assert {ended(fresh, one["id"])["state"] for one in jobs} == {"cancelled"}
     after = ended(fresh, fresh.post("/api/jobs", json=asked).json()["id"])  # a new process has taken over
     assert after["state"] == "done"
+
+
+def test_the_field_of_an_error_comes_from_the_process_of_jobs(tmp_path, monkeypatch):
+    told = []
+    monkeypatch.chdir(tmp_path)
+    for more in ("--tail=-1s", "--harmonic=1Hz,0.3g,-1s", "--model=hausner", "--replicates=0"):
+        command = ["run", "paper-monolithic", "--model=housner", "--harmonic=1Hz,0.01g,0.1s", more]
+        worker.work({"id": "a", "folder": str(tmp_path), "commands": [command]}, lambda **what: told.append(what))
+    assert [one["field"] for one in told if "code" in one] == ["tail", "duration", "model", None]
 
 
 def test_more_jobs_than_can_wait_are_refused(fresh, asked, monkeypatch):
@@ -133,9 +145,9 @@ def test_a_domain_is_a_study_file(fresh, asked, tmp_path):
     assert (study.column.n, study.model.name, study.model.parameters()["points"]) == (3, "dem2d", 3)
     for wrong, field in (
         ({"duration": "long"}, "duration"),
-        ({"frequencies": "4:1:5"}, "f0"),
-        ({"amplitudes": "0.1:0.4:3"}, "a0"),
-        ({"frequencies": "0.5:2:9000"}, "fn"),
+        ({"frequencies": "4:1:5"}, "frequencies"),
+        ({"amplitudes": "0.1:0.4:3"}, "amplitudes"),
+        ({"frequencies": "0.5:2:9000"}, "frequencies.number"),
     ):
         answer = fresh.post("/api/jobs", json=domain | wrong)
         assert (answer.status_code, answer.json()["field"]) == (422, field), answer.json()

@@ -264,9 +264,7 @@ def test_what_does_not_stand_cannot_settle(portal, capsys, tmp_path):
     [
         ["domain", "PORTAL", *MODEL, "--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2"],
         ["pushover", "PORTAL"],
-        ["limit", "PORTAL"],
         ["compare", "PORTAL", "--models", "dem2d,housner", "--harmonic", "1Hz,0.1g,1s"],
-        ["columns", "PORTAL"],
     ],
     ids=lambda arguments: arguments[0],
 )

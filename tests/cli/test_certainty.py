@@ -127,7 +127,7 @@ def test_critical_answers_with_the_probability_over_the_factor(answer, column, r
     ("options", "said"),
     [
         (("--replicates", "many"), "allowed is a whole number, such as 30"),
-        (("--replicates", "1000000"), "allowed is a whole number from 1 to 100000"),
+        (("--replicates", "1000000"), "allowed is a whole number from 0 to 100000"),
         (("--seed", "3"), "give --replicates as well"),
         (("--replicates", "5", "--scatter", "colour=5%"), "names are friction"),
         (("--replicates", "5", "--scatter", "friction=90%"), "0.05 is five per cent"),

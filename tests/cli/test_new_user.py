@@ -146,7 +146,7 @@ def test_sentences_on_collapse_do_not_contradict_themselves(capsys, collapsed, s
     command.describe(result, result.summary(), motion, [])
     said = capsys.readouterr().out
     assert sentence in said
-    assert "one alone says little: --replicates 15" in said
+    assert "one alone says little: with 15 replicates" in said
 
 
 def test_folders_and_records_whose_names_are_no_text(tmp_path):

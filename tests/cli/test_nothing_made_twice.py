@@ -169,8 +169,8 @@ REFUSED = [
     (["compare", "paper-monolithic", "--models", "housner,dem2d", "--harmonic", "1Hz,0.3g,2s"], "drums"),
     (["critical", "paper-monolithic", *MODEL, "--from", "0.1g", "--to", "1g", "--motion", "records"], "drums"),
     (["domain", "paper-monolithic", *MODEL, *GRID, "--half-step"], "time_step"),
-    (["run", "paper-monolithic", *MODEL, "--motion", "records", "--until-rest"], "until_rest"),
-    (["run", "paper-monolithic", *MODEL, "--motion", "records", "--output-interval", "0s"], "output interval"),
+    (["run", "paper-monolithic", *MODEL, "--motion", "records", "--until-rest"], "--until-rest"),
+    (["run", "paper-monolithic", *MODEL, "--motion", "records", "--output-interval", "0s"], "--output-interval"),
 ]
 
 

@@ -12,7 +12,7 @@ from stylobate.cli.main import call
 from stylobate.motion import half_sine_pulse, write_csv
 from stylobate.report.others import sections_of
 from stylobate.response import SpaceMeasures
-from stylobate.response.words import doubt_of, longer_tail, sentence_of
+from stylobate.response.words import doubt_of, longer_tail, sentence_of, to_decide
 from stylobate.results import read_results
 
 BLOCK = ("run", "paper-monolithic", "--model", "housner")
@@ -23,16 +23,33 @@ def said(capsys, *arguments):
     return capsys.readouterr().out
 
 
-@pytest.mark.parametrize(("given", "longer"), [(0.0, "5s"), (2.0, "5s"), (5.0, "10s"), (10.0, "20s")])
+@pytest.mark.parametrize(("given", "longer"), [(0.0, "5 s"), (2.0, "5 s"), (5.0, "10 s"), (10.0, "20 s")])
 def test_an_undecided_run_is_to_go_on_for_longer_than_it_did(given, longer):
-    assert longer_tail(given) == f"--tail {longer}"
+    assert longer_tail(given) == f"a tail of {longer}"
     response = st.simulate(st.preset("paper-monolithic"), st.harmonic(1.0, 0.1, 0.1), st.HousnerBlock())
     open_ = dataclasses.replace(
         response,
         measures=dataclasses.replace(response.measures, decided=False),
         provenance={**response.provenance, "tail_s": given},
     )
-    assert sentence_of(open_).endswith(f"go on with --tail {longer}.")
+    assert sentence_of(open_).endswith(f"go on with a tail of {longer}.")
+
+
+def test_no_tail_is_advised_to_drums_that_pivot_freely_as_found():
+    """Nothing bounds where such drums come to (docs/theory/distinct_element_3d.md, Walking): all of them stay open."""
+    column = st.preset("paper-12-drums")
+    drums = [dataclasses.replace(one, section="circular") for one in column.drums]
+    round_ = column.replace(drums=drums, as_found=st.AsFound((st.FoundDrum(2, offset=0.01),)))
+    free = {"pivot_friction": 0.0}
+    assert to_decide(round_, free, 5.0).startswith("no tail decides it")
+    for structure, parameters in (
+        (round_, {"pivot_friction": 1.0}),
+        (round_, {}),
+        (round_, free | {"planar": True}),
+        (round_.replace(as_found=st.AsFound()), free),
+        (column.replace(as_found=round_.as_found), free),
+    ):
+        assert to_decide(structure, parameters, 5.0) == "go on with a tail of 10 s"
 
 
 def test_peaks_and_films_of_a_fall_tell_one_story(capsys):
@@ -93,23 +110,60 @@ def test_a_verdict_on_undamped_wobble_is_doubted(parameters, tilt, doubted):
     assert bool(doubt_of(cast(Any, run))) is doubted
 
 
-def test_a_run_in_space_says_its_doubt(capsys, tmp_path):
-    column = tmp_path / "two.toml"
-    column.write_text(
+DOUBT = "Round columns, computed in a plane: in space they can fall under much weaker motions, under one component too;"
+
+
+@pytest.fixture
+def column(tmp_path):
+    """The file of a column of two round drums."""
+    path = tmp_path / "two.toml"
+    path.write_text(
         'name = "two"\nsection = "circular"\ndensity = 2600.0\n[tapered]\nheight = 2.0\nbottom_width = 0.4\n'
         "top_width = 0.4\ndrums = 2\n[joint]\nnormal_stiffness = 2.0e9\nshear_stiffness = 1.0e9\n"
         "friction_coefficient = 0.7\n"
     )
+    return path
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments"),
+    [
+        ("critical", ["--harmonic", "1Hz,?g,0.2s", "--from", "0.1g", "--to", "0.2g", "--step", "0.1g"]),
+        (
+            "critical",
+            ["--harmonic", "1Hz,?g,0.2s", "--signs", "both", "--from", "0.1g", "--to", "0.2g", "--step", "0.1g"],
+        ),
+        ("domain", ["--frequencies", "1:2:2", "--amplitudes", "0.1g:0.2g:2", "--duration", "0.2s"]),
+        ("domain", ["--frequencies", "1", "--amplitudes", "0.1g", "--duration", "0.2s", "--replicates", "2"]),
+        ("compare", ["--models", "dem2d", "--harmonic", "1Hz,0.1g,0.2s"]),
+        ("study", []),
+    ],
+)
+def test_what_a_plane_says_of_round_drums_is_doubted_before_it(command, arguments, column, capsys, tmp_path):
+    words = [command, column, *arguments]
+    if command == "study":
+        file = tmp_path / "study.toml"
+        write_csv(half_sine_pulse(1.0, 0.1 * st.g, 0.5), tmp_path / "one.csv")
+        file.write_text('model = "dem2d"\ncolumns = ["two.toml"]\n[motions]\nfiles = ["one.csv"]\n')
+        words = ["study", "run", file]
+    text = said(capsys, *words, "--out", tmp_path / "out")
+    assert text.startswith(DOUBT)
+    if command != "compare":
+        (result,) = read_results([tmp_path / "out"])
+        assert DOUBT in result.summary["doubt"]
+        assert DOUBT in str(sections_of(result, set())[0])
+
+
+def test_a_run_says_its_doubt(column, capsys, tmp_path):
     plane = said(capsys, "run", column, "--harmonic", "1Hz,0.3g,0.5s", "--replicates", "0")
-    assert plane.count("Round drums, computed in a plane: in space they wobble out of it by themselves") == 1
-    assert "Round drums" not in said(capsys, "run", column, "--harmonic", "1Hz,0.01g,0.5s", "--replicates", "0")
+    assert plane.count(DOUBT) == 1
+    assert "Round columns" not in said(capsys, "run", column, "--harmonic", "1Hz,0.01g,0.5s", "--replicates", "0")
     pulse = write_csv(half_sine_pulse(1.0, 0.3 * st.g, 2.0), tmp_path / "one.csv")
     for command in (("suite", column, pulse), ("ida", column, pulse, "--im", "pga", "--levels", "0.1g:0.2g:2")):
-        doubt = "in space they can fall under much weaker motions, under one component too."
-        assert said(capsys, *command, "--out", tmp_path / command[0]).count(doubt) == 1
+        assert said(capsys, *command, "--out", tmp_path / command[0]).count(DOUBT) == 1
         (result,) = read_results([tmp_path / command[0]])
-        assert doubt in result.summary["doubt"]
-        assert doubt in str(sections_of(result, set())[0])
+        assert DOUBT in result.summary["doubt"]
+        assert DOUBT in str(sections_of(result, set())[0])
     text = said(capsys, "run", column, "--model", "dem3d", "--harmonic", "1Hz,0.3g,1s", "--replicates", "0")
     assert "Nothing damped its wobble, and in space a verdict can hang on that, either way" in text
-    assert "--set stiffness_damping=1e-4" in text
+    assert "with a stiffness damping of 1e-4 s" in text

@@ -129,7 +129,7 @@ def test_energy_that_the_steps_make_overturns_nothing():
 
 def test_what_the_ledger_cannot_account_for_counts_against_a_verdict():
     beam = RigidBeam().pack(stack(3))
-    lowest = beam.passes.lowest_unslid
+    lowest = beam.lowest_unslid
     zero = ("lost", "side", "time", "top", "residual", "turn", "opening", "work", "given", "start", "released")
     facts = dict.fromkeys(zero, 0.0) | {"end": 1.0, "failure": "", "step": 1e-3, "steps": 1000}
     facts |= {name: np.zeros(3) for name in ("theta", "omega", "slip")}

@@ -10,8 +10,8 @@ import stylobate as st
 from stylobate.column import Joint
 from stylobate.column.presets import preset
 from stylobate.models.base import Case
-from stylobate.models.drums.whole_steps import whole_steps
 from stylobate.models.shared.soft_joints import longest_step
+from stylobate.models.shared.stable_step import whole_steps
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import simulate_iter
 

@@ -116,6 +116,8 @@ def one(rng: random.Random, folder: Path) -> str:
         return "refused"
     if isinstance(found, Column):
         return "a column"
+    if found.space_joints is not None:
+        return "in space"
     is_what_the_file_says(found, tomllib.loads(path.read_text(encoding="utf-8")))
     for block in found.blocks:
         if not block.fixed and not (np.isfinite(block.properties).all() and min(block.properties[:2]) > 0.0):

@@ -33,7 +33,7 @@ class BeamRates:
 
     def __init__(self, beam: PackedBeam, ground: Ground) -> None:
         self.beam, self.ground = beam, ground
-        column = beam.seen
+        column = beam.column
         self.n = n = column.n
         self.sliding = beam.sliding
         self.inverse = np.linalg.inv(beam.matrices.sliding_mass if self.sliding else beam.matrices.mass)
@@ -109,7 +109,7 @@ class BeamRates:
 
     def lost(self, t: float, y: np.ndarray, remaining: float, lightest: float) -> tuple[int, int]:
         """Joint (from 1) above which a part is lost and to which side; 0 if none.  # Eq. (R8)"""
-        beam, column = self.beam, self.beam.seen
+        beam, column = self.beam, self.beam.column
         theta, omega, slip, rate = self.split(y)
         phi, spin = (theta, omega) if self.absolute else (self.difference @ theta, self.difference @ omega)
         for i in range(self.n):
@@ -160,7 +160,7 @@ def run_adaptive(column: Column, motion: Motion, model: RigidBeam, **chosen) -> 
     lightest = lightest_weight(motion, column.gravity)
     start = beam.energies(*rates.split(y), rates.plastic)
     # a plastic slip is held during a step: keep the steps short enough to follow the joints' vibration
-    largest = beam.step_for(motion) * 2.0 if model.sliding else min(0.02 / beam.seen.frequency_parameter, end)
+    largest = beam.step_for(motion) * 2.0 if model.sliding else min(0.02 / beam.column.frequency_parameter, end)
     solver = DOP853(rates, 0.0, y, end, rtol=RELATIVE_TOLERANCE, atol=ABSOLUTE_TOLERANCE, max_step=largest)
     times = np.append(np.arange(max(1, round(end / options.output_interval))) * options.output_interval, end)
     friction, written, steps, smallest, failure, worst = 0.0, 1, 0, math.inf, "", 0.0
@@ -195,11 +195,11 @@ def run_adaptive(column: Column, motion: Motion, model: RigidBeam, **chosen) -> 
             more = (trial - shear) / beam.shear
             rates.plastic = rates.plastic + more
             friction += float(shear @ more)
-        top = max(top, abs(float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum())))
+        top = max(top, abs(float((theta + model.initial_rotation) @ beam.column.heights + slip.sum())))
         turn = max(turn, float(np.abs(theta).max()))
         opening = max(opening, float(beam.lift(beam.joint_rotations(theta)).max()))
         worst = max(worst, abs(float(y[-3])))
-        inside = beam.passes.inside(theta, slip) if before < motion.duration else inside
+        inside = beam.inside(theta, slip) if before < motion.duration else inside
         if not facts["lost"]:
             joint, side = rates.lost(t, y, motion.pga if t < motion.duration else 0.0, lightest)
             if joint:
@@ -220,7 +220,7 @@ def run_adaptive(column: Column, motion: Motion, model: RigidBeam, **chosen) -> 
             "unaccounted": ledger.unaccounted(energy[-1]), "released": ledger.released(energy[-1]),
             "end": t, "failure": off_the_ground(motion, column.gravity, facts["time"]) or failure,
             "top": top, "turn": turn, "opening": opening,
-            "residual": float((theta + model.initial_rotation) @ beam.seen.heights + slip.sum()),
+            "residual": float((theta + model.initial_rotation) @ beam.column.heights + slip.sum()),
             "step": smallest, "steps": steps,
         },
     )  # fmt: skip

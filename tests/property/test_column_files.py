@@ -264,7 +264,7 @@ def test_a_misspelt_key_is_named_with_the_right_one(data, tmp_path_factory):
         (TAPERED + "friction_coefficient = 0.7\n", ["both given", "one of the two"]),
         (TAPERED + "[[drum]]\nheight = 1.0\nbottom_width = 1.0\ntop_width = 1.0\n", ["both [tapered] and [[drum]]"]),
         (TAPERED + "[[joint_override]]\nindex = 13\n", ["index is 13", "to 12"]),
-        (TAPERED + "[[joint_override]]\nindex = 0\n", ["index is 0", "1 (the joint with the base)"]),
+        (TAPERED + "[[joint_override]]\nindex = 0\n", ["index is 0", "from 1 to 12; 1 is at the base"]),
         (TAPERED + "[[joint_override]]\nindex = 3\nfriction_angle = 95.0\n", ["index 3", "95 degrees"]),
         (TAPERED + 2 * "[[joint_override]]\nindex = 3\n", ["index 3", "twice"]),
         (DRUMS.replace("top_width = 1.0\n", ""), ["'top_width'", "missing", "[[drum]] number 2"]),

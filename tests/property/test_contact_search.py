@@ -116,7 +116,7 @@ def kernel_forces(poses, points):
     places, shares = contact_points("rectangular", points)
     lane["xi"][0], lane["sh"][0] = places[:, None], shares[:, None]
     lane["dt"][0] = DT
-    joint["kn"], joint["ks"], joint["co"], joint["mu"], joint["uc"] = KN, KS, COHESION, MU, 1.0
+    joint["kn"], joint["ks"], joint["co"], joint["mu"] = KN, KS, COHESION, MU
     for l, pose in enumerate(poses):
         for i, (x, angle, v, omega) in enumerate([("xl", "al", "vl", "wl"), ("xu", "au", "vu", "wu")]):
             drum["x"][i, l], drum["z"][i, l] = pose[x]
@@ -129,7 +129,7 @@ def kernel_forces(poses, points):
         for name, value in {"wl": "w", "wr": "w", "ht": "ht", "bl": "bl", "br": "br", "hb": "hb"}.items():
             joint[name][0, l] = pose[value]
         joint["fs"][0, :, l] = pose["fs"][:points]
-    records.law.gather(records.state)
+    records.kernel.gather(records.state)
     return drum, joint, records.load
 
 

@@ -2,6 +2,7 @@
 
 import math
 import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -223,6 +224,16 @@ TWICE = "at = [0.0, 0.0, 0.0]\nparts = [{ box = [1.0, 1.0, 1.0] }, { box = [1.0,
 def test_what_cannot_be_is_refused(read, text, says):
     with pytest.raises(st.InputError, match=says):
         read(text)
+
+
+def test_the_file_of_the_documentation_stands(tmp_path):
+    root = Path(__file__).parents[2]
+    page = (root / "docs" / "assembly_files.md").read_text(encoding="utf-8").partition("## Assemblies in space")[2]
+    (tmp_path / "scene.toml").write_text(re.search(r"```toml\n(.*?)```", page, re.DOTALL)[1])
+    (tmp_path / "column5.toml").write_text((root / "gallery" / "assemblies" / "column5.toml").read_text())
+    found = st.read_assembly(tmp_path / "scene.toml")
+    assert [one.name for one in found.stones[-4:]] == ["architrave", "statue", "capital on the ground", "boulder"]
+    assert 0.1 < st.limit_directions(found, [0.0]).multipliers[0] < 0.3
 
 
 def test_beams_that_meet_on_an_axis(read):

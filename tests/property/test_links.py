@@ -189,7 +189,7 @@ def test_every_kind_acts_by_a_law_that_a_model_knows() -> None:
 def test_what_lanes_have_of_their_own_begins_on_lines_of_the_cache(model) -> None:
     """64 bytes, in every row of a record: vectors across two lines made dowels cost a fifth more."""
     types = (
-        model.law(linked=True).types
+        model.record_types(linked=True)
         if isinstance(model, st.DistinctElement2D)
         else model.record_types("circular", linked=True)
     )

@@ -117,8 +117,8 @@ def test_a_peak_beyond_all_records_is_noticed(put):
 @pytest.mark.parametrize(
     ("text", "options", "said"),
     [
-        ("0 0.1\n1 0.2\n", {}, "--unit g"),
-        ("time_s,ax\n0,0.1\n1,0.2\n", {}, "--unit g"),
+        ("0 0.1\n1 0.2\n", {}, "`unit='g'`"),
+        ("time_s,ax\n0,0.1\n1,0.2\n", {}, "`unit='g'`"),
         ("0.1\n0.2\n0.1\n", {"unit": "g"}, "no time column"),
         ("0.1\n0.2\n0.1\n", {"unit": "g", "dt": 0.0}, "dt"),
         ("0 0.1\n1 abc\n2 0\n", {"unit": "g"}, "line 2: expected numbers"),
@@ -126,8 +126,8 @@ def test_a_peak_beyond_all_records_is_noticed(put):
         ("0 0.1\n1 1e999\n2 0\n", {"unit": "g"}, "line 2: expected numbers"),
         ("0 0.1\n1\n2 0\n", {"unit": "g"}, "line 2: 1 numbers where the rows above have 2"),
         ("0 0.1\n1 2 3\n2\n", {"unit": "g"}, "line 2: 3 numbers"),
-        ("0 0.1\n1 0.1\n", {"unit": "furlong"}, "allowed is g, m/s2"),
-        ("time_s,ax_furlong\n0,1\n1,1\n", {}, "allowed is g, m/s2"),
+        ("0 0.1\n1 0.1\n", {"unit": "furlong"}, "allowed are g, m/s2"),
+        ("time_s,ax_furlong\n0,1\n1,1\n", {}, "allowed are g, m/s2"),
         ("time_s,ax_g,ax_g\n0,1,1\n1,1,1\n", {}, "2 columns are named"),
         ("time_s,ay_g\n0,1\n1,1\n", {}, "no column holds the horizontal"),
         ("time_s,ax_g\n0,1\n1,1\n", {"unit": "m/s2"}, "leave the unit out"),

@@ -111,7 +111,7 @@ def test_azimuth_that_the_file_does_not_know(put):
         ("peer_nga", "NPTS=   23", "NPTS=   24", "promises 24 numbers"),
         ("peer_nga", "NPTS=   23", "NPTS=   1e9", "promises"),
         ("peer_nga", "NPTS=   23", "NPTS=   99999999", "whole number from 2"),
-        ("peer_nga", "OF G", "OF FURLONGS", "allowed is g, m/s2"),
+        ("peer_nga", "OF G", "OF FURLONGS", "allowed are g, m/s2"),
         ("peer_nga", "ACCELERATION", "VELOCITY", "give the file of accelerations"),
         ("peer_nga", "DT=   .0100", "DT=   0", "expected the step"),
         ("esm", "UNITS: cm/s^2", "UNITS:", "states no UNITS"),
@@ -181,7 +181,7 @@ def test_header_lines_in_any_order(order, put):
 
 def test_several_records_in_one_file_are_refused_with_the_way_to_choose(put):
     path = put(csmip_v2() + csmip_v2())
-    with pytest.raises(InputError, match=r"holds 6 components .*component='1' \(--component 1\)"):
+    with pytest.raises(InputError, match=r"holds 6 components .*`component='1'`"):
         read(path)
     assert read(path, component=4).acceleration == pytest.approx(WAVES[0] * 0.01)
 

@@ -232,7 +232,7 @@ def test_a_number_cut_in_the_middle_is_seen(end, put):
             "renadic",
             "UNITS OF UNCOR ACCEL ARE SEC AND G/10.",
             "UNITS OF UNCOR ACCEL ARE SEC AND LBS.",
-            "allowed is g, m/s2",
+            "allowed are g, m/s2",
         ),
         ("bhrc", "DURATION =   0.230", "DURATION =   0.930", "states 0.93 s"),
         ("bhrc", "COMP L1", "COMP T1", "the component is 'L' and 'T'"),

@@ -134,7 +134,7 @@ def test_all_components_and_the_strongest(record):
 
 @pytest.mark.parametrize("azimuths", [tuple(np.linspace(0.0, 330.0, 12)), (-90.0, 0.0, 90.0)])
 def test_a_circle_of_azimuths_with_both_signs_is_told_to_be_computed_twice(record, azimuths):
-    with pytest.warns(st.errors.OutOfRangeWarning, match="a full circle holds both signs; leave --signs both out"):
+    with pytest.warns(st.errors.OutOfRangeWarning, match="a full circle holds both signs; leave `signs='both'` out"):
         st.MotionRequest(files=(record,), azimuths=azimuths, signs="both")
     st.MotionRequest(files=(record,), azimuths=azimuths)
     st.MotionRequest(files=(record,), azimuths=(0.0, 30.0, 60.0, 90.0, 120.0, 150.0), signs="both")

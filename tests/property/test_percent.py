@@ -11,6 +11,7 @@ import stylobate
 from stylobate.analysis import verdicts as v
 from stylobate.analysis.certainty import Population, chance_words
 from stylobate.analysis.side_by_side import shares
+from stylobate.campaign.twins import Twins
 from stylobate.column.scatter import Scatter
 from stylobate.percent import percent, percents, whole
 
@@ -41,7 +42,7 @@ def test_all_who_tell_a_share_tell_the_same():
     rows = tuple({**row, "peak_top_displacement_m": 1.0, "collapsed": k < 23,
                   "outcome": "collapsed" if k < 23 else "rocked"} for k in range(40))  # fmt: skip
     (share,) = shares({"a": np.array([1] * 23 + [0] * 17)})
-    population = Population([None] * 40, rows, Scatter(), 0)
+    population = Population(Twins([], Scatter(), 0, ()), rows)
     assert percents(share.low, share.high) == share.words == "58 %"
     assert chance_words({f"twins_{key}": value for key, value in population.counts.items()}).startswith("58 % of 40 (")
     assert f"(95 %: {percents(*population.interval)})" in population.sentence

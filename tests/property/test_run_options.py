@@ -33,10 +33,10 @@ def test_until_rest_is_done_or_refused(name):
 @pytest.mark.parametrize(
     ("model", "setting", "words"),
     [
-        ("dem2d", {"points": "2.5"}, "option points is '2.5'; allowed is a whole number."),
-        ("dem2d", {"time_step": "soon"}, "option time_step is 'soon'; allowed is a number."),
-        ("housner", {"linear": "perhaps"}, "option linear is 'perhaps'; allowed is true or false."),
-        ("dem2d", {"pionts": "2"}, "dem2d has no option 'pionts'; did you mean points? options are "),
+        ("dem2d", {"points": "2.5"}, "parameter points is '2.5'; allowed is a whole number."),
+        ("dem2d", {"time_step": "soon"}, "parameter time_step is 'soon'; allowed is a number."),
+        ("housner", {"linear": "perhaps"}, "parameter linear is 'perhaps'; allowed is true or false."),
+        ("dem2d", {"pionts": "2"}, "dem2d has no parameter 'pionts'; did you mean points? parameters are "),
     ],
 )
 def test_values_of_set_are_refused_in_one_sentence(model, setting, words):

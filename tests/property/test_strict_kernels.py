@@ -51,7 +51,7 @@ def test_every_compiled_function_states_its_own_mode():
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
 def test_drums_without_finite_positions_have_failed(bad):
-    types = point_law(2, False, run_codes.LANES, False).types
+    types = point_law(2, False, run_codes.LANES, False)
     drum, watch = np.zeros(3, types["body"]), np.zeros(1, types["watch"])
     drum["im"][1:] = 1.0
     watch["status"] = run_codes.RUNNING
@@ -64,7 +64,7 @@ def test_drums_without_finite_positions_have_failed(bad):
 
 @pytest.mark.parametrize("bad", [NAN, INF, -INF])
 def test_bodies_without_finite_positions_are_reported(bad):
-    types = point_law(2, True, 1, False).types
+    types = point_law(2, True, 1, False)
     check = compiled(look.check_finite)
     for name in ("x", "z", "th"):
         body, watch = np.zeros(2, types["body"]), np.zeros(1, types["watch"])
@@ -94,7 +94,7 @@ def test_ledger_of_drums_without_finite_velocities_is_nan(law):
     records = Records(law, Topology(3, ((0, 1), (1, 2))))
     for name in ("m", "i", "im", "ii"):
         records.body[name] = 1.0
-    ledger, out = compiled(law.ledger), np.zeros(6)
+    ledger, out = compiled(records.kernel.ledger), np.zeros(6)
     ledger(records.state, 0.0, 0.0, 1e-3, 0, out)
     assert np.isfinite(out).all()
     records.body["vx"][1, 0] = NAN

@@ -166,3 +166,24 @@ def test_what_a_model_does_not_know_is_refused():
         st.simulate(STANDING["blocks"], still, st.DistinctElement2D(), start=st.Start(tilt=0.01))
     with pytest.raises(st.InputError, match="dem2d carries up to 0"):
         st.simulate(STANDING["blocks"], still, st.DistinctElement2D(), twins=(STANDING["column"],))
+
+
+def asked_of_the_package(path, tree):
+    """Names that a file takes from the package itself, which stands above every room of it."""
+    depth = len(path.relative_to(SOURCES).parts)
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.level == depth or node.module == "stylobate"):
+            yield from (one.name for one in node.names if node.module in (None, "stylobate"))
+
+
+def test_rooms_ask_the_package_itself_for_a_film_alone():
+    """Or floors and circles would prove nothing: its names are those of all rooms. A response hands out films of itself."""
+    rooms = {path.stem for path in SOURCES.iterdir()}
+    asked = {
+        (path.relative_to(SOURCES).as_posix(), name)
+        for path in SOURCES.rglob("*.py")
+        if path.relative_to(SOURCES).parts[0] != "cli"  # on top, whose commands are scripts themselves
+        for name in asked_of_the_package(path, ast.parse(path.read_text("utf-8")))
+        if name not in rooms
+    }
+    assert asked == {("response/response.py", "Film")}

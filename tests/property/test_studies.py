@@ -71,13 +71,13 @@ def folder(tmp_path):
 
 
 def test_a_study_that_grows_computes_only_what_is_new(tmp_path):
-    first = st.run_study(study(1.0, 2.0, realisations=3), tmp_path)
+    first = st.run_study(study(1.0, 2.0, replicates=3), tmp_path)
     assert (first.computed, len(first.plan)) == (6, 6)
-    grown = st.run_study(study(1.0, 2.0, 4.0, realisations=5), tmp_path)
+    grown = st.run_study(study(1.0, 2.0, 4.0, replicates=5), tmp_path)
     assert (grown.computed, len(grown.plan)) == (9, 15)
-    alone = st.run_study(study(1.0, 2.0, 4.0, realisations=5))
+    alone = st.run_study(study(1.0, 2.0, 4.0, replicates=5))
     assert grown.table.equals(alone.table)
-    assert st.run_study(study(1.0, 2.0, 4.0, realisations=5), tmp_path).computed == 0
+    assert st.run_study(study(1.0, 2.0, 4.0, replicates=5), tmp_path).computed == 0
 
 
 def test_a_case_is_what_simulate_many_computes():
@@ -90,16 +90,16 @@ def test_a_case_is_what_simulate_many_computes():
 @pytest.mark.filterwarnings("ignore::stylobate.errors.LeftOutWarning")
 def test_a_plan_tells_its_cases_as_any_other_request_does(tmp_path):
     """By what acts and what stands: not by names, nor by the components that the model leaves out."""
-    some = study(realisations=2)
+    some = study(replicates=2)
     again = Request.of([some.case(number) for number in range(some.size)], Hasher(some.models[0]))
     assert again.digests.digests.tolist() == some.plan().digests.digests.tolist()
     aside = PULSE.replace(name="another", ay=0.3 * PULSE.samples)
-    renamed = st.Study([COLUMN.replace(name="another")], [aside], some.models, some.levels, realisations=2)
+    renamed = st.Study([COLUMN.replace(name="another")], [aside], some.models, some.levels, replicates=2)
     assert renamed.plan().digests.digests.tolist() == some.plan().digests.digests.tolist()
     for other in (
-        study(realisations=2, seed=1),
-        study(realisations=2, tail=1.0),
-        study(1.0, 2.0, 3.0, 6.1, realisations=2),
+        study(replicates=2, seed=1),
+        study(replicates=2, tail=1.0),
+        study(1.0, 2.0, 3.0, 6.1, replicates=2),
     ):
         assert other.plan().digests.digests.tolist() != some.plan().digests.digests.tolist()
 
@@ -230,7 +230,7 @@ def test_run_status_and_export_under_their_promised_names(folder, capsys):
 
 def test_parquet_holds_the_same_numbers_to_the_bit(tmp_path):
     pytest.importorskip("pyarrow")
-    table = st.run_study(study(realisations=2)).table
+    table = st.run_study(study(replicates=2)).table
     again = pandas.read_parquet(write_table(table, tmp_path / "t.parquet"))
     for name in table:
         assert [str(one) for one in again[name]] == [str(one) for one in table[name]], name

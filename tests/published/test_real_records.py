@@ -102,7 +102,7 @@ def test_a_single_vertical_component_is_refused_unless_chosen():
 def test_a_file_without_unit_is_refused_but_that_of_a_sample_is_known(tmp_path):
     path = tmp_path / "elcentro.dat"
     path.write_bytes(content("twocol_ElCentro1940_NS.dat"))
-    with pytest.raises(InputError, match="--unit g"):
+    with pytest.raises(InputError, match="`unit='g'`"):
         read_motion(path)
     assert read_motion(path, "g").digest == read("twocol_ElCentro1940_NS.dat").digest
     with pytest.raises(InputError, match="leave the unit out"):

@@ -22,7 +22,7 @@ def test_a_folder_with_a_file_that_is_no_record(tmp_path):
     suite = read_suite(tmp_path)
     assert [motion.name for motion in suite.motions] == ["a.csv", "b.csv"]
     assert set(suite.refused) == {"README.md", "bare.txt"}
-    assert "--unit g" in suite.refused["bare.txt"]
+    assert "`unit='g'`" in suite.refused["bare.txt"]
     assert len(read_suite(tmp_path, "g", 0.01).motions) == 3
     for wrong in (tmp_path / "missing", tmp_path / "a.csv"):
         with pytest.raises(InputError, match="not a folder"):

@@ -6,8 +6,11 @@ from functools import cache
 import numpy as np
 
 from stylobate.analysis.limit import limit_analysis
+from stylobate.analysis.limit_directions import limit_directions
 from stylobate.analysis.pushover import PushoverResult, pushover
 from stylobate.column import Column, Joint, preset
+from stylobate.column.spatial.assembly import SpatialAssembly
+from stylobate.column.spatial.stone import Stone
 from stylobate.models.rigid_block.block_stack import BlockStack
 
 from .case import AtMost, Case, Near, collected
@@ -147,3 +150,41 @@ def other_mechanisms():
 )
 def compressive_strength():
     return [limit_analysis(tapered(drums), compressive_strength=3e5).multiplier for drums in (1, 12)]
+
+
+def frame(kind: str, feet: tuple[tuple[float, float], ...], cap: tuple[float, float, float]) -> SpatialAssembly:
+    """Columns of 0.8 × 4 m at these places, square or round, under a block of three sides [m]."""
+    stones = [
+        Stone.box((0.8, 0.8, 4.0), (x, y, 0.0), 2700.0, name=f"column {i}")
+        if kind == "square"
+        else Stone.drum(0.8, 0.8, 4.0, (x, y, 0.0), 2700.0, name=f"column {i}")
+        for i, (x, y) in enumerate(feet)
+    ]
+    return SpatialAssembly([*stones, Stone.box(cap, (0.0, 0.0, 4.0), 2700.0, name="cap")], JOINT)
+
+
+PORTAL = ((-1.2, 0.0), (1.2, 0.0)), (3.2, 0.8, 0.6)
+PODIUM = ((-1.2, -1.2), (1.2, -1.2), (1.2, 1.2), (-1.2, 1.2)), (3.4, 3.4, 0.3)
+
+
+@case(
+    "limit",
+    "multiplier in space [g]: square portal along and across its beam, square podium pushed at 0, 30 and 45°",
+    Near((0.2, 0.15805471, 0.2, 0.2 / math.cos(math.radians(30.0)), 0.2 * math.sqrt(2.0)), rel=1e-6),
+    source="statics: $b/h$ over the larger cosine (Makris and Vassiliou 2013); across, $(b/2)/z_C$ of all as one body",
+    reason="tolerance of the linear programme",
+)
+def frames_in_space():
+    portal = limit_directions(frame("square", *PORTAL), (0.0, 90.0)).multipliers
+    return [*portal, *limit_directions(frame("square", *PODIUM), (0.0, 30.0, 45.0)).multipliers]
+
+
+@case(
+    "limit",
+    "multiplier in space [g]: podium of four round columns pushed at 0, 30, 45 and 50°",
+    Near((0.2,) * 4, rel=2.2e-3),
+    source="statics: $d/h$ in every direction",
+    reason="rims are cut into 48 corners: 1 − cos 3.75° at most",
+)
+def round_podium():
+    return limit_directions(frame("round", *PODIUM), (0.0, 30.0, 45.0, 50.0)).multipliers

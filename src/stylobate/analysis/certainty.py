@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-import dataclasses
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from ..campaign.twins import the_twins
+from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.twins import Twins, the_twins
 from ..column import Column
-from ..column.scatter import Scatter
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..percent import percents
 from ..response import Response
+from ..response.words import to_decide
 from ..simulate import simulate, simulate_iter
 from . import verdicts as v
 
@@ -40,24 +40,19 @@ class Population:
 
     Parameters
     ----------
-    twins : tuple of Column
+    drawn : Twins
     rows : tuple of dict
         One per twin, with the keys of ``Measures.row()``.
-    scatter : Scatter
-        As far as the model takes it.
-    seed : int
-    left_out : tuple of str
-        Parts of the scatter that the model does not take.
     confidence : float
         Level of the interval.
+    to_decide : str
+        What decides those whose verdict is open, in a clause.
     """
 
-    twins: Sequence[Column]
+    drawn: Twins
     rows: tuple[dict, ...]
-    scatter: Scatter
-    seed: int
-    left_out: tuple[str, ...] = ()
     confidence: float = 0.95
+    to_decide: str = ""
 
     @property
     def verdicts(self) -> list[str]:
@@ -120,7 +115,7 @@ class Population:
         said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
         said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)})"
         if counts[v.UNDECIDED]:
-            said += f"; {_not_fallen(counts)}: go on with --tail 5s"
+            said += f"; {_not_fallen(counts)}{f': {self.to_decide}' if self.to_decide else ''}"
         return said + (f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else ".")
 
     @property
@@ -128,7 +123,7 @@ class Population:
         """One row per twin."""
         import pandas
 
-        named = zip(self.twins, self.verdicts, self.rows, strict=True)
+        named = zip(self.drawn.columns, self.verdicts, self.rows, strict=True)
         return pandas.DataFrame([{"column": twin.name, "verdict": one, **row} for twin, one, row in named])
 
     @property
@@ -181,9 +176,7 @@ class Population:
                 "sentence": self.sentence,
                 **{one: counts[one] for one in v.MADE},
                 "confidence": self.confidence,
-                "scatter": dataclasses.asdict(self.scatter),
-                "left_out": list(self.left_out),
-                "seed": self.seed,
+                **self.drawn.told,
                 "percentiles": [16, 50, 84],
                 **self.spread,
                 "median_twin": None if middle is None else middle + 1,
@@ -295,16 +288,18 @@ def _not_fallen(counts: Mapping[str, int]) -> str:
     return " and ".join(words)
 
 
+@campaigning(Fields, but=("whole", "dask", "ledger"), replicates=15)
 def certainty(
     column: Column,
     motion: Motion,
     model: Model,
     *,
-    replicates: int = 15,
-    scatter: Scatter | None = None,
-    seed: int = 0,
-    threads: int | None = None,
-    **following: Any,
+    output_interval: float = 0.01,
+    until_end: bool = False,
+    until_rest: bool = False,
+    quiet: float = 0.0,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> Certainty:
     """Shake one column once, and its twins beside it.
 
@@ -314,18 +309,10 @@ def certainty(
 
     Parameters
     ----------
-    column, motion, model
+    column, motion, model, output_interval, until_end, until_rest, quiet
         As in :func:`stylobate.simulate`.
-    replicates : int
-        Number of twins.
-    scatter : Scatter, optional
-        What differs among them; its defaults otherwise.
-    seed : int
-        The same seed gives the same twins.
-    threads : int, optional
-        For twins beyond the first fifteen; all cores by default.
-    **following
-        ``tail``, ``output_interval``, ``until_end``, ``until_rest``, ``quiet``, ``progress``, as in
+    campaign : Campaign, optional
+        How many twins, and how; threads are for those beyond the first fifteen, and ``progress`` is called with times, as in
         :func:`stylobate.simulate`.
 
     Raises
@@ -334,14 +321,16 @@ def certainty(
         A number that is not allowed, or input that the model refuses.
     """
     began = time.perf_counter()
-    drawn = the_twins(column, model, replicates, scatter, seed)
-    twins = drawn.columns
-    riding = () if following.get("until_end") or following.get("until_rest") else tuple(twins[: model.carries])
-    response = simulate(column, motion, model, twins=riding, **following)
+    drawn = the_twins(column, model, campaign)
+    twins, tail = drawn.columns, campaign.tail
+    riding = () if until_end or until_rest else tuple(twins[: model.carries])
+    response = simulate(
+        column, motion, model, tail=tail, output_interval=output_interval, until_end=until_end, until_rest=until_rest,
+        twins=riding, quiet=quiet, progress=campaign.progress,
+    )  # fmt: skip
     rows = [one.row() for one in response.twins]
-    tail, quiet = (following.get(name, 0.0) for name in ("tail", "quiet"))
-    rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, threads, quiet)
-    population = Population(twins, tuple(rows), drawn.scatter, seed, drawn.left_out)
+    rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
+    population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail))
     return Certainty(response, population, time.perf_counter() - began)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..errors import InputError, as_typed, suggest
+from ..errors import InputError, as_typed, check_choice, suggest
 from ..models.rigid_block.block_stack import BlockStack
 from ..motion.specs import parse_acceleration, parse_time
 from .capacity_spectrum import SECANT, USABLE, CapacityCheck, capacity_spectrum_check
@@ -139,8 +139,7 @@ class CodeSite:
         ag, soil = parse_acceleration(given["ag"]), given.get("soil", "A")
         if code == "ec8":
             kind = given.get("type", "1")
-            if kind not in ("1", "2"):
-                raise InputError(f"type of the spectrum is {kind!r}; allowed are 1 and 2.")
+            check_choice("type of the spectrum", kind, ("1", "2"), field="type")
             return cls(code, EurocodeSpectrum(ag, soil, kind=int(kind)), level)
         try:
             amplification = float(given["F0"])

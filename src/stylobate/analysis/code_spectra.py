@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from ..constants import g
-from ..errors import InputError, as_typed, check_range
+from ..errors import check_choice, check_range
 
 
 class Coefficient(NamedTuple):
@@ -94,10 +94,8 @@ class EurocodeSpectrum:
     def __post_init__(self) -> None:
         check_range("ground_acceleration", self.ground_acceleration, 0.0, 100.0, unit="m/s²", open_low=True)
         check_range("damping", self.damping, 0.0, 0.5)
-        if self.kind not in GROUND_TYPES:
-            raise InputError(f"type of the spectrum is {self.kind!r}; allowed are 1 and 2.")
-        if self.ground_type not in GROUND_TYPES[self.kind]:
-            raise InputError(f"ground_type is {self.ground_type!r}; allowed are {', '.join(GROUND_TYPES[self.kind])}.")
+        check_choice("type of the spectrum", self.kind, GROUND_TYPES, field="kind")
+        check_choice("ground_type", self.ground_type, GROUND_TYPES[self.kind])
 
     @property
     def soil_factor(self) -> float:
@@ -157,8 +155,7 @@ class NtcSpectrum:
         check_range("Tc*", self.corner_period, 0.05, 2.0, unit="s")
         check_range("damping", self.damping, 0.0, 0.5)
         for name, known in (("soil", SOILS), ("topography", TOPOGRAPHY)):
-            if getattr(self, name) not in known:
-                raise InputError(f"{name} is {as_typed(getattr(self, name))}; allowed are {', '.join(known)}.")
+            check_choice(name, getattr(self, name), known)
 
     @property
     def soil_factor(self) -> float:

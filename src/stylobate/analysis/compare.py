@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from itertools import combinations
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
+from ..campaign.campaign import USUAL, Campaign, Computing, Fields, campaigning
 from ..campaign.digests import Digests, Hasher
 from ..campaign.grid import HarmonicGrid
 from ..campaign.runs import Request, Runs, Stopped
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Case, Model
+from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..response import Response, load_response
 from ..simulate import run_options, simulate
@@ -91,17 +93,17 @@ class DomainComparison:
         return pandas.DataFrame(rows)
 
 
+@campaigning(Fields, but=("replicates", "scatter", "seed", "threads", "dask"))
 def compare_models(
     column: Column,
     motion: Motion,
     models: Sequence[Model],
     *,
     labels: Sequence[str] | None = None,
-    tail: float = 0.0,
     output_interval: float = 0.01,
-    progress: Callable[[int, int], None] | None = None,
-    ledger: str | Path | None = None,
     files: Sequence[Path] = (),
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> Comparison:
     """One column and one motion through several models.
 
@@ -112,14 +114,12 @@ def compare_models(
     models : sequence of Model
     labels : sequence of str, optional
         What they are called; their names by default.
-    tail, output_interval
+    output_interval : float
         As in :func:`stylobate.simulate`.
-    progress : callable, optional
-        Called with (finished, all).
-    ledger : path, optional
-        File that says which runs are finished: a call that was stopped goes on from there.
     files : sequence of path
         With a ledger, one per model in its folder: each response is saved there as soon as it is finished.
+    campaign : Campaign, optional
+        How the runs are made.
 
     Raises
     ------
@@ -127,36 +127,38 @@ def compare_models(
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     names = _labels(models, labels)
-    what = {"response": [column.digest, motion.name, motion.digest, output_interval]}
-    hashers = [Hasher(model, tail) for model in models]
+    what: dict[str, Any] = {"response": [column.digest, motion.name, motion.digest, output_interval]}
+    quiet = share_of([motion], campaign.whole)
+    what |= {"quiet": quiet} if quiet else {}
+    hashers = [Hasher(model, campaign.tail) for model in models]
     same = [hasher.of_product(what, __file__) for hasher in hashers]
     places = [one.name for one in files] or [""] * len(models)
     each = [hasher.of_product([what, place], __file__) for hasher, place in zip(hashers, places, strict=True)]
-    options = run_options(tail, output_interval)
+    options = run_options(campaign.tail, output_interval, quiet=quiet)
     groups = [(np.array([number]), model, options) for number, model in enumerate(models)]
     request = Request([Case(column, motion)] * len(models), Digests.of(each), groups)
     responses: dict[str, Response] = {}
 
     def make(number: int) -> dict:
         if same[number] not in responses:
-            responses[same[number]] = simulate(
-                column, motion, models[number], tail=tail, output_interval=output_interval
-            )
-        return {"files": [responses[same[number]].save(files[number]).name]} if ledger is not None else {}
+            how: dict[str, Any] = {"tail": campaign.tail, "output_interval": output_interval, "quiet": quiet}
+            responses[same[number]] = simulate(column, motion, models[number], **how)
+        return {"files": [responses[same[number]].save(files[number]).name]} if campaign.ledger is not None else {}
 
     done = 0
     try:
-        with closing(Runs(ledger)) as runs:
+        with closing(Runs(campaign)) as runs:
             for done, (number, _) in enumerate(runs.products(request, make), 1):
                 if same[number] not in responses:
                     responses[same[number]] = load_response(files[number])
-                if progress:
-                    progress(done, len(models))
+                if campaign.progress:
+                    campaign.progress(done, len(models))
     except KeyboardInterrupt:
-        raise Stopped(done, len(models), ledger) from None
+        raise Stopped(done, len(models), campaign.ledger) from None
     return Comparison([responses[one] for one in same], names)
 
 
+@campaigning(Computing)
 def compare_domains(
     column: Column,
     models: Sequence[Model],
@@ -165,10 +167,8 @@ def compare_domains(
     duration: float = 10.0,
     *,
     labels: Sequence[str] | None = None,
-    tail: float = 0.0,
-    threads: int | None = None,
-    progress: Callable[[int, int], None] | None = None,
-    ledger: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Computing],
 ) -> DomainComparison:
     """One domain through several models; parameters as in :func:`stylobate.collapse_domain`.
 
@@ -177,21 +177,21 @@ def compare_domains(
     """
     axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
     names = _labels(models, labels)
-    grids = [HarmonicGrid(column, model, *axes, duration, tail) for model in models]
+    grids = [HarmonicGrid(column, model, *axes, duration, campaign.tail) for model in models]
     requests = [grid.request() for grid in grids]
     cells, domains = len(requests[0]), []
-    with closing(Runs(ledger)) as runs:
+    with closing(Runs(campaign)) as runs:
         runs.open(*requests)
         for grid, request in zip(grids, requests, strict=True):
             before = len(domains) * cells
 
             def advance(done: int, _: int, before: int = before) -> None:
-                if progress:
-                    progress(before + done, len(models) * cells)
+                if campaign.progress:
+                    campaign.progress(before + done, len(models) * cells)
 
-            domain = run_grid(grid, request, runs, threads, advance)
+            domain = run_grid(grid, request, runs, advance)
             if not domain.complete:
-                raise Stopped(before + domain.rows.finished, len(models) * cells, ledger)
+                raise Stopped(before + domain.rows.finished, len(models) * cells, campaign.ledger)
             domains.append(domain)
     return DomainComparison(domains, names)
 

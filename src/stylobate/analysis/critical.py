@@ -12,16 +12,15 @@ import math
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, Unpack
 
 import numpy as np
 
+from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.digests import Hasher
-from ..campaign.runs import Progress, Request, run_all
-from ..campaign.twins import Twins, the_twins
+from ..campaign.runs import Request, run_all
+from ..campaign.twins import the_twins
 from ..column import Column
-from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError, check_range
 from ..models.base import Case, Cases, Model
@@ -215,6 +214,7 @@ class CriticalAmplitude:
         return found | {"sentence": sentence(found, self.column.kind)}
 
 
+@campaigning(Fields)
 def critical_amplitude(
     column: Column,
     motion: Motion,
@@ -224,11 +224,9 @@ def critical_amplitude(
     step: float = 0.005 * g,
     *,
     nominal: float | None = None,
-    replicates: int = 0,
-    scatter: Scatter | None = None,
-    seed: int = 0,
     twin_amplitudes: int | None = None,
-    **how: Any,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> CriticalAmplitude:
     """Run a column under one motion at every amplitude of a grid, and under a record as it is.
 
@@ -242,12 +240,10 @@ def critical_amplitude(
         The grid: ``start``, ``start + step`` … up to ``stop`` [m/s²].
     nominal : float, optional
         Amplitude that ``motion`` stands for as it is [m/s²], of a formula; its peak along x by default.
-    replicates, scatter, seed
-        Twins of the column that go through every amplitude as well, as in :func:`stylobate.certainty`; none by default.
     twin_amplitudes : int, optional
         Most amplitudes of the grid that twins go through, evenly spread; all by default.
-    **how
-        ``tail``, ``whole``, ``threads``, ``progress``, ``ledger``, as for :func:`stylobate.analysis.critical.sweep`.
+    campaign : Campaign, optional
+        With replicates, twins of the column go through the amplitudes as well.
 
     Returns
     -------
@@ -262,8 +258,7 @@ def critical_amplitude(
     """
     as_is = motion.pga if nominal is None else nominal
     shaken = [Shaken(motion, as_is, nominal is None)]
-    drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
-    results, wall = sweep(column, shaken, model, amplitude_grid(start, stop, step), drawn, twin_amplitudes, **how)
+    results, wall = sweep(column, shaken, model, amplitude_grid(start, stop, step), campaign, twin_amplitudes)
     return dataclasses.replace(results[0], wall_time=wall)
 
 
@@ -280,14 +275,8 @@ def sweep(
     shaken: Sequence[Shaken],
     model: Model,
     grid: np.ndarray,
-    drawn: Twins | None,
+    campaign: Campaign,
     twin_amplitudes: int | None = None,
-    *,
-    tail: float = 0.0,
-    whole: bool = False,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    ledger: str | Path | None = None,
 ) -> tuple[list[CriticalAmplitude], float]:
     """Run a column and its twins under motions at every amplitude of a grid; what came of each, and the time it took [s].
 
@@ -297,17 +286,11 @@ def sweep(
     shaken : sequence of Shaken
     grid : array
         Amplitudes [m/s²], rising.
-    drawn : Twins, optional
+    campaign : Campaign
     twin_amplitudes : int, optional
         As for :func:`critical_amplitude`.
-    tail : float
-        Time to go on after the motion has ended [s].
-    whole : bool
-        Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
-        shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
-    threads, progress, ledger
-        As of :func:`stylobate.campaign.runs.run_all`.
     """
+    drawn = the_twins(column, model, campaign) if campaign.replicates else None
     for motion, as_is, _ in shaken:
         if as_is == 0.0:
             raise InputError(f"motion {motion.name!r} is zero along x and cannot be scaled to an amplitude.")
@@ -333,8 +316,8 @@ def sweep(
     if drawn is not None:
         model = model.paced(column)
     started = time.perf_counter()
-    request = Request.of(cases, Hasher(model, tail), share_of([motion for motion, *_ in shaken], whole))
-    finished = run_all(request, threads=threads, progress=progress, ledger=ledger)
+    request = Request.of(cases, Hasher(model, campaign.tail), share_of([one.motion for one in shaken], campaign.whole))
+    finished = run_all(request, campaign)
     results = []
     for one, amplitudes, spread, count, end in zip(shaken, own, theirs, counts, ends, strict=True):
         rows, record = finished[int(end - count) : int(end)], one.as_is if one.recorded else None
@@ -353,13 +336,14 @@ def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:
     """Amplitudes from ``start`` to ``stop`` in steps [m/s²]; the last one is the last step not beyond ``stop``."""
     low, high, width = (float(value) for value in (start, stop, step))
     least = "it must not be below the smallest"
-    check_range("the smallest amplitude", low / g, 0.0, 1e3, unit="g", open_low=True)
-    check_range("the largest amplitude", high / g, low / g, 1e3, unit="g", remedy=least)
-    check_range("the amplitude step", width / g, 0.0, 1e3, unit="g", open_low=True)
+    check_range("the smallest amplitude", low / g, 0.0, 1e3, unit="g", open_low=True, field="start")
+    check_range("the largest amplitude", high / g, low / g, 1e3, unit="g", remedy=least, field="stop")
+    check_range("the amplitude step", width / g, 0.0, 1e3, unit="g", open_low=True, field="step")
     steps = int((high - low) / width * (1.0 + 1e-12) + 1e-9)
     if steps >= MAX_AMPLITUDES:
         raise InputError(
-            f"the grid of amplitudes has {steps + 1} steps; allowed is up to {MAX_AMPLITUDES}: give a larger step."
+            f"the grid of amplitudes has {steps + 1} steps; allowed is up to {MAX_AMPLITUDES}: give a larger step.",
+            "step",
         )
     return low + width * np.arange(steps + 1)
 

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import dataclasses
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ..campaign.twins import Twins
-from ..column.scatter import Scatter
 from ..constants import g
 from ..response.rows import Rows
 from . import verdicts as v
@@ -29,11 +27,7 @@ class CriticalPopulation:
         [m/s²], shape (A,), rising.
     verdicts : array of str
         Shape (twins, A).
-    scatter : Scatter
-        As far as the model takes it.
-    seed : int
-    left_out : tuple of str
-        Parts of the scatter that the model does not take.
+    drawn : Twins
     nominal : float, optional
         Amplitude of the record as it is [m/s²]; None for a formula.
     confidence : float
@@ -42,9 +36,7 @@ class CriticalPopulation:
 
     amplitudes: np.ndarray
     verdicts: np.ndarray
-    scatter: Scatter
-    seed: int
-    left_out: tuple[str, ...] = ()
+    drawn: Twins
     nominal: float | None = None
     confidence: float = 0.95
 
@@ -52,7 +44,7 @@ class CriticalPopulation:
     def of(cls, amplitudes: np.ndarray, rows: Rows, drawn: Twins, nominal: float | None) -> CriticalPopulation:
         """From the rows of all twins at all amplitudes, those of one twin together."""
         verdicts = v.verdicts_of(rows).reshape(-1, len(amplitudes))
-        return cls(amplitudes, verdicts, drawn.scatter, drawn.seed, drawn.left_out, nominal)
+        return cls(amplitudes, verdicts, drawn, nominal)
 
     @property
     def counts(self) -> dict[str, np.ndarray]:
@@ -130,9 +122,7 @@ class CriticalPopulation:
             **{name: count.tolist() for name, count in self.counts.items()},
             "replicates": len(self.verdicts),
             "certainty": {
-                "scatter": dataclasses.asdict(self.scatter),
-                "left_out": list(self.left_out),
-                "seed": self.seed,
+                **self.drawn.told,
                 "confidence": self.confidence,
                 **self.percentiles,
                 "bounds": self.bounds,

@@ -5,13 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
-from ..campaign.twins import the_twins
+from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..column import Column
-from ..column.scatter import Scatter
 from ..constants import g
 from ..errors import InputError
 from ..models.base import Model
@@ -161,6 +160,7 @@ class CriticalSuite:
         return found | {"sentence": sentence_of_suite(found, self.results[0].column.kind)}
 
 
+@campaigning(Fields)
 def critical_suite(
     column: Column,
     motions: Sequence[Motion],
@@ -169,10 +169,8 @@ def critical_suite(
     stop: float,
     step: float = 0.005 * g,
     *,
-    replicates: int = 0,
-    scatter: Scatter | None = None,
-    seed: int = 0,
-    **how: Any,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> CriticalSuite:
     """Run a column under every record at every amplitude of a grid.
 
@@ -182,10 +180,10 @@ def critical_suite(
     motions : sequence of Motion
         Each is scaled, all its components alike, so that its peak along x takes the amplitudes of the grid.
     model : Model
-    start, stop, step, replicates, scatter, seed
+    start, stop, step
         As for :func:`stylobate.analysis.critical.critical_amplitude`.
-    **how
-        ``twin_amplitudes``, ``tail``, ``whole``, ``threads``, ``progress``, ``ledger``, as there.
+    campaign : Campaign, optional
+        As there.
 
     Returns
     -------
@@ -199,9 +197,8 @@ def critical_suite(
     if not motions:
         raise InputError("the suite holds no motion; give at least one.")
     grid = amplitude_grid(start, stop, step)
-    drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
     shaken = [Shaken(motion, motion.pga, recorded=True) for motion in motions]
-    results, wall = sweep(column, shaken, model, grid, drawn, **how)
+    results, wall = sweep(column, shaken, model, grid, campaign)
     return CriticalSuite(tuple(results), wall)
 
 

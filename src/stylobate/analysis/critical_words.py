@@ -17,8 +17,8 @@ MOST = 4
 
 #: That one column says little, and what asks columns like it.
 ONE_ALONE = (
-    "Near the boundary small differences decide, and one alone says little: --replicates 15 runs 15 columns like it "
-    "as well."
+    "Near the boundary small differences decide, and one alone says little: with 15 replicates, 15 columns like it "
+    "run as well."
 )
 
 
@@ -133,7 +133,7 @@ def _open(s: Mapping[str, Any], twins: Mapping[str, Any] | None) -> str:
     found = []
     for told, total, whose in ((s, s["runs"], ""), (twins or {}, None, " of those like it")):
         for name, meaning in (
-            (v.UNDECIDED, "ended far from rest (a longer --tail decides them)"),
+            (v.UNDECIDED, "ended far from rest (a longer tail may decide them)"),
             (v.FAILED, "failed"),
         ):
             if count := told.get(name):

@@ -11,6 +11,7 @@ from ..column import Column
 from ..column.structure import Structure
 from ..models.base import Model
 from ..percent import whole
+from ..response.words import ROUND_IN_THE_PLANE, round_in_the_plane
 from .fragility_checks import FEWEST
 
 #: What a difference comes to.
@@ -23,8 +24,7 @@ NO_PAIR = "no pair of runs could be computed"
 NO_MEASURE = ("as built", "as found")
 
 
-#: What stands before any advice on round columns that were computed in a plane, however many the records; and on measures.
-ROUND_IN_THE_PLANE = "Round columns, computed in a plane: in space they can fall under much weaker motions"
+#: What stands before any advice on measures for round columns that were computed in a plane, however many the records.
 NO_MEASURE_YET = (
     ", and what helps here need not help there. No measure is to be adopted before a model in space (dem3d) has told "
     "the same"
@@ -35,8 +35,7 @@ def round_drums(columns: Sequence[Structure], model: Model) -> str:
     """What stands before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
     if not model.is_plane(model.parameters()):
         return ""
-    several = any(one.section == "circular" and one.stack is not None and one.stack.n > 1 for one in columns)
-    return f"{ROUND_IN_THE_PLANE}, under one component too." if several else ""
+    return next((round_in_the_plane(one) for one in columns if one.stack is not None and one.stack.n > 1), "")
 
 
 def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:

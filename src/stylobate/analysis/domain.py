@@ -8,17 +8,16 @@ from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
 from .. import store
+from ..campaign.campaign import USUAL, Campaign, Computing, Progress, campaigning
 from ..campaign.grid import HarmonicGrid
-from ..campaign.ledger import RUNS_FILE
-from ..campaign.runs import Progress, Request, Runs, Stopped
+from ..campaign.runs import Request, Runs, Stopped
 from ..column import Column
 from ..constants import g
-from ..errors import InputError
 from ..models.base import Model
 from ..outcome import Outcome
 from ..response.rows import Rows
@@ -226,6 +225,7 @@ def grid_coordinates(frequencies: np.ndarray, amplitudes: np.ndarray) -> dict[st
     }
 
 
+@campaigning(Computing)
 def collapse_domain(
     column: Column,
     model: Model,
@@ -233,11 +233,9 @@ def collapse_domain(
     amplitudes: Sequence[float] | np.ndarray,
     duration: float = 10.0,
     *,
-    tail: float = 0.0,
-    threads: int | None = None,
-    progress: Progress | None = None,
     out: str | Path | None = None,
-    ledger: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Computing],
 ) -> Domain:
     """Run a column under harmonic base motions of all frequencies and amplitudes.
 
@@ -251,17 +249,11 @@ def collapse_domain(
         [m/s²], shape (A,)
     duration : float
         Length of each motion [s].
-    tail : float
-        Time to go on after each motion has ended [s].
-    threads : int, optional
-        All cores by default.
-    progress : callable, optional
-        Called with (finished, all).
     out : path, optional
-        Folder that keeps finished runs (``runs.sqlite``), for good: what it holds is not computed again. When the domain is
+        Folder that keeps finished runs (``runs.sqlite``), unless the campaign has another ledger. When the domain is
         complete, ``domain.nc`` and ``domain.csv`` are written there.
-    ledger : path, optional
-        The file that keeps finished runs, if it is not that in ``out``.
+    campaign : Campaign, optional
+        How the runs are made.
 
     Returns
     -------
@@ -274,26 +266,20 @@ def collapse_domain(
         An impossible grid, a folder that cannot be used, or input that the model refuses.
     """
     axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
-    grid = HarmonicGrid(column, model, *axes, duration, tail)
-    if out is not None and ledger is None:
-        ledger = Path(out) / RUNS_FILE
-    if ledger is not None and not Path(ledger).parent.is_dir():
-        raise InputError(f"folder {Path(ledger).parent} does not exist; create it first.")
-    with closing(Runs(ledger)) as runs:
-        domain = run_grid(grid, grid.request(), runs, threads, progress)
+    grid = HarmonicGrid(column, model, *axes, duration, campaign.tail)
+    with closing(Runs(campaign.kept_in(out))) as runs:
+        domain = run_grid(grid, grid.request(), runs)
     if out is not None and domain.complete:
         domain.save(Path(out) / "domain.nc")
         domain.save(Path(out) / "domain.csv")
     return domain
 
 
-def run_grid(
-    grid: HarmonicGrid, request: Request, runs: Runs, threads: int | None = None, progress: Progress | None = None
-) -> Domain:
+def run_grid(grid: HarmonicGrid, request: Request, runs: Runs, progress: Progress | None = None) -> Domain:
     """The domain of a grid, by its request; after an interrupt with the cells that are finished."""
     started = time.perf_counter()
     try:
-        rows = runs.rows(request, threads, progress)
+        rows = runs.rows(request, progress)
     except Stopped as stopped:
         rows = stopped.rows
     column, model, f, a = grid.column, grid.model, grid.frequencies, grid.amplitudes

@@ -215,7 +215,7 @@ def evidence(
         k = int(np.flatnonzero(zero & (codes == EXCEEDED))[0])
         raise InputError(
             f"run {k + 1} of {name} exceeds {state.name} at an intensity {key!r} of 0; choose an intensity that its motion "
-            "has, with --im."
+            "has, with `im`."
         )
     alike = [one for one in ("record", "motion", "realisation") if one in table]
     return Evidence(
@@ -249,7 +249,7 @@ def _remedy(table: pandas.DataFrame, measure: IntensityMeasure | None) -> str:
     if measure is None and (
         known := [one for one in map(measure_of_column, map(str, table.columns)) if one is not None]
     ):
-        return f"; choose one with --im, such as --im {known[0].name}"
+        return f"; choose one with `im`, such as `im={known[0].name!r}`"
     return ""
 
 

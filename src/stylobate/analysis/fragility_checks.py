@@ -22,7 +22,7 @@ def check_number(evidence: Evidence, records_are_one: bool) -> None:
         raise InputError(
             f"none of the {len(decided)} runs of {evidence.name} is decided ({evidence.count(OPEN)} undecided, "
             f"{evidence.count(FAILED)} failed), so that nothing is known of {evidence.state}; follow them longer, such as "
-            "with --tail 10s."
+            "with `tail=10`."
         )
     count, every = len(np.unique(evidence.records[decided])), len(np.unique(evidence.records))
     if count >= FEWEST:
@@ -30,7 +30,7 @@ def check_number(evidence: Evidence, records_are_one: bool) -> None:
     what = ("run" if records_are_one else "record") + ("" if count == 1 else "s")
     what += f" (of {every}; the others have no decided run)" if count < every else ""
     remedy = f"give at least {FEWEST}" + (
-        "" if records_are_one else ", or say --records-are-one to take every run for a record of its own"
+        "" if records_are_one else ", or say `records_are_one` to take every run for a record of its own"
     )
     raise InputError(f"a fragility of {count} {what} says nothing about the next earthquake; {remedy}.")
 

@@ -165,7 +165,7 @@ def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tup
     chosen = 0
     if len(cells) > 1:
         if site is None or "lon" not in head or "lat" not in head:
-            raise InputError(f"{name} holds {len(cells)} sites; choose one with --site LON,LAT.")
+            raise InputError(f"{name} holds {len(cells)} sites; choose one with `site=LON,LAT`.", "site")
         places = [[_number(name, k, row, head.index(one)) for one in ("lon", "lat")] for k, row in enumerate(cells, 2)]
         chosen = int(np.argmin([math.dist(one, site) for one in places]))
     poe = np.array([_number(name, chosen + 2, cells[chosen], k) for k in at])

@@ -8,15 +8,15 @@ import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
+from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.digests import Hasher
-from ..campaign.runs import Progress, Request, Runs, Stopped
+from ..campaign.runs import Request, Runs, Stopped
+from ..campaign.twins import the_twins
 from ..column import Column
-from ..column.scatter import Scatter
 from ..errors import InputError, OutOfRangeWarning, check_range
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
@@ -24,7 +24,6 @@ from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
 from ..motion.orientation import record_of
 from . import verdicts as v
-from .certainty import the_twins
 from .hunt import next_levels
 from .ida_curves import Ida
 
@@ -51,6 +50,7 @@ class Trace:
     rows: list[dict]
 
 
+@campaigning(Fields)
 def ida(
     column: Column,
     motions: Sequence[Motion],
@@ -59,16 +59,10 @@ def ida(
     *,
     levels: Sequence[float] | np.ndarray | None = None,
     runs: int = RUNS,
-    replicates: int = 0,
-    scatter: Scatter | None = None,
-    seed: int = 1,
     largest_factor: float = LARGEST,
     about: Mapping[str, Mapping[str, float]] | None = None,
-    tail: float = 0.0,
-    whole: bool = False,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    ledger: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> Ida:
     """Scale every record over levels of an intensity, and run the column.
 
@@ -83,22 +77,13 @@ def ida(
         Stripes: every record is run at each of these, in the unit of the measure, and nothing is hunted.
     runs : int
         Of each record, with each column.
-    replicates : int
-        Columns like this one that are run instead of it; 0 for the column itself.
-    scatter : Scatter, optional
-        Of the replicates.
-    seed : int
     largest_factor : float
         By which a record is multiplied at most.
     about : mapping, optional
         By name of a record, or of a motion that is made of one, ``magnitude`` and ``distance_km``.
-    tail, whole, threads
-        As in :func:`stylobate.critical_amplitude`.
-    progress : callable, optional
-        Called with (finished, most that there will be).
-    ledger : path, optional
-        File that keeps finished runs: a call that was stopped goes on from there, one for other levels, records or twins
-        makes only the runs that are new. It stays for the caller to remove.
+    campaign : Campaign, optional
+        With replicates, these are run instead of the column itself; ``progress`` is called with (finished, most that there
+        will be).
 
     Returns
     -------
@@ -113,8 +98,8 @@ def ida(
     """
     started = time.perf_counter()
     measure = parse_measure(im) if isinstance(im, str) else im
-    check_range("runs of a record", runs, 4, 1000)
-    check_range("largest factor", largest_factor, 0.0, 1e4, open_low=True)
+    check_range("runs of a record", runs, 4, 1000, field="runs")
+    check_range("`largest_factor`", largest_factor, 0.0, 1e4, open_low=True)
     if levels is not None and not (len(levels) and all(one > 0.0 for one in levels)):
         raise InputError("the levels are none, or not positive; give at least one positive level.")
     if not motions:
@@ -131,7 +116,7 @@ def ida(
     relation = (math.tan(column.slenderness), column.frequency_parameter)
     known = about or {}
     facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
-    drawn = the_twins(column, model, replicates, scatter, seed) if replicates else None
+    drawn = the_twins(column, model, campaign) if campaign.replicates else None
     columns = [column] if drawn is None else list(drawn.columns)
     traces = []
     for motion, fact in zip(motions, facts):
@@ -146,23 +131,23 @@ def ida(
             return [] if one.levels else stripes
         return _asked(one, runs, largest_factor, measure.power)
 
-    quiet, hasher = share_of(motions, whole), Hasher(model, tail)
+    quiet, hasher = share_of(motions, campaign.whole), Hasher(model, campaign.tail)
     try:
-        with closing(Runs(ledger)) as kept:
+        with closing(Runs(campaign)) as kept:
             while asked := [(one, new) for one in traces for new in wanted(one)]:
                 cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
                 rows: list[dict] = [{}] * len(cases)
-                with closing(kept.run(Request.of(cases, hasher, quiet), threads)) as finished:
+                with closing(kept.run(Request.of(cases, hasher, quiet))) as finished:
                     for number, row in finished:
                         rows[number] = row
                         done += 1
-                        if progress:
-                            progress(done, total)
+                        if campaign.progress:
+                            campaign.progress(done, total)
                 for (one, new), row in zip(asked, rows):
                     one.levels.append(new)
                     one.rows.append(row)
     except KeyboardInterrupt:
-        raise Stopped(done, total, ledger) from None
+        raise Stopped(done, total, campaign.ledger) from None
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
     table["hunted"] = stripes is None
@@ -193,7 +178,7 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
             f"{len(beyond)} of {len(factors)} records are multiplied by more than {WARNED:g}, {name!r} by "
             f"{beyond[name]:.3g}: scaled so far, they are no longer those of earthquakes; leave out the weak ones.",
             OutOfRangeWarning,
-            stacklevel=3,
+            stacklevel=4,
         )
 
 

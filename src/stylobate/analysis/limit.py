@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
-from ..errors import InputError
+from ..errors import InputError, check_choice
 from ..models.rigid_block.block_stack import BlockStack
 from .least_forces import Borne, Needed, needed_forces
 from .limit_programmes import ACTIVE, Facets, equilibrium_matrix, kinematic_bound, non_associated, static_bound
@@ -178,8 +178,7 @@ def limit_analysis(
     InputError
         The column cannot stand under its own weight, or an argument cannot be used.
     """
-    if flow not in FLOWS:
-        raise InputError(f"flow is {flow!r}; allowed are {', '.join(FLOWS)}.")
+    check_choice("`flow`", flow, FLOWS)
     stack = towards(column, direction)
     strength = crushing_forces(stack, compressive_strength)
     dead = gravity_forces(stack, base_tilt)

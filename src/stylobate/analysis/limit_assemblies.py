@@ -17,6 +17,9 @@ from .limit import DirectionLimit
 #: What moves with more than this share of the fastest takes part in the mechanism [-].
 MOVES = 1e-3
 
+#: Most joints, and what the programme of so many takes in one direction [s]; it grows with their number to this power.
+MOST_JOINTS, TAKES, GROWS = 800, 180.0, 2.5
+
 #: Most bodies that a sentence names.
 NAMED = 4
 
@@ -40,6 +43,16 @@ class AssemblyProgramme:
             raise InputError(
                 f"limit analysis takes columns and assemblies in space, and {structure.name!r} is {structure.described} of "
                 "the plane; give its blocks as boxes, box = [x, y, z]."
+            )
+        if len(joints) > MOST_JOINTS:
+            minutes = TAKES / 60.0 * (len(joints) / MOST_JOINTS) ** GROWS
+            raise InputError(
+                f"{structure.name!r} has {len(joints)} joints, whose limit analysis would take about {minutes:.0f} minutes "
+                f"a direction; allowed are up to {MOST_JOINTS}: take a part of it."
+            )
+        if not structure.gravity:
+            raise InputError(
+                f"{structure.name!r} has no gravity, in parts of which forces are told; give it one [m/s²]."
             )
         bodies = structure.bodies
         self.structure = structure

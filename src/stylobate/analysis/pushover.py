@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ..column import Column
-from ..errors import InputError, check_range
+from ..errors import check_choice, check_range
 from ..models.rigid_block.block_stack import BlockStack
 from .elastic_stability import check_stable
 from .equilibrium_path import EquilibriumPath
@@ -68,8 +68,7 @@ def pushover(
         The column cannot stand under its own weight, because it overturns, slides, crushes, or buckles on joints that are
         too soft for it; or an argument cannot be used.
     """
-    if control not in CONTROLS:
-        raise InputError(f"control is {control!r}; allowed are {', '.join(CONTROLS)}.")
+    check_choice("`control`", control, CONTROLS)
     stack = towards(column, direction)
     if to is None:
         end = (2.0 if geometric else 0.1) * float(stack.width[0])

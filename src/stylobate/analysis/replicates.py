@@ -11,17 +11,16 @@ import time
 from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
+from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.digests import Hasher
 from ..campaign.grid import MAX_CELLS, grid_axis
-from ..campaign.ledger import RUNS_FILE
-from ..campaign.runs import Progress, Request, Runs
+from ..campaign.runs import Request, Runs
 from ..campaign.twins import the_twins
 from ..column import Column
-from ..column.scatter import Scatter
 from ..errors import InputError, check_range
 from ..models.base import Case, Model
 from ..motion.scatter import MotionScatter, ScatteredSines
@@ -33,6 +32,7 @@ from .probability import CollapseProbability
 MAX_RUNS = 20_000_000
 
 
+@campaigning(Fields, but=("whole",), replicates=20)
 def collapse_probability(
     column: Column,
     model: Model,
@@ -40,38 +40,27 @@ def collapse_probability(
     amplitudes: Sequence[float] | np.ndarray,
     duration: float = 10.0,
     *,
-    replicates: int = 20,
-    scatter: Scatter | None = None,
     motion_scatter: MotionScatter | None = None,
-    seed: int = 0,
     confidence: float = 0.95,
-    tail: float = 0.0,
-    threads: int | None = None,
-    progress: Progress | None = None,
     out: str | Path | None = None,
-    ledger: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> CollapseProbability:
     """Run many slightly different columns under harmonic base motions of all frequencies and amplitudes.
 
     Parameters
     ----------
-    column, model, frequencies, amplitudes, duration, tail, threads, progress
+    column, model, frequencies, amplitudes, duration
         As in :func:`stylobate.collapse_domain`.
-    replicates : int
-        Number of columns like this one; each goes through every cell.
-    scatter : Scatter, optional
-        How they differ; by default as columns of its material do.
     motion_scatter : MotionScatter, optional
         How the motions of a cell differ; by default they do not. Models in the plane leave ``across`` out.
-    seed : int
-        The same seed gives the same columns and motions.
     confidence : float
         Level of the intervals.
     out : path, optional
-        Folder that keeps finished runs (``runs.sqlite``), for good, and when all are there holds ``probability.nc`` and
-        ``probability.csv``.
-    ledger : path, optional
-        The file that keeps finished runs, if it is not that in ``out``.
+        Folder that keeps finished runs (``runs.sqlite``), unless the campaign has another ledger, and when all are there
+        holds ``probability.nc`` and ``probability.csv``.
+    campaign : Campaign, optional
+        Each of the replicates goes through every cell; the same seed gives the same columns and motions.
 
     Returns
     -------
@@ -96,8 +85,8 @@ def collapse_probability(
     shaking, beyond = MotionScatter() if motion_scatter is None else motion_scatter, ()
     if shaking.across and model.is_plane(model.parameters()):
         shaking, beyond = dataclasses.replace(shaking, across=0.0), ("across",)
-    twins = the_twins(column, model, replicates, scatter, seed, alone=not shaking.given)
-    number = len(twins.columns)
+    twins = the_twins(column, model, campaign, alone=not shaking.given)
+    number, seed = campaign.replicates, campaign.seed
     if len(f) * len(a) > MAX_CELLS or len(f) * len(a) * number > MAX_RUNS:
         raise InputError(
             f"{len(f)} × {len(a)} cells with {number} replicates are {len(f) * len(a) * number} runs; allowed is up to "
@@ -115,23 +104,20 @@ def collapse_probability(
         "left_out": [*twins.left_out, *beyond],
         "seed": seed,
     }
-    if out is not None and ledger is None:
-        ledger = Path(out) / RUNS_FILE
-    if ledger is not None and not Path(ledger).parent.is_dir():
-        raise InputError(f"folder {Path(ledger).parent} does not exist; create it first.")
+    campaign = campaign.kept_in(out)
     codes = np.full(len(cases), v.VERDICTS.index(v.NOT_RUN), dtype=np.int8)
     peaks = np.full(len(cases), np.nan, dtype=np.float32)
     done = 0
     try:
-        request = Request.of(cases, Hasher(model, tail))
-        with closing(Runs(ledger)) as runs, closing(runs.run(request, threads)) as finished:
+        request = Request.of(cases, Hasher(model, campaign.tail))
+        with closing(Runs(campaign)) as runs, closing(runs.run(request)) as finished:
             for index, row in finished:
                 codes[index] = v.VERDICTS.index(v.verdict(row))
                 peak = row["peak_top_displacement_m"]
                 peaks[index] = peak if np.isfinite(peak) else np.nan
                 done += 1
-                if progress:
-                    progress(done, len(cases))
+                if campaign.progress:
+                    campaign.progress(done, len(cases))
     except KeyboardInterrupt:
         pass
     provenance = {
@@ -141,7 +127,7 @@ def collapse_probability(
         "model": model.name,
         "parameters": model.parameters(),
         "references": [*model.references, "wilson1927"],
-        "tail": tail,
+        "tail": campaign.tail,
         "version": __version__,
     }
     shape = (len(f), len(a), number)

@@ -77,7 +77,7 @@ class Risk:
         if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
             found.append(
                 f"the runs do not say what their intensity is; it is taken for that of {self.hazard.name}, in "
-                f"{self.hazard.unit}: say so with --im."
+                f"{self.hazard.unit}: state the intensity of the runs."
             )
         elif self.fragility.evidence.measure != "im" and not self.hazard.imt:
             measure, end = parse_measure(self.fragility.evidence.measure), ENDS[self.hazard.unit]
@@ -215,7 +215,7 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     if hazard.unit not in ("-", unit) and unit != "-":
         raise InputError(
             f"the fragility is over {measure} in {unit} and {hazard.name} is in {hazard.unit}; give a hazard curve of "
-            f"{measure}, or another --im."
+            f"{measure}, or another `im`."
         )
     said = hazard.imt.upper()
     if said and measure != "im" and not _same(said, measure):
@@ -264,7 +264,7 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
     """
     years = check_range("age", age, 0.0, 1e6, unit="years", open_low=True)
     if not hazards:
-        raise InputError("no hazard curve is given; give at least one with --hazard FILE.csv.")
+        raise InputError("no hazard curve is given; give at least one with `hazards=FILE.csv`.")
     return Survival(tuple(risk(fragility, one) for one in hazards), years)
 
 

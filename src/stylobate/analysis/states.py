@@ -7,14 +7,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
+from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.cases import Study
-from ..campaign.runs import Progress
 from ..column import Column
-from ..column.scatter import Scatter
 from ..errors import InputError
 from ..models.base import Model
 from ..motion import Motion
@@ -129,6 +128,7 @@ class StateComparison:
         }
 
 
+@campaigning(Fields, but=("ledger",))
 def compare_states(
     states: Mapping[str, Column],
     motions: Sequence[Motion],
@@ -136,16 +136,12 @@ def compare_states(
     levels: Sequence[float] = (1.0,),
     im: IntensityMeasure | None = None,
     *,
-    realisations: int = 0,
-    scatter: Scatter | None = None,
-    seed: int = 0,
     state: str = "collapse",
-    tail: float = 0.0,
     samples: int = SAMPLES,
     confidence: float = 0.95,
-    threads: int | None = None,
-    progress: Progress | None = None,
     out: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> StateComparison:
     """Shake several states of a column with the same motions at the same levels, and compare what becomes of them.
 
@@ -161,16 +157,14 @@ def compare_states(
         Of the intensity measure, or factors without one.
     im : IntensityMeasure, optional
         That motions are scaled to.
-    realisations, scatter, seed
-        Twins of every state, as of a study; the same seed draws the same deviations for each.
     state : str
         Limit state, as of ``stylobate fragility``.
-    tail, threads, progress
-        As of :func:`stylobate.run_study`.
     samples, confidence
         Of the bootstrap over records. All states take the same samples of the records, so that differences are paired.
     out : path, optional
         Folder that keeps the runs.
+    campaign : Campaign, optional
+        With replicates, twins of every state are run instead of it; the same seed draws the same deviations for each.
 
     Raises
     ------
@@ -181,11 +175,9 @@ def compare_states(
     if len(labels) < FEWEST_STATES:
         raise InputError(f"{len(labels)} state of a column is given; give at least {FEWEST_STATES} to compare.")
     named = tuple(column.replace(name=label) for label, column in states.items())
-    study = Study(
-        named, motions, [model], levels, im, realisations=realisations, scatter=scatter, seed=seed, tail=tail
-    )  # fmt: skip
+    study = Study(named, motions, [model], levels, im, campaign=campaign.of_runs)
     parse_state(state).must_be_told(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
-    result = run_study(study, out, threads=threads, progress=progress)
+    result, seed = run_study(study, out, campaign=campaign.of_computing), campaign.seed
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]

@@ -5,12 +5,11 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
-from ..campaign.runs import Progress
+from ..campaign.campaign import USUAL, Campaign, Computing, campaigning
 from ..column import Column
 from ..errors import InputError
 from ..models.base import Model
@@ -49,6 +48,7 @@ class StepComparison:
         }
 
 
+@campaigning(Computing)
 def compare_steps(
     column: Column,
     model: Model,
@@ -56,15 +56,13 @@ def compare_steps(
     amplitudes: Sequence[float] | np.ndarray,
     duration: float = 10.0,
     *,
-    tail: float = 0.0,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    ledger: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Computing],
 ) -> StepComparison:
     """Run a domain under the model's step and under half of it; parameters as in :func:`compare_domains`."""
     finest = harmonic(float(np.max(frequencies)), 1.0, duration)
-    models, keeping = [model, halved_step(model, column, finest)], {"threads": threads, "ledger": ledger}
-    pair = compare_domains(column, models, frequencies, amplitudes, duration, tail=tail, progress=progress, **keeping)
+    models = [model, halved_step(model, column, finest)]
+    pair = compare_domains(column, models, frequencies, amplitudes, duration, campaign=campaign)
     return StepComparison(*pair.domains)
 
 

@@ -5,17 +5,18 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Mapping
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
 from ..atomic import replacing
+from ..campaign.campaign import USUAL, Campaign, Computing, campaigning
 from ..campaign.cases import Study
 from ..campaign.ledger import RUNS_FILE, finished_runs_in
 from ..campaign.plan import Plan
-from ..campaign.runs import Progress, Runs, Stopped, its_turn
+from ..campaign.runs import Runs, Stopped, its_turn
 from ..errors import InputError
 from ..models.shared.quiet import share_of
 from ..response import Response
@@ -96,13 +97,14 @@ class StudyResult:
         return cls(plan, plan.known(Path(folder) / RUNS_FILE))
 
 
+@campaigning(Computing, but=("tail", "ledger"))
 def run_study(
     study: Study,
     out: str | Path | None = None,
     *,
-    threads: int | None = None,
-    progress: Progress | None = None,
     waiting: Callable[[], None] | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Computing],
 ) -> StudyResult:
     """Run a study; what its folder holds already is not computed again.
 
@@ -115,12 +117,10 @@ def run_study(
     out : path, optional
         Folder that keeps every finished run within half a second, for good: a study that was stopped goes on, one that has
         grown computes only what is new. Without it nothing is kept.
-    threads : int, optional
-        All cores by default.
-    progress : callable, optional
-        Called with (finished, all).
     waiting : callable, optional
         Called once if another process is at work in the folder; this one goes on when that one ends, however it ends.
+    campaign : Campaign, optional
+        Where the study is computed and who is told; the rest is the study's own.
 
     Raises
     ------
@@ -134,14 +134,14 @@ def run_study(
         raise InputError(f"folder {folder} does not exist; create it first.")
     started, plan = time.perf_counter(), study.plan()
     ledger = None if folder is None else folder / RUNS_FILE
-    turn = None if ledger is None else its_turn(ledger, plan.digests, progress, waiting)
+    turn = None if ledger is None else its_turn(ledger, plan.digests, campaign.progress, waiting)
     request = study.request(plan)
     try:
-        with closing(Runs(ledger, turn)) as runs:
+        with closing(Runs(replace(campaign, ledger=ledger), turn)) as runs:
             runs.open(request)
             if folder is not None:
                 plan.save(folder)
-            rows = runs.rows(request, threads, progress)
+            rows = runs.rows(request)
     except Stopped:
         raise
     except KeyboardInterrupt:  # while another process was at work
@@ -153,7 +153,8 @@ def run_study(
 def histories_of(study: Study, number: int) -> Response:
     """A case of a study once more, with its histories."""
     column, motion = study.case(number)
-    return simulate(column, motion, study.model_of(number), tail=study.tail, quiet=share_of([motion], study.whole))
+    tail, quiet = study.campaign.tail, share_of([motion], study.campaign.whole)
+    return simulate(column, motion, study.model_of(number), tail=tail, quiet=quiet)
 
 
 def keep_histories(

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
+from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.cases import RELATIVE, must_be_alike
 from ..campaign.digests import Hasher
-from ..campaign.runs import Progress, Request, run_all
+from ..campaign.runs import Request, run_all
 from ..campaign.twins import the_twins
-from ..column.scatter import Scatter
 from ..column.structure import Structure
-from ..errors import InputError
+from ..errors import check_choice
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -63,23 +62,17 @@ def must_be_told(against: str, columns: Sequence[Structure]) -> None:
     """
     related = all(one.slenderness is not None for one in columns)
     known = [name for name in INTENSITIES if related or name not in RELATIVE]
-    if against not in known:
-        raise InputError(f"--against is {against!r}; allowed is {', '.join(known)}.")
+    check_choice("`against`", against, known)
 
 
+@campaigning(Fields)
 def suite_table(
     columns: Structure | Sequence[Structure],
     motions: Sequence[Motion],
     model: Model,
     *,
-    replicates: int = 0,
-    scatter: Scatter | None = None,
-    seed: int = 0,
-    tail: float = 0.0,
-    whole: bool = False,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    ledger: str | Path | None = None,
+    campaign: Campaign = USUAL,
+    **fields: Unpack[Fields],
 ) -> pandas.DataFrame:
     """Shake every column, or every assembly, with every record.
 
@@ -89,10 +82,8 @@ def suite_table(
     motions : sequence of Motion
         E.g. ``read_suite(folder).motions``. The vertical component acts where a motion has one.
     model : Model
-    replicates, scatter, seed
-        Twins of every column under every record, as in :func:`stylobate.certainty`; none by default.
-    tail, whole, threads, progress, ledger
-        As in :func:`stylobate.critical_amplitude`.
+    campaign : Campaign, optional
+        With replicates, twins of every column are run under every record as well.
 
     Returns
     -------
@@ -117,16 +108,17 @@ def suite_table(
     records = [_record(motion) for motion in motions]
     rows: list[dict[str, Any]] = []
     for column in stands:
-        for number, (motion, record) in enumerate(zip(motions, records, strict=True), 1):
-            named = {"number": number, "record": record_of(motion), "motion": motion.name, "column": column.name}
+        for place, (motion, record) in enumerate(zip(motions, records, strict=True), 1):
+            named = {"number": place, "record": record_of(motion), "motion": motion.name, "column": column.name}
             named |= direction_of(motion)
             rows.append(named | _of_column(column, motion, record))
     cases = [Case(column, motion) for column in stands for motion in motions]
     own = len(cases)
-    drawn = [the_twins(column, model, replicates, scatter, seed) for column in stands] if replicates else []
+    number = campaign.replicates
+    drawn = [the_twins(column, model, campaign) for column in stands] if number else []
     cases += [Case(twin, motion) for some in drawn for motion in motions for twin in some.columns]
-    request = Request.of(cases, Hasher(model, tail), share_of(motions, whole))
-    found = run_all(request, threads=threads, progress=progress, ledger=ledger)
+    request = Request.of(cases, Hasher(model, campaign.tail), share_of(motions, campaign.whole))
+    found = run_all(request, campaign)
     for i, (case, row, line) in enumerate(zip(cases[:own], found, rows, strict=False)):
         if row is not None:
             line |= row | {"verdict": verdict(row), "model": model.name}
@@ -134,8 +126,8 @@ def suite_table(
                 line["peak_top_over_base_width"] = row["peak_top_displacement_m"] / width
         if drawn:
             some = drawn[i // len(motions)]
-            of_twins = [one for one in found[own + i * replicates : own + (i + 1) * replicates] if one is not None]
-            line |= Population(some.columns, tuple(of_twins), some.scatter, seed, some.left_out).columns
+            of_twins = [one for one in found[own + i * number : own + (i + 1) * number] if one is not None]
+            line |= Population(some, tuple(of_twins)).columns
     return pandas.DataFrame(rows)
 
 

@@ -56,14 +56,9 @@ def _finite(text: str) -> float:
     return number
 
 
-def found_wrong(error: InputError, field: str | None) -> Response:
+def found_wrong(error: InputError) -> Response:
     """The answer to a question that was put well, about something that cannot be."""
-    return _about(error, 200, field)
-
-
-def refused(error: InputError, field: str | None) -> Response:
-    """The answer to what cannot be done."""
-    return _about(error, 422, field)
+    return _about(error, 200)
 
 
 class Missing(Exception):
@@ -75,8 +70,8 @@ def missing(what: str) -> Response:
     return Answer({"error": f"there is no such {what}; reload the page."}, 404)
 
 
-def _about(error: Exception | str, code: int, field: str | None = None, **headers: str) -> Response:
-    return Answer({"error": in_page_words(str(error)), "field": field}, code, headers)
+def _about(error: Exception | str, code: int, **headers: str) -> Response:
+    return Answer({"error": in_page_words(str(error)), "field": getattr(error, "field", None)}, code, headers)
 
 
 async def _on_input(request: Request, error: Exception) -> Response:

@@ -138,14 +138,16 @@ def study(asked: JobAsked) -> dict[str, Any]:
         A time cannot be read.
     """
     found = {"column": COLUMN, "model": asked.model, "frequencies": asked.frequencies, "amplitudes": asked.amplitudes}
-    found |= {name: parse_time(text) for name in ("duration", "tail") if (text := getattr(asked, name))}
+    found |= {name: parse_time(text, name) for name in ("duration", "tail") if (text := getattr(asked, name))}
     settings = {name: value for name, value in asked.settings.items() if value}
     missing = next((name for name, value in found.items() if value is None), None)
     if missing is not None:
-        raise InputError(f"a domain has no {missing}; give them, such as 0.33:4:24 and 0.05g:0.6g:32.")
+        raise InputError(f"a domain has no {missing}; give them, such as 0.33:4:24 and 0.05g:0.6g:32.", missing)
     cells = len(frequency_range(str(asked.frequencies))) * len(amplitude_range(str(asked.amplitudes)))
     if cells > CELLS:
-        raise InputError(f"the domain has {cells} cells; the page takes up to {CELLS}: give fewer frequencies.")
+        raise InputError(
+            f"the domain has {cells} cells; the page takes up to {CELLS}: give fewer frequencies.", "frequencies.number"
+        )
     return found | ({"set": settings} if settings else {})
 
 

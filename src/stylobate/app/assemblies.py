@@ -10,6 +10,7 @@ from ..column.assembly import Assembly
 from ..column.assembly_files import read_assembly
 from ..column.links.placed import strokes
 from ..column.presets import PRESETS
+from ..column.spatial.tables import describes_space
 from ..column.toml import parse_toml
 from ..errors import InputError
 from .words import doubted, warned
@@ -35,15 +36,16 @@ def assembly_of(text: str) -> Assembly:
         path = Path(folder) / FILE
         path.write_text(text, encoding="utf-8")
         try:
-            _only_presets(parse_toml(path).get("column"))
-            found = read_assembly(path)
+            data = parse_toml(path)
+            if describes_space(data):  # before anything is read that the file names, such as a mesh of this machine
+                raise InputError(
+                    "an assembly in space is nothing that the page shows; use 'stylobate limit' and 'draw'."
+                )
+            _only_presets(data.get("column"))
+            return cast(Assembly, read_assembly(path))
         except InputError as error:
-            raise InputError(str(error).replace(f"{folder}/", "")) from None
-    if found.space_joints is not None:
-        raise InputError(
-            f"{found.name!r} is {found.described}, which the page does not show; use 'stylobate limit' and 'draw'."
-        )
-    return cast(Assembly, found)
+            error.without(f"{folder}/")
+            raise
 
 
 def _only_presets(tables: Any) -> None:

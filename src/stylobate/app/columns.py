@@ -36,7 +36,12 @@ def column_of(table: Mapping[str, Any]) -> Column:
     try:
         return made_of(Column, dict(table), SOURCE)
     except InputError as error:
-        raise InputError(str(error).removeprefix(f"{SOURCE}: ")) from None
+        error.without(f"{SOURCE}: ")
+        group, _, rest = (error.field or "").partition(".")
+        own = [str(one.get("index")) for one in table.get("joint_override") or ()]
+        if group == "override" and rest.partition(".")[0] not in own:  # what is wrong there is that of all joints
+            error.field = f"joint.{rest.partition('.')[2]}"
+        raise
 
 
 def presets() -> dict[str, dict[str, Any]]:

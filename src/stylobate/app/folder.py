@@ -40,7 +40,7 @@ def held(folder: Path) -> Iterator[Path]:
         holding = Holding(folder / HELD)
     except InputError:
         raise InputError(
-            f"{shown(folder)} is not free: a page is served from it already; use or end that one, or choose another --out."
+            f"{shown(folder)} is not free: a page is served from it already; use or end that one, or choose another `out`."
         ) from None
     try:
         for name in (RECORDS, JOBS):
@@ -60,11 +60,11 @@ def private(folder: Path) -> Path:
     """
     if folder.is_symlink():
         raise InputError(
-            f"{shown(folder)} is a link, behind which nothing is kept; remove it, or choose another --out."
+            f"{shown(folder)} is a link, behind which nothing is kept; remove it, or choose another `out`."
         )
     folder.mkdir(mode=FOLDER, parents=True, exist_ok=True)
     if hasattr(os, "geteuid") and folder.stat().st_uid != os.geteuid():
-        raise InputError(f"{shown(folder)} belongs to another user; choose another --out.")
+        raise InputError(f"{shown(folder)} belongs to another user; choose another `out`.")
     folder.chmod(FOLDER)
     return folder
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 import time
-from dataclasses import asdict, dataclass, field, fields
+from dataclasses import asdict, dataclass, fields
 from pathlib import Path
 from typing import Any
 
@@ -45,18 +46,19 @@ class Job:
     commands: list[list[str]]
     asked: dict[str, Any]
     state: str = WAITING
-    created: float = field(default_factory=time.time)
+    created: float = dataclasses.field(default_factory=time.time)
     started: float | None = None
     ended: float | None = None
     done: float = 0.0
     total: float = 0.0
     what: str = ""
     sentence: str = ""
-    warnings: list[str] = field(default_factory=list)
-    results: list[dict[str, Any]] = field(default_factory=list)
+    field: str | None = None
+    warnings: list[str] = dataclasses.field(default_factory=list)
+    results: list[dict[str, Any]] = dataclasses.field(default_factory=list)
     version: int = 0
     filmed: bool = False
-    _files: list[str] | None = field(default=None, init=False, repr=False, compare=False)
+    _files: list[str] | None = dataclasses.field(default=None, init=False, repr=False, compare=False)
 
     @property
     def open(self) -> bool:

@@ -22,12 +22,11 @@ from ..column.structure import Structure
 from ..column.toml import checked
 from ..errors import InputError
 from . import columns
-from .answers import Answer, Missing, as_json, json_object, missing, refused
+from .answers import Answer, Missing, as_json, json_object, missing
 from .asked import ASSEMBLY, COLUMN, FRAGILITY, RESULT, STUDY, JobAsked, commands, report_of, study
 from .assemblies import assembly_of
 from .cells import new_cells
 from .curves import curves
-from .fields import column_field, domain_field
 from .folder import RECORDS
 from .job import Job
 from .records import Records
@@ -91,14 +90,8 @@ class JobAnswers:
         """Put a job into the queue."""
         body = await json_object(request)
         asked = checked(body, JobAsked, "the job")
-        try:
-            stone = _structure(asked)
-        except InputError as error:
-            return refused(error, column_field(str(error), asked.column or {}))
-        try:
-            tables = study(asked) if asked.kind == "domain" else None
-        except InputError as error:
-            return refused(error, domain_field(str(error)))
+        stone = _structure(asked)
+        tables = study(asked) if asked.kind == "domain" else None
         wanted = [one for one in asked.records if not one.startswith("sample:")]
         if asked.motion is not None and asked.motion.kind == "record":
             wanted.append(asked.motion.text)

@@ -99,7 +99,7 @@ def listening_at(host: str, port: int) -> socket.socket:
     except OSError as error:
         listening.close()
         raise InputError(
-            f"the page cannot be served at {host}, port {port}: {error.strerror or error}; choose another --port, or 0 for "
+            f"the page cannot be served at {host}, port {port}: {error.strerror or error}; choose another `port`, or 0 for "
             "any that is free."
         ) from None
     return listening

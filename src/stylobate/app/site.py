@@ -20,13 +20,11 @@ from ..column.assembly_files import is_assembly
 from ..column.files import write_column
 from ..column.toml import checked
 from ..errors import InputError
-from ..motion.readers.component import UnstatedError
 from ..motion.readers.samples import samples
 from ..version import __version__
 from . import assemblies, columns, motions
 from .answers import HANDLERS, Answer, found_wrong, json_object, missing
 from .asked import COLUMN, MotionAsked
-from .fields import column_field, motion_field
 from .folder import JOBS, RECORDS
 from .guard import Guard
 from .job_answers import LINES, JobAnswers
@@ -89,7 +87,7 @@ class Site:
             columns.refuse_large(table)
             return Answer(await run_in_threadpool(columns.describe, table))
         except InputError as error:
-            return found_wrong(error, column_field(str(error), table))
+            return found_wrong(error)
 
     async def column_toml(self, request: Request) -> Response:
         """The column file of a column."""
@@ -111,7 +109,8 @@ class Site:
                     return Answer({"assembly": text})
                 return Answer({"table": await run_in_threadpool(columns.tables_in, path)})
             except InputError as error:
-                raise InputError(str(error).replace(f"{folder}/", "")) from None
+                error.without(f"{folder}/")
+                raise
 
     async def assembly(self, request: Request) -> Response:
         """What is shown of an assembly."""
@@ -119,7 +118,7 @@ class Site:
         try:
             return Answer(await run_in_threadpool(assemblies.describe, str(text)))
         except InputError as error:
-            return found_wrong(error, None)
+            return found_wrong(error)
 
     async def motion(self, request: Request) -> Response:
         """The plot and the measures of a motion."""
@@ -136,11 +135,7 @@ class Site:
             async with self._reading:
                 return Answer(await run_in_threadpool(motions.describe, asked, files, column))
         except InputError as error:
-            sentence = str(error)
-            unstated = "dt" if "step" in sentence else "unit"
-            return found_wrong(
-                error, unstated if isinstance(error, UnstatedError) else motion_field(sentence, asked.kind, asked.text)
-            )
+            return found_wrong(error)
 
     async def record(self, request: Request) -> Response:
         """Keep an uploaded record; its name comes along in a header."""

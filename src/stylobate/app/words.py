@@ -1,4 +1,4 @@
-"""The page's own words: what its fields are called, and sentences about options of the command line in terms of these."""
+"""The page's own words: what its fields are called, and messages about parameters and options in terms of these."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
+
+from ..column import tables
+from ..errors import told
 
 #: What a field of the page is called, by the option of the command line that it stands for; the scripts of the page take
 #: them from here.
@@ -25,7 +28,7 @@ LABELS = {
     "vertical": "vertical component acts",
     "model": "Model",
     "replicates": "Columns like this one",
-    "tail": "Time after the motion",
+    "tail": "Tail after the motion",
     "from": "From",
     "to": "to",
     "step": "steps of",
@@ -35,21 +38,30 @@ LABELS = {
     "state": "Limit state",
 }
 
+#: Parameters that are not called after the option that gives them.
+_OPTIONS = {"files": "motion", "azimuths": "azimuth"}
+
+#: Keys of a column file of several words, which are so many words on the page.
+_TABLES = [one for one in vars(tables).values() if isinstance(one, type) and issubclass(one, tables.Table)]
+_KEYS = re.compile(rf"\b(?:{'|'.join({key for one in _TABLES for key in one.model_fields if '_' in key})})\b")
+
 _OPTION = re.compile(r"(?<![\w-])--([a-z](?:[a-z-]*[a-z])?)(?: [A-Z]{2,}(?:\.\w+)?\b)?")
 _ASIDE = re.compile(r"\s*\(([^()]*(?<![\w-])--[a-z][^()]*)\)")
 
 
 def in_page_words(said: Any) -> Any:
-    """Sentences for somebody who sees fields, not options; in lists and in values of tables as well.
+    """Sentences for somebody who sees fields, not parameters or options; in lists and in values of tables as well.
 
-    An option that the page has a field for becomes the field's name; an aside about any other is left out.
+    What the page has a field for becomes the field's name; an aside about any other is left out.
 
     Parameters
     ----------
     said : text, list, dict, or anything else, which stays as it is
     """
     if isinstance(said, str):
-        return _OPTION.sub(_named, _ASIDE.sub(_kept, said)) if "--" in said else said
+        said = told(said, lambda name: "--" + _OPTIONS.get(name, name).replace("_", "-"))
+        said = _OPTION.sub(_named, _ASIDE.sub(_kept, said)) if "--" in said else said
+        return _KEYS.sub(lambda key: key[0].replace("_", " "), said)
     if isinstance(said, dict):
         return {key: in_page_words(value) for key, value in said.items()}
     if isinstance(said, (list, tuple)):

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from .asked import ASSEMBLY, COLUMN, STUDY
 from .folder import private
 from .job import CANCELLED, DONE, FAILED, REFUSED, RUNNING, WAITING, Job
 from .process import PATIENCE, Process
@@ -131,6 +132,7 @@ class Workshop:
                 return
             job.commands = commands or job.commands
             job.state, job.sentence, job.ended, job.started, job.warnings, job.results = WAITING, "", None, None, [], []
+            job.field = None
             job.done = job.total = 0.0
         self._enqueue(job)
 
@@ -312,6 +314,9 @@ class Workshop:
             self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
             return True
         sentence = next((one for one in reversed(complaints) if not one.startswith("warning: ")), "It failed.")
+        for file in (COLUMN, ASSEMBLY, STUDY):  # the job's own, of which the page knows nothing
+            sentence = sentence.removeprefix(f"{file}: ")
+        job.field = what.get("field")
         self._end(job, REFUSED if what["code"] == BAD_INPUT else FAILED, sentence)
         return True
 

@@ -6,14 +6,14 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 
 from ..column import Column
-from ..column.scatter import Scatter, usual_scatter
+from ..column.scatter import usual_scatter
 from ..column.structure import Structure
-from ..errors import InputError, check_range
+from ..errors import InputError, check_choice, check_range
 from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -22,6 +22,7 @@ from ..motion.intensity_specs import IntensityMeasure, told, told_powers
 from ..motion.orientation import record_of
 from ..simulate import run_options
 from ..version import __version__
+from .campaign import COMPUTING, USUAL, Campaign, Fields, campaigning
 from .digests import LENGTH, Digests, Hasher, samples_of
 from .plan import Plan
 from .runs import Group, Request
@@ -38,7 +39,8 @@ RELATIVE = ("pga_over_g_tan_alpha", "omega_g_over_p", "uniform_duration_s", "pgv
 KEEP = ("rows", "histories")
 
 
-@dataclass(frozen=True, eq=False)
+@campaigning(Fields, but=COMPUTING)
+@dataclass(frozen=True, eq=False, init=False)
 class Study:
     """Columns × motions × levels × models × realisations.
 
@@ -52,16 +54,10 @@ class Study:
         Of ``im`` in its unit, to each of which every motion is scaled; factors of the motions without ``im``.
     im : IntensityMeasure, optional
         See :func:`stylobate.motion.intensity_specs.parse_measure`.
-    realisations : int
-        Twins of each column, as of :func:`stylobate.certainty`, instead of the column itself; 0 for the column alone.
-    scatter : Scatter, optional
-    seed : int
-    tail : float
-        Time to go on after each motion [s].
-    whole : bool
-        Step all of a record, its quiet too.
     keep : {"rows", "histories"}
         ``histories`` keeps a file of histories per case, not only of the worst and the median one.
+    campaign : Campaign, optional
+        With replicates, twins of each column are run instead of the column itself.
 
     Raises
     ------
@@ -77,17 +73,27 @@ class Study:
     columns: Sequence[Any]
     motions: Sequence[Motion]
     models: Sequence[Model]
-    levels: Sequence[float] = (1.0,)
-    im: IntensityMeasure | None = None
-    realisations: int = 0
-    scatter: Scatter | None = None
-    seed: int = 0
-    tail: float = 0.0
-    whole: bool = False
-    keep: str = "rows"
-    factors: np.ndarray = field(init=False, repr=False)
+    levels: Sequence[float]
+    im: IntensityMeasure | None
+    campaign: Campaign
+    keep: str
+    factors: np.ndarray = field(repr=False)
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        columns: Sequence[Any],
+        motions: Sequence[Motion],
+        models: Sequence[Model],
+        levels: Sequence[float] = (1.0,),
+        im: IntensityMeasure | None = None,
+        *,
+        keep: str = "rows",
+        campaign: Campaign = USUAL,
+        **fields: Unpack[Fields],
+    ) -> None:
+        given = {"columns": columns, "motions": motions, "models": models, "levels": levels}
+        for name, value in (given | {"im": im, "campaign": campaign, "keep": keep}).items():
+            object.__setattr__(self, name, value)
         for name, what in (("columns", "column"), ("motions", "record"), ("models", "model"), ("levels", "level")):
             object.__setattr__(self, name, tuple(getattr(self, name)))
             if not getattr(self, name):
@@ -96,14 +102,12 @@ class Study:
         if len(set(names)) < len(names):
             raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
         must_be_alike(self.columns, "study")
-        if self.realisations and self.columns[0].stack is None:
+        if campaign.replicates and self.columns[0].stack is None:
             described = self.columns[0].described
             raise InputError(f"{names[0]!r} is {described}, and only columns have realisations; leave [scatter] out.")
-        if self.keep not in KEEP:
-            raise InputError(f"keep is {self.keep!r}; allowed is {' or '.join(KEEP)}.")
-        check_range("tail", self.tail, 0.0, 1e4, unit="s")
+        check_choice("keep", self.keep, KEEP)
         for level in self.levels:
-            check_range("one of the levels", level, 0.0, 1e6, open_low=True)
+            check_range("one of the levels", level, 0.0, 1e6, open_low=True, field="levels")
         if self.size > MAX_CASES:
             raise InputError(f"the study has {self.size} cases; allowed is up to {MAX_CASES}: give fewer.")
         object.__setattr__(self, "factors", np.array([self._factors(motion) for motion in self.motions]))
@@ -113,7 +117,7 @@ class Study:
         """Numbers of models, columns, motions, levels and realisations (1 without scatter)."""
         axes = (self.models, self.columns, self.motions, self.levels)
         models, columns, motions, levels = map(len, axes)
-        return models, columns, motions, levels, max(1, self.realisations)
+        return models, columns, motions, levels, max(1, self.campaign.replicates)
 
     @property
     def size(self) -> int:
@@ -133,15 +137,14 @@ class Study:
     @cached_property
     def stands(self) -> list[list[Sequence[Column]]]:
         """The columns as they stand: by model, column and realisation."""
-        if not self.realisations:
+        if not self.campaign.replicates:
             return [[[column] for column in self.columns] for _ in self.models]
-        drawn = (self.realisations, self.scatter, self.seed)
-        return [[the_twins(column, model, *drawn).columns for column in self.columns] for model in self.models]
+        return [[the_twins(one, model, self.campaign).columns for one in self.columns] for model in self.models]
 
     @cached_property
     def quiet(self) -> np.ndarray:
         """Share below which each motion counts as quiet [-], shape (motions,)."""
-        return np.array([share_of([motion], self.whole) for motion in self.motions])
+        return np.array([share_of([motion], self.campaign.whole) for motion in self.motions])
 
     def plan(self) -> Plan:
         """What is run, as plain data with the digest of every case."""
@@ -150,7 +153,7 @@ class Study:
         digests = np.empty((self.size, LENGTH), dtype=np.uint8)
         number = 0
         for model, columns in zip(self.models, self.stands, strict=True):
-            hasher = Hasher(model, self.tail)
+            hasher = Hasher(model, self.campaign.tail)
             ends = [[hasher.of_motion(motion, size, quiet) for size in some] for motion, some, quiet in each]
             for some in columns:
                 starts = [hasher.of_column(one) for one in some]
@@ -172,7 +175,7 @@ class Study:
         for place, model in enumerate(self.models):
             for quiet in sorted(set(self.quiet.tolist())):
                 numbers = place * each + np.flatnonzero(self.quiet[motion] == quiet)
-                yield numbers, model, run_options(self.tail, quiet=quiet)
+                yield numbers, model, run_options(self.campaign.tail, quiet=quiet)
 
     def _axes(self) -> dict[str, Any]:
         def one(motion: Motion) -> dict[str, Any]:
@@ -185,8 +188,9 @@ class Study:
                 "reversed": bool(direction.get("reversed", False)),
             }
 
-        scatter = self.scatter.given if self.scatter is not None and self.realisations else None
-        if self.realisations and self.scatter is None:  # each column scatters as its material does
+        number, sizes = self.campaign.replicates, self.campaign.scatter
+        scatter = sizes.given if sizes is not None and number else None
+        if number and sizes is None:  # each column scatters as its material does
             usual = {one.name: usual_scatter(one).given for one in self.columns}
             same = len({str(one) for one in usual.values()}) == 1
             scatter = usual[self.columns[0].name] if same else usual
@@ -200,10 +204,10 @@ class Study:
             "unit": "-" if self.im is None else self.im.unit,
             "levels": list(self.levels),
             "factors": self.factors.tolist(),
-            "realisations": self.realisations,
+            "realisations": number,
             "scatter": scatter,
-            "seed": self.seed,
-            "tail_s": self.tail,
+            "seed": self.campaign.seed,
+            "tail_s": self.campaign.tail,
             "version": __version__,
         }
 

@@ -54,7 +54,7 @@ def on_cluster(
         import distributed
     except ImportError:
         raise InputError(
-            "runs on a cluster take Dask, which is not installed; install stylobate[cluster], or leave --dask out."
+            "runs on a cluster take Dask, which is not installed; install stylobate[cluster], or leave `dask` out."
         ) from None
     for name in list(logging.root.manager.loggerDict):  # what goes wrong is said here, in one sentence
         if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):

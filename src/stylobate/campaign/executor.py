@@ -26,9 +26,9 @@ class Executor(Protocol):
 _INSTEAD: ContextVar[Executor | None] = ContextVar("_INSTEAD", default=None)
 
 
-def compute(cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None = None) -> Finished:
-    """Run many cases where runs are computed now; parameters as in :func:`stylobate.simulate.run_checked`."""
-    return (_INSTEAD.get() or run_checked)(cases, model, options, threads)
+def executor() -> Executor:
+    """What computes runs now: :func:`stylobate.simulate.run_checked`, or what has taken its place."""
+    return _INSTEAD.get() or run_checked
 
 
 @contextmanager

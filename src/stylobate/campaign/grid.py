@@ -12,7 +12,7 @@ import numpy as np
 from ..column import Column
 from ..column.files import load_column
 from ..column.toml import Table, parse_toml, read_table
-from ..errors import InputError, as_typed, check_range
+from ..errors import InputError, as_typed, check_range, within
 from ..models.base import Case, Cases, Model
 from ..models.registry import make_model
 from ..motion import harmonic
@@ -101,7 +101,7 @@ def read_grid(path: str | Path) -> HarmonicGrid:
     table = read_table(path, GridTable)
     beside = Path(path).parent / table.column
     settings = {key: str(value) for key, value in (table.set or {}).items()}
-    try:
+    with within(shown(path)):
         return HarmonicGrid(
             column=load_column(beside if beside.is_file() else table.column),
             model=make_model(table.model, settings),
@@ -110,8 +110,6 @@ def read_grid(path: str | Path) -> HarmonicGrid:
             duration=check_range("duration", table.duration, 0.0, 1e4, unit="s", open_low=True),
             tail=check_range("tail", table.tail, 0.0, 1e4, unit="s"),
         )
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def grid_axis(name: str, values: Sequence[float] | np.ndarray, low: float, high: float, unit: str) -> np.ndarray:
@@ -119,13 +117,13 @@ def grid_axis(name: str, values: Sequence[float] | np.ndarray, low: float, high:
     try:
         axis = np.array(values, dtype=float)
     except (TypeError, ValueError):
-        raise InputError(f"{name} are not an array of numbers; give them in {unit}.") from None
+        raise InputError(f"{name} are not an array of numbers; give them in {unit}.", name) from None
     if axis.ndim != 1 or axis.size == 0:
-        raise InputError(f"{name} have the shape {axis.shape}; give at least one value in one row [{unit}].")
+        raise InputError(f"{name} have the shape {axis.shape}; give at least one value in one row [{unit}].", name)
     for value in axis:
-        check_range(f"one of the {name}", value, low, high, unit=unit, open_low=True)
+        check_range(f"one of the {name}", value, low, high, unit=unit, open_low=True, field=name)
     if (np.diff(axis) <= 0.0).any():
-        raise InputError(f"{name} must rise from value to value; sort them and leave doubles out.")
+        raise InputError(f"{name} must rise from value to value; sort them and leave doubles out.", name)
     return axis
 
 

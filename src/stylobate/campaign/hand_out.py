@@ -242,7 +242,7 @@ class HandOut:
 
 
 #: What is said when there is no scheduler any more.
-GONE = "the Dask scheduler is gone; with --out DIR what has finished is kept, and the same command goes on from there."
+GONE = "the Dask scheduler is gone; with `out=DIR` what has finished is kept, and the same command goes on from there."
 
 
 def _said(error: BaseException) -> BaseException:

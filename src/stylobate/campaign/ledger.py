@@ -94,7 +94,7 @@ class Ledger:
         self.path = Path(path)
         if self.path.is_dir() or not self.path.parent.is_dir():
             raise InputError(
-                f"{self.path} cannot keep the progress: it is a folder, or has none; choose another --out."
+                f"{self.path} cannot keep the progress: it is a folder, or has none; choose another `out`."
             )
         refuse_foreign(self.path)
         refuse_former(*self.path.parent.glob(FORMER_FILES))
@@ -270,7 +270,7 @@ def create(path: Path, lines: list[tuple[int, str]]) -> None:
 
 
 def _cannot(path: Path, why: str) -> StylobateError:
-    return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another --out.")
+    return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another `out`.")
 
 
 def refuse_foreign(path: Path) -> None:

@@ -61,7 +61,7 @@ class LocalWorkers:
         except BaseException:
             self.end()
             raise
-        raise StylobateError(f"the workers on this machine did not start ({last}); leave --dask out to use threads.")
+        raise StylobateError(f"the workers on this machine did not start ({last}); leave `dask` out to use threads.")
 
     @property
     def process(self) -> int:

@@ -100,7 +100,9 @@ class Plan:
         """
         place = Path(folder) / PLAN_FILE
         if not place.is_file():
-            raise InputError(f"{folder} is no folder of a study: it has no {PLAN_FILE}; give that of study run --out.")
+            raise InputError(
+                f"{folder} is no folder of a study: it has no {PLAN_FILE}; give that in which a study keeps its runs."
+            )
         try:
             with np.load(place, allow_pickle=False) as found:
                 return cls(json.loads(found["axes"].tobytes()), Digests(found["digests"]))

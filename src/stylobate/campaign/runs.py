@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from contextlib import closing
+from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,18 +17,19 @@ from ..models.base import Case, Cases, Model, RunOptions
 from ..own_files import digest as digest_of_file
 from ..response.rows import Rows
 from ..simulate import check_cases, run_options
+from .campaign import USUAL, Campaign, Progress
+from .cluster import on_cluster
 from .digests import Digests, Hasher
-from .executor import compute
+from .executor import executor
 from .ledger import Ledger, finished_runs_in, rows_in
-
-#: Called with (finished runs, all runs) whenever a run finishes.
-Progress = Callable[[int, int], None]
 
 #: Cases that run together: their numbers, their model, and how they are run.
 Group = tuple[np.ndarray, Model, RunOptions]
 
 #: (number of the run, its row).
 Finished = Generator[tuple[int, dict[str, Any]], None, None]
+
+_log = logging.getLogger("stylobate")
 
 #: Time between two looks at a ledger that another process is at work on [s].
 LOOK = 0.25
@@ -83,7 +85,7 @@ class Stopped(KeyboardInterrupt):
     """
 
     def __init__(self, done: int, total: int, ledger: str | Path | None = None, rows: Rows | None = None) -> None:
-        said = f"interrupted after {done} of {total} runs; nothing is kept: with --out DIR it would go on from there."
+        said = f"interrupted after {done} of {total} runs; nothing is kept: with `out=DIR` it would go on from there."
         if ledger is not None:
             kept = f"{done} of {total} runs are kept in {Path(ledger).parent}"
             said = f"interrupted; {kept}: the same command goes on from there."
@@ -96,8 +98,8 @@ class Runs:
 
     Parameters
     ----------
-    ledger : path, optional
-        File that keeps every finished run for good; without it nothing is kept.
+    campaign : Campaign
+        Where they are computed and kept, and who is told.
     waiting : callable, optional
         Called again and again while another process holds the ledger, instead of refusing it.
 
@@ -107,25 +109,31 @@ class Runs:
         Runs that were made here, and those of the requests that are finished, these among them.
     """
 
-    def __init__(self, ledger: str | Path | None, waiting: Callable[[], object] | None = None) -> None:
-        self.path = None if ledger is None else Path(ledger)
+    def __init__(self, campaign: Campaign = USUAL, waiting: Callable[[], object] | None = None) -> None:
+        self.campaign = campaign
+        self.path = None if campaign.ledger is None else Path(campaign.ledger)
         self.made = self.kept = 0
         self._book: Ledger | None = None
         self._waiting = waiting
+        self._cluster, self._on_cluster = ExitStack(), False
 
     def open(self, *requests: Request) -> None:
-        """Refuse or warn of requests, and only then take hold of the ledger."""
+        """Refuse or warn of requests, and only then take hold of the cluster and of the ledger."""
         for request in requests:
             request.check()
+        if self.campaign.dask is not None and not self._on_cluster:
+            self._cluster.enter_context(on_cluster(self.campaign.dask, self.campaign.threads, _log.info))
+            self._on_cluster = True
         if self._book is None and self.path is not None:
             self._book = Ledger(self.path, self._waiting)
 
     def close(self) -> None:
-        """Write what is open and let go of the ledger."""
-        if self._book:
-            self._book.close()
+        """Write what is open, and let go of the ledger and of the cluster."""
+        with self._cluster:
+            if self._book:
+                self._book.close()
 
-    def run(self, request: Request, threads: int | None = None) -> Finished:
+    def run(self, request: Request) -> Finished:
         """(number, row) of every case, with the keys of ``Measures.row()``: first those that the ledger holds.
 
         Cases with the same digest are run once.
@@ -141,23 +149,23 @@ class Runs:
         for numbers, model, options in request.groups:
             left = numbers[todo[numbers]]
             if len(left):
-                with closing(compute(_some(request.cases, left), model, options, threads)) as finished:
+                with closing(executor()(_some(request.cases, left), model, options, self.campaign.threads)) as finished:
                     for index, measures in finished:
                         yield from self._keep(digests, int(left[index]), measures.row())
 
-    def rows(self, request: Request, threads: int | None = None, progress: Progress | None = None) -> Rows:
-        """Rows of all cases.
+    def rows(self, request: Request, progress: Progress | None = None) -> Rows:
+        """Rows of all cases; ``progress`` is called instead of that of the campaign.
 
         Raises
         ------
         Stopped
             Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
         """
-        rows = Rows(len(request))
+        rows, progress = Rows(len(request)), progress or self.campaign.progress
         if progress:
             progress(0, len(request))
         try:
-            with closing(self.run(request, threads)) as finished:
+            with closing(self.run(request)) as finished:
                 for done, (number, row) in enumerate(finished, 1):
                     rows[number] = row
                     if progress:
@@ -227,24 +235,14 @@ def _some(cases: Sequence[Case], numbers: np.ndarray) -> Cases:
     return Cases(len(numbers), lambda index: cases[int(numbers[index])])
 
 
-def run_all(
-    request: Request,
-    *,
-    threads: int | None = None,
-    progress: Progress | None = None,
-    ledger: str | Path | None = None,
-) -> Rows:
+def run_all(request: Request, campaign: Campaign = USUAL) -> Rows:
     """Run what the ledger does not hold yet.
 
     Parameters
     ----------
     request : Request
-    threads : int, optional
-        All cores by default.
-    progress : callable, optional
-        Called with (finished, all).
-    ledger : path, optional
-        File that keeps finished runs, for good.
+    campaign : Campaign
+        Where it is computed and kept, and who is told; what it says of columns and motions is in the request.
 
     Returns
     -------
@@ -256,8 +254,8 @@ def run_all(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
-    with closing(Runs(ledger)) as runs:
-        return runs.rows(request, threads, progress)
+    with closing(Runs(campaign)) as runs:
+        return runs.rows(request)
 
 
 def its_turn(

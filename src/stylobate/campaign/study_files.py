@@ -13,7 +13,7 @@ from ..column.assembly_files import load_structure
 from ..column.scatter import LARGEST, Scatter
 from ..column.toml import Table, parse_toml, read_table
 from ..constants import g
-from ..errors import InputError, as_typed
+from ..errors import InputError, as_typed, check_whole, within
 from ..models.registry import make_model
 from ..motion import harmonic
 from ..motion.intensity_specs import IntensityMeasure, parse_measure
@@ -22,6 +22,7 @@ from ..motion.readers.samples import PREFIX
 from ..motion.request import MotionRequest
 from ..motion.specs import parse_acceleration, parse_time, parse_velocity
 from ..reading import shown
+from .campaign import Campaign
 from .cases import Study
 from .grid import read_grid
 
@@ -97,10 +98,8 @@ def read_plan(path: str | Path) -> tuple[Study, dict[str, str]]:
     if "motions" not in found:
         raise InputError(f"{shown(path)} names no record; add [motions] with files = [...].")
     table = read_table(path, StudyFile)
-    try:
+    with within(shown(path)):
         return _study(table, Path(path).parent)
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
@@ -121,19 +120,15 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     )
     suite = request.expand()
     im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
-    scatter = table.scatter
+    drawn: dict[str, Any] = {} if table.scatter is None else _drawn(table.scatter)
     study = Study(
         [load_structure(folder / one if (folder / one).is_file() else one) for one in names],
         suite.motions,
         [make_model(one, settings) for one in models],
         levels,
         im,
-        realisations=0 if scatter is None else _whole("realisations", scatter.realisations, 1),
-        scatter=None if scatter is None else _scatter(scatter),
-        seed=0 if scatter is None else _whole("seed", scatter.seed, 0),
-        tail=parse_time(table.tail) if isinstance(table.tail, str) else _seconds(table.tail),
-        whole=table.whole,
         keep=table.keep,
+        campaign=Campaign(**drawn, tail=_seconds(table.tail), whole=table.whole),
     )
     return study, suite.refused
 
@@ -144,7 +139,7 @@ def _of_grid(path: str | Path) -> Study:
     for frequency, amplitude in product(grid.frequencies, grid.amplitudes):
         unit = harmonic(float(frequency), 1.0, grid.duration)
         motions.append(unit.scaled(float(amplitude)).replace(name=f"{frequency:.4g} Hz, {amplitude / g:.4g} g"))
-    return Study([grid.column], motions, [grid.model], tail=grid.tail)
+    return Study([grid.column], motions, [grid.model], campaign=Campaign(tail=grid.tail))
 
 
 def _listed(patterns: Sequence[str], folder: Path) -> list[str | Path]:
@@ -211,18 +206,18 @@ def _level(value: Any, unit: str) -> float:
     return float(value)
 
 
-def _scatter(table: ScatterTable) -> Scatter | None:
+def _drawn(table: ScatterTable) -> dict[str, Any]:
+    """Fields of a campaign of a study's twins."""
+    number = check_whole("realisations in [scatter]", table.realisations, 1)
+    seed = check_whole("seed in [scatter]", table.seed, 0)
     sizes = {name: getattr(table, name) for name in LARGEST if getattr(table, name) is not None}
-    return Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
-
-
-def _whole(name: str, value: int, low: int) -> int:
-    if value < low:
-        raise InputError(f"{name} in [scatter] is {value}; allowed is a whole number from {low}.")
-    return value
+    scatter = Scatter(**(dict.fromkeys(LARGEST, 0.0) | sizes)) if sizes else None
+    return {"replicates": number, "scatter": scatter, "seed": seed}
 
 
 def _seconds(value: Any) -> float:
+    if isinstance(value, str):
+        return parse_time(value)
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise InputError(f"tail is {as_typed(value)}; write it with its unit, such as '5s'.")
     return float(value)

@@ -6,16 +6,12 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-import numpy as np
-
 from ..column import Column
 from ..column.scatter import Scatter, scattered_columns, usual_scatter
 from ..column.structure import Structure
-from ..errors import InputError, as_typed
+from ..errors import InputError
 from ..models.base import Model
-
-#: Largest number of twins.
-MAX_TWINS = 100_000
+from .campaign import MAX_TWINS, Campaign
 
 
 class Twins(NamedTuple):
@@ -25,6 +21,11 @@ class Twins(NamedTuple):
     scatter: Scatter
     seed: int
     left_out: tuple[str, ...]
+
+    @property
+    def words(self) -> str:
+        """How many there are and how they differ."""
+        return described(len(self.columns), self.scatter, self.seed, self.left_out)
 
     @property
     def told(self) -> dict[str, Any]:
@@ -42,17 +43,16 @@ def without(left_out: Sequence[str]) -> str:
     return f", without {', '.join(left_out).replace('_', ' ')}, which the model does not take" if left_out else ""
 
 
-def the_twins(
-    column: Structure, model: Model, replicates: int, scatter: Scatter | None, seed: int, *, alone: bool = True
-) -> Twins:
+def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: bool = True) -> Twins:
     """Twins of a column that the model can take; not ``alone`` where more than the columns differs."""
-    stack = column.stack
+    stack, replicates, seed = column.stack, campaign.replicates, campaign.seed
     if stack is None:
-        raise InputError(f"{column.name!r} is no column, and only columns have twins; leave --replicates out.")
-    for name, value, low, high in (("replicates", replicates, 1, MAX_TWINS), ("seed", seed, 0, 2**63 - 1)):
-        if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or not low <= value <= high:
-            raise InputError(f"{name} is {as_typed(value)}; allowed is a whole number from {low} to {high}.")
-    asked = usual_scatter(stack) if scatter is None else scatter
+        raise InputError(
+            f"{column.name!r} is no column, and only columns have twins; leave `replicates` out.", "replicates"
+        )
+    if not replicates:
+        raise InputError(f"replicates is 0; allowed is a whole number from 1 to {MAX_TWINS}.")
+    asked = usual_scatter(stack) if campaign.scatter is None else campaign.scatter
     left_out = tuple(name for name in asked.given if name in model.not_scattered)
     size = dataclasses.replace(asked, **dict.fromkeys(left_out, 0.0))
     if alone and not size.given:  # as many runs of one column are no population

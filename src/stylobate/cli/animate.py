@@ -5,8 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from ..errors import InputError, check_range
 from . import options as o
 
@@ -14,26 +12,18 @@ FORMATS = ("gif", "mp4", "html")
 
 
 def animate(
-    response: Annotated[
-        Path, typer.Argument(metavar="RESPONSE", help="File that 'stylobate run --out' wrote, or its folder.")
-    ],
-    to: Annotated[str, typer.Option("--format", metavar="gif|mp4|html", help="mp4 needs the extra 'video'.")] = "gif",
-    rate: Annotated[str, typer.Option("--fps", metavar="N", help="Frames per second.")] = "20",
-    speed: Annotated[str, typer.Option("--speed", metavar="X", help="1 is as it was, 0.5 half as fast.")] = "1",
-    start: Annotated[
-        str | None, typer.Option("--from", metavar="TIME", help="Where the film begins, such as 2s.")
-    ] = None,
-    stop: Annotated[str | None, typer.Option("--to", metavar="TIME", help="Where the film ends, such as 8s.")] = None,
-    view: Annotated[
-        str | None,
-        typer.Option(
-            "--view",
-            metavar="AZIMUTH,ELEVATION",
-            help="From where a response in space is seen, in degrees: azimuth from x towards y; -40,18 if not given.",
-        ),
-    ] = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    response: Path = o.argument("RESPONSE", "File that 'stylobate run --out' wrote, or its folder."),
+    to: str = o.option("gif|mp4|html", "mp4 needs the extra 'video'.", "gif", flag="--format"),
+    rate: str = o.option("N", "Frames per second.", "20", flag="--fps"),
+    speed: str = o.option("X", "1 is as it was, 0.5 half as fast.", "1"),
+    start: str | None = o.option("TIME", "Where the film begins, such as 2s.", flag="--from"),
+    stop: str | None = o.option("TIME", "Where the film ends, such as 8s.", flag="--to"),
+    view: str | None = o.option(
+        "AZIMUTH,ELEVATION",
+        "From where a response in space is seen, in degrees: azimuth from x towards y; -40,18 if not given.",
+    ),
+    *,
+    execution: Annotated[o.Execution, o.But("threads", "dask")],
 ) -> None:
     """Draw a recorded response as a film: GIF, MP4, or an HTML page with a scrubber.
 
@@ -59,7 +49,7 @@ def animate(
     if start is not None or stop is not None:
         first, last = float(loaded.time[0]), float(loaded.time[-1])
         window = (parse_time(start) if start else first, parse_time(stop) if stop else last)
-    with console.folder(out or response.parent, f"{response.stem}.{to}") as folder:
+    with console.folder(execution.out or response.parent, f"{response.stem}.{to}") as folder:
         target = (folder or response.parent) / f"{response.stem}.{to}"
         if to == "html":
             write_player(loaded, target, frames_per_second=frames, speed=pace, window=window, seen_from=seen_from)
@@ -76,9 +66,7 @@ def animate(
                     seen_from=seen_from,
                 )
     duration = float(loaded.time[-1])
-    if as_json:
-        console.emit({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label})
-    else:
+    if not execution.emits({"files": [str(target)], "duration_s": duration, "outcome": loaded.outcome.label}):
         console.say(loaded.sentence, {"film": f"{duration:.2f} s, {to}"}, [target])
 
 

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from ..errors import InputError
 from . import options as o
@@ -15,17 +13,12 @@ if TYPE_CHECKING:
 
 
 def cite(
-    result: Annotated[
-        Path | None, typer.Argument(metavar="[RESULT]", help="Response, domain or probabilities (netCDF).")
-    ] = None,
-    model: Annotated[
-        str | None, typer.Option("--model", metavar="MODEL", help="A model instead of a result: dem2d, housner …")
-    ] = None,
-    everything: Annotated[bool, typer.Option("--all", help="The whole bibliography.")] = False,
-    bibtex: Annotated[bool, typer.Option("--bibtex", help="Print BibTeX.")] = False,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    result: Path | None = o.argument("[RESULT]", "Response, domain or probabilities (netCDF).", None),
+    model: str | None = o.option("MODEL", "A model instead of a result: dem2d, housner …"),
+    everything: bool = o.option(None, "The whole bibliography.", False, flag="--all"),
+    bibtex: bool = o.option(None, "Print BibTeX.", False),
+    *,
+    execution: o.Plain,
 ) -> None:
     """What to cite: the package, the sources of the model, and where the motion comes from.
 
@@ -33,7 +26,6 @@ def cite(
     """
     from . import console
 
-    o.the_threads(threads)
     given = [
         name
         for name, one in (("RESULT", result), ("--model", model), ("--all", everything))
@@ -42,15 +34,11 @@ def cite(
     if len(given) > 1:
         raise InputError(f"{' and '.join(given)} are both given; give one of RESULT, --model and --all.")
     found = _citation(result, model, everything)
-    summary, files = found.summary(), []
-    with console.folder(out, "citation.txt", "citation.bib") as folder:
-        if folder is not None:
-            files = [
-                console.write_text(folder / "citation.txt", found.text),
-                console.write_text(folder / "citation.bib", found.bibtex),
-            ]
-    if as_json:
-        console.emit(summary | {"files": [str(file) for file in files]})
+    with execution.files("cite", "citation.txt", "citation.bib") as files:
+        if files.wanted:
+            files.append(console.write_text(files / "citation.txt", found.text))
+            files.append(console.write_text(files / "citation.bib", found.bibtex))
+    if execution.emits(found.summary() | {"files": files.names}):
         return
     print(found.bibtex if bibtex else found.text)
     if not given and not bibtex:

@@ -1,12 +1,10 @@
-"""``stylobate columns``: the presets, and the closed-form properties of any column."""
+"""``stylobate columns``: the presets, the closed-form properties of any column, and what an assembly consists of."""
 
 from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from . import options as o
@@ -15,40 +13,90 @@ if TYPE_CHECKING:
     from ..column import Column
     from ..column.as_found import FoundDrum
     from ..column.links.placed import PlacedLink
+    from ..column.structure import Structure
 
 
 def columns(
-    which: Annotated[
-        list[str] | None, typer.Argument(metavar="[COLUMN]...", help="Presets or column files; all presets by default.")
-    ] = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    which: list[str] | None = o.argument(
+        "[COLUMN]...", "Presets, or files of columns or assemblies; all presets by default.", None
+    ),
+    *,
+    execution: o.Plain,
 ) -> None:
-    """Presets, and properties of columns.
+    """Presets, and properties of columns and assemblies.
 
-    With --out, writes them as column files to start from.
+    With --out, writes columns as files to start from.
     """
-    from ..column.files import load_column, write_column
+    from ..column.assembly_files import load_structure
+    from ..column.files import write_column
     from ..column.presets import PRESETS
     from . import console
 
-    o.the_threads(threads)
-    chosen = [load_column(name) for name in which or PRESETS]
-    files = []
+    chosen: list[Any] = [load_structure(name) for name in which or PRESETS]
+    other = next((one for one in chosen if one.stack is None), None)
+    if execution.out is not None and other is not None:
+        raise InputError(
+            f"--out writes column files, and {other.name!r} is {other.described}; leave one of the two out."
+        )
     names = [f"{Path(one.name).name or 'column'}.toml" for one in chosen]
     double = next((name for name in names if names.count(name) > 1), None)
-    if out is not None and double is not None:
+    if execution.out is not None and double is not None:
         raise InputError(f"two of the columns would be written to {double}; give each a name of its own.")
-    with console.folder(out, *names) as folder:
-        if folder is not None:
-            files = [write_column(one, folder / name) for one, name in zip(chosen, names)]
-    if as_json:
-        console.emit({"columns": [properties(one) for one in chosen], "files": [str(file) for file in files]})
+    with execution.files("columns", *names) as files:
+        if files.wanted:
+            files += [write_column(one, files / name) for one, name in zip(chosen, names)]
+    if execution.emits({"columns": [_told(one) for one in chosen], "files": files.names}):
         return
     for one in chosen:
-        console.say(one.name, _facts(one))
+        console.say(one.name, _facts(one) if one.stack is not None else _assembled(one))
     console.print_files(files)
+
+
+def _told(structure: Any) -> dict:
+    return properties(structure) if structure.stack is not None else parts_of(structure)
+
+
+def parts_of(structure: Structure) -> dict:
+    """What an assembly consists of, under the names of the JSON object."""
+    import numpy as np
+
+    corners = np.concatenate(
+        [part.mesh(48).vertices for one in structure.bodies if not one.fixed for part in one.placed]
+    )
+    moving = [one for one in structure.bodies if not one.fixed]
+    heaviest = max(moving, key=lambda one: one.mass)
+    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    return {
+        "name": structure.name,
+        "kind": structure.kind,
+        "bodies": [{"name": one.name, "mass_kg": one.mass} for one in moving],
+        "fixed": [one.name for one in structure.bodies if one.fixed],
+        "joints": len(joints),
+        "mass_kg": sum(one.mass for one in moving),
+        "heaviest": heaviest.name,
+        "heaviest_mass_kg": heaviest.mass,
+        "height_m": float(corners[:, 2].max()) - (structure.ground or 0.0),
+        "extent_m": np.ptp(corners, axis=0).tolist(),
+        "frequency_parameter_rad_s": structure.frequency_parameter,
+        "links": [_link(one) for one in structure.placed_links],
+    }
+
+
+def _assembled(structure: Structure) -> dict[str, str]:
+    p = parts_of(structure)
+    fixed = [name for name in p["fixed"] if name != "ground"]
+    held = f", {len(fixed)} fixed" if fixed else ""
+    x, y, z = p["extent_m"]
+    return {
+        "kind": p["kind"],
+        "bodies": f"{len(p['bodies'])} that can move{held}",
+        "joints": f"{p['joints']}",
+        "height": f"{p['height_m']:g} m",
+        "extent": f"{x:.4g} m along x, {y:.4g} m along y, {z:.4g} m along z",
+        "mass": f"{p['mass_kg']:.0f} kg",
+        "heaviest": f"{p['heaviest']}, {p['heaviest_mass_kg']:.0f} kg",
+        **{one["name"]: _held(one) for one in p["links"]},
+    }
 
 
 def properties(column: Column) -> dict:

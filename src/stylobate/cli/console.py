@@ -14,6 +14,8 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..errors import told
+
 if TYPE_CHECKING:
     import pandas
 
@@ -22,6 +24,18 @@ if TYPE_CHECKING:
 #: The command line that is run, as typed, and what was warned of since it began.
 COMMAND: list[str] = []
 WARNED: list[str] = []
+
+#: The field that the last complaint was about, where it was bad input of a field.
+FIELD: str | None = None
+
+#: Options that are not called after the parameter that they give.
+OPTIONS = {"files": "--motion", "hazards": "--hazard"}
+
+
+def in_options(message: object) -> str:
+    """The message of an error or a warning, with the options that give the parameters in it."""
+    return told(str(message), lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
+
 
 #: Time until the first line about progress, where there is no terminal [s].
 FIRST_LINE = 10.0
@@ -66,31 +80,6 @@ def as_json(value: Any, indent: int | None = None) -> str:
 def write_json(path: Path, value: Any) -> Path:
     """Write a JSON file, whole or not at all."""
     return write_text(path, as_json(value, indent=2))
-
-
-def write_summary(result: dict[str, Any], files: list[Path], path: Path) -> None:
-    """Write the JSON object of a command, which lists its files, as the last of them."""
-    files.append(path)
-    result["files"] = [str(file) for file in files]
-    write_json(path, result)
-
-
-def asked(folder: Path, command: str, **what: Any) -> Path:
-    """Write what a command was asked beside its results, with the command line and its warnings.
-
-    Parameters
-    ----------
-    folder : path
-    command : str
-        Its name.
-    **what
-        ``structures``, ``models``, ``motions`` and options, as :meth:`stylobate.results.asked.Asked.of` takes them, or
-        what :func:`stylobate.results.sources.kept_of` says of the runs that it rests on.
-    """
-    from ..results.asked import Asked, asked_file
-
-    found = Asked.of(COMMAND, warnings=[*what.pop("earlier", ()), *WARNED], **what)
-    return write_json(folder / asked_file(command), found.to_dict())
 
 
 def write_text(path: Path, text: str) -> Path:
@@ -145,6 +134,12 @@ def _as_text(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)
 
 
+def print_doubt(result: Mapping[str, Any]) -> None:
+    """Say what stands before all that rests on the runs of a result, because of their model; nothing where nothing does."""
+    if result.get("doubt"):
+        print(result["doubt"])
+
+
 #: Motions of which is told what is left out.
 MOST_LEFT_OUT = 12
 
@@ -161,7 +156,7 @@ def print_left_out(inputs: Sequence[Mapping[str, Any]]) -> None:
 def print_refused(refused: Mapping[str, str]) -> None:
     """Say which files of a suite were not used, and why."""
     for name, reason in refused.items():
-        print(f"not used: {name}: {reason}")
+        print(f"not used: {name}: {in_options(reason)}")
 
 
 def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None]:

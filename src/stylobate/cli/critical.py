@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
 
 from . import options as o
 
@@ -15,54 +15,35 @@ if TYPE_CHECKING:
 
     from ..analysis.critical import CriticalAmplitude
     from ..analysis.critical_suite import CriticalSuite
-    from ..column import Column
-    from ..models.base import Model
-    from ..motion import Motion, Suite
+    from ..motion import Motion
+    from .files import Files
 
 #: Amplitudes that columns like it go through unasked: what they cost then is bounded, and some two hundred runs.
 TWIN_AMPLITUDES = 12
 
-#: Files that every run of the command writes.
-WRITES = ("critical.csv", "critical.json", "critical", "asked-critical.json")
+
+@dataclass(frozen=True)
+class Shapes(o.Motions):
+    """What is shaken with, whose amplitude is looked for."""
+
+    harmonic: str | None = o.option("F,?g,T", "Sine from rest, such as 1.0Hz,?g,10s.")
+    across: str | None = o.option("F,?g,PHASE", "Sine along y, such as 1.0Hz,?g,90deg.")
+    pulse: str | None = o.option("KIND,F,?g[,T]", "Pulse, such as ricker,1.0Hz,?g.")
 
 
 def critical(
-    context: typer.Context,
     column: o.StructureName,
-    start: Annotated[str, typer.Option("--from", metavar="A", help="Smallest amplitude, such as 0.05g.")],
-    stop: Annotated[str, typer.Option("--to", metavar="A", help="Largest amplitude, such as 1.0g.")],
-    step: Annotated[str, typer.Option("--step", metavar="A", help="Step of the grid.")] = "0.005g",
+    start: str = o.option("A", "Smallest amplitude, such as 0.05g.", ..., flag="--from"),
+    stop: str = o.option("A", "Largest amplitude, such as 1.0g.", ..., flag="--to"),
+    step: str = o.option("A", "Step of the grid.", "0.005g"),
     model: o.ModelName = "dem2d",
-    harmonic: Annotated[
-        str | None, typer.Option("--harmonic", metavar="F,?g,T", help="Sine from rest, such as 1.0Hz,?g,10s.")
-    ] = None,
-    across: Annotated[
-        str | None, typer.Option("--across", metavar="F,?g,PHASE", help="Sine along y, such as 1.0Hz,?g,90deg.")
-    ] = None,
-    pulse: Annotated[
-        str | None, typer.Option("--pulse", metavar="KIND,F,?g[,T]", help="Pulse, such as ricker,1.0Hz,?g.")
-    ] = None,
-    synthetic: o.Synthetic = None,
-    motion: o.MotionFiles = None,
-    unit: o.Unit = None,
-    dt: o.Step = None,
-    component: o.ComponentName = None,
-    azimuth: o.Azimuth = None,
-    azimuths: o.Azimuths = None,
-    signs: o.Signs = "+",
-    condition: o.Condition = None,
-    vertical: o.Vertical = "on",
-    tail: o.Tail = "0s",
-    whole: o.Whole = False,
+    *,
+    motions: Annotated[Shapes, o.But("scale", "pga")],
+    following: o.Following,
     settings: o.Settings = None,
     project: o.Project = None,
-    replicates: o.Replicates = None,
-    scatter: o.ScatterSizes = None,
-    seed: o.Seed = None,
-    threads: o.Threads = None,
-    dask: o.Dask = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    population: o.Population,
+    execution: o.Execution,
 ) -> None:
     """Smallest amplitude that collapses a column.
 
@@ -71,129 +52,74 @@ def critical(
     folder of records, or several directions, is run on one grid, with columns like it by --replicates only.
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
+    from ..analysis.critical_suite import critical_suite
+    from ..analysis.difference import round_drums
     from ..motion.specs import parse_acceleration
     from . import console
 
-    asked = o.the_request(context)
+    request = motions.request()
     grid = [parse_acceleration(text) for text in (start, stop, step)]
     amplitude_grid(*grid)
     stone: Any = o.the_structure(column, project)
     how = o.the_model(model, settings)
-    after, count = o.the_tail(tail), o.the_threads(threads)
-    population = o.the_population(replicates, scatter, seed)
-    if asked.several:
-        suite = asked.expand(stone.frequency_parameter, amplitude_open=True)
-        o.the_engine(context, dask, count)
-        over_suite(stone, suite, how, grid, population or {}, after, whole, count, out, as_json)
-        return
-    twins = o.the_twins(stone, how, population) or {}
-    if population is None:
-        twins["twin_amplitudes"] = TWIN_AMPLITUDES
-    shaking = asked.motion(stone.frequency_parameter, amplitude_open=True)
-    # the amplitude of a formula is that of its sine, once it is conditioned the peak that it has along x, as of a record
-    nominal = None if not (harmonic or pulse) else shaking.pga if condition else 1.0
-    o.the_engine(context, dask, count)
-    with console.folder(out, *WRITES, "probability.csv", "probability") as folder:
-        with console.progress("runs") as progress:
-            ledger = console.ledger(folder)
-            result = critical_amplitude(
-                stone,
-                shaking,
-                how,
-                *grid,
-                nominal=nominal,
-                **twins,
-                tail=after,
-                whole=whole,
-                threads=count,
-                progress=progress,
-                ledger=ledger,
-            )
-        summary, files = result.summary() | o.input_facts(how.taken(shaking)), []
-        if folder is not None:
-            files = write(result, summary, folder)
-            what = {"structures": [stone], "models": [how], "motions": [how.taken(shaking)]}
-            files.append(console.asked(folder, "critical", **what, tail_s=after))
-            summary["files"] = [str(file) for file in files]
-    if as_json:
-        console.emit(summary)
+    campaign, given = execution.campaign(following, population), population.replicates is not None
+    suite = request.expand(stone.frequency_parameter, amplitude_open=True)
+    taken = [how.taken(one) for one in suite.motions]
+    if request.several:
+        writes, make = ("runs.csv", "directions"), partial(critical_suite, stone, suite.motions, how, *grid)
     else:
-        describe(result, summary, how.taken(shaking), files)
-
-
-def over_suite(
-    column: Column,
-    suite: Suite,
-    model: Model,
-    grid: list[float],
-    twins: dict[str, Any],
-    tail: float,
-    whole: bool,
-    threads: int,
-    out: Path | None,
-    as_json: bool,
-) -> None:
-    """The critical amplitude under each record of a folder."""
-    from ..analysis.critical_suite import critical_suite
-    from . import console
-
-    with console.folder(out, *WRITES, "runs.csv", "directions") as folder:
-        with console.progress("runs") as progress:
-            ledger = console.ledger(folder)
-            result = critical_suite(
-                column,
-                suite.motions,
-                model,
-                *grid,
-                **twins,
-                tail=tail,
-                whole=whole,
-                threads=threads,
-                progress=progress,
-                ledger=ledger,
-            )
-        summary, files = result.summary() | {"refused": suite.refused}, []
-        if folder is not None:
-            from .. import plots
-
-            files = [
-                console.write_table(result.table, folder / "critical.csv"),
-                console.write_table(result.runs, folder / "runs.csv"),
-                console.write_json(folder / "critical.json", summary),
-                *plots.save(plots.draw_record_verdicts(result), folder / "critical"),
-            ]
-            if len(result.compass.bearings) > 1:
-                title = f"{column.name}, {model.name}"
-                drawn = plots.draw_directions(result.compass, title)
-                files += plots.save(drawn, folder / "directions")
-            taken = [model.taken(one) for one in suite.motions]
-            what = {"structures": [column], "models": [model], "motions": taken}
-            files.append(console.asked(folder, "critical", **what, tail_s=tail))
-            summary["files"] = [str(file) for file in files]
-    if as_json:
-        console.emit(summary)
+        (shaking,), writes = suite.motions, ("probability.csv", "probability")
+        campaign = o.with_twins(stone, how, campaign, given)
+        # the amplitude of a formula is that of its sine, once it is conditioned the peak that it has along x, as of a record
+        formula = motions.harmonic or motions.pulse
+        nominal = None if not formula else shaking.pga if motions.condition else 1.0
+        make = partial(critical_amplitude, stone, shaking, how, *grid, nominal=nominal)
+        make.keywords["twin_amplitudes"] = None if given else TWIN_AMPLITUDES
+    with execution.files("critical", "critical.csv", "critical.json", "critical", *writes) as files:
+        with files.campaign(campaign) as asked:
+            result: Any = make(campaign=asked)
+        summary = result.summary() | {"doubt": round_drums([stone], how)}
+        summary |= {"refused": suite.refused} if request.several else o.input_facts(taken[0])
+        if files.wanted:
+            (write_suite if request.several else write)(result, summary, files)
+            files.asked(structures=[stone], models=[how], motions=taken, tail_s=campaign.tail)
+            summary["files"] = files.names
+    if execution.emits(summary):
         return
-    print(summary["sentence"])
-    console.print_table(with_bounds(result))
-    console.print_refused(suite.refused)
-    console.print_files(files)
+    console.print_doubt(summary)
+    if request.several:
+        print(summary["sentence"])
+        console.print_table(with_bounds(result))
+        console.print_refused(suite.refused)
+        console.print_files(files)
+    else:
+        describe(result, summary, taken[0], files)
 
 
-def write(result: CriticalAmplitude, summary: dict, folder: Path) -> list[Path]:
+def write_suite(result: CriticalSuite, summary: dict, files: Files) -> None:
+    """Tables, summary and figures of the records of a folder."""
+    from .. import plots
+
+    files.table(result.table, "critical.csv")
+    files.table(result.runs, "runs.csv")
+    files.json(summary, "critical.json")
+    files.picture(plots.draw_record_verdicts(result), "critical")
+    if len(result.compass.bearings) > 1:
+        first = result.results[0]
+        files.picture(plots.draw_directions(result.compass, f"{first.column.name}, {first.model}"), "directions")
+
+
+def write(result: CriticalAmplitude, summary: dict, files: Files) -> None:
     """Table, summary and figure."""
     from .. import plots
-    from . import console
 
-    files = [
-        console.write_table(result.table, folder / "critical.csv"),
-        console.write_json(folder / "critical.json", summary),
-        *plots.save(plots.draw_amplitudes(result), folder / "critical"),
-    ]
+    files.table(result.table, "critical.csv")
+    files.json(summary, "critical.json")
+    files.picture(plots.draw_amplitudes(result), "critical")
     if result.population is not None:
-        files.append(console.write_table(result.population.table, folder / "probability.csv"))
+        files.table(result.population.table, "probability.csv")
         drawn = plots.draw_collapse_over_amplitude(result.population, f"{result.column.name}, {result.model}")
-        files += plots.save(drawn, folder / "probability")
-    return files
+        files.picture(drawn, "probability")
 
 
 def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
@@ -214,7 +140,6 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
 def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: list[Path]) -> None:
     """Print the answer for people."""
     from ..analysis.critical_words import as_recorded
-    from ..campaign.twins import described
     from ..constants import g
     from . import console
 
@@ -228,8 +153,7 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
         "grid": f"{low:.4g} to {high:.4g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }
     if likes is not None:
-        known = len(likes.verdicts), likes.scatter, likes.seed, likes.left_out
-        facts[f"{kind}s like this"] = f"{described(*known)}; at {len(likes.amplitudes)} of these amplitudes"
+        facts[f"{kind}s like this"] = f"{likes.drawn.words}; at {len(likes.amplitudes)} of these amplitudes"
     if (own := summary["as_recorded"]) is not None:
         facts["as recorded"] = as_recorded(own)
     for row in summary["alternation"]:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from . import options as o
@@ -14,141 +12,89 @@ if TYPE_CHECKING:
     from ..analysis.domain import Domain
     from ..analysis.probability import CollapseProbability
     from ..campaign.grid import HarmonicGrid
+    from .files import Files
 
 
 def domain(
-    context: typer.Context,
-    what: Annotated[
-        str, typer.Argument(metavar="STUDY|COLUMN", help="A study file (TOML), or a column: preset or column file.")
-    ],
-    model: Annotated[
-        str | None, typer.Option("--model", metavar="MODEL", help="How it is computed; dem2d by default.")
-    ] = None,
-    frequencies: Annotated[
-        str | None, typer.Option("--frequencies", metavar="F:F:N", help="First, last and number, such as 0.33:4:24.")
-    ] = None,
-    amplitudes: Annotated[
-        str | None, typer.Option("--amplitudes", metavar="A:A:N", help="Likewise, such as 0.05g:0.6g:32.")
-    ] = None,
-    duration: Annotated[str | None, typer.Option("--duration", metavar="TIME", help="Of each motion; 10s.")] = None,
-    tail: Annotated[
-        str | None, typer.Option("--tail", metavar="TIME", help="Go on for this long after each motion; 0s.")
-    ] = None,
-    replicates: o.Replicates = None,
-    scatter: o.ScatterSizes = None,
-    motion_scatter: Annotated[
-        str | None,
-        typer.Option(
-            "--motion-scatter",
-            metavar="NAME=SIZE,…",
-            help="How the motions of a cell differ then; amplitude=1%,phase=0.1,across=1%, nothing by default.",
-        ),
-    ] = None,
-    seed: o.Seed = None,
-    half_step: Annotated[
-        bool, typer.Option("--half-step", help="Run it again with half of the time step and count what differs.")
-    ] = False,
+    what: str = o.argument("STUDY|COLUMN", "A study file (TOML), or a column: preset or column file."),
+    model: str | None = o.option("MODEL", "How it is computed; dem2d by default."),
+    frequencies: str | None = o.option("F:F:N", "First, last and number, such as 0.33:4:24."),
+    amplitudes: str | None = o.option("A:A:N", "Likewise, such as 0.05g:0.6g:32."),
+    duration: str | None = o.option("TIME", "Of each motion; 10s."),
+    tail: str | None = o.option("TIME", "Go on for this long after each motion; 0s."),
+    *,
+    population: o.Population,
+    motion_scatter: str | None = o.option(
+        "NAME=SIZE,…", "How the motions of a cell differ then; amplitude=1%,phase=0.1,across=1%, nothing by default."
+    ),
+    half_step: bool = o.option(None, "Run it again with half of the time step and count what differs.", False),
     settings: o.Settings = None,
     project: o.Project = None,
-    threads: o.Threads = None,
-    dask: o.Dask = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    execution: o.Execution,
 ) -> None:
     """Safe-unsafe domain over frequency and amplitude.
 
     With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
+    from ..analysis.difference import round_drums
     from ..analysis.domain import collapse_domain
+    from ..analysis.replicates import collapse_probability
     from ..analysis.step_sensitivity import compare_steps
     from ..campaign.runs import Stopped
     from . import console
 
-    count = o.the_threads(threads)
     study = _study(what, model, frequencies, amplitudes, duration, tail, settings, project)
-    population = o.the_population(replicates, scatter, seed, **{"--motion-scatter": motion_scatter})
-    if population is not None:
-        if half_step:
-            raise InputError("--half-step is for a domain without --replicates; give one of the two.")
-        shaking = None if motion_scatter is None else o.motion_scatter(motion_scatter)
-        o.the_engine(context, dask, count)
-        run_probability(study, population | {"motion_scatter": shaking}, count, out, as_json)
-        return
-    o.the_engine(context, dask, count)
-    with console.folder(out, "domain.nc", "domain.csv", "domain.json", "domain", "asked-domain.json") as folder:
-        ledger = console.ledger(folder)
-        with console.progress("cells") as progress:
-            how: dict[str, Any] = {"tail": study.tail, "threads": count, "progress": progress, "ledger": ledger}
-            pair = compare_steps(*_grid(study), **how) if half_step else None
-            result = pair.domain if pair else collapse_domain(*_grid(study), **how)
-        if not result.complete:
-            raise Stopped(result.rows.finished, len(result.rows), ledger)
+    grid: tuple[Any, ...] = study.column, study.model, study.frequencies, study.amplitudes, study.duration
+    campaign = execution.campaign(population, tail=study.tail)
+    likely = population.replicates is not None
+    if likely and half_step:
+        raise InputError("--half-step is for a domain without --replicates; give one of the two.")
+    if not likely:
+        o.for_replicates("--motion-scatter", motion_scatter)
+    shaking = None if motion_scatter is None else o.motion_scatter(motion_scatter)
+    name, pair = "probability" if likely else "domain", None
+    with execution.files("domain", *(f"{name}{end}" for end in (".nc", ".csv", ".json", ""))) as files:
+        with files.campaign(campaign, "runs" if likely else "cells") as asked:
+            if likely:
+                result: Any = collapse_probability(*grid, motion_scatter=shaking, out=files.folder, campaign=asked)
+            elif half_step:
+                pair = compare_steps(*grid, campaign=asked)
+                result = pair.domain
+            else:
+                result = collapse_domain(*grid, campaign=asked)
         summary = result.summary() | ({"half_step": pair.summary()} if pair else {})
-        files = [] if folder is None else write(result, folder, summary)
-        if folder is not None:
-            files.append(asked(folder, study))
-    if as_json:
-        console.emit(summary | {"files": [str(file) for file in files]})
+        summary["doubt"] = round_drums([study.column], study.model)
+        if not result.complete:
+            raise Stopped(summary["runs"], summary["runs"] + summary["not_run"], asked.ledger)
+        if files.wanted:
+            (write_probability if likely else write)(result, summary, files)
+            files.asked(structures=[study.column], models=[study.model], duration_s=study.duration, tail_s=study.tail)
+    if execution.emits(summary | {"files": files.names}):
         return
-    describe(result, files)
-    if half_step:
+    console.print_doubt(summary)
+    (describe_probability if likely else describe)(result, files)
+    if pair:
         step = summary["half_step"]
         print(f"With half of the time step {step['differing']} of {step['comparable']} verdicts are different ones.")
 
 
-def asked(folder: Path, study: HarmonicGrid) -> Path:
-    """What was asked for, beside the results."""
-    from . import console
-
-    what = {"structures": [study.column], "models": [study.model]}
-    return console.asked(folder, "domain", **what, duration_s=study.duration, tail_s=study.tail)
-
-
-def write(result: Domain, folder: Path, summary: dict) -> list[Path]:
+def write(result: Domain, summary: dict, files: Files) -> None:
     """The domain, its summary and its figure."""
     from .. import plots
-    from . import console
 
-    return [
-        result.save(folder / "domain.nc"),
-        result.save(folder / "domain.csv"),
-        *plots.save(plots.draw_domain(result), folder / "domain"),
-        console.write_json(folder / "domain.json", summary),
-    ]
+    files += [result.save(files / "domain.nc"), result.save(files / "domain.csv")]
+    files.picture(plots.draw_domain(result), "domain")
+    files.json(summary, "domain.json")
 
 
-def run_probability(study: HarmonicGrid, population: dict, threads: int, out: Path | None, as_json: bool) -> None:
-    """The domain with many variations in every cell."""
-    from ..analysis.replicates import collapse_probability
-    from ..campaign.runs import Stopped
-    from . import console
+def write_probability(result: CollapseProbability, summary: dict, files: Files) -> None:
+    """The domain with many columns in every cell, likewise."""
+    from .. import plots
 
-    with console.folder(
-        out, *(f"probability{end}" for end in (".nc", ".csv", ".json", "")), "asked-domain.json"
-    ) as folder:
-        with console.progress("runs") as progress:
-            result = collapse_probability(
-                *_grid(study), **population, tail=study.tail, threads=threads, progress=progress, out=folder
-            )
-        summary = result.summary()
-        if not result.complete:
-            raise Stopped(summary["runs"], result.codes.size, console.ledger(folder))
-        files = []
-        if folder is not None:
-            from .. import plots
-
-            files = [
-                folder / "probability.nc",
-                folder / "probability.csv",
-                *plots.save(plots.draw_probability(result), folder / "probability"),
-                console.write_json(folder / "probability.json", summary),
-                asked(folder, study),
-            ]
-    if as_json:
-        console.emit(summary | {"files": [str(file) for file in files]})
-    else:
-        describe_probability(result, files)
+    files += [files / "probability.nc", files / "probability.csv"]
+    files.picture(plots.draw_probability(result), "probability")
+    files.json(summary, "probability.json")
 
 
 def describe_probability(result: CollapseProbability, files: list[Path]) -> None:
@@ -244,11 +190,6 @@ def _study(
         parse_time(duration or "10s"),
         parse_time(tail or "0s"),
     )
-
-
-def _grid(study: HarmonicGrid) -> tuple[Any, ...]:
-    """Column, model, frequencies, amplitudes and duration, as the analyses of a grid take them."""
-    return study.column, study.model, study.frequencies, study.amplitudes, study.duration
 
 
 def _needed(option: str, value: str | None, example: str) -> str:

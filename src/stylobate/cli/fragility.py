@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -22,36 +23,83 @@ Sources = Annotated[
         help="Folder of a study, an IDA, a suite or states, or a CSV file with the columns record, im, collapsed.",
     ),
 ]
-Im = Annotated[
-    str | None, typer.Option("--im", metavar="IM", help="Intensity measure, such as pga, pgv, sa:1.0s, avgsa.")
-]
-State = Annotated[
-    str, typer.Option("--state", metavar="STATE", help="collapse, or a level such as top:0.35d or drums:0.01d.")
-]
-Of = Annotated[
-    list[str] | None,
-    typer.Option("--of", metavar="COLUMN", help="Only the runs of this column, or state; may be repeated."),
-]
-RecordsAreOne = Annotated[
-    bool, typer.Option("--records-are-one", help="Take every run for a record of its own, where there are few records.")
-]
-Seed = Annotated[int, typer.Option("--seed", metavar="N", help="Of the bootstrap.")]
+
+
+@dataclass(frozen=True)
+class Curves(o.Group):
+    """Of what fragilities are, and how they are fitted."""
+
+    im: str | None = o.option("IM", "Intensity measure, such as pga, pgv, sa:1.0s, avgsa.")
+    state: str = o.option("STATE", "collapse, or a level such as top:0.35d or drums:0.01d.", "collapse")
+    of: list[str] | None = o.option("COLUMN", "Only the runs of this column, or state; may be repeated.")
+    records_are_one: bool = o.option(
+        None, "Take every run for a record of its own, where there are few records.", False
+    )
+    seed: int = o.option("N", "Of the bootstrap.", 0)
+
+    def fitted(
+        self, sources: Sequence[Path], method: str | None = None, *, single: bool = False
+    ) -> tuple[list[Fragility], list[Source]]:
+        """The fragilities, one per source and column; and the runs that they rest on, one per source.
+
+        Where a ``single`` curve is wanted, a source of several columns is refused before any is fitted.
+        """
+        from ..analysis.evidence import evidence, names_in, read_table, scaled_to, table_of
+        from ..analysis.fragility import fragility as fit
+        from ..analysis.limit_states import parse_state
+        from ..motion.intensity_specs import parse_measure
+        from ..results.sources import Source
+
+        if method not in (None, "runs", "records"):
+            raise InputError(f"--method is {method!r}; allowed is runs or records.")
+        if not 0 <= self.seed < 2**63:
+            raise InputError(f"--seed is {self.seed}; allowed is a whole number from 0.")
+        asked, level = None if self.im is None else parse_measure(self.im), parse_state(self.state)
+        found, used = [], []
+        for source in sources:
+            table = read_table(source)
+            measure = asked
+            said = scaled_to(table)
+            if measure is None and said not in (None, "factor"):
+                measure = parse_measure(str(said))
+            who = names_in(table)
+            labels = who or [Path(source).stem] * len(table)
+            names = list(dict.fromkeys(labels))
+            if self.of:
+                missing = [one for one in self.of if one not in names]
+                if missing:
+                    raise InputError(
+                        f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}."
+                    )
+                names = [one for one in names if one in self.of]
+            if single and len(names) > 1:
+                raise InputError(
+                    f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of."
+                )
+            chosen: Any = table[[one in names for one in labels]]
+            place = table_of(source)
+            used.append(Source(source, place, chosen))
+            for name in names:
+                rows: Any = table[[one == name for one in labels]]
+                shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
+                told = evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt)
+                found.append(fit(told, method=method, seed=self.seed, records_are_one=self.records_are_one))
+        if len({one.evidence.unit for one in found}) > 1:
+            raise InputError("the sources are over different intensities; choose one with --im.")
+        return found, used
+
+    def one(self, source: Path) -> tuple[Fragility, list[Source]]:
+        """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""
+        (found,), used = self.fitted([source], single=True)
+        return found, used
 
 
 def fragility(
     sources: Sources,
-    im: Im = None,
-    state: State = "collapse",
-    of: Of = None,
-    method: Annotated[
-        str | None,
-        typer.Option("--method", metavar="M", help="runs: every run counts; records: the capacity under each record."),
-    ] = None,
-    records_are_one: RecordsAreOne = False,
-    seed: Seed = 0,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    *,
+    asked: Curves,
+    method: str | None = o.option("M", "runs: every run counts; records: the capacity under each record."),
+    execution: o.Plain,
 ) -> None:
     """Fragility: how probable a state is, over the intensity of the shaking.
 
@@ -60,13 +108,11 @@ def fragility(
     from ..results.sources import kept_of
     from . import console
 
-    o.the_threads(threads)
-    found, used = curves(sources, im, state, of, method, records_are_one, seed)
+    found, used = asked.fitted(sources, method)
     summaries = [one.summary() for one in found]
     result = summaries[0] | ({"curves": summaries} if len(found) > 1 else {})
-    files: list[Path] = []
-    with console.folder(out, "fragility.csv", "fragility.json", "fragility", "asked-fragility.json") as folder:
-        if folder is not None:
+    with execution.files("fragility", "fragility.csv", "fragility.json", "fragility") as files:
+        if files.wanted:
             import pandas
 
             from .. import plots
@@ -74,93 +120,17 @@ def fragility(
             rows = [
                 {key: value for key, value in one.items() if not isinstance(value, (list, dict))} for one in summaries
             ]
-            files = [
-                console.write_table(pandas.DataFrame(rows), folder / "fragility.csv"),
-                *plots.save(plots.draw_fragility(found), folder / "fragility"),
-                console.asked(folder, "fragility", **kept_of(used), state=state, im=im, method=method),
-            ]
-            console.write_summary(result, files, folder / "fragility.json")
-    if as_json:
-        console.emit(result)
+            files.table(pandas.DataFrame(rows), "fragility.csv")
+            files.picture(plots.draw_fragility(found), "fragility")
+            files.asked(**kept_of(used), state=asked.state, im=asked.im, method=method)
+            files.summary(result, "fragility.json")
+    if execution.emits(result):
         return
     for doubt in dict.fromkeys(one.evidence.doubt for one in found if one.evidence.doubt):
         print(doubt)
     for one in found:
         describe(one)
     console.print_files(files)
-
-
-def curves(
-    sources: Sequence[Path],
-    im: str | None,
-    state: str,
-    of: Sequence[str] | None,
-    method: str | None,
-    records_are_one: bool,
-    seed: int,
-    single: bool = False,
-) -> tuple[list[Fragility], list[Source]]:
-    """The fragilities that are asked for, one per source and column; and the runs that they rest on, one per source.
-
-    Where a ``single`` curve is wanted, a source of several columns is refused before any is fitted.
-    """
-    from ..analysis.evidence import evidence, names_in, read_table, scaled_to, table_of
-    from ..analysis.fragility import fragility as fit
-    from ..analysis.limit_states import parse_state
-    from ..motion.intensity_specs import parse_measure
-    from ..results.sources import Source
-
-    if method not in (None, "runs", "records"):
-        raise InputError(f"--method is {method!r}; allowed is runs or records.")
-    if not 0 <= seed < 2**63:
-        raise InputError(f"--seed is {seed}; allowed is a whole number from 0.")
-    asked, level = None if im is None else parse_measure(im), parse_state(state)
-    found, used = [], []
-    for source in sources:
-        table = read_table(source)
-        measure = asked
-        said = scaled_to(table)
-        if measure is None and said not in (None, "factor"):
-            measure = parse_measure(str(said))
-        who = names_in(table)
-        labels = who or [Path(source).stem] * len(table)
-        names = list(dict.fromkeys(labels))
-        if of:
-            missing = [one for one in of if one not in names]
-            if missing:
-                raise InputError(
-                    f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}."
-                )
-            names = [one for one in names if one in of]
-        if single and len(names) > 1:
-            raise InputError(
-                f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of."
-            )
-        chosen: Any = table[[one in names for one in labels]]
-        place = table_of(source)
-        used.append(Source(source, place, chosen))
-        for name in names:
-            rows: Any = table[[one == name for one in labels]]
-            shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
-            found.append(
-                fit(
-                    evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt),
-                    method=method,
-                    seed=seed,
-                    records_are_one=records_are_one,
-                )
-            )
-    if len({one.evidence.unit for one in found}) > 1:
-        raise InputError("the sources are over different intensities; choose one with --im.")
-    return found, used
-
-
-def one_curve(
-    sources: Path, im: str | None, state: str, of: Sequence[str] | None, alone: bool, seed: int
-) -> tuple[Fragility, list[Source]]:
-    """The one fragility of a source, for commands that go on from it, and the runs that it rests on."""
-    (found,), used = curves([sources], im, state, of, None, alone, seed, single=True)
-    return found, used
 
 
 def describe(found: Fragility) -> None:

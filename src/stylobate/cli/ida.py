@@ -7,8 +7,6 @@ import re
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from ..errors import InputError
 from . import options as o
 
@@ -16,47 +14,24 @@ _MAGNITUDE = re.compile(r"\bM[wWlLsS]?\s?(\d\.\d)\b")
 
 
 def ida(
-    context: typer.Context,
     column: o.ColumnName,
-    sources: Annotated[
-        list[Path], typer.Argument(metavar="RECORDS...", help="Records, or folders of them; or sample:NAME.")
-    ],
+    sources: list[Path] = o.argument("RECORDS...", "Records, or folders of them; or sample:NAME."),
     model: o.ModelName = "dem2d",
-    im: Annotated[
-        str, typer.Option("--im", metavar="IM", help="Measure that is scaled: pga, pgv, sa:1.0s, avgsa, pgv@geomean …")
-    ] = "pgv",
-    edp: Annotated[
-        str, typer.Option("--edp", metavar="MEASURE", help="Measure of the response, as a JSON key of stylobate run.")
-    ] = "peak_top_displacement_m",
-    levels: Annotated[
-        str | None,
-        typer.Option("--levels", metavar="A:A:N", help="Stripes instead of a hunt, such as 0.1m/s:1.0m/s:10."),
-    ] = None,
-    runs: Annotated[int, typer.Option("--runs", metavar="N", help="Runs of each record.")] = 14,
-    largest: Annotated[
-        float, typer.Option("--largest-factor", metavar="X", help="A record is multiplied by at most this.")
-    ] = 20.0,
-    about: Annotated[
-        Path | None,
-        typer.Option("--about", metavar="FILE", help="CSV about the records: record, magnitude, distance_km."),
-    ] = None,
-    replicates: o.Replicates = None,
-    scatter: o.ScatterSizes = None,
-    seed: o.Seed = None,
-    unit: o.Unit = None,
-    dt: o.Step = None,
-    component: o.ComponentName = None,
-    azimuth: o.Azimuth = None,
-    condition: o.Condition = None,
-    vertical: o.Vertical = "on",
-    tail: o.Tail = "0s",
-    whole: o.Whole = False,
+    im: str = o.option("IM", "Measure that is scaled: pga, pgv, sa:1.0s, avgsa, pgv@geomean …", "pgv"),
+    edp: str = o.option(
+        "MEASURE", "Measure of the response, as a JSON key of stylobate run.", "peak_top_displacement_m"
+    ),
+    levels: str | None = o.option("A:A:N", "Stripes instead of a hunt, such as 0.1m/s:1.0m/s:10."),
+    runs: int = o.option("N", "Runs of each record.", 14),
+    largest: float = o.option("X", "A record is multiplied by at most this.", 20.0, flag="--largest-factor"),
+    about: Path | None = o.option("FILE", "CSV about the records: record, magnitude, distance_km."),
+    *,
+    population: o.Population,
+    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, "azimuths", "scale", "pga")],
+    following: o.Following,
     settings: o.Settings = None,
     project: o.Project = None,
-    threads: o.Threads = None,
-    dask: o.Dask = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    execution: o.Execution,
 ) -> None:
     """Incremental dynamic analysis: the response over the intensity, each record scaled until the column collapses.
 
@@ -66,37 +41,23 @@ def ida(
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
-    from ..campaign.twins import described
     from ..motion.intensity_specs import parse_levels, parse_measure
     from ..motion.orientation import record_of
     from ..response.words import longer_tail
     from . import console
 
-    workers, after = o.the_threads(threads), o.the_tail(tail)
+    campaign = execution.campaign(following, population)
     measure, stone, how = parse_measure(im), o.the_column(column, project), o.the_model(model, settings)
     check_response(edp, stone, how)
-    twins = o.the_population(replicates, scatter, seed) or {}
     stripes = None if levels is None else parse_levels(levels, measure)
-    records = o.the_request(context, motion=sources, separate=True).expand()
+    records = motions.request(motion=sources, separate=True).expand()
     known = the_facts(about, sources, [name for one in records.motions for name in (one.name, record_of(one))])
-    o.the_engine(context, dask, workers)
-    names = (
-        "runs.csv",
-        "capacities.csv",
-        "fractiles.csv",
-        "measures.csv",
-        "ida.json",
-        "ida",
-        "measures",
-        "asked-ida.json",
-    )
-    with console.folder(out, *names) as folder:
-        ledger = console.ledger(folder)
-        with console.progress("runs") as progress:
+    names = "runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures"
+    with execution.files("ida", *names) as files:
+        with files.campaign(campaign) as asked:
             found = analyse(
-                stone, records.motions, how, measure, **twins, levels=stripes, runs=runs, largest_factor=largest,
-                about=known, tail=after, whole=whole, threads=workers, progress=progress,
-                ledger=ledger,
+                stone, records.motions, how, measure, levels=stripes, runs=runs, largest_factor=largest, about=known,
+                campaign=asked,
             )  # fmt: skip
         curves = found.curves(edp)
         best = which_tells_most(found.runs, edp=edp)
@@ -106,28 +67,22 @@ def ida(
             "measures": best.astype(object).where(best.notna(), None).to_dict("records"),
             "refused": records.refused,
         }
-        files: list[Path] = []
-        if folder is not None:
+        if files.wanted:
             from .. import plots
 
-            files = [
-                console.write_table(found.runs, folder / "runs.csv"),
-                console.write_table(found.capacities, folder / "capacities.csv"),
-                console.write_table(found.fractiles(edp), folder / "fractiles.csv"),
-                *plots.save(plots.draw_ida(found, edp), folder / "ida"),
-            ]
+            files.table(found.runs, "runs.csv")
+            files.table(found.capacities, "capacities.csv")
+            files.table(found.fractiles(edp), "fractiles.csv")
+            files.picture(plots.draw_ida(found, edp), "ida")
             if len(best):
-                files.append(console.write_table(best, folder / "measures.csv"))
-                files += plots.save(plots.draw_efficiency(best), folder / "measures")
-            taken = [how.taken(motion) for motion in records.motions]
-            what = {"structures": [stone], "models": [how], "motions": taken, "runs": found.runs}
-            files.append(console.asked(folder, "ida", **what, im=measure.name, edp=edp, tail_s=after))
-            console.write_summary(result, files, folder / "ida.json")
-    if as_json:
-        console.emit(result)
+                files.table(best, "measures.csv")
+                files.picture(plots.draw_efficiency(best), "measures")
+            what = {"structures": [stone], "models": [how], "motions": [how.taken(one) for one in records.motions]}
+            files.asked(**what, runs=found.runs, im=measure.name, edp=edp, tail_s=campaign.tail)
+            files.summary(result, "ida.json")
+    if execution.emits(result):
         return
-    if result["doubt"]:
-        print(result["doubt"])
+    console.print_doubt(result)
     fell = sum(one["collapses_from"] is not None for one in result["capacities"])
     facts = {
         "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",
@@ -137,9 +92,11 @@ def ida(
         f"{_count(result['curves_with_resurrections'], 'curve')}",
     }
     if (drawn := found.twins) is not None:
-        facts["columns like this"] = described(len(drawn.columns), drawn.scatter, drawn.seed, drawn.left_out)
+        facts["columns like this"] = drawn.words
     if result["undecided"] or result["failed"]:
-        facts["open"] = f"{result['undecided']} undecided, {result['failed']} failed; go on with {longer_tail(after)}"
+        facts["open"] = (
+            f"{result['undecided']} undecided, {result['failed']} failed; go on with {longer_tail(campaign.tail)}"
+        )
     console.say(f"{stone.name}, {how.name}: {_count(len(curves), 'curve')} over {measure.words}.", facts, files)
     if len(best):
         console.print_table(best.drop(columns=["median", "unit", "beta_low", "beta_high"]), digits=3)

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from ..errors import InputError
 from . import options as o
-from .pushover import Pattern, Strength, Tilt, mechanism_rows, the_loads
+from .pushover import Loads, mechanism_rows
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,24 +24,14 @@ UPPER_BOUND = (
 
 def limit(
     column: o.StructureName,
-    flow: Annotated[
-        str, typer.Option("--flow", metavar="RULE", help="Friction in the mechanism: non-associated or associated.")
-    ] = "non-associated",
-    directions: Annotated[
-        str | None,
-        typer.Option(
-            "--directions",
-            metavar="A:A:N",
-            help="In space: where the forces push to, such as 0:345:24, from x towards y.",
-        ),
-    ] = None,
-    pattern: Pattern = None,
-    tilt: Tilt = "0",
-    compressive_strength: Strength = None,
+    flow: str = o.option("RULE", "Friction in the mechanism: non-associated or associated.", "non-associated"),
+    directions: str | None = o.option(
+        "A:A:N", "In space: where the forces push to, such as 0:345:24, from x towards y."
+    ),
+    *,
+    pushing: Loads,
     project: o.Project = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    execution: o.Plain,
 ) -> None:
     """Collapse multiplier and mechanism of rigid blocks.
 
@@ -56,42 +44,36 @@ def limit(
     from ..motion.ranges import azimuth_range
     from . import console
 
-    o.the_threads(threads)
     stone: Any = o.the_structure(column, project)
-    loads = the_loads(pattern, tilt, compressive_strength)
+    loads = pushing.arguments
     azimuths = None if directions is None else azimuth_range(directions).tolist()
     in_space = azimuths is not None or stone.stack is None
     around = in_space or bool(stone.as_found)
-    if (
-        around
-        and loads != the_loads(None, "0", None)
-        and (azimuths is not None or stone.stack is None or not stone.as_found.in_plane)
-    ):
+    if around and pushing.typed and (in_space or not stone.as_found.in_plane):
         raise InputError(
             "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
             "--directions out for a column found in the plane."
         )
-    with console.folder(out, "limit.json", "limit", "directions", "asked-limit.json") as folder:
+    with execution.files("limit", "limit.json", "limit", "directions") as files:
         all_round = limit_directions(stone, azimuths, **loads) if around else None
         plane = all_round is None or all_round.dims == "xz"
         weakest = 0.0 if all_round is None else all_round.weakest.azimuth
         found = limit_analysis(stone, flow=flow, direction=weakest, **loads) if plane else None
-        summary, files = ({} if found is None else summarize(found)), []
+        summary = {} if found is None else summarize(found)
         if all_round is not None:
             summary = around_summary(all_round) | summary
-        if folder is not None:
+        if files.wanted:
             from .. import plots
             from ..analysis.limit import towards
 
-            files = [console.write_json(folder / "limit.json", summary)]
+            files.json(summary, "limit.json")
             if found is not None:
-                files += plots.save(plots.draw_mechanism(towards(stone, weakest), found), folder / "limit")
+                files.picture(plots.draw_mechanism(towards(stone, weakest), found), "limit")
             if all_round is not None:
-                files += plots.save(plots.draw_limit_directions(all_round, stone.name), folder / "directions")
-            files.append(console.asked(folder, "limit", structures=[stone], flow=flow, **loads))
-            summary["files"] = [str(file) for file in files]
-    if as_json:
-        console.emit(summary)
+                files.picture(plots.draw_limit_directions(all_round, stone.name), "directions")
+            files.asked(structures=[stone], **({"flow": flow} if stone.stack is not None else {}), **loads)
+            summary["files"] = files.names
+    if execution.emits(summary):
         return
     facts = {stone.kind: stone.name}
     sentence = f"The {stone.kind.partition(' ')[0]} becomes a mechanism at {summary['collapse_multiplier_g']:.4g} g"
@@ -153,7 +135,12 @@ def _mechanism(found: DirectionLimit) -> dict:
     """Who moves, of an assembly."""
     if not found.moving:
         return {}
-    return {"between": list(found.between), "moving": list(found.moving), "upper_bound": found.upper_bound}
+    return {
+        "between": list(found.between),
+        "moving": list(found.moving),
+        "upper_bound": found.upper_bound,
+        "flow": "associated",
+    }
 
 
 def summarize(found: LimitResult) -> dict:

@@ -6,8 +6,9 @@ import errno
 import io
 import sys
 import warnings
-from collections.abc import Callable, Sequence
-from functools import cache, wraps
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from functools import cache
 from typing import Annotated, Any
 
 import typer
@@ -22,6 +23,7 @@ from . import (
     console,
     critical,
     domain,
+    draw,
     fragility,
     ida,
     limit,
@@ -40,6 +42,7 @@ from . import (
     survival,
 )
 from .added import STUDIES, added_commands, missing_command
+from .groups import takes
 from .helping import WIDTH, Command
 
 BAD_INPUT, FAILURE, INTERRUPTED = 2, 1, signals.INTERRUPTED
@@ -59,38 +62,34 @@ class Interrupted(Exception):
     """A command was stopped; the message says what is kept of its work."""
 
 
-def _passing_on(command: Callable[..., None]) -> Callable[..., None]:
-    """The command, whose end keeps its words: typer makes numbers of interrupts."""
-
-    @wraps(command)
-    def wrapped(*args: Any, **kwargs: Any) -> None:
-        signals.KEPT.clear()
-        try:
-            command(*args, **kwargs)
-        except KeyboardInterrupt as interrupt:
-            raise Interrupted(str(interrupt) or signals.sentence()) from None
-        except EOFError as error:  # typer reports it as an interrupt, which it is not: no command asks for input
-            raise RuntimeError(f"a file ended too soon: {error}") from error
-        except Exception as error:
-            ours = isinstance(error, StylobateError) and not isinstance(error, InputError)
-            if signals.TOLD.is_set() and not ours:  # compiled code of others makes something else of an interrupt
-                raise Interrupted(signals.sentence()) from None
-            raise
-
-    return wrapped
+@contextmanager
+def _passing_on() -> Iterator[None]:
+    """Around a command, whose end keeps its words: typer makes numbers of interrupts."""
+    signals.KEPT.clear()
+    try:
+        yield
+    except KeyboardInterrupt as interrupt:
+        raise Interrupted(str(interrupt) or signals.sentence()) from None
+    except EOFError as error:  # typer reports it as an interrupt, which it is not: no command asks for input
+        raise RuntimeError(f"a file ended too soon: {error}") from error
+    except Exception as error:
+        ours = isinstance(error, StylobateError) and not isinstance(error, InputError)
+        if signals.TOLD.is_set() and not ours:  # compiled code of others makes something else of an interrupt
+            raise Interrupted(signals.sentence()) from None
+        raise
 
 
 for _room in (
     run, critical, domain, pushover, limit, compare, states, suite, ida, fragility, risk, survival, motion,
-    spectrum, columns, materials, animate, report, serve, cite
+    spectrum, columns, draw, materials, animate, report, serve, cite
 ):  # fmt: skip
     _name = _room.__name__.rpartition(".")[2]
-    app.command(_name, cls=Command)(_passing_on(getattr(_room, _name)))
+    app.command(_name, cls=Command)(takes(getattr(_room, _name), _passing_on))
 
 
 _studies = typer.Typer(help="Many runs from one file: columns, records, levels, models, realisations.")
 for _part in (study.run, study.status, study.export):
-    _studies.command(_part.__name__, cls=Command)(_passing_on(_part))
+    _studies.command(_part.__name__, cls=Command)(takes(_part, _passing_on))
 app.add_typer(_studies, name="study")
 
 
@@ -121,7 +120,7 @@ def call(arguments: Sequence[str]) -> int:
         0 when the command did its work (a collapse is a result), 2 for bad input, 1 for a failure of ours, 130 after
         an interrupt.
     """
-    console.COMMAND[:], console.WARNED[:] = list(map(str, arguments)), []
+    console.COMMAND[:], console.WARNED[:], console.FIELD = list(map(str, arguments)), [], None
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         warnings.simplefilter("always", OutOfRangeWarning)
@@ -135,11 +134,12 @@ def call(arguments: Sequence[str]) -> int:
                 raise InputError(missing_command(arguments[0]))
             code = program.main(list(arguments), prog_name="stylobate", standalone_mode=False)
         except InputError as error:
-            return _complain(str(error), BAD_INPUT)
+            console.FIELD = error.field
+            return _complain(error, BAD_INPUT)
         except StylobateError as error:
-            return _complain(str(error), FAILURE)
+            return _complain(error, FAILURE)
         except Interrupted as error:
-            return _complain(str(error), INTERRUPTED)
+            return _complain(error, INTERRUPTED)
         except (KeyboardInterrupt, typer.Abort):
             code = INTERRUPTED
         except OSError as error:
@@ -168,7 +168,7 @@ def commands() -> Any:
     program: Any = typer.main.get_command(app)
     for name, function in added_commands(program.commands).items():
         room = typer.Typer(add_completion=False, rich_markup_mode=None)
-        room.command(name, cls=Command)(_passing_on(function))
+        room.command(name, cls=Command)(takes(function, _passing_on))
         program.add_command(typer.main.get_command(room), name)
     return program
 
@@ -190,7 +190,7 @@ class _Warner:
     """Prints each warning once, in one line, on standard error."""
 
     def __call__(self, message: Any, *_: Any, **__: Any) -> None:
-        text = str(message)
+        text = console.in_options(message)
         if text not in console.WARNED:
             console.WARNED.append(text)
             print(f"stylobate: warning: {text}", file=sys.stderr)
@@ -203,8 +203,8 @@ def _usage(error: Any) -> str:
     return f"{message.rstrip('.')}; see '{where} --help'."
 
 
-def _complain(text: str, code: int) -> int:
-    print(f"stylobate: {text}", file=sys.stderr)
+def _complain(what: object, code: int) -> int:
+    print(f"stylobate: {console.in_options(what)}", file=sys.stderr)
     return code
 
 

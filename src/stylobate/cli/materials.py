@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from . import options as o
 
@@ -13,15 +11,11 @@ if TYPE_CHECKING:
 
 
 def materials(
-    which: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[MATERIAL]...", help="Such as 'marble, worn'; one by one with sources. All by default."
-        ),
-    ] = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    which: list[str] | None = o.argument(
+        "[MATERIAL]...", "Such as 'marble, worn'; one by one with sources. All by default.", None
+    ),
+    *,
+    execution: o.Plain,
 ) -> None:
     """Stone and joints by name, for column files.
 
@@ -30,14 +24,13 @@ def materials(
     from ..column.materials import MATERIALS, material
     from . import console
 
-    o.the_threads(threads)
     chosen = [material(name) for name in which] if which else list(MATERIALS.values())
     summary: dict = {"materials": [one.to_dict() for one in chosen], "files": []}
-    with console.folder(out, "materials.json") as folder:
-        if folder is not None:
-            summary["files"] = [str(console.write_json(folder / "materials.json", summary))]
-    if as_json:
-        console.emit(summary)
+    with execution.files("materials", "materials.json") as files:
+        if files.wanted:
+            files.json(summary, "materials.json")
+            summary["files"] = files.names
+    if execution.emits(summary):
         return
     if which:
         for one in chosen:

@@ -5,29 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from ..errors import InputError
 from . import options as o
 
 
 def motion(
-    context: typer.Context,
-    files: Annotated[
-        list[Path] | None,
-        typer.Argument(metavar="FILE...", help="Record, or the files of its components; sample:NAME for a sample."),
-    ] = None,
-    samples: Annotated[bool, typer.Option("--samples", help="List the sample motions that come with it.")] = False,
-    unit: o.Unit = None,
-    dt: o.Step = None,
-    component: o.ComponentName = None,
-    azimuth: o.Azimuth = None,
-    condition: o.Condition = None,
-    scale: o.Scale = None,
-    pga: o.Pga = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    files: list[Path] | None = o.argument(
+        "FILE...", "Record, or the files of its components; sample:NAME for a sample.", None
+    ),
+    samples: bool = o.option(None, "List the sample motions that come with it.", False),
+    *,
+    motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, *o.SEVERAL, "vertical")],
+    execution: o.Plain,
 ) -> None:
     """What the record of a ground motion holds, and which records come with the package.
 
@@ -40,38 +29,31 @@ def motion(
     if samples == bool(files):
         raise InputError("give the file of a record, sample:NAME, or --samples for the list of samples, one of them.")
     if samples:
-        return _list_samples(as_json)
-    o.the_threads(threads)  # reading has one thread
-    found = o.the_request(context, motion=files).motion()
-    summary, written = motion_summary(found), []
+        return _list_samples(execution)
+    found = motions.request(motion=files).motion()
+    summary = motion_summary(found)
     warn_of_drift(found)
-    with console.folder(out, "motion.json", "motion.csv", "motion", "spectra") as folder:
-        if folder is not None:
+    with execution.files("motion", "motion.json", "motion.csv", "motion", "spectra") as written:
+        if written.wanted:
             from .. import plots
             from ..motion.writing import write_csv
 
-            written = [
-                console.write_json(folder / "motion.json", summary),
-                write_csv(found, folder / "motion.csv"),
-                *plots.save(plots.draw_motion(found), folder / "motion"),
-                *plots.save(plots.draw_spectra(found), folder / "spectra"),
-            ]
-            summary = summary | {"files": [str(one) for one in written]}
-    if as_json:
-        console.emit(summary)
-    else:
+            written.json(summary, "motion.json")
+            written.append(write_csv(found, written / "motion.csv"))
+            written.picture(plots.draw_motion(found), "motion")
+            written.picture(plots.draw_spectra(found), "spectra")
+            summary = summary | {"files": written.names}
+    if not execution.emits(summary):
         console.say(found.describe(), _facts(summary), written)
 
 
-def _list_samples(as_json: bool) -> None:
+def _list_samples(execution: o.Execution) -> None:
     from ..motion.readers.samples import PREFIX, samples
     from . import console
 
-    if as_json:
-        listed = [{"name": PREFIX + one.name, "about": one.about, "format": one.format, "terms": one.terms}
-                  for one in samples().values()]  # fmt: skip
-        console.emit({"samples": listed})
-    else:
+    names = "name", "about", "format", "terms"
+    listed = [{name: getattr(one, name) for name in names} | {"name": PREFIX + one.name} for one in samples().values()]
+    if not execution.emits({"samples": listed}):
         facts = {PREFIX + one.name: f"{one.about} ({one.format}); {one.terms}" for one in samples().values()}
         console.say("Sample motions, for --motion and wherever a record is asked for", facts, [])
 

@@ -2,28 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import dataclasses
+from collections.abc import Iterable, Mapping
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from ..errors import InputError
+from .groups import But, Group, option
+from .groups import argument as argument
 
 if TYPE_CHECKING:
+    from ..campaign.campaign import Campaign
     from ..column import Column
-    from ..column.scatter import Scatter
     from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
     from ..motion.request import MotionRequest
     from ..motion.scatter import MotionScatter
-
-#: Options that make the request for motions.
-REQUEST = (
-    *("harmonic", "across", "pulse", "synthetic", "motion", "unit", "dt", "component", "azimuth", "azimuths", "signs"),
-    *("condition", "scale", "pga", "vertical"),
-)
+    from .files import Files
 
 
 def _models(incomplete: str) -> list[str]:
@@ -76,89 +76,140 @@ ModelName = Annotated[
 Settings = Annotated[
     list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="Option of the model; may be repeated.")
 ]
-Harmonic = Annotated[
-    str | None, typer.Option("--harmonic", metavar="F,A,T", help="Sine from rest, such as 1.0Hz,0.3g,10s.")
-]
-Pulse = Annotated[
-    str | None,
-    typer.Option(
-        "--pulse",
-        metavar="KIND,F,A[,T]",
-        help="Pulse, such as ricker,1.0Hz,0.3g; the time is the length of the whole run.",
-    ),
-]
-Synthetic = Annotated[
-    str | None, typer.Option("--synthetic", metavar="SPEC", help="Simulated motion, such as greece,6.5Mw,20km,seed=3.")
-]
-MotionFiles = Annotated[
-    list[Path] | None,
-    typer.Option(
-        "--motion",
-        metavar="FILE|DIR",
-        help="Record, once per file of its components; a folder of records; or sample:NAME (stylobate motion --samples).",
-    ),
-]
-ComponentName = Annotated[
-    str | None,
-    typer.Option("--component", metavar="C", help="The one component to use: its number, label or azimuth."),
-]
-Across = Annotated[
-    str | None,
-    typer.Option("--across", metavar="F,A,PHASE", help="Sine along y beside --harmonic, such as 1.0Hz,0.15g,90deg."),
-]
-Azimuth = Annotated[
-    str | None,
-    typer.Option("--azimuth", metavar="ANGLE", help="Turn the whole motion, so that x points there, such as 30deg."),
-]
-Azimuths = Annotated[
-    str | None,
-    typer.Option("--azimuths", metavar="A:A:N", help="Every motion turned to each of these, such as 0:330:12."),
-]
-Signs = Annotated[str, typer.Option("--signs", metavar="+|both", help="Every motion as it is, or reversed as well.")]
-Condition = Annotated[
-    list[str] | None,
-    typer.Option("--condition", metavar="STEP", help="Conditioning, in the order given, such as bandpass=0.1Hz,25Hz."),
-]
-Unit = Annotated[str | None, typer.Option("--unit", help="Unit of the record where the file names none, such as g.")]
-Step = Annotated[
-    str | None, typer.Option("--dt", metavar="TIME", help="Step of a record without times, such as 0.01s.")
-]
-Scale = Annotated[str | None, typer.Option("--scale", metavar="X", help="Multiply the motion, such as 1.5.")]
-Pga = Annotated[
-    str | None, typer.Option("--pga", metavar="A", help="Scale the motion to this horizontal peak, such as 0.4g.")
-]
-Vertical = Annotated[str, typer.Option("--vertical", metavar="on|off", help="Whether the vertical component acts.")]
-Tail = Annotated[str, typer.Option("--tail", metavar="TIME", help="Go on for this long after the motion, such as 5s.")]
-Whole = Annotated[
-    bool, typer.Option("--whole", help="Step all of a record, its quiet before, between and after shocks too.")
-]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON object on standard output, and nothing else there.")]
-Out = Annotated[
-    Path | None, typer.Option("--out", metavar="DIR", help="Folder for files and figures; without it none are written.")
-]
-Replicates = Annotated[
-    str | None,
-    typer.Option("--replicates", metavar="N", help="How sure that is: so many columns like this one, by --scatter."),
-]
-Seed = Annotated[
-    str | None, typer.Option("--seed", metavar="N", help="Of these columns; the same seed, the same ones.")
-]
-ScatterSizes = Annotated[
-    str | None,
-    typer.Option(
-        "--scatter",
-        metavar="NAME=SIZE,…",
-        help="How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%.",
-    ),
-]
-Threads = Annotated[str | None, typer.Option("--threads", metavar="N", help="Threads to use; all cores by default.")]
 
-Dask = Annotated[
-    str | None,
-    typer.Option(
-        "--dask", metavar="ADDRESS|local", help="Compute on a Dask cluster: its scheduler, or local for workers here."
-    ),
-]
+
+@dataclass(frozen=True)
+class Motions(Group):
+    """What is shaken with."""
+
+    harmonic: str | None = option("F,A,T", "Sine from rest, such as 1.0Hz,0.3g,10s.")
+    across: str | None = option("F,A,PHASE", "Sine along y beside --harmonic, such as 1.0Hz,0.15g,90deg.")
+    pulse: str | None = option(
+        "KIND,F,A[,T]", "Pulse, such as ricker,1.0Hz,0.3g; the time is the length of the whole run."
+    )
+    synthetic: str | None = option("SPEC", "Simulated motion, such as greece,6.5Mw,20km,seed=3.")
+    motion: list[Path] | None = option(
+        "FILE|DIR",
+        "Record, once per file of its components; a folder of records; or sample:NAME (stylobate motion --samples).",
+    )
+    unit: str | None = option(None, "Unit of the record where the file names none, such as g.")
+    dt: str | None = option("TIME", "Step of a record without times, such as 0.01s.")
+    component: str | None = option("C", "The one component to use: its number, label or azimuth.")
+    azimuth: str | None = option("ANGLE", "Turn the whole motion, so that x points there, such as 30deg.")
+    azimuths: str | None = option("A:A:N", "Every motion turned to each of these, such as 0:330:12.")
+    signs: str = option("+|both", "Every motion as it is, or reversed as well.", "+")
+    condition: list[str] | None = option("STEP", "Conditioning, in the order given, such as bandpass=0.1Hz,25Hz.")
+    scale: str | None = option("X", "Multiply the motion, such as 1.5.")
+    pga: str | None = option("A", "Scale the motion to this horizontal peak, such as 0.4g.")
+    vertical: str = option("on|off", "Whether the vertical component acts.", "on")
+
+    def request(self, **changes: Any) -> MotionRequest:
+        """The request for motions, checked before anything is read; ``changes`` instead of what is typed."""
+        from ..motion.request import MotionRequest
+
+        return MotionRequest.typed(**vars(self) | changes)
+
+
+#: Options of motions that are not for files which are named as arguments.
+FILES_NAMED = "harmonic", "across", "pulse", "synthetic", "motion"
+
+#: Options that make several motions of one.
+SEVERAL = "azimuths", "signs"
+
+
+@dataclass(frozen=True)
+class Following(Group):
+    """How long each run goes on."""
+
+    tail: str = option("TIME", "Go on for this long after the motion, such as 5s.", "0s")
+    whole: bool = option(None, "Step all of a record, its quiet before, between and after shocks too.", False)
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Fields of the campaign."""
+        from ..motion.specs import parse_time
+
+        return {"tail": parse_time(self.tail, "tail"), "whole": self.whole}
+
+
+@dataclass(frozen=True)
+class Population(Group):
+    """Columns like the one that stands."""
+
+    replicates: str | None = option("N", "How sure that is: so many columns like this one, by --scatter.")
+    scatter: str | None = option(
+        "NAME=SIZE,…",
+        "How they differ; friction=10%,joint_stiffness=20%,density=2%,width=0.5%,height=0.5%,offset=0.3%.",
+    )
+    seed: str | None = option("N", "Of these columns; the same seed, the same ones.")
+
+    @property
+    def fields(self) -> dict[str, Any]:
+        """Fields of the campaign; none where no replicates are asked for."""
+        from ..column.scatter import LARGEST, Scatter
+
+        if self.replicates is None:
+            for flag, value in {"--scatter": self.scatter, "--seed": self.seed}.items():
+                for_replicates(flag, value)
+            return {}
+        example = "--scatter friction=10%,joint_stiffness=20%"
+        return {
+            "replicates": _whole_number("--replicates", self.replicates, 30),
+            "scatter": None if self.scatter is None else Scatter(**_sizes("--scatter", self.scatter, LARGEST, example)),
+            "seed": 0 if self.seed is None else _whole_number("--seed", self.seed, 1),
+        }
+
+
+@dataclass(frozen=True)
+class Execution(Group):
+    """Where runs are computed, where results go, and whether they are told to people or as JSON."""
+
+    threads: str | None = option("N", "Threads to use; all cores by default.")
+    dask: str | None = option("ADDRESS|local", "Compute on a Dask cluster: its scheduler, or local for workers here.")
+    out: Path | None = option("DIR", "Folder for files and figures; without it none are written.")
+    as_json: bool = option(
+        None, "Print one JSON object on standard output, and nothing else there.", False, flag="--json"
+    )
+
+    def __post_init__(self) -> None:
+        self.campaign()
+
+    def campaign(self, *groups: Following | Population, **fields: Any) -> Campaign:
+        """How runs are made, checked: what these groups and further fields say, computed here."""
+        from ..campaign.campaign import Campaign
+
+        if self.threads is not None and not self.threads.isdecimal():
+            raise InputError(
+                f"--threads is {self.threads!r}; allowed is a whole number from 1; leave it out to use all cores."
+            )
+        for group in groups:
+            fields |= group.fields
+        return Campaign(threads=None if self.threads is None else int(self.threads), dask=self.dask, **fields)
+
+    @property
+    def count(self) -> int:
+        """Number of threads."""
+        from ..simulate import thread_count
+
+        return thread_count(self.campaign().threads)
+
+    def files(self, command: str, *writes: str) -> AbstractContextManager[Files]:
+        """Files of a command, by its name and theirs: see :func:`stylobate.cli.files.files`."""
+        from .files import files
+
+        return files(self.out, command, *writes)
+
+    def emits(self, result: Mapping[str, Any]) -> bool:
+        """Print the result as one JSON object where that is asked for, else leave it to be told to people."""
+        from . import console
+
+        if self.as_json:
+            console.emit(result)
+        return self.as_json
+
+
+#: Of commands whose runs are no campaign.
+Plain = Annotated[Execution, But("dask")]
 
 
 def the_column(name: str, project: str | None = None) -> Column:
@@ -206,47 +257,6 @@ def the_model(name: str, settings: list[str] | None) -> Model:
     return make_model(name, values)
 
 
-def the_threads(text: str | None) -> int:
-    """Number of threads, checked before anything is read or computed."""
-    from ..simulate import thread_count
-
-    if text is not None and not text.isdecimal():
-        raise InputError(f"--threads is {text!r}; allowed is a whole number from 1; leave it out to use all cores.")
-    return thread_count(None if text is None else int(text))
-
-
-def the_engine(context: typer.Context, dask: str | None, threads: int) -> None:
-    """From here to the end of the command runs are computed by threads, or by the workers of a Dask cluster."""
-    if dask is not None:
-        from ..campaign.cluster import on_cluster
-        from . import console
-
-        context.with_resource(on_cluster(dask, threads, console.note))
-
-
-def the_tail(text: str) -> float:
-    """Time after the motion [s]."""
-    from ..motion.specs import parse_time
-
-    return parse_time(text)
-
-
-def the_request(context: typer.Context, **changes: Any) -> MotionRequest:
-    """The request for motions that the options of a command make, checked before anything is read.
-
-    Parameters
-    ----------
-    context : typer.Context
-        Of the command, with its options under the names that the request has.
-    **changes
-        Instead of what the context holds.
-    """
-    from ..motion.request import MotionRequest
-
-    asked = {key: value for key, value in context.params.items() if key in REQUEST}
-    return MotionRequest.typed(**asked | changes)
-
-
 def input_facts(motion: Motion) -> dict[str, Any]:
     """What was shaken with, under the names of the JSON object."""
     azimuths = motion.metadata.get("azimuths") or {}
@@ -275,14 +285,14 @@ def input_lines(motion: Motion) -> dict[str, str]:
     return found
 
 
-def whole(option: str, text: str, example: int) -> int:
+def _whole_number(option: str, text: str, example: int) -> int:
     """A whole number as typed after an option."""
     if not text.isdecimal():
         raise InputError(f"{option} is {text!r}; allowed is a whole number, such as {example}.")
     return int(text)
 
 
-def share(text: str, example: str) -> float:
+def _share(text: str, example: str) -> float:
     """A share as typed: ``1%`` or ``0.01``."""
     number, percent = text.strip().removesuffix("%"), text.strip().endswith("%")
     try:
@@ -291,53 +301,26 @@ def share(text: str, example: str) -> float:
         raise InputError(f"{text!r} is no size; write it as {example}.") from None
 
 
-def the_population(
-    replicates: str | None, scatter: str | None, seed: str | None, **others: str | None
-) -> dict[str, Any] | None:
-    """Arguments ``replicates``, ``scatter`` and ``seed`` that the options describe; None if no replicates are asked for.
+def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> Campaign:
+    """What is asked for, with as many columns like this one as cost nothing where no number is ``given``."""
+    from ..campaign.twins import the_twins
 
-    ``others`` are more options, by name, that are for replicates only.
-    """
-    if replicates is None:
-        for option, value in {"--scatter": scatter, "--seed": seed, **others}.items():
-            if value is not None:
-                raise InputError(
-                    f"{option} is for columns like this one; give --replicates as well, e.g. --replicates 30."
-                )
-        return None
-    return {
-        "replicates": whole("--replicates", replicates, 30),
-        "scatter": None if scatter is None else the_scatter(scatter),
-        "seed": 0 if seed is None else whole("--seed", seed, 1),
-    }
-
-
-def the_twins(
-    stone: Structure, model: Model, asked: dict[str, Any] | None, to_the_ground: bool = False
-) -> dict[str, Any] | None:
-    """The columns that are computed beside this one: as asked for, or as many as cost nothing; None without any."""
-    from ..campaign.twins import the_twins as drawn
-
-    if asked is not None:
-        if asked["replicates"] == 0:
-            return None
-        drawn(stone, model, **asked)
-        return asked
-    if not model.carried(stone) or to_the_ground:
-        return None
-    free = {"replicates": model.carries, "scatter": None, "seed": 0}
+    number = asked.replicates if given else model.carries if model.carried(stone) else 0
+    made = dataclasses.replace(asked, replicates=number)
     try:
-        drawn(stone, model, **free)
-    except InputError:  # so close to falling as it was found that no twin of it stands
-        return None
-    return free
+        if number:
+            the_twins(stone, model, made)
+    except InputError:
+        if given:
+            raise
+        return asked  # so close to falling as it was found that no twin of it stands
+    return made
 
 
-def the_scatter(text: str) -> Scatter:
-    """Sizes of the scatter as typed, by name; what is not named does not scatter."""
-    from ..column.scatter import LARGEST, Scatter
-
-    return Scatter(**_sizes("--scatter", text, LARGEST, "--scatter friction=10%,joint_stiffness=20%"))
+def for_replicates(option: str, value: str | None) -> None:
+    """Refuse an option that is for columns like one, where none are asked for."""
+    if value is not None:
+        raise InputError(f"{option} is for columns like this one; give --replicates as well, e.g. --replicates 30.")
 
 
 def motion_scatter(text: str) -> MotionScatter:
@@ -354,5 +337,5 @@ def _sizes(option: str, text: str, names: Iterable[str], example: str) -> dict[s
         name, _, size = part.partition("=")
         if name.strip() not in sizes:
             raise InputError(f"{option} names {name.strip()!r}; names are {', '.join(sizes)}, e.g. {example}.")
-        sizes[name.strip()] = share(size, example)
+        sizes[name.strip()] = _share(size, example)
     return sizes

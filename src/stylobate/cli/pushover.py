@@ -2,65 +2,58 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.pushover import PushoverResult
 
-Pattern = Annotated[
-    str | None,
-    typer.Option("--pattern", metavar="P,P,…", help="Relative force on each drum, bottom to top; by mass by default."),
-]
-Tilt = Annotated[
-    str,
-    typer.Option(
-        "--tilt",
-        metavar="DEGREES",
-        help="Tilt of the base, downhill to the right, where the forces push; base_tilt of columns as found is opposite.",
-    ),
-]
-Strength = Annotated[
-    str | None,
-    typer.Option(
-        "--compressive-strength", metavar="P", help="Strength of the joints, such as 2MPa; unlimited by default."
-    ),
-]
+
+@dataclass(frozen=True)
+class Loads(o.Group):
+    """How a column is pushed."""
+
+    pattern: str | None = o.option("P,P,…", "Relative force on each drum, bottom to top; by mass by default.")
+    tilt: str = o.option(
+        "DEGREES",
+        "Tilt of the base, downhill to the right, where the forces push; base_tilt of columns as found is opposite.",
+        "0",
+    )
+    compressive_strength: str | None = o.option("P", "Strength of the joints, such as 2MPa; unlimited by default.")
+
+    @property
+    def typed(self) -> bool:
+        """Whether they are others than usual."""
+        return self.arguments != Loads(None, "0", None).arguments
+
+    @property
+    def arguments(self) -> dict[str, Any]:
+        """Arguments of the analyses."""
+        from ..motion.specs import parse_pressure
+
+        shares, strength = self.pattern, self.compressive_strength
+        return {
+            "pattern": None if shares is None else [number("--pattern", one) for one in shares.split(",")],
+            "base_tilt": number("--tilt", self.tilt),
+            "compressive_strength": None if strength is None else parse_pressure(strength),
+        }
 
 
 def pushover(
     column: o.ColumnName,
-    to: Annotated[
-        str | None, typer.Option("--to", metavar="M", help="Displacement of the top at which to stop, in metres.")
-    ] = None,
-    control: Annotated[
-        str, typer.Option("--control", metavar="WAY", help="displacement or arc-length.")
-    ] = "displacement",
-    linear: Annotated[bool, typer.Option("--linear", help="Equilibrium in the undisplaced state.")] = False,
-    direction: Annotated[
-        str | None,
-        typer.Option(
-            "--direction", metavar="0|180", help="Forces to the right or to the left; the weaker one by default."
-        ),
-    ] = None,
-    check: Annotated[
-        str | None,
-        typer.Option(
-            "--check",
-            metavar="CODE,…",
-            help="By a code: ec8,ag=0.25g,soil=B,type=1,knowledge=KL2, or ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,….",
-        ),
-    ] = None,
-    pattern: Pattern = None,
-    tilt: Tilt = "0",
-    compressive_strength: Strength = None,
+    to: str | None = o.option("M", "Displacement of the top at which to stop, in metres."),
+    control: str = o.option("WAY", "displacement or arc-length.", "displacement"),
+    linear: bool = o.option(None, "Equilibrium in the undisplaced state.", False),
+    direction: str | None = o.option("0|180", "Forces to the right or to the left; the weaker one by default."),
+    check: str | None = o.option(
+        "CODE,…", "By a code: ec8,ag=0.25g,soil=B,type=1,knowledge=KL2, or ntc2018,ag=0.25g,F0=2.4,Tc*=0.35s,soil=B,…."
+    ),
+    *,
+    pushing: Loads,
     project: o.Project = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    execution: o.Plain,
 ) -> None:
     """Pushover curve of a column of rigid blocks.
 
@@ -73,37 +66,32 @@ def pushover(
     from ..analysis.pushover import pushover as follow
     from . import console
 
-    o.the_threads(threads)
     stone = o.the_column(column, project)
-    loads = the_loads(pattern, tilt, compressive_strength)
+    loads = pushing.arguments
     far = None if to is None else number("--to", to)
     site = None if check is None else CodeSite.typed(check)
     if direction is not None:
         loads["direction"] = number("--direction", direction)
     elif stone.as_found and stone.as_found.in_plane:
         loads["direction"] = limit_directions(stone, **loads).weakest.azimuth
-    with console.folder(out, "pushover.csv", "pushover.json", "pushover", "asked-pushover.json") as folder:
+    with execution.files("pushover", "pushover.csv", "pushover.json", "pushover") as files:
         path = follow(stone, control=control, geometric=not linear, to=far, **loads)
-        summary, files = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}, []
+        summary = summarize(path) | {"direction_deg": loads.get("direction", 0.0)}
         checked = None if site is None else code_check(towards(stone, summary["direction_deg"]), path, site)
         if checked is not None:
             summary["check"] = checked.summary()
-        if folder is not None:
+        if files.wanted:
             from .. import plots
 
             limit = limit_analysis(stone, **loads).multiplier
             stack = towards(stone, loads.get("direction", 0.0))
             figure = plots.draw_pushover(stack, path, limit, stone.name)
-            files = [
-                path.save(folder / "pushover.csv"),
-                console.write_json(folder / "pushover.json", summary),
-                *plots.save(figure, folder / "pushover"),
-            ]
-            options = {"control": control, "linear": linear, "limit_analysis_g": limit} | loads
-            files.append(console.asked(folder, "pushover", structures=[stone], **options))
-            summary["files"] = [str(file) for file in files]
-    if as_json:
-        console.emit(summary)
+            files.append(path.save(files / "pushover.csv"))
+            files.json(summary, "pushover.json")
+            files.picture(figure, "pushover")
+            files.asked(structures=[stone], control=control, linear=linear, limit_analysis_g=limit, **loads)
+            summary["files"] = files.names
+    if execution.emits(summary):
         return
     facts = {"column": stone.name}
     if stone.as_found:
@@ -166,14 +154,3 @@ def number(option: str, text: str) -> float:
     from ..motion.specs import parse_number
 
     return parse_number(option, text, "in SI units, such as 0.5")
-
-
-def the_loads(pattern: str | None, tilt: str, compressive_strength: str | None) -> dict:
-    """Arguments of the analyses that the options describe."""
-    from ..motion.specs import parse_pressure
-
-    return {
-        "pattern": None if pattern is None else [number("--pattern", one) for one in pattern.split(",")],
-        "base_tilt": number("--tilt", tilt),
-        "compressive_strength": (None if compressive_strength is None else parse_pressure(compressive_strength)),
-    }

@@ -5,25 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
 from . import options as o
 
 
 def report(
-    folders: Annotated[
-        list[Path],
-        typer.Argument(metavar="DIR...", help="Folders that commands wrote with --out, in the order of the report."),
-    ],
-    out: Annotated[
-        Path, typer.Option("--out", metavar="FILE.html", help="The page, one file that needs nothing else.")
-    ],
-    title: Annotated[str | None, typer.Option("--title", metavar="TEXT", help="What stands, if not given.")] = None,
-    pdf: Annotated[
-        bool, typer.Option("--pdf", help="Print it to a PDF beside it; needs a Chromium on this machine.")
-    ] = False,
-    threads: o.Threads = None,
-    as_json: o.Json = False,
+    folders: list[Path] = o.argument("DIR...", "Folders that commands wrote with --out, in the order of the report."),
+    out: Path = o.option("FILE.html", "The page, one file that needs nothing else.", ...),
+    title: str | None = o.option("TEXT", "What stands, if not given."),
+    pdf: bool = o.option(None, "Print it to a PDF beside it; needs a Chromium on this machine.", False),
+    *,
+    execution: Annotated[o.Execution, o.But("dask", "out")],
 ) -> None:
     """A report of any results: one page that prints on A4, for an engineer who signs it.
 
@@ -33,16 +24,13 @@ def report(
     from ..report.case import write_report
     from ..report.pdf import is_root, needs_browser
     from ..results import read_results
-    from . import console
 
-    o.the_threads(threads)
     if pdf:
         needs_browser()
     found = read_results(folders)
     files = write_report(found, out, title=title, pdf=pdf)
-    if as_json:
-        results = [{"kind": one.kind.value, "folder": str(one.folder), "name": one.name} for one in found]
-        console.emit({"results": results, "files": [str(one) for one in files]})
+    results = [{"kind": one.kind.value, "folder": str(one.folder), "name": one.name} for one in found]
+    if execution.emits({"results": results, "files": [str(one) for one in files]}):
         return
     for one in found:
         print(f"{one.kind.value}: {one.name} ({one.folder})")

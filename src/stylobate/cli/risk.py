@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from . import options as o
-from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
+from .fragility import Curves
 
 Source = Annotated[
     Path,
@@ -24,21 +24,11 @@ Site = Annotated[
 
 def risk(
     source: Source,
-    hazard: Annotated[
-        Path,
-        typer.Option(
-            "--hazard", metavar="FILE", help="Hazard curve: annual_rate and pga_g, pgv_m_s …; or OpenQuake's."
-        ),
-    ],
-    im: Im = None,
-    state: State = "collapse",
-    of: Of = None,
+    hazard: Path = o.option("FILE", "Hazard curve: annual_rate and pga_g, pgv_m_s …; or OpenQuake's.", ...),
+    *,
+    asked: Curves,
     site: Site = None,
-    records_are_one: RecordsAreOne = False,
-    seed: Seed = 0,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    execution: o.Plain,
 ) -> None:
     """Risk: mean annual rate and return period of a state under a hazard curve, and its deaggregation by intensity."""
     from ..analysis.hazard import read_hazard
@@ -47,25 +37,21 @@ def risk(
     from ..results.sources import kept_of
     from . import console
 
-    o.the_threads(threads)
     curve = read_hazard(hazard, the_site(site))
-    fragility, used = one_curve(source, im, state, of, records_are_one, seed)
+    fragility, used = asked.one(source)
     found = rate_of(fragility, curve)
-    result, files = found.summary(), []
-    with console.folder(out, "risk.csv", "risk.json", "risk", "asked-risk.json") as folder:
-        if folder is not None:
+    result = found.summary()
+    with execution.files("risk", "risk.csv", "risk.json", "risk") as files:
+        if files.wanted:
             import pandas
 
             from .. import plots
 
-            files = [
-                console.write_table(pandas.DataFrame(result["deaggregation"]), folder / "risk.csv"),
-                *plots.save(plots.draw_risk(found), folder / "risk"),
-                console.asked(folder, "risk", **kept_of(used), **hazards_of([hazard], site), state=state, im=im),
-            ]
-            console.write_summary(result, files, folder / "risk.json")
-    if as_json:
-        console.emit(result)
+            files.table(pandas.DataFrame(result["deaggregation"]), "risk.csv")
+            files.picture(plots.draw_risk(found), "risk")
+            files.asked(**kept_of(used), **hazards_of([hazard], site), state=asked.state, im=asked.im)
+            files.summary(result, "risk.json")
+    if execution.emits(result):
         return
     period = "never" if found.rate == 0.0 else f"once in {years(1.0 / found.rate)}"
     most = max(result["deaggregation"], key=lambda one: one["annual_rate"])

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable, Sequence
 from contextlib import closing
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
-
-import typer
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from ..outcome import Outcome
 from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.certainty import Population
+    from ..campaign.campaign import Campaign, Progress
     from ..column.structure import Structure
     from ..models.base import Model
     from ..motion import Motion
     from ..response import Response
+    from .files import Files
 
 
 class Drawn(NamedTuple):
@@ -29,53 +30,28 @@ class Drawn(NamedTuple):
     median: bool = False
 
 
-#: The figures alone.
-FIGURES = Drawn()
-
-
 #: Pictures of what a model in space computes, besides those of every column.
 SPACE_PICTURES = ["orbit", "uplift", "residuals"]
 
 
 def run(
-    context: typer.Context,
     column: o.StructureName,
     model: o.ModelName = "dem2d",
-    harmonic: o.Harmonic = None,
-    across: o.Across = None,
-    pulse: o.Pulse = None,
-    synthetic: o.Synthetic = None,
-    motion: o.MotionFiles = None,
-    unit: o.Unit = None,
-    dt: o.Step = None,
-    component: o.ComponentName = None,
-    azimuth: o.Azimuth = None,
-    azimuths: o.Azimuths = None,
-    signs: o.Signs = "+",
-    condition: o.Condition = None,
-    scale: o.Scale = None,
-    pga: o.Pga = None,
-    vertical: o.Vertical = "on",
-    tail: o.Tail = "0s",
-    whole: o.Whole = False,
-    until_end: Annotated[bool, typer.Option("--until-end", help="Go on after the collapse is certain.")] = False,
-    until_rest: Annotated[
-        bool, typer.Option("--until-rest", help="Go on until everything lies still, on the ground if need be (dem2d).")
-    ] = False,
-    output_interval: Annotated[
-        str, typer.Option("--output-interval", metavar="TIME", help="Time between recorded states.")
-    ] = "0.01s",
+    *,
+    motions: o.Motions,
+    following: o.Following,
+    until_end: bool = o.option(None, "Go on after the collapse is certain.", False),
+    until_rest: bool = o.option(
+        None, "Go on until everything lies still, on the ground if need be (dem2d; assemblies in space, dem3d).", False
+    ),
+    output_interval: str = o.option("TIME", "Time between recorded states.", "0.01s"),
     settings: o.Settings = None,
     project: o.Project = None,
-    replicates: o.Replicates = None,
-    scatter: o.ScatterSizes = None,
-    seed: o.Seed = None,
-    pictures: Annotated[bool, typer.Option("--pictures/--no-pictures", help="Whether --out has figures too.")] = True,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    population: o.Population,
+    pictures: bool = o.option(None, "Whether --out has figures too.", True, flag="--pictures/--no-pictures"),
+    execution: o.Plain,
 ) -> None:
-    """Shake one column once, or one assembly of blocks (dem2d).
+    """Shake one column once, or one assembly of blocks (dem2d, in space dem3d).
 
     Prints the outcome and, for columns, how sure it is: models that step drums take fifteen columns like this one along at
     next to no cost; --replicates 0 leaves them out. With --out, writes histories and figures. A folder of records, or
@@ -85,32 +61,30 @@ def run(
     from ..motion.specs import parse_time
     from . import console
 
-    count = o.the_threads(threads)  # a single run has one thread; columns like it have all
-    asked = o.the_request(context)
+    asked = motions.request()
     stone = o.the_structure(column, project)
     how = o.the_model(model, settings)
     found = asked.expand(stone.frequency_parameter)
-    interval, length = parse_time(output_interval), o.the_tail(tail)
-    following = {"tail": length, "output_interval": interval, "until_end": until_end, "until_rest": until_rest}
-    following["whole"] = whole
-    twins = o.the_twins(stone, how, o.the_population(replicates, scatter, seed), until_end or until_rest)
-    drawn = Drawn(pictures, pictures and twins is not None and replicates is not None)
-    follow = partial(run_one, stone, model=how, twins=twins, threads=count, **following)
+    options = {"output_interval": parse_time(output_interval), "until_end": until_end, "until_rest": until_rest}
+    campaign, given = execution.campaign(following, population), population.replicates is not None
+    if given or not (until_end or until_rest):
+        campaign = o.with_twins(stone, how, campaign, given)
+    drawn = Drawn(pictures, pictures and given and campaign.replicates > 0)
+    follow = partial(run_one, stone, model=how, campaign=campaign, **options)
+    out = execution.out
     if asked.several:
-        summaries = each_record(stone, found.motions, how, follow, out, following | {"twins": twins}, drawn)
-        if not as_json:
+        summaries = each_record(stone, found.motions, how, follow, out, drawn)
+        if not execution.as_json:
             console.print_table(table_of_runs(summaries), digits=3)
             console.print_left_out(summaries)
             if out is not None:
                 print(f"{len(summaries)} folders with a run each in {out}")
     else:
-        summaries = [conclude(follow, stone, found.motions[0], how, out, as_json, drawn)]
+        summaries = [conclude(follow, stone, found.motions[0], how, out, execution.as_json, drawn)]
     if len(asked.azimuths) > 1 or asked.signs == "both":
-        directions(summaries, stone.name, how.name, out, as_json)
-    if as_json:
-        several = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
-        console.emit(several if asked.several else summaries[0])
-    else:
+        directions(summaries, stone.name, how.name, out, execution.as_json)
+    several = {"runs": summaries, "refused": found.refused, "worst": worst(summaries)}
+    if not execution.emits(several if asked.several else summaries[0]):
         console.print_refused(found.refused)
 
 
@@ -132,23 +106,18 @@ def directions(summaries: Sequence[dict], name: str, model: str, out: Path | Non
 
 
 def run_one(
-    stone: Structure,
-    motion: Motion,
-    model: Model,
-    twins: dict[str, Any] | None,
-    threads: int,
-    whole: bool = True,
-    **following: Any,
+    stone: Structure, motion: Motion, model: Model, campaign: Campaign, progress: Progress | None = None, **options: Any
 ) -> tuple[Response, Population | None]:
     """One run, and what became of columns like it."""
     from ..analysis.certainty import certainty
     from ..models.shared.quiet import share_of
     from ..simulate import simulate
 
-    following["quiet"] = share_of([motion], whole)
-    if twins is None:
-        return simulate(stone, motion, model, **following), None
-    found = certainty(stone.stack, motion, model, threads=threads, **twins, **following)
+    options["quiet"] = share_of([motion], campaign.whole)
+    if not campaign.replicates:
+        return simulate(stone, motion, model, tail=campaign.tail, progress=progress, **options), None
+    made = dataclasses.replace(campaign, whole=False, progress=progress)
+    found = certainty(stone.stack, motion, model, campaign=made, **options)
     return found.response, found.population
 
 
@@ -156,14 +125,14 @@ def each_record(
     stone: Structure,
     motions: Sequence[Motion],
     model: Model,
-    follow: Callable[..., tuple[Response, Population | None]],
+    follow: partial[tuple[Response, Population | None]],
     out: Path | None,
-    asked: dict[str, Any],
-    drawn: Drawn = FIGURES,
+    drawn: Drawn,
 ) -> list[dict]:
     """One run after the other, each with a folder of its own; those that are finished already are not run again."""
     import numpy as np
 
+    from ..campaign.campaign import Campaign
     from ..campaign.digests import Digests, Hasher
     from ..campaign.runs import Request, Runs, Stopped
     from ..models.base import Case
@@ -173,11 +142,14 @@ def each_record(
     places: list[Path | None] = []
     for one in motions:
         places.append(None if out is None else out / safe_name(one.name, places))
-    hasher = Hasher(model, asked["tail"])
-    options = run_options(*(asked[name] for name in ("tail", "output_interval", "until_end", "until_rest")))
+    campaign = follow.keywords["campaign"]
+    following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
+    hasher = Hasher(model, campaign.tail)
+    options = run_options(campaign.tail, **following)
+    made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
     each = [
         hasher.of_product(
-            {"run": [stone.digest, one.name, one.digest, place and place.name], "drawn": drawn, **asked}, __file__
+            {"run": [stone.digest, one.name, one.digest, place and place.name], "drawn": drawn, **made}, __file__
         )
         for one, place in zip(motions, places, strict=True)
     ]
@@ -194,7 +166,7 @@ def each_record(
     with console.folder(out) as folder:
         ledger = console.ledger(folder)
         try:
-            with closing(Runs(ledger)) as runs:
+            with closing(Runs(Campaign(ledger=ledger))) as runs:
                 for number, row in runs.products(request, make):
                     files = {} if out is None else {"files": [str(out / name) for name in row["files"]]}
                     summaries[number] = row["summary"] | files
@@ -210,51 +182,50 @@ def conclude(
     model: Model,
     out: Path | None,
     quiet: bool,
-    drawn: Drawn = FIGURES,
+    drawn: Drawn,
 ) -> dict:
     """Make a run; its files where a folder is given, its words where they are wanted. Returns its summary."""
     from ..analysis.directions import direction_of
     from ..motion.writing import write_csv
-    from ..results.asked import asked_file
     from . import console
+    from .files import files as files_of
 
     pictures = ["histories", "filmstrip", "joints", "energy", "motion"]
     pictures += SPACE_PICTURES if model.axes == "xyz" else []
-    names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "median", asked_file("run"))
-    with console.folder(out, *names, *pictures) as folder:
+    names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "median")
+    with files_of(out, "run", *names, *pictures) as files:
         with console.progress("seconds of motion") as progress:
             response, population = follow(motion, progress=progress)
         console.show(response)
         taken = model.taken(motion)
-        summary, files = response.summary() | o.input_facts(taken) | direction_of(motion), []
+        summary = response.summary() | o.input_facts(taken) | direction_of(motion)
         if population is not None:
             summary |= population.summary(summary)
-        if folder is not None:
-            files = [*write(response, taken, folder, drawn.all), write_csv(taken, folder / "motion.csv")]
+        if files.folder is not None:
+            files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
-                files += write_population(population, motion, model, response, folder, drawn.median)
-            files += [console.asked(folder, "run", structures=[stone], models=[model], motions=[taken])]
-            console.write_summary(summary, files, folder / "run.json")
+                write_population(population, motion, model, response, files, drawn.median)
+            files.asked(structures=[stone], models=[model], motions=[taken])
+            files.summary(summary, "run.json")
     if not quiet:
         describe(response, taken, files, population)
     return summary
 
 
 def write_population(
-    population: Population, motion: Motion, model: Model, response: Response, folder: Path, strip: bool
-) -> list[Path]:
+    population: Population, motion: Motion, model: Model, response: Response, files: Files, strip: bool
+) -> None:
     """The table of the columns like this one and, where it is wanted, the strip of the median run, which is run again."""
     from .. import plots
     from ..simulate import simulate
-    from . import console
 
-    files = [console.write_table(population.table, folder / "replicates.csv")]
+    files.table(population.table, "replicates.csv")
     if population.median is None or not strip:
-        return files
+        return
     options = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
-    middle = simulate(population.twins[population.median], motion, model.paced(response.column), **options)
-    return files + plots.save(plots.draw_filmstrip(middle), folder / "median")
+    middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.column), **options)
+    files.picture(plots.draw_filmstrip(middle), "median")
 
 
 def safe_name(name: str, taken: Sequence[Path | None]) -> str:
@@ -310,11 +281,9 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 def population_facts(population: Population) -> dict[str, str]:
     """What columns like this one are, and how much they moved."""
-    from ..campaign.twins import described
     from . import console
 
-    known = len(population.rows), population.scatter, population.seed, population.left_out
-    facts = {"columns like this": described(*known)}
+    facts = {"columns like this": population.drawn.words}
     for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
         if (spread := population.spread[f"{name}_top_displacement_m"]) is not None:
             facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)

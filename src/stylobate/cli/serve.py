@@ -6,26 +6,19 @@ import signal
 import sys
 from contextlib import suppress
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from ..errors import InputError
+from .groups import option
 
 #: The process that does the jobs of the page.
 WORKER = (sys.executable, "-m", f"{__package__}.worker")
 
 
 def serve(
-    port: Annotated[int, typer.Option("--port", metavar="N", help="Of the page; 0 for any that is free.")] = 8040,
-    host: Annotated[
-        str, typer.Option("--host", metavar="ADDRESS", help="Of this machine, for others to reach the page as well.")
-    ] = "127.0.0.1",
-    no_browser: Annotated[bool, typer.Option("--no-browser", help="Do not open the page in a browser.")] = False,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", help="Keep jobs and records there; without it they end with the page."),
-    ] = None,
+    port: int = option("N", "Of the page; 0 for any that is free.", 8040),
+    host: str = option("ADDRESS", "Of this machine, for others to reach the page as well.", "127.0.0.1"),
+    no_browser: bool = option(None, "Do not open the page in a browser.", False),
+    out: Path | None = option("DIR", "Keep jobs and records there; without it they end with the page."),
 ) -> None:
     """A page to explore columns: edit, shake, watch, and map what stands and what falls.
 

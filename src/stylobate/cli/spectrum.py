@@ -6,8 +6,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from ..errors import InputError
 from . import options as o
 
@@ -15,95 +13,66 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..motion import Motion
+    from .files import Files
 
 
 def spectrum(
-    context: typer.Context,
-    files: Annotated[
-        list[Path] | None, typer.Argument(metavar="[MOTION]...", help="Record, or the files of its components.")
-    ] = None,
-    kind: Annotated[str, typer.Option("--kind", metavar="KIND", help="response or rocking.")] = "response",
-    harmonic: o.Harmonic = None,
-    across: o.Across = None,
-    pulse: o.Pulse = None,
-    synthetic: o.Synthetic = None,
-    unit: o.Unit = None,
-    dt: o.Step = None,
-    component: o.ComponentName = None,
-    azimuth: o.Azimuth = None,
-    condition: o.Condition = None,
-    scale: o.Scale = None,
-    pga: o.Pga = None,
-    vertical: o.Vertical = "on",
-    damping: Annotated[
-        str | None, typer.Option("--damping", metavar="SHARE", help="Of a response spectrum; 0.05 by default.")
-    ] = None,
-    periods: Annotated[
-        str | None, typer.Option("--periods", metavar="T:T:N", help="Of a response spectrum [s], such as 0.02:10:120.")
-    ] = None,
-    sizes: Annotated[
-        str | None, typer.Option("--p", metavar="P:P:N", help="Of a rocking spectrum [rad/s], such as 0.8:8:64.")
-    ] = None,
-    slendernesses: Annotated[
-        str | None, typer.Option("--alpha", metavar="A:A:N", help="Of a rocking spectrum [rad], such as 0.05:0.4:64.")
-    ] = None,
-    restitution: Annotated[
-        str | None, typer.Option("--restitution", metavar="E", help="Of a rocking spectrum; Housner's by default.")
-    ] = None,
-    tail: Annotated[
-        str | None, typer.Option("--tail", metavar="TIME", help="Of a rocking spectrum: go on after the motion.")
-    ] = None,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    files: list[Path] | None = o.argument("[MOTION]...", "Record, or the files of its components.", None),
+    kind: str = o.option("KIND", "response or rocking.", "response"),
+    *,
+    motions: Annotated[o.Motions, o.But("motion", *o.SEVERAL)],
+    damping: str | None = o.option("SHARE", "Of a response spectrum; 0.05 by default."),
+    periods: str | None = o.option("T:T:N", "Of a response spectrum [s], such as 0.02:10:120."),
+    sizes: str | None = o.option("P:P:N", "Of a rocking spectrum [rad/s], such as 0.8:8:64.", flag="--p"),
+    slendernesses: str | None = o.option("A:A:N", "Of a rocking spectrum [rad], such as 0.05:0.4:64.", flag="--alpha"),
+    restitution: str | None = o.option("E", "Of a rocking spectrum; Housner's by default."),
+    tail: str | None = o.option("TIME", "Of a rocking spectrum: go on after the motion."),
+    execution: o.Plain,
 ) -> None:
     """Response spectrum, or rocking spectrum of a motion.
 
     Peaks of linear oscillators over their period, or of Housner's blocks over their size p and slenderness α.
     """
     from ..models.rocking.model import HousnerBlock
-    from ..motion.specs import parse_number
+    from ..motion.specs import parse_number, parse_time
     from . import console
 
     if kind not in ("response", "rocking"):
         raise InputError(f"--kind is {kind!r}; allowed is response or rocking.")
     _only_for(kind, "response", {"--damping": damping, "--periods": periods})
     _only_for(kind, "rocking", {"--p": sizes, "--alpha": slendernesses, "--restitution": restitution, "--tail": tail})
-    count = o.the_threads(threads)
-    motion = o.the_request(context, motion=files, vertical=vertical if kind == "rocking" else "on").motion()
+    vertical = motions.vertical if kind == "rocking" else "on"
+    motion = motions.request(motion=files, vertical=vertical).motion()
     if kind == "rocking":
         motion = HousnerBlock().taken(motion)
         blocks = {
             "frequency_parameters": _values("--p", sizes, geometric=True),
             "slendernesses": _values("--alpha", slendernesses),
             "restitution": None if restitution is None else parse_number("--restitution", restitution),
-            "tail": o.the_tail(tail or "0s"),
-            "threads": count,
+            "tail": parse_time(tail or "0s"),
+            "threads": execution.count,
         }
         compute = partial(rocking, motion, blocks)
     else:
         share = 0.05 if damping is None else parse_number("--damping", damping)
         compute = partial(response, motion, _values("--periods", periods, geometric=True), share)
-    with console.folder(out, "spectrum.csv", "spectrum.json", "spectrum") as folder:
-        result, said, written = compute(folder)
+    with execution.files("spectrum", "spectrum.csv", "spectrum.json", "spectrum") as written:
+        result, facts = compute(written)
         result = {"kind": kind, **o.input_facts(motion), **result}
-        if folder is not None:
-            written.append(console.write_json(folder / "spectrum.json", result))
-            result["files"] = [str(file) for file in written]
-    if as_json:
-        console.emit(result)
-    else:
+        if written.wanted:
+            written.json(result, "spectrum.json")
+            result["files"] = written.names
+    if not execution.emits(result):
         lines = o.input_lines(motion)
-        console.say(lines.pop("motion"), lines | said, written)
+        console.say(lines.pop("motion"), lines | facts, written)
 
 
 def response(
-    motion: Motion, periods: np.ndarray | None, damping: float, folder: Path | None
-) -> tuple[dict[str, Any], dict[str, str], list[Path]]:
+    motion: Motion, periods: np.ndarray | None, damping: float, files: Files
+) -> tuple[dict[str, Any], dict[str, str]]:
     """Response spectrum of every component, and over all horizontal directions where there are two."""
     from ..constants import g
     from ..motion.spectra import response_spectrum, rotated_spectrum
-    from . import console
 
     spectra = {axis: response_spectrum(motion, periods, damping, component=axis) for axis in motion.components}
     first = next(iter(spectra.values()))
@@ -119,43 +88,35 @@ def response(
     for axis, one in spectra.items():
         top = int(one.psa.argmax())
         said[f"largest PSA, {axis}"] = f"{one.psa[top] / g:.3g} g at {one.period[top]:.3g} s"
-    files = []
-    if folder is not None:
+    if files.wanted:
         import pandas
 
         from .. import plots
 
-        files = [
-            console.write_table(pandas.DataFrame(columns), folder / "spectrum.csv"),
-            *plots.save(plots.draw_spectra(motion, spectra=spectra), folder / "spectrum"),
-        ]
-    return result, said, files
+        files.table(pandas.DataFrame(columns), "spectrum.csv")
+        files.picture(plots.draw_spectra(motion, spectra=spectra), "spectrum")
+    return result, said
 
 
-def rocking(
-    motion: Motion, blocks: dict[str, Any], folder: Path | None
-) -> tuple[dict[str, Any], dict[str, str], list[Path]]:
+def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[str, Any], dict[str, str]]:
     """Rocking spectrum along x, with the vertical component where it is on."""
     from ..analysis.rocking_spectrum import rocking_spectrum
     from ..response.words import longer_tail
-    from . import console
 
     found = rocking_spectrum(motion, **blocks)
-    summary, files = found.summary(), []
+    summary = found.summary()
     said = {
         "blocks": f"{summary['cells']}: {summary['closed_cells']} stay closed, "
         f"{summary['collapsed_cells']} overturn, {summary['undecided_cells']} end far from rest "
         f"(try {longer_tail(blocks['tail'])}), {summary['failed_cells']} could not be computed",
         "strongest pulse": f"{found.pulse_period:.3g} s",
     }
-    if folder is not None:
+    if files.wanted:
         from .. import plots
 
-        files = [
-            console.write_table(found.table, folder / "spectrum.csv"),
-            *plots.save(plots.draw_rocking_spectrum(found), folder / "spectrum"),
-        ]
-    return summary, said, files
+        files.table(found.table, "spectrum.csv")
+        files.picture(plots.draw_rocking_spectrum(found), "spectrum")
+    return summary, said
 
 
 def _only_for(kind: str, needed: str, given: dict[str, str | None]) -> None:

@@ -5,16 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from ..errors import InputError
 from . import options as o
 
 if TYPE_CHECKING:
     from ..analysis.states import StateComparison
+    from ..campaign.campaign import Campaign
     from ..column import Column
-    from ..models.base import Model
-    from ..motion.request import MotionRequest
 
 
 def the_states(as_built: str | None, as_found: str | None, strengthened: list[str] | None) -> dict[str, str]:
@@ -32,140 +29,80 @@ def the_states(as_built: str | None, as_found: str | None, strengthened: list[st
 
 
 def states(
-    context: typer.Context,
-    records: Annotated[
-        list[Path] | None,
-        typer.Argument(metavar="[DIR|FILE]...", help="Folders of records, or records; or sample:NAME."),
-    ] = None,
-    as_built: Annotated[
-        str | None, typer.Option("--as-built", metavar="COLUMN", help="Name of a preset, or a column file (TOML).")
-    ] = None,
-    as_found: Annotated[
-        str | None, typer.Option("--as-found", metavar="COLUMN", help="The column as it is found today.")
-    ] = None,
-    strengthened: Annotated[
-        list[str] | None, typer.Option("--with", metavar="COLUMN", help="With a measure; may be repeated.")
-    ] = None,
-    model: Annotated[str, typer.Option("--model", metavar="MODEL", help="How it is computed.")] = "dem2d",
-    im: Annotated[
-        str | None, typer.Option("--im", metavar="MEASURE", help="Scale the records to it, such as pgv.")
-    ] = None,
-    levels: Annotated[
-        str | None, typer.Option("--levels", metavar="A:A:N", help="Its levels, such as 0.2m/s:1.6m/s:8.")
-    ] = None,
-    state: Annotated[
-        str, typer.Option("--state", metavar="STATE", help="Limit state, such as collapse or top:0.35d.")
-    ] = "collapse",
-    replicates: o.Replicates = None,
-    scatter: o.ScatterSizes = None,
-    seed: o.Seed = None,
-    harmonic: o.Harmonic = None,
-    across: o.Across = None,
-    pulse: o.Pulse = None,
-    synthetic: o.Synthetic = None,
-    motion: o.MotionFiles = None,
-    unit: o.Unit = None,
-    dt: o.Step = None,
-    component: o.ComponentName = None,
-    azimuth: o.Azimuth = None,
-    condition: o.Condition = None,
-    scale: o.Scale = None,
-    pga: o.Pga = None,
-    vertical: o.Vertical = "on",
-    tail: o.Tail = "0s",
+    records: list[Path] | None = o.argument("[DIR|FILE]...", "Folders of records, or records; or sample:NAME.", None),
+    as_built: str | None = o.option("COLUMN", "Name of a preset, or a column file (TOML)."),
+    as_found: str | None = o.option("COLUMN", "The column as it is found today."),
+    strengthened: list[str] | None = o.option("COLUMN", "With a measure; may be repeated.", flag="--with"),
+    model: str = o.option("MODEL", "How it is computed.", "dem2d"),
+    im: str | None = o.option("MEASURE", "Scale the records to it, such as pgv."),
+    levels: str | None = o.option("A:A:N", "Its levels, such as 0.2m/s:1.6m/s:8."),
+    state: str = o.option("STATE", "Limit state, such as collapse or top:0.35d.", "collapse"),
+    *,
+    population: o.Population,
+    motions: Annotated[o.Motions, o.But(*o.SEVERAL)],
+    following: o.Following,
     settings: o.Settings = None,
     project: o.Project = None,
-    threads: o.Threads = None,
-    dask: o.Dask = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    execution: o.Execution,
 ) -> None:
     """States of one column side by side: as built, as found, with a measure. Was it worth it?
 
     Fragility curves under the same records with paired differences, and what the links bore.
     """
-    if records and motion:
-        raise InputError("records are given before the options and after --motion; give them once.")
-    files = records or motion
-    if not (files or harmonic or pulse or synthetic):
-        raise InputError("no record is given; name a folder of records, or files, before the options.")
-    named = the_states(as_built, as_found, strengthened)
-    twins = o.the_population(replicates, scatter, seed)
-    how = o.the_model(model, settings)
-    workers = o.the_threads(threads)
-    request = o.the_request(context, motion=files, separate=bool(files))
-    after = o.the_tail(tail)
-    columns = {label: o.the_column(text, project) for label, text in named.items()}
-    o.the_engine(context, dask, workers)
-    _run(columns, request, how, im, levels, state, twins, after, workers, out, as_json)
-
-
-def _run(
-    columns: dict[str, Column],
-    request: MotionRequest,
-    model: Model,
-    im: str | None,
-    levels: str | None,
-    state: str,
-    twins: dict[str, Any] | None,
-    tail: float,
-    threads: int,
-    out: Path | None,
-    as_json: bool,
-) -> None:
-    """Compare states of a column and tell what came of it."""
     from ..analysis.limit_states import parse_state
     from ..analysis.states import compare_states
     from ..campaign.study_files import levels_of
-    from ..column.scatter import usual_scatter
     from . import console
 
+    if records and motions.motion:
+        raise InputError("records are given before the options and after --motion; give them once.")
+    sources = records or motions.motion
+    if not (sources or motions.harmonic or motions.pulse or motions.synthetic):
+        raise InputError("no record is given; name a folder of records, or files, before the options.")
+    named = the_states(as_built, as_found, strengthened)
+    how = o.the_model(model, settings)
+    campaign = execution.campaign(following, population)
+    request = motions.request(motion=sources, separate=bool(sources))
+    columns = {label: o.the_column(text, project) for label, text in named.items()}
     if (im is None) != (levels is None):
         raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
                          "0.2m/s:1.6m/s:8.")  # fmt: skip
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
-    motions = request.expand()
-    how, population = {}, {}
-    if twins is not None:
-        how = {"realisations": twins["replicates"], "scatter": twins["scatter"], "seed": twins["seed"]}
-        sizes_of = {label: (twins["scatter"] or usual_scatter(one)).describe() for label, one in columns.items()}
-        same = len(set(sizes_of.values())) == 1
-        told = sizes_of.values() if same else (f"{label}: {one}" for label, one in sizes_of.items())
-        population = twins | {"scatter": "; ".join(dict.fromkeys(told))}
-    with console.folder(out, "states.csv", "links.csv", "states.json", "asked-states.json", "states") as folder:
-        if folder is not None:
-            console.ledger(folder)
-        with console.progress("runs") as progress:
+    suite = request.expand()
+    with execution.files("states", "states.csv", "links.csv", "states.json", "states") as files:
+        with files.campaign(campaign, in_folder=True) as asked:
             found = compare_states(
-                columns, motions.motions, model, sizes, measure, **how, state=state, tail=tail, threads=threads,
-                progress=progress, out=folder,
-            )  # fmt: skip
-        summary = found.summary() | {"model": model.name, "refused": motions.refused, "files": []}
-        if folder is not None:
+                columns, suite.motions, how, sizes, measure, state=state, out=files.folder, campaign=asked
+            )
+        summary = found.summary() | {"model": how.name, "refused": suite.refused, "files": []}
+        if files.wanted:
             from .. import plots
 
-            what = {"structures": list(columns.values()), "models": [model]}
-            what |= {
-                "motions": [model.taken(one) for one in motions.motions],
-                "states": list(columns),
-                "runs": found.table,
-            }
-            what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": tail}
-            files = [
-                console.write_table(found.table, folder / "states.csv"),
-                console.write_table(found.links, folder / "links.csv"),
-                *plots.save(plots.draw_states(found), folder / "states"),
-                console.asked(folder, "states", **what, **population),
-            ]
-            console.write_summary(summary, files, folder / "states.json")
-    if as_json:
-        console.emit(summary)
+            files.table(found.table, "states.csv")
+            files.table(found.links, "links.csv")
+            files.picture(plots.draw_states(found), "states")
+            what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
+            what |= {"motions": [how.taken(one) for one in suite.motions], "runs": found.table}
+            what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
+            files.asked(**what, **_twins(columns, campaign) if population.replicates is not None else {})
+            files.summary(summary, "states.json")
+    if execution.emits(summary):
         return
     describe(found)
-    console.print_refused(motions.refused)
-    if summary["files"]:
-        print(f"{len(summary['files'])} files in {out}")
+    console.print_refused(suite.refused)
+    if files:
+        print(f"{len(files)} files in {execution.out}")
+
+
+def _twins(columns: dict[str, Column], campaign: Campaign) -> dict[str, Any]:
+    """How twins of the columns are drawn, as it is kept beside the results."""
+    from ..column.scatter import usual_scatter
+
+    sizes = {label: (campaign.scatter or usual_scatter(one)).describe() for label, one in columns.items()}
+    same = len(set(sizes.values())) == 1
+    told = sizes.values() if same else (f"{label}: {one}" for label, one in sizes.items())
+    return {"replicates": campaign.replicates, "scatter": "; ".join(dict.fromkeys(told)), "seed": campaign.seed}
 
 
 def describe(found: StateComparison) -> None:

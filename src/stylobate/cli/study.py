@@ -18,49 +18,47 @@ StudyFolder = Annotated[Path, typer.Argument(metavar="DIR", help="The folder of 
 
 
 def run(
-    context: typer.Context,
     file: StudyName,
-    out: Annotated[Path, typer.Option("--out", metavar="DIR", help="Folder that keeps the runs, for good.")],
-    threads: o.Threads = None,
-    dask: o.Dask = None,
-    as_json: o.Json = False,
+    out: Path = o.option("DIR", "Folder that keeps the runs, for good.", ...),
+    *,
+    execution: Annotated[o.Execution, o.But("out")],
 ) -> None:
     """Run a study, or what is missing of it.
 
     Finished runs are kept in the folder: a study that was stopped goes on, one that has grown computes only what is new.
     """
+    from ..analysis.difference import round_drums
     from ..analysis.studies import TABLES, keep_histories, run_study, write_table
     from ..campaign.study_files import read_plan
     from . import console
+    from .files import files as files_of
 
-    count = o.the_threads(threads)
+    campaign = execution.campaign()
     study, refused = read_plan(file)
-    o.the_engine(context, dask, count)
-    with console.folder(out, "study.parquet", "study.csv", "study.json", "asked-study.json") as folder:
-        assert folder is not None
-        console.ledger(folder)
-        with console.progress("runs") as progress:
-            another = f"another process is at work in {folder}; this one goes on when that one ends."
-            result = run_study(study, folder, threads=count, progress=progress, waiting=lambda: console.note(another))
+    with files_of(out, "study", "study.parquet", "study.csv", "study.json") as files:
+        another = f"another process is at work in {out}; this one goes on when that one ends."
+        with files.campaign(campaign, in_folder=True) as asked:
+            result = run_study(study, out, waiting=lambda: console.note(another), campaign=asked)
         with console.progress("histories") as progress:
-            files = keep_histories(study, result, folder, progress)
-        files.append(write_table(result.table, folder / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
+            files += keep_histories(study, result, out, progress)
+        files.append(write_table(result.table, out / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
         (model, *more), motions = study.models, study.motions
         what = {"structures": study.columns, "models": study.models, "runs": result.table}
         what |= {"motions": motions if more else [model.taken(one) for one in motions]}
-        files.append(console.asked(folder, "study", **what, tail_s=study.tail))
-        summary = result.summary() | {"refused": refused}
-        console.write_summary(summary, files, folder / "study.json")
-    if as_json:
-        console.emit(summary)
+        files.asked(**what, tail_s=study.campaign.tail)
+        doubts = (round_drums(study.columns, one) for one in study.models)
+        summary = result.summary() | {"refused": refused, "doubt": next(filter(None, doubts), "")}
+        files.summary(summary, "study.json")
+    if execution.emits(summary):
         return
+    console.print_doubt(summary)
     print(sentence(result))
     console.print_refused(refused)
     tables, histories = files[-3:], len(files) - 3
     print(f"{len(files)} files in {out}: {', '.join(one.name for one in tables)}, histories of {histories} runs")
 
 
-def status(directory: StudyFolder, as_json: o.Json = False) -> None:
+def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But("threads", "dask", "out")]) -> None:
     """How far a study is; it may be running."""
     from ..analysis.studies import StudyResult
     from ..campaign.ledger import RUNS_FILE
@@ -68,7 +66,7 @@ def status(directory: StudyFolder, as_json: o.Json = False) -> None:
     from . import console
 
     result = StudyResult.in_folder(directory)
-    if as_json:
+    if execution.as_json:
         written = directory / "study.json"
         last = json.loads(written.read_text()).get("wall_s") if written.is_file() else None
         names = (*(one.name for one in sorted(directory.glob("study.*"))), PLAN_FILE, RUNS_FILE)
@@ -81,12 +79,12 @@ def status(directory: StudyFolder, as_json: o.Json = False) -> None:
 
 def export(
     directory: StudyFolder,
-    to: Annotated[Path, typer.Option("--to", metavar="FILE", help="Table to write: .parquet or .csv.")],
-    as_json: o.Json = False,
+    to: Path = o.option("FILE", "Table to write: .parquet or .csv.", ...),
+    *,
+    execution: Annotated[o.Execution, o.But("threads", "dask", "out")],
 ) -> None:
     """Write the table of a study, one row per finished case; of one that is not finished as well."""
     from ..analysis.studies import StudyResult, write_table
-    from . import console
 
     result = StudyResult.in_folder(directory)
     if to.exists():
@@ -94,9 +92,7 @@ def export(
 
         raise InputError(f"{to} is there already; choose another name.")
     written = write_table(result.table, to)
-    if as_json:
-        console.emit(result.summary() | {"files": [str(written)]})
-    else:
+    if not execution.emits(result.summary() | {"files": [str(written)]}):
         print(f"{result.rows.finished} of {len(result.plan)} cases in {written}")
 
 

@@ -3,30 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
-
-import typer
 
 from . import options as o
-from .fragility import Im, Of, RecordsAreOne, Seed, State, one_curve
+from .fragility import Curves
 from .risk import Site, Source, hazards_of, the_site
 
 
 def survival(
     source: Source,
-    age: Annotated[str, typer.Option("--age", metavar="AGE", help="Years that it has stood as it is, such as 2400y.")],
-    hazard: Annotated[
-        list[Path], typer.Option("--hazard", metavar="FILE", help="Hazard curve; repeat it to compare several.")
-    ],
-    im: Im = None,
-    state: State = "collapse",
-    of: Of = None,
+    age: str = o.option("AGE", "Years that it has stood as it is, such as 2400y.", ...),
+    hazard: list[Path] = o.option("FILE", "Hazard curve; repeat it to compare several.", ...),
+    *,
+    asked: Curves,
     site: Site = None,
-    records_are_one: RecordsAreOne = False,
-    seed: Seed = 0,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    execution: o.Plain,
 ) -> None:
     """Survival: the probability that a column would still stand after its age, for each of several hazard curves."""
     from ..analysis.hazard import read_hazard
@@ -36,7 +26,6 @@ def survival(
     from ..results.sources import kept_of
     from . import console
 
-    o.the_threads(threads)
     years = parse_age(age)
     hazards = [read_hazard(one, the_site(site)) for one in hazard]
     names = [one.name for one in hazards]
@@ -44,30 +33,20 @@ def survival(
         raise InputError(
             f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own."
         )
-    fragility, used = one_curve(source, im, state, of, records_are_one, seed)
+    fragility, used = asked.one(source)
     found = survive(fragility, years, hazards)
-    result, files = found.summary(), []
-    with console.folder(out, "survival.csv", "survival.json", "survival", "asked-survival.json") as folder:
-        if folder is not None:
+    result = found.summary()
+    with execution.files("survival", "survival.csv", "survival.json", "survival") as files:
+        if files.wanted:
             import pandas
 
             from .. import plots
 
-            files = [
-                console.write_table(pandas.DataFrame(result["hazards"]), folder / "survival.csv"),
-                *plots.save(plots.draw_survival(found), folder / "survival"),
-                console.asked(
-                    folder,
-                    "survival",
-                    **kept_of(used),
-                    **hazards_of(hazard, site),
-                    state=state,
-                    age_y=years,
-                ),
-            ]
-            console.write_summary(result, files, folder / "survival.json")
-    if as_json:
-        console.emit(result)
+            files.table(pandas.DataFrame(result["hazards"]), "survival.csv")
+            files.picture(plots.draw_survival(found), "survival")
+            files.asked(**kept_of(used), **hazards_of(hazard, site), state=asked.state, age_y=years)
+            files.summary(result, "survival.json")
+    if execution.emits(result):
         return
     for one in result["hazards"]:
         low, high = one["survival_probability_low"], one["survival_probability_high"]

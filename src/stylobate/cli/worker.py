@@ -123,7 +123,7 @@ def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
             code = call([*command, "--json"])
         console.VIEWER = None
         lines = [one.removeprefix("stylobate: ") for one in complained.getvalue().splitlines()]
-        tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines)
+        tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines, field=console.FIELD)
         if code:
             return
     tell(id=job["id"], done=True)

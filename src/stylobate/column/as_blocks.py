@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 from collections.abc import Mapping
 from typing import Any
-
-import numpy as np
 
 from .assembly import Assembly
 from .block import Block
 from .column import Column
-from .found_geometry import Geometry, geometry
 from .links.link import Link, Numbers
-from .links.placed import PlacedLink
+from .links.placed import stands_at
 
 
 def of_column(column: Column) -> Assembly:
@@ -43,10 +39,14 @@ def links_of_column(
     prefix : str
         Of the names of the links.
     """
-    at, found = geometry(column), []
+    found = []
     for link, one in zip(column.links, column.placed_links, strict=True):
         between: Any = tuple(names[f"drum {body}" if body else "ground"] for body in (one.lower, one.upper))
-        ends = _ends(column, one) if one.straight else (_in_joint(column, at, one),)
+        stand = (column.bodies[one.lower], column.bodies[one.upper])
+        places = [
+            stands_at(body.place, body.lean, end) for body, end in zip(stand, column.link_ends(one)[:2], strict=True)
+        ]
+        ends = places if one.straight else places[1:]  # what crosses a joint lies on the lower face of its upper drum
         moved = ((x + place[0], y, z + place[1]) for x, y, z in ends)
         where = dict(zip(("at", "to"), moved, strict=False))
         # what stone a pin leaves was looked at in the column
@@ -54,24 +54,3 @@ def links_of_column(
         numbers = Numbers(**{**held, "diameter": 0.0})
         found.append(type(link)(between=between, name=prefix + one.name, numbers=numbers, **where))
     return found
-
-
-def _ends(column: Column, link: PlacedLink) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Ends of a tie or core of a column as it stands [m]."""
-    at, ends = geometry(column), []
-    for body, place in zip((link.lower, link.upper), link.arms, strict=True):
-        x, z = place[0], place[2]
-        if body:
-            angle = float(at.lean[body - 1] + at.tilt[body - 1])
-            c, s = math.cos(angle), math.sin(angle)
-            x, z = np.array([c * x - s * z, s * x + c * z]) + at.centroid[body - 1]
-        ends.append((float(x), float(place[1]), float(z)))
-    return ends[0], ends[1]
-
-
-def _in_joint(column: Column, at: Geometry, link: PlacedLink) -> tuple[float, float, float]:
-    """Place of a dowel, bar or layer on the lower face of its upper drum, as it stands [m]."""
-    i = link.upper - 1
-    axis, lean = float(at.lean[i] + at.tilt[i]), float(at.lean[i])
-    x, z = at.centroid[i] - column.drums[i].centroid_height * np.array([-math.sin(axis), math.cos(axis)])
-    return float(x + link.high[0] * math.cos(lean)), link.high[1], float(z + link.high[0] * math.sin(lean))

@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-import numpy as np
-
-from ..errors import InputError, as_typed, check_range
+from ..errors import InputError, check_range, check_whole
 
 #: Edges that may be chipped.
 SIDES = ("left", "right", "front", "back")
@@ -62,10 +60,7 @@ class FoundDrum:
     chip_azimuth: float = 0.0
 
     def __post_init__(self) -> None:
-        if isinstance(self.drum, bool) or not isinstance(self.drum, (int, np.integer)) or self.drum < 1:
-            raise InputError(
-                f"a drum as found has number {as_typed(self.drum)}; allowed is a whole number from 1 (at the base)."
-            )
+        check_whole("number of a drum as found", self.drum, 1, remedy="1 is at the base", field="found")
         for name, low, high, unit in (
             ("offset", -10.0, 10.0, "m"),
             ("tilt", -30.0, 30.0, "degrees"),
@@ -75,7 +70,15 @@ class FoundDrum:
             ("turn", -180.0, 180.0, "degrees"),
             ("chip_azimuth", -360.0, 360.0, "degrees"),
         ):
-            value = check_range(f"{name} of drum {self.drum}", getattr(self, name), low, high, unit=unit)
+            value = check_range(
+                name,
+                getattr(self, name),
+                low,
+                high,
+                unit=unit,
+                of=f"drum {self.drum}",
+                field=f"found.{self.drum}.{name}",
+            )
             object.__setattr__(self, name, value)
         left = self.chip_left
         _into_plane(self, "offset", "offset_azimuth")
@@ -140,7 +143,7 @@ class AsFound:
         numbers = [one.drum for one in self.drums]
         twice = next((number for number in numbers if numbers.count(number) > 1), None)
         if twice is not None:
-            raise InputError(f"drum {twice} is given twice as found; give all of it at once.")
+            raise InputError(f"drum {twice} is given twice as found; give all of it at once.", f"found.{twice}")
         tilt = check_range("base_tilt", self.base_tilt, -45.0, 45.0, unit="degrees")
         object.__setattr__(self, "base_tilt", tilt)
         azimuth = check_range("base_azimuth", self.base_azimuth, -360.0, 360.0, unit="degrees")

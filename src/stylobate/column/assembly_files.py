@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning
+from ..errors import InputError, OutOfRangeWarning, within
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
@@ -91,19 +91,14 @@ def read_assembly(path: str | Path) -> Assembly | SpatialAssembly:
         The file cannot be read or does not describe an assembly; the message names the block and the remedy.
     """
     data, name, folder = parse_toml(path), shown(Path(path).stem), Path(path).parent
-    try:
+    with within(shown(path)):
         if describes_space(data):
             refuse_mixed(data)
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
-    schema = SpatialTable if describes_space(data) else AssemblyTable
-    table = checked(data, schema, shown(path))
-    try:
+    table = checked(data, SpatialTable if describes_space(data) else AssemblyTable, shown(path))
+    with within(shown(path)):
         if isinstance(table, SpatialTable):
             return spatial_assembly(table, name, folder)
         return _assembly(table, name, folder)
-    except InputError as error:
-        raise InputError(f"{shown(path)}: {error}") from None
 
 
 def assembly_from_dict(data: Mapping[str, Any]) -> Assembly:

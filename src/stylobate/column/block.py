@@ -13,7 +13,7 @@ import numpy as np
 from ..errors import InputError, OutOfRangeWarning, check_range
 from .drum import DENSITIES, LENGTHS
 from .joint import Joint
-from .shapes import Outlined, Prism
+from .shapes import Outlined, Placed, Prism
 
 MAX_VERTICES = 24
 
@@ -147,6 +147,12 @@ class Block(Outlined):
     def angle(self) -> float:
         """Of its axes as drawn [rad]."""
         return 0.0
+
+    @property
+    def placed(self) -> tuple[Placed, ...]:
+        """Its one part where it stands in space."""
+        x, z = self.origin
+        return (Placed(self.shape, (x, 0.0, z)),)
 
     @property
     def lean(self) -> float:

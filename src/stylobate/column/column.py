@@ -15,10 +15,11 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, as_typed, check_range
+from ..errors import InputError, OutOfRangeWarning, check_range, check_whole
 from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
+from .drum_stack import DrumStack
 from .faces import Face, FacePair
 from .found_geometry import StandingDrum, check_as_found, geometry, uplift_accelerations
 from .found_in_space import base_axes, smallest_uplift, space_geometry
@@ -30,8 +31,7 @@ from .links.placed import PlacedLink
 from .materials import material
 from .plausible import shape_doubts
 from .shapes import Shape, shape_of
-from .stack import Stack
-from .structure import Body, Structure
+from .structure import Body
 
 MAX_DRUMS = 200
 
@@ -40,7 +40,7 @@ GRAVITIES = (1e-2, 100.0)
 
 
 @dataclass(frozen=True)
-class Column(Stack, Structure):
+class Column(DrumStack):
     """Drums from the bottom up, and the joint under each of them.
 
     Drum i = 0 … n−1 stands on joint i; joint 0 is the one with the base (the design numbers them from 1).
@@ -193,25 +193,6 @@ class Column(Stack, Structure):
         """Of drums in a joint, its law with the layer or pad that lies in it: no other drum meets that."""
         return tuple((j, j + 1, law) for j, law in enumerate(self.joint_laws))
 
-    @cached_property
-    def joint_laws(self) -> tuple[Joint, ...]:
-        """Law of each joint with the layer or pad that lies in it."""
-        laws = list(self.joints)
-        for link in self.placed_links:
-            if link.joint:
-                laws[link.joint - 1] = link.joint_law(laws[link.joint - 1])
-        return tuple(laws)
-
-    @cached_property
-    def friction(self) -> np.ndarray:
-        """tan φ of each joint, that of a layer where there is one [-], shape (n,)."""
-        return np.array([law.tan_phi for law in self.joint_laws])
-
-    @property
-    def on_rings(self) -> bool:
-        """Whether some joint carries on a ring."""
-        return any(joint.ring_width is not None for joint in self.joints)
-
     # -- made from -----------------------------------------------------------------------------------------------
 
     @classmethod
@@ -239,10 +220,9 @@ class Column(Stack, Structure):
         """
         joints = [joint] * len(drums)
         for index, other in (overrides or {}).items():
-            if not 1 <= index <= len(joints):
-                raise InputError(
-                    f"joint_override index is {index}; allowed is 1 (the joint with the base) to {len(joints)}."
-                )
+            check_whole(
+                "joint_override index", index, 1, len(joints), remedy="1 is at the base", field=f"override.{index}"
+            )
             joints[index - 1] = other
         return cls(tuple(drums), tuple(joints), name, gravity)
 
@@ -282,8 +262,7 @@ class Column(Stack, Structure):
         overrides, name, gravity
             As in :meth:`of_drums`.
         """
-        if isinstance(drums, bool) or not isinstance(drums, (int, np.integer)) or not 1 <= drums <= MAX_DRUMS:
-            raise InputError(f"drums is {as_typed(drums)}; allowed is a whole number from 1 to {MAX_DRUMS}.")
+        drums = check_whole("drums", drums, 1, MAX_DRUMS)
         whole = Drum(height, bottom_width, top_width, density, section, depth, top_depth)
         taper = (whole.top_width - whole.bottom_width) / drums
         widths = [whole.bottom_width + taper * i for i in range(drums)] + [whole.top_width]
@@ -337,12 +316,7 @@ class Column(Stack, Structure):
             if not (self.as_found.in_plane and pulls_in_plane(self.placed_links)):
                 return smallest_uplift(self)
             return np.abs(uplift_accelerations(self)).min(axis=1)
-        out = np.empty(self.n)
-        for i in range(self.n):
-            mass = self.masses[i:]
-            arm = float(mass @ (self.centroid_heights[i:] - self.joint_heights[i]) / mass.sum())
-            out[i] = self.gravity * 0.5 * self.joint_widths[i] / arm
-        return out
+        return self.gravity * 0.5 * self.joint_widths / self.parts_above[1]
 
     @property
     def uplift_acceleration(self) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ..errors import InputError, check_range
+from ..errors import InputError, check_choice, check_range
 
 SECTIONS = ("circular", "rectangular")
 
@@ -49,8 +49,7 @@ class Drum:
     top_depth: float | None = None
 
     def __post_init__(self) -> None:
-        if self.section not in SECTIONS:
-            raise InputError(f"section is {self.section!r}; allowed are {', '.join(SECTIONS)}.")
+        check_choice("section", self.section, SECTIONS)
         for name, unit, (low, high) in (
             ("height", "m", LENGTHS),
             ("bottom_width", "m", LENGTHS),
@@ -58,12 +57,14 @@ class Drum:
             ("density", "kg/m³", DENSITIES),
             ("depth", "m", LENGTHS),
         ):
-            value = check_range(f"{name} of a drum", getattr(self, name), low, high, unit=unit, remedy="use SI units")
+            value = check_range(name, getattr(self, name), low, high, unit=unit, remedy="use SI units", of="a drum")
             object.__setattr__(self, name, value)
         if self.top_depth is not None:
             if self.circular:
-                raise InputError(f"top_depth of a drum is {self.top_depth:g} m for a circular section; leave it out.")
-            value = check_range("top_depth of a drum", self.top_depth, *LENGTHS, unit="m", remedy="use SI units")
+                raise InputError(
+                    f"top_depth of a drum is {self.top_depth:g} m for a circular section; leave it out.", "top_depth"
+                )
+            value = check_range("top_depth", self.top_depth, *LENGTHS, unit="m", remedy="use SI units", of="a drum")
             object.__setattr__(self, "top_depth", None if value == self.depth else value)
 
     @property
@@ -122,14 +123,7 @@ class Drum:
         Integral over the height of (own second moment of the slice + slice area × distance²); the integrand is a
         polynomial of degree 4 at most, so three Gauss points are exact.
         """
-        b, t, h, zc = self.bottom_width, self.top_width, self.height, self.centroid_height
-        total = 0.0
-        for x, weight in GAUSS_POINTS:
-            z = 0.5 * h * (1.0 + x)
-            q, w = b + (t - b) * z / h, self.depth_at(z)
-            area, second = section_area(self.section, q, w), section_second_moment(self.section, q, w)
-            total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
-        return self.density * total
+        return self._turned(across=False)
 
     @property
     def cross_inertia(self) -> float:
@@ -137,14 +131,16 @@ class Drum:
 
         As :attr:`inertia`, with the second moments of the slices about the other axis.
         """
-        if self.circular:
-            return self.inertia
+        return self.inertia if self.circular else self._turned(across=True)
+
+    def _turned(self, *, across: bool) -> float:
         b, t, h, zc = self.bottom_width, self.top_width, self.height, self.centroid_height
         total = 0.0
         for x, weight in GAUSS_POINTS:
             z = 0.5 * h * (1.0 + x)
             q, w = b + (t - b) * z / h, self.depth_at(z)
-            area, second = section_area(self.section, q, w), section_second_moment(self.section, w, q)
+            second = section_second_moment(self.section, *((w, q) if across else (q, w)))
+            area = section_area(self.section, q, w)
             total += 0.5 * h * weight * (second + area * (z - zc) ** 2)
         return self.density * total
 

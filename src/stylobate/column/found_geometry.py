@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -13,13 +13,11 @@ from ..constants import DEGREE
 from ..errors import InputError
 from .as_found import FoundDrum
 from .drum import Drum
+from .drum_stack import DrumStack
 from .found_in_space import inside_overlap, space_geometry, space_load
 from .links.loads import pull_on_part
 from .shapes import CHIP_SLOPE
 from .structure import Standing, Structure
-
-if TYPE_CHECKING:
-    from .column import Column
 
 
 class Geometry(NamedTuple):
@@ -45,12 +43,12 @@ class Geometry(NamedTuple):
         return self.origin[joint] + place * np.array([math.cos(self.lean[joint]), math.sin(self.lean[joint])])
 
 
-def geometry(column: Column) -> Geometry:
+def geometry(column: DrumStack) -> Geometry:
     """Where a column's drums and contacts are.
 
     Parameters
     ----------
-    column : Column
+    column : DrumStack
     """
     n, found = column.n, [column.as_found.of(i + 1) for i in range(column.n)]
     offset = np.array([one.offset for one in found])
@@ -89,7 +87,7 @@ class JointLoad(NamedTuple):
     place: float
 
 
-def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
+def joint_load(column: DrumStack, at: Geometry, joint: int) -> JointLoad:
     """Load of a joint under the weight of what stands on it."""
     mass = column.masses[joint:]
     weight = float(mass.sum()) * gravity_vector(column)
@@ -104,7 +102,7 @@ def joint_load(column: Column, at: Geometry, joint: int) -> JointLoad:
     return JointLoad(pressing, float(weight @ along), float(arm @ along + (arm @ normal) * (weight @ along) / pressing))
 
 
-def _pulled_load(column: Column, at: Geometry, joint: int, weight: np.ndarray, along: np.ndarray) -> JointLoad:
+def _pulled_load(column: DrumStack, at: Geometry, joint: int, weight: np.ndarray, along: np.ndarray) -> JointLoad:
     """As :func:`joint_load`, with the pull of pretensioned links."""
     angle = at.lean + at.tilt
     c, s, none, one = np.cos(angle), np.sin(angle), np.zeros(column.n), np.ones(column.n)
@@ -121,7 +119,7 @@ def _pulled_load(column: Column, at: Geometry, joint: int, weight: np.ndarray, a
     return JointLoad(pressing, float(total @ along), -float(turning) / pressing)
 
 
-def uplift_accelerations(column: Column) -> np.ndarray:
+def uplift_accelerations(column: DrumStack) -> np.ndarray:
     """Static horizontal accelerations of the ground that open each joint of the rigid stack above it [m/s²].
 
     Returns
@@ -151,7 +149,7 @@ def uplift_accelerations(column: Column) -> np.ndarray:
     return out
 
 
-def check_as_found(column: Column) -> None:
+def check_as_found(column: DrumStack) -> None:
     """Refuse what cannot stand: the weight above each joint must pass through its contact, and not slide on it.
 
     Pretensioned links pull with it.
@@ -165,16 +163,20 @@ def check_as_found(column: Column) -> None:
     name = repr(column.name)
     for one in column.as_found.drums:
         if one.drum > column.n:
-            raise InputError(f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.")
+            raise InputError(
+                f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.", f"found.{one.drum}"
+            )
         if column.section == "circular" and (one.chip_front or one.chip_back):
             raise InputError(
                 f"drum {one.drum} of {name} is round, and chip_front = {one.chip_front:g}, chip_back = {one.chip_back:g} m; "
-                "round drums take chip_left and chip_right with a chip_azimuth."
+                "round drums take chip_left and chip_right with a chip_azimuth.",
+                f"found.{one.drum}.{'chip_front' if one.chip_front else 'chip_back'}",
             )
         if column.section != "circular" and one.chip_azimuth:
             raise InputError(
                 f"drum {one.drum} of {name} is rectangular, and its chip_azimuth is {one.chip_azimuth:g}°; such drums "
-                "take chip_left, chip_right, chip_front and chip_back along their edges: leave chip_azimuth out."
+                "take chip_left, chip_right, chip_front and chip_back along their edges: leave chip_azimuth out.",
+                f"found.{one.drum}.chip_azimuth",
             )
     if not column.as_found.in_plane:
         _check_in_space(column)
@@ -182,25 +184,31 @@ def check_as_found(column: Column) -> None:
     at = geometry(column)
     parted = np.flatnonzero(at.high - at.low <= 0.0)
     if parted.size:
-        raise InputError(f"joint {parted[0] + 1} of {name} has no contact left; make its offsets or chips smaller.")
+        raise InputError(
+            f"joint {parted[0] + 1} of {name} has no contact left; make its offsets or chips smaller.",
+            f"found.{parted[0] + 1}.offset",
+        )
     for j in range(column.n):
         load = joint_load(column, at, j)
         beyond = max(load.place - at.high[j], at.low[j] - load.place)
         _check_joint(column, j, load.normal, abs(load.shear), beyond)
 
 
-def _check_in_space(column: Column) -> None:
+def _check_in_space(column: DrumStack) -> None:
     at = space_geometry(column)
     for j, drum in enumerate(column.drums):
         left, right, front, back = column.as_found.of(j + 1).chips
         if left + right >= drum.bottom_width or front + back >= drum.depth:
-            raise InputError(f"joint {j + 1} of {column.name!r} has no contact left; make its chips smaller.")
+            raise InputError(
+                f"joint {j + 1} of {column.name!r} has no contact left; make its chips smaller.",
+                f"found.{j + 1}.chip_{'left' if left + right >= drum.bottom_width else 'front'}",
+            )
         load = space_load(column, at, j)
         inside = inside_overlap(column, at, j, load.place)
         _check_joint(column, j, load.normal, float(np.hypot(*load.shear)), -inside)
 
 
-def _check_joint(column: Column, j: int, normal: float, shear: float, beyond: float) -> None:
+def _check_joint(column: DrumStack, j: int, normal: float, shear: float, beyond: float) -> None:
     """Refuse a joint that slides under its load [N], or that its load passes beyond its contact [m]."""
     name, law = repr(column.name), column.joint_laws[j]
     friction = column.friction[j] * normal + law.cohesion * column.joint_areas[j]
@@ -208,12 +216,14 @@ def _check_joint(column: Column, j: int, normal: float, shear: float, beyond: fl
         raise InputError(
             f"{name} is not in equilibrium: joint {j + 1} slides down its slope, "
             f"{shear - max(friction, 0.0):.4g} N of friction are missing; "
-            "make tilts or base_tilt smaller, or the friction larger."
+            "make tilts or base_tilt smaller, or the friction larger.",
+            "base_tilt" if column.as_found.base_tilt else f"found.{j + 1}.tilt",
         )
     if beyond > 0.0:
         raise InputError(
             f"{name} is not in equilibrium: at joint {j + 1} the weight above passes {1000.0 * beyond:.3g} mm beyond "
-            f"the contact, {normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller."
+            f"the contact, {normal * beyond:.4g} N m are missing; make offsets, chips, tilts or base_tilt smaller.",
+            "base_tilt" if column.as_found.base_tilt else f"found.{j + 1}.offset",
         )
 
 

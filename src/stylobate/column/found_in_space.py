@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from ..constants import DEGREE
+from .drum_stack import DrumStack
 from .links.loads import pull_on_part
 from .structure import Structure
-
-if TYPE_CHECKING:
-    from .column import Column
 
 #: Directions in which the smallest push that opens a joint is looked for, and halvings of it.
 DIRECTIONS, HALVINGS = 360, 60
@@ -45,12 +43,12 @@ def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
     return np.eye(3) + math.sin(angle) * skew + (1.0 - math.cos(angle)) * skew @ skew
 
 
-def space_geometry(column: Column, closing: np.ndarray | None = None) -> SpaceGeometry:
+def space_geometry(column: DrumStack, closing: np.ndarray | None = None) -> SpaceGeometry:
     """Where a column's drums and joints are.
 
     Parameters
     ----------
-    column : Column
+    column : DrumStack
     closing : array, optional
         Gap of each joint in the middle of the drum's face [m], and its rotation about the joint's first and second axis
         [rad], shape (n, 3); closed without either if left out.
@@ -83,7 +81,7 @@ def space_geometry(column: Column, closing: np.ndarray | None = None) -> SpaceGe
     return out
 
 
-def shares_left(column: Column) -> np.ndarray:
+def shares_left(column: DrumStack) -> np.ndarray:
     """Share of each drum's lower face that its chips leave [-], shape (n,)."""
     left = np.ones(column.n)
     for one in column.as_found.drums:
@@ -110,7 +108,7 @@ def base_axes(column: Structure) -> np.ndarray:
     return rotation(np.array([math.sin(azimuth), -math.cos(azimuth), 0.0]), column.as_found.base_tilt * DEGREE)
 
 
-def upward(column: Column) -> np.ndarray:
+def upward(column: DrumStack) -> np.ndarray:
     """Direction against gravity in the axes of the base [-], shape (3,)."""
     return base_axes(column)[2]
 
@@ -123,7 +121,7 @@ class SpaceLoad(NamedTuple):
     place: np.ndarray
 
 
-def space_load(column: Column, at: SpaceGeometry, joint: int, acceleration: np.ndarray | None = None) -> SpaceLoad:
+def space_load(column: DrumStack, at: SpaceGeometry, joint: int, acceleration: np.ndarray | None = None) -> SpaceLoad:
     """Load of a joint under what stands on it, in the axes of the joint; under gravity, or −``acceleration`` [m/s²]."""
     mass = column.masses[joint:]
     towards = column.gravity * upward(column) if acceleration is None else acceleration
@@ -150,7 +148,7 @@ class Edges(NamedTuple):
     sides: tuple[tuple[np.ndarray, float], ...]
 
 
-def overlap_edges(column: Column, at: SpaceGeometry, joint: int) -> Edges:
+def overlap_edges(column: DrumStack, at: SpaceGeometry, joint: int) -> Edges:
     """Edges of the overlap of the faces of a joint 0 … n−1."""
     drum, one = column.drums[joint], column.as_found.of(joint + 1)
     below = column.drums[joint - 1] if joint else None
@@ -179,7 +177,7 @@ def overlap_edges(column: Column, at: SpaceGeometry, joint: int) -> Edges:
     return Edges(tuple(discs), tuple(sides))
 
 
-def inside_overlap(column: Column, at: SpaceGeometry, joint: int, place: np.ndarray) -> float:
+def inside_overlap(column: DrumStack, at: SpaceGeometry, joint: int, place: np.ndarray) -> float:
     """How far a place along a joint is inside both faces; negative outside [m]."""
     return inside(overlap_edges(column, at, joint), place)
 
@@ -196,12 +194,12 @@ def _turned_back(point: np.ndarray, angle: float) -> np.ndarray:
     return rotation(np.array([0.0, 0.0, 1.0]), -angle)[:2, :2] @ point
 
 
-def smallest_uplift(column: Column) -> np.ndarray:
+def smallest_uplift(column: DrumStack) -> np.ndarray:
     """Smallest static horizontal acceleration in any direction that opens each joint of the rigid stack [m/s²]."""
     return weakest_uplift(column)[0]
 
 
-def weakest_uplift(column: Column) -> tuple[np.ndarray, np.ndarray]:
+def weakest_uplift(column: DrumStack) -> tuple[np.ndarray, np.ndarray]:
     """The same, and where the forces push to then.
 
     Returns
@@ -227,6 +225,6 @@ def weakest_uplift(column: Column) -> tuple[np.ndarray, np.ndarray]:
     return out, towards
 
 
-def _carries(column: Column, at: SpaceGeometry, joint: int, edges: Edges, acceleration: np.ndarray) -> bool:
+def _carries(column: DrumStack, at: SpaceGeometry, joint: int, edges: Edges, acceleration: np.ndarray) -> bool:
     load = space_load(column, at, joint, acceleration)
     return load.normal > 0.0 and inside(edges, load.place) > 0.0

@@ -50,25 +50,26 @@ class Joint:
 
     def __post_init__(self) -> None:
         if self.ring_width is not None:
-            width = check_range("ring_width of a joint", self.ring_width, *LENGTHS, unit="m", remedy="use SI units")
+            width = check_range("ring_width", self.ring_width, *LENGTHS, unit="m", remedy="use SI units", of="a joint")
             object.__setattr__(self, "ring_width", width)
         remedy = "a rigid joint is approached by a large stiffness, such as 5e10"
         for name in ("normal_stiffness", "shear_stiffness"):
-            value = check_range(f"{name} of a joint", getattr(self, name), 1.0, 1e15, unit="N/m³", remedy=remedy)
+            value = check_range(name, getattr(self, name), 1.0, 1e15, unit="N/m³", remedy=remedy, of="a joint")
             object.__setattr__(self, name, value)
-        object.__setattr__(self, "cohesion", check_range("cohesion of a joint", self.cohesion, 0.0, 1e9, unit="Pa"))
+        object.__setattr__(self, "cohesion", check_range("cohesion", self.cohesion, 0.0, 1e9, unit="Pa", of="a joint"))
         angle, mu = self.friction_angle, self.friction_coefficient
         if mu is not None:
-            mu = check_range("friction_coefficient of a joint", mu, 0.0, 1e6 if angle is None else math.inf)
+            mu = check_range("friction_coefficient", mu, 0.0, 1e6 if angle is None else math.inf, of="a joint")
         if angle is None:
             angle = DEFAULT_FRICTION_ANGLE if mu is None else math.atan(mu) / DEGREE
-        angle = check_range("friction_angle of a joint", angle, 0.0, 90.0, unit="degrees", open_high=True)
+        angle = check_range("friction_angle", angle, 0.0, 90.0, unit="degrees", open_high=True, of="a joint")
         if mu is None:
             mu = math.tan(angle * DEGREE)
         elif not math.isclose(angle, math.atan(mu) / DEGREE, rel_tol=1e-12, abs_tol=1e-12):
             raise InputError(
                 f"friction_angle = {as_typed(self.friction_angle)} and friction_coefficient = "
-                f"{as_typed(self.friction_coefficient)} are both given; give one of the two."
+                f"{as_typed(self.friction_coefficient)} are both given; give one of the two.",
+                "friction_coefficient",
             )
         object.__setattr__(self, "friction_angle", angle)
         object.__setattr__(self, "friction_coefficient", mu)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..constants import DEGREE
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, OutOfRangeWarning, check_range, within
 from .as_found import AS_BUILT, AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
@@ -76,7 +76,7 @@ def project(column: Column, azimuth: float) -> Projection:
     that the lever of its weight to either side is that in space; what the section is shorter than the faces is a chip.
     Links keep their places along the plane and beside it, as links of a plane column have them.
     """
-    angle = check_range("the azimuth of a projection", azimuth, -360.0, 360.0, unit="degrees")
+    angle = check_range("the azimuth of a projection", azimuth, -360.0, 360.0, unit="degrees", field="azimuth")
     way = _exact(angle)
     drums = column.drums if column.section == "circular" else tuple(_seen(drum, way, column) for drum in column.drums)
     found, at = column.as_found, space_geometry(column)
@@ -90,7 +90,7 @@ def project(column: Column, azimuth: float) -> Projection:
     )
     name = f"{column.name}, projected onto {angle:g}°"
     links = tuple(_turned(link, at.turned, angle) for link in column.links)
-    try:
+    with within(f"{column.name!r} cannot be projected onto azimuth {angle:g}°"):
         plane = column.replace(drums=drums, as_found=whole, name=name, links=links)
         chips = [_chips(column, plane, j, way) for j in range(column.n)]
         kept = tuple(
@@ -99,8 +99,6 @@ def project(column: Column, azimuth: float) -> Projection:
         )
         as_found = AsFound(tuple(one for one in kept if one != FoundDrum(one.drum)), slope[0])
         result = plane.replace(as_found=as_found or AS_BUILT)
-    except InputError as error:
-        raise InputError(f"{column.name!r} cannot be projected onto azimuth {angle:g}°: {error}") from None
     across = [
         _most("offsets", "mm", [1e3 * one[1] for one in offsets]),
         _most("leans", "°", [one[1] for one in leans]),

@@ -85,18 +85,23 @@ class Stack:
             if self.section != "circular":
                 raise InputError(
                     f"ring_width of joint {j + 1} is {joint.ring_width:g} m, and {self.name!r} has rectangular faces; "
-                    "rings are known for round ones: leave it out."
+                    "rings are known for round ones: leave it out.",
+                    f"override.{j + 1}.ring_width",
                 )
             width = float(self.joint_widths[j])
             if joint.ring_width > 0.5 * width:
                 raise InputError(
                     f"ring_width of joint {j + 1} of {self.name!r} is {joint.ring_width:g} m, thicker than its face, "
-                    f"of diameter {width:g} m; allowed is up to {0.5 * width:g} m, or leave it out for a whole face."
+                    f"of diameter {width:g} m; allowed is up to {0.5 * width:g} m, or leave it out for a whole face.",
+                    f"override.{j + 1}.ring_width",
+                    value=joint.ring_width,
+                    allowed=f"up to {0.5 * width:g} m",
                 )
             if max(self.sunken_widths(j)) >= width:
                 raise InputError(
                     f"the rings of joint {j + 1} of {self.name!r} do not meet: ring_width = {joint.ring_width:g} m, and one "
-                    f"face is that much wider than the other; make the ring wider."
+                    f"face is that much wider than the other; make the ring wider.",
+                    f"override.{j + 1}.ring_width",
                 )
 
     def sunken_widths(self, joint: int) -> tuple[float, float]:
@@ -124,6 +129,22 @@ class Stack:
     def joint_weights(self) -> np.ndarray:
         """Static weight N_i carried by each joint [N], shape (n,)."""
         return np.cumsum(self.masses[::-1])[::-1] * self.gravity
+
+    @cached_property
+    def parts_above(self) -> tuple[np.ndarray, np.ndarray]:
+        """Mass of the part above each joint [kg], and height of its centroid over that joint [m], each of shape (n,)."""
+        mass, height = np.empty(self.n), np.empty(self.n)
+        for j, level in enumerate(self.joint_heights):
+            each = self.masses[j:]
+            mass[j] = each.sum()
+            height[j] = each @ (self.centroid_heights[j:] - level) / mass[j]
+        return mass, height
+
+    @cached_property
+    def lowest_barrier(self) -> float:
+        """Smallest energy that overturns the part above some joint of the upright column as one body [J]."""
+        parts = zip(*(one.tolist() for one in (*self.parts_above, 0.5 * self.joint_widths)), strict=True)
+        return min(self.gravity * mass * (math.hypot(half, height) - height) for mass, height, half in parts)
 
     @cached_property
     def joint_closures(self) -> np.ndarray:

@@ -21,7 +21,8 @@ from .faces import FacePair
 from .joint import Joint
 from .links.link import Link
 from .links.placed import PlacedLink
-from .shapes import Outlined, Shape, hull
+from .shapes import Glued, Outlined, Placed, Shape, hull
+from .turning import about, quaternion_of
 
 
 class Body(Protocol):
@@ -35,7 +36,7 @@ class Body(Protocol):
     What is in contact in the plane is ``polygon``, its corners counter-clockwise from its place, in the axes in which its
     faces are told; they are inclined to the base by ``lean`` [rad]. ``outline`` is the same as it stands, along and normal
     to the base; ``size`` and ``thickness`` are the larger side of the box around it, and the smallest distance of two
-    parallels that hold it [m].
+    parallels that hold it [m]. ``placed`` are its convex parts where they stand in space.
     """
 
     @property
@@ -64,6 +65,8 @@ class Body(Protocol):
     def size(self) -> float: ...
     @property
     def thickness(self) -> float: ...
+    @property
+    def placed(self) -> tuple[Placed, ...]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +118,16 @@ class Standing(Outlined):
     def polygon(self) -> np.ndarray:
         """Corners from its place, in these axes [m], shape (k, 2)."""
         return self.shape.outline
+
+    @property
+    def placed(self) -> tuple[Placed, ...]:
+        """Its one part where it stands in space, z upward."""
+        assert not isinstance(self.shape, Glued)
+        if self.in_space is not None:
+            (x, y, z), axes = self.in_space
+            return (Placed(self.shape, (float(x), float(y), float(z)), quaternion_of(axes)),)
+        x, z = np.array(self.place) @ _turn(self.slope)
+        return (Placed(self.shape, (float(x), 0.0, float(z)), about((0.0, -1.0, 0.0), self.slope + self.angle)),)
 
     @property
     def outline(self) -> np.ndarray:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import warnings
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning
+from ..errors import InputError, OutOfRangeWarning, within
 from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
@@ -36,6 +36,8 @@ class JointTable(Table):
 class OverrideTable(JointTable):
     """``[[joint_override]]``: what differs at one joint; joint 1 is the one with the base."""
 
+    called: ClassVar[str | None] = "override"
+
     index: int
 
 
@@ -63,6 +65,8 @@ class TaperedTable(Table):
 class FoundDrumTable(Table):
     """``[[as_found.drum]]``: offset and chips in m, angles in degrees, of the drum with that index (1 at the base)."""
 
+    called: ClassVar[str | None] = "found"
+
     index: int
     offset: float = 0.0
     tilt: float = 0.0
@@ -78,6 +82,8 @@ class FoundDrumTable(Table):
 
 class AsFoundTable(Table):
     """``[as_found]``: slope of the base in degrees, and what is not as built at single drums."""
+
+    called: ClassVar[str | None] = ""
 
     base_tilt: float = 0.0
     base_azimuth: float = 0.0
@@ -119,7 +125,8 @@ def read_as(kind: Any, path: str | Path) -> Any:
     if describes_assembly(data):
         raise InputError(
             f"{shown(path)} describes an assembly of blocks, which 'run', 'critical', 'suite' and 'study' take "
-            "(simulate_assembly in Python); give a column here: a preset, or a file with [tapered] or [[drum]]."
+            "(simulate_assembly in Python) where it lies in a plane, and 'limit' and 'draw' where it is in space; give a "
+            "column here: a preset, or a file with [tapered] or [[drum]]."
         )
     return made_of(kind, data, shown(path), shown(Path(path).stem))
 
@@ -144,10 +151,8 @@ def made_of(kind: Any, data: dict[str, Any], source: str = "the column", name: s
         As in :func:`read_as`.
     """
     table = checked(data, ColumnTable, source)
-    try:
+    with within(source):
         return _column(kind, table, default_name=name)
-    except InputError as error:
-        raise InputError(f"{source}: {error}") from None
 
 
 def describes_assembly(data: dict[str, Any]) -> bool:
@@ -193,7 +198,7 @@ def joint_fields(given: dict[str, Any], stone: Material | None, where: str = "[j
         return stone.joint_values(fields, where)
     for name in ("normal_stiffness", "shear_stiffness"):
         if name not in fields:
-            raise InputError(f"key {name!r} is missing in {where}; add it [N/m³], or name a material.")
+            raise InputError(f"key {name!r} is missing in {where}; add it [N/m³], or name a material.", name)
     return fields
 
 
@@ -204,12 +209,13 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
             "there is no [joint] table; add one with normal_stiffness and shear_stiffness [N/m³] "
             "and friction_angle [degrees], or name a material."
         )
-    joint = Joint(**joint_fields({} if table.joint is None else table.joint.model_dump(), stone))
+    with within("", "joint"):
+        joint = Joint(**joint_fields({} if table.joint is None else table.joint.model_dump(), stone))
     density = table.density if table.density is not None or stone is None else stone.density.value
     if table.tapered is not None and table.drum is not None:
         raise InputError("both [tapered] and [[drum]] are given; keep one of the two.")
     if table.section == "circular" and table.depth is not None:
-        raise InputError(f"depth is {table.depth:g} m for a circular section; leave it out.")
+        raise InputError(f"depth is {table.depth:g} m for a circular section; leave it out.", "depth")
     name = default_name if table.name is None else table.name
     overrides: dict[int, Joint] = {}
     for override in table.joint_override or ():
@@ -218,7 +224,7 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
         overrides[override.index] = _overridden(joint, override)
     if table.tapered is not None:
         if density is None:
-            raise InputError("key 'density' [kg/m³] is missing; add it above [tapered], or name a material.")
+            raise InputError("key 'density' [kg/m³] is missing; add it above [tapered], or name a material.", "density")
         column = kind.tapered(
             **table.tapered.model_dump(),
             density=density,
@@ -238,24 +244,25 @@ def _as_built(kind: Any, table: ColumnTable, default_name: str) -> Any:
 
 
 def _drum(i: int, one: DrumTable, table: ColumnTable, common: float | None) -> Drum:
-    density = common if one.density is None else one.density
+    density, path = common if one.density is None else one.density, f"drum.{i + 1}"
     if density is None:
-        raise InputError(f"[[drum]] number {i + 1} has no density; add one to it, or a common one at the top [kg/m³].")
+        raise InputError(
+            f"[[drum]] number {i + 1} has no density; add one to it, or a common one at the top [kg/m³].",
+            f"{path}.density",
+        )
     if table.section == "circular" and one.depth is not None:
-        raise InputError(f"[[drum]] number {i + 1} has a depth but a circular section; leave the depth out.")
+        raise InputError(
+            f"[[drum]] number {i + 1} has a depth but a circular section; leave the depth out.", f"{path}.depth"
+        )
     depth = one.depth if one.depth is not None else table.depth if table.depth is not None else 1.0
-    try:
+    with within(f"[[drum]] number {i + 1}", path):
         return Drum(one.height, one.bottom_width, one.top_width, density, table.section, depth, one.top_depth)
-    except InputError as error:
-        raise InputError(f"[[drum]] number {i + 1}: {error}") from None
 
 
 def _overridden(common: Joint, override: OverrideTable) -> Joint:
     changes = override.model_dump(exclude={"index"}, exclude_none=True)
-    try:
+    with within(f"[[joint_override]] with index {override.index}", "override", override.index):
         if override.material is None:
             return common.changed(**changes)
         shape = {name: value for name, value in given(common).items() if name not in (*JOINT_VALUES, *FRICTION)}
         return Joint(**joint_fields(shape | changes, None, "it"))
-    except InputError as error:
-        raise InputError(f"[[joint_override]] with index {override.index}: {error}") from None

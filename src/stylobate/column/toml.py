@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import tomllib
 import typing
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
@@ -21,6 +22,9 @@ class Table(BaseModel):
     """A table of a file: keys are known, values have their type."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+    #: What the path of a field calls it, where that is not its key; empty where the path goes without it.
+    called: ClassVar[str | None] = None
 
 
 T = TypeVar("T", bound=Table)
@@ -104,7 +108,21 @@ def checked(data: dict[str, Any], schema: type[T], source: str) -> T:
         found = error.errors()
     # A misspelt key is also a missing one: the spelling is what helps.
     first = next((item for item in found if item["type"] == "extra_forbidden"), found[0])
-    raise InputError(f"{source}: {_sentence(first, schema, found)}")
+    raise InputError(f"{source}: {_sentence(first, schema, found)}", _path(data, schema, first["loc"]))
+
+
+def _path(data: Any, schema: type[Table], where: Sequence[str | int]) -> str:
+    """The path of a field as errors carry it: rows of a list by the index that they state, or else by their number."""
+    path: list[str | None] = []
+    for part in where:
+        if isinstance(part, str) and isinstance(data, dict):
+            inner = _tables(schema.model_fields[part].annotation) if part in schema.model_fields else []
+            path.append(part if not inner or inner[0].called is None else inner[0].called)
+            data, schema = data.get(part), inner[0] if inner else schema
+        elif isinstance(part, int) and isinstance(data, list):
+            data = data[part]
+            path.append(str(data.get("index", part + 1)) if isinstance(data, dict) else None)
+    return ".".join(filter(None, path))
 
 
 def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:

@@ -56,8 +56,9 @@ def _prepare() -> None:
 
 _prepare()
 
+import llvmlite.binding as llvm  # noqa: E402
 import numba  # noqa: E402
-from numba.core import caching, cpu, event, options, types  # noqa: E402
+from numba.core import caching, codegen, cpu, event, options, types  # noqa: E402
 from numba.extending import overload  # noqa: E402
 
 numba.config.reload_config()
@@ -66,6 +67,38 @@ cpu.CPUTargetOptions.noalias = options.TargetOptions.Mapping("noalias")
 # A law is compiled for each type of record that it is given, whatever was compiled before: the compiler would take what it
 # has for a record that begins with the same fields, with a warning.
 types.Record.can_convert_to = lambda *_: None
+
+
+def _called(record: Any) -> tuple[str, tuple[str]]:
+    # The name of a record in that of compiled code is of what it holds. The compiler would number records in each process,
+    # so that code for two of them, kept on disk by two processes, could bear one name, and the one be run for the other.
+    return "Record", (hashlib.sha256(record.name.encode()).hexdigest()[:32],)
+
+
+types.Record.mangling_args = property(_called)
+
+
+class _OwnCode(codegen.JITCodeLibrary):
+    """The code of a kernel, which calls the copies of other kernels that were compiled into it.
+
+    By themselves copies of one name are one to the linker, which takes whichever the process has loaded first: code that was
+    compiled twice may contract other products and sums, so that last bits would hang on what had been compiled or loaded.
+    """
+
+    def _finalize_final_module(self) -> None:
+        if self._shared_module is None:  # not read from disk
+            self._shared_module = self._final_module.clone()  # what other kernels copy
+            for functions, before, after in (
+                (self._shared_module.functions, llvm.Linkage.external, llvm.Linkage.linkonce_odr),
+                (self._final_module.functions, llvm.Linkage.linkonce_odr, llvm.Linkage.internal),
+            ):
+                for one in functions:
+                    if not one.is_declaration and one.linkage == before:
+                        one.linkage = after
+        super()._finalize_final_module()
+
+
+codegen.JITCPUCodegen._library_class = _OwnCode
 
 #: Multiply-add contraction, and sums whose sign of zero does not matter; no reordering, so that results keep their bits.
 FAST = {"contract", "nsz", "arcp", "nnan"}

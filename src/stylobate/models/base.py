@@ -15,6 +15,7 @@ from ..column.shapes import DRUMS
 from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
+from ..response.words import round_in_the_plane
 from .start import Start, Toss
 
 #: Larger accelerations are rejected as non-physical; numbers would overflow [m/s²].
@@ -128,7 +129,7 @@ class Model:
         elif "y" not in self.axes and not column.as_found.in_plane:
             raise InputError(
                 f"{self.name} computes the plane of x and z, and {column.name!r} is found out of it "
-                "(an azimuth other than 0 and 180, or a turn); use dem3d, project it onto a plane (--project AZIMUTH), or "
+                "(an azimuth other than 0 and 180, or a turn); use dem3d, project it onto a plane (`project=AZIMUTH`), or "
                 "leave these out."
             )
         if not self.takes_rings:
@@ -143,12 +144,8 @@ class Model:
                 )
         left_out = beyond_axes(motion, self.axes)
         if "y" in left_out and column.section == "circular":
-            warnings.warn(
-                f"{self.name} leaves out what shakes a round column across; in space it can fall under much weaker motions: "
-                "compute it with dem3d before relying on a favourable verdict.",
-                PlaneOnlyWarning,
-                stacklevel=4,
-            )
+            said = f"{self.name} leaves out what shakes a round column across. {round_in_the_plane(column)}"
+            warnings.warn(said, PlaneOnlyWarning, stacklevel=4)
         for one in left_out.values():
             warnings.warn(
                 f"left out of {motion.name!r}: {one}; {self.name} takes {' and '.join(self.axes)}.",
@@ -204,7 +201,7 @@ class Model:
 
     @classmethod
     def from_settings(cls, settings: Mapping[str, str]) -> Model:
-        """Make the model from texts as given by ``--set name=value``.
+        """Make the model from texts, such as ``points`` and ``3``.
 
         Raises
         ------
@@ -216,8 +213,10 @@ class Model:
         values = {}
         for key, text in settings.items():
             if key not in allowed:
-                options = ", ".join(allowed) or "none"
-                raise InputError(f"{cls.name} has no option {key!r}; {suggest(key, allowed)}options are {options}.")
+                known = ", ".join(allowed) or "none"
+                raise InputError(
+                    f"{cls.name} has no parameter {key!r}; {suggest(key, allowed)}parameters are {known}.", key
+                )
             values[key] = _parse(key, text, hints[key])
         return cls(**values)
 
@@ -249,7 +248,7 @@ def duration(seconds: float) -> str:
     return f"{seconds / 60.0:.0f} minutes" if seconds >= 100.0 else f"{seconds:.2g} s"
 
 
-#: What a value of ``--set`` must be, by pydantic's name of the mistake.
+#: What the text of a parameter must be, by pydantic's name of the mistake.
 _EXPECTED = {"bool_parsing": "true or false", "int_parsing": "a whole number", "int_from_float": "a whole number",
              "float_parsing": "a number"}  # fmt: skip
 
@@ -264,4 +263,4 @@ def _parse(key: str, text: str, hint: Any) -> Any:
     except ValidationError as error:
         mistakes = error.errors()
     expected = next((_EXPECTED[one["type"]] for one in mistakes if one["type"] in _EXPECTED), mistakes[0]["msg"])
-    raise InputError(f"option {key} is {text!r}; allowed is {expected}.")
+    raise InputError(f"parameter {key} is {text!r}; allowed is {expected}.", key, value=text, allowed=expected)

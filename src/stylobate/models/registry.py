@@ -1,4 +1,4 @@
-"""Models by the name that they have on the command line; a model is loaded when it is asked for."""
+"""Models by their names; a model is loaded when it is asked for."""
 
 from __future__ import annotations
 
@@ -27,11 +27,12 @@ def model_class(name: str) -> type[Model]:
         There is no model of that name.
     """
     if name not in MODELS:
-        raise InputError(f"there is no model {name!r}; {suggest(name, MODELS)}models are {', '.join(MODELS)}.")
+        said = f"there is no model {name!r}; {suggest(name, MODELS)}models are {', '.join(MODELS)}."
+        raise InputError(said, "model", value=name)
     module, attribute = MODELS[name]
     return getattr(importlib.import_module(f"{__package__}.{module}"), attribute)
 
 
 def make_model(name: str, settings: Mapping[str, str] | None = None) -> Model:
-    """A model of that name with options given as texts, e.g. ``make_model("dem2d", {"points": "3"})``."""
+    """A model of that name with parameters given as texts, e.g. ``make_model("dem2d", {"points": "3"})``."""
     return model_class(name).from_settings(settings or {})

@@ -73,11 +73,11 @@ def conditioned(motion: Motion, text: str) -> Motion:
     name, sign, rest = text.partition("=")
     key = name.strip().lower()
     if key not in STEPS:
-        raise InputError(f"--condition {text!r} is no step; {suggest(key, STEPS)}steps are {', '.join(STEPS)}.")
+        raise InputError(f"`condition` {text!r} is no step; {suggest(key, STEPS)}steps are {', '.join(STEPS)}.")
     step = STEPS[key]
     values = [value.strip() for value in rest.split(",")] if sign else []
     if len(values) not in step.counts or not all(values):
-        raise InputError(f"--condition {text!r} is not understood; write it as {step.example}.")
+        raise InputError(f"`condition` {text!r} is not understood; write it as {step.example}.")
     return step.apply(motion, *values)
 
 

@@ -45,9 +45,9 @@ def harmonic(
     if across is None:
         time = _times(f, total)
         return Motion(total / (len(time) - 1), np.sin(2.0 * np.pi * f * time), factor=a, name=name)
-    f2 = check_range("frequency across", across[0], 1e-3, 1e3, unit="Hz")
-    a2 = check_range("amplitude across", across[1], -1e4, 1e4, unit="m/s²")
-    phase = check_range("phase across", across[2], -1e3, 1e3, unit="rad")
+    f2 = check_range("frequency across", across[0], 1e-3, 1e3, unit="Hz", field="across.frequency")
+    a2 = check_range("amplitude across", across[1], -1e4, 1e4, unit="m/s²", field="across.amplitude")
+    phase = check_range("phase across", across[2], -1e3, 1e3, unit="rad", field="across.phase")
     time = _times(max(f, f2), total)
     factor = a if a != 0.0 else 1.0
     return Motion(
@@ -65,6 +65,7 @@ def _times(frequency: float, duration: float) -> np.ndarray:
     if steps >= MAX_SAMPLES:
         raise InputError(
             f"a harmonic of {frequency:g} Hz over {duration:g} s takes {steps} samples; allowed is up to {MAX_SAMPLES}: "
-            "give a shorter duration."
+            "give a shorter duration.",
+            "duration",
         )
     return np.linspace(0.0, duration, steps + 1)

@@ -43,7 +43,7 @@ def warn_of_drift(motion: Motion) -> None:
             peak, cure = peak_ground_displacement(motion, axis), cure_of(motion.components[axis], motion.dt)
             remedy = "take no displacement from it, as no step of conditioning mends it alone"
             if cure is not None:
-                remedy = f"correct it before a displacement is taken from it (--condition {cure})"
+                remedy = f"correct it before a displacement is taken from it (`condition={cure!r}`)"
             warnings.warn(
                 f"{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
                 f"leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; "

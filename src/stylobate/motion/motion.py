@@ -74,8 +74,8 @@ class Motion:
         def put(key: str, value: object) -> None:
             object.__setattr__(self, key, value)
 
-        put("dt", check_range("dt of a motion", dt, 0.0, 1e3, unit="s", open_low=True, remedy="state the step"))
-        put("factor", check_range("factor of a motion", factor, -1e9, 1e9))
+        put("dt", check_range("dt", dt, 0.0, 1e3, unit="s", open_low=True, remedy="state the step", of="a motion"))
+        put("factor", check_range("factor", factor, -1e9, 1e9, of="a motion"))
         put("name", name)
         put("metadata", MappingProxyType(dict(metadata or {})))
         put("processing", tuple(processing))
@@ -169,7 +169,7 @@ class Motion:
 
     def scaled(self, factor: float) -> Motion:
         """A copy with every component multiplied by ``factor``, which its name says; the samples are shared."""
-        times = check_range("scale", factor, -1e6, 1e6)
+        times = check_range("`scale`", factor, -1e6, 1e6)
         return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}")
 
     def scaled_to_pga(self, pga: float) -> Motion:
@@ -183,12 +183,13 @@ class Motion:
         InputError
             The motion has (next to) nothing along x.
         """
-        value = check_range("pga", pga, 0.0, 1e4, unit="m/s²")
+        value = check_range("`pga`", pga, 0.0, 1e4, unit="m/s²")
         across = 0.0 if self.lateral is None else float(np.abs(self.lateral).max())
         if self.pga <= 1e-9 * across:
             raise InputError(
                 f"motion {self.name!r} is zero along x and cannot be scaled to a peak there; turn it, or multiply it by a "
-                "factor."
+                "factor.",
+                "pga",
             )
         return self.scaled(value / self.pga).replace(name=f"{self.name}, scaled to {value / g:g} g")
 

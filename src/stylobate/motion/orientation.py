@@ -53,7 +53,8 @@ def rotated(motion: Motion, azimuth: float) -> Motion:
     if abs(determinant) < 0.1:
         raise InputError(
             f"the horizontal components of {motion.name!r} point to {known[0]:g}° and {known[1]:g}°, nearly parallel; "
-            "check the azimuths."
+            "check the azimuths.",
+            "azimuth",
         )
     # a(θ) = e sin θ + n cos θ for both components, solved for east and north
     east = (x * math.cos(b) - y * math.cos(a)) / determinant
@@ -170,7 +171,7 @@ def strongest(motion: Motion) -> Motion:
 
 def _samples(motion: Motion) -> tuple[np.ndarray, np.ndarray]:
     if motion.y_samples is None:
-        raise InputError(f"motion {motion.name!r} has one horizontal component; turning needs two of them.")
+        raise InputError(f"motion {motion.name!r} has one horizontal component; turning needs two of them.", "azimuth")
     return motion.samples, motion.y_samples
 
 

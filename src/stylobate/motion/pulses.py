@@ -238,7 +238,8 @@ def _pulse(
     if total < length * (1.0 - 1e-9):
         raise InputError(
             f"duration is {total:g} s; a {kind} pulse of {f:g} Hz takes {length:g} s, so give at least that, "
-            "or leave the duration out."
+            "or leave the duration out.",
+            "duration",
         )
     # A whole number of steps in the pulse, so that its end is a sample.
     pulse_steps = math.ceil(cycles * SAMPLES_PER_CYCLE - 1e-9)
@@ -247,7 +248,8 @@ def _pulse(
     if steps >= MAX_SAMPLES:
         raise InputError(
             f"a pulse of {f:g} Hz followed over {total:g} s takes {steps} samples; allowed is up to {MAX_SAMPLES}: "
-            "give a shorter duration."
+            "give a shorter duration.",
+            "duration",
         )
     samples = np.zeros(steps + 1)
     samples[: pulse_steps + 1] = shape(np.arange(pulse_steps + 1) / pulse_steps * cycles)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, within
 from .specs import parse_acceleration, parse_angle, parse_frequency
 
 #: Largest number of values of a range.
@@ -42,17 +42,23 @@ def _plain_or(parse: Callable[[str], float]) -> Callable[[str], float]:
 
 def values_of(name: str, text: str, parse: Callable[[str], float], example: str) -> np.ndarray:
     """Values as typed: first, last and number, or one after the other; ``parse`` reads one of them."""
+
+    def wrong(why: str, part: str = "") -> InputError:
+        return InputError(f"`{name}` are {text!r}{why}.", f"{name}{part}", value=text)
+
     parts = text.split(":")
     if len(parts) == 1:
-        return np.array([parse(part.strip()) for part in text.split(",")])
+        with within("", name):
+            return np.array([parse(part.strip()) for part in text.split(",")])
     if len(parts) != 3:
-        raise InputError(f"{name} are {text!r}; write them as first:last:number, e.g. {example!r}.")
-    low, high = parse(parts[0].strip()), parse(parts[1].strip())
+        raise wrong(f"; write them as first:last:number, e.g. {example!r}")
+    with within("", name):
+        low, high = parse(parts[0].strip()), parse(parts[1].strip())
     if not parts[2].strip().isdecimal():
-        raise InputError(f"{name} are {text!r}, where {parts[2]!r} is no number of values; write e.g. {example!r}.")
+        raise wrong(f", where {parts[2]!r} is no number of values; write e.g. {example!r}", ".number")
     number = int(parts[2])
     if not 1 <= number <= MAX_VALUES:
-        raise InputError(f"{name} are {text!r}, with {number} values; allowed is 1 to {MAX_VALUES}.")
+        raise wrong(f", with {number} values; allowed is 1 to {MAX_VALUES}", ".number")
     if number > 1 and not low < high:
-        raise InputError(f"{name} are {text!r}; the first value must be below the last one, e.g. {example!r}.")
+        raise wrong(f"; the first value must be below the last one, e.g. {example!r}")
     return np.linspace(low, high, number)

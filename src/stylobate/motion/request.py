@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, OutOfRangeWarning, check_choice, check_range
 from .condition_specs import conditioned
 from .conditioning import warn_of_scaling
 from .motion import Motion
@@ -28,6 +28,9 @@ from .specs import (
     parse_synthetic,
     parse_time,
 )
+
+#: Of which a motion comes, by the parameters of a request.
+SOURCES = ("harmonic", "pulse", "synthetic", "files")
 
 #: What may be asked for of the horizontal components of a record besides one of them by name.
 COMPONENTS = ("all", "strongest")
@@ -102,20 +105,20 @@ class MotionRequest:
     vertical: bool = True
 
     def __post_init__(self) -> None:
-        sources = {"--harmonic": self.harmonic, "--pulse": self.pulse, "--synthetic": self.synthetic}
-        given = [one for one, value in (sources | {"--motion": self.files or None}).items() if value is not None]
+        given = [f"`{one}`" for one in SOURCES if getattr(self, one) not in (None, ())]
         if len(given) != 1:
             what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
-            raise InputError(f"{what}; give one of --harmonic, --pulse, --synthetic and --motion.")
-        for option, value in (("--unit", self.unit), ("--dt", self.dt), ("--component", self.component)):
-            if value is not None and not self.files:
-                raise InputError(f"{option} describes a record, but none is given; leave it out or give --motion FILE.")
+            raise InputError(f"{what}; give one of `harmonic`, `pulse`, `synthetic` and `files`.", "files")
+        for name in ("unit", "dt", "component"):
+            if getattr(self, name) is not None and not self.files:
+                raise InputError(
+                    f"`{name}` describes a record, but none is given; leave it out or give `files=FILE`.", name
+                )
         if self.across is not None and self.harmonic is None:
-            raise InputError("--across is the sine along y beside that along x; give --harmonic as well.")
-        if self.signs not in ("+", "both"):
-            raise InputError(f"--signs is {self.signs!r}; allowed is + or both.")
+            raise InputError("`across` is the sine along y beside that along x; give `harmonic` as well.", "across")
+        check_choice("`signs`", self.signs, ("+", "both"))
         if self.scale is not None and self.pga is not None:
-            raise InputError("--scale and --pga are both given; give one of the two.")
+            raise InputError("`scale` and `pga` are both given; give one of the two.", "pga")
         for one in self.azimuths:
             check_range("azimuth", one, -360.0, 360.0, unit="degrees")
         opposite = next(
@@ -130,7 +133,7 @@ class MotionRequest:
             warnings.warn(
                 f"the azimuths hold {opposite[0]:g}° and {opposite[1]:g}°, each of which is the other one reversed, and "
                 "both signs are asked for as well, so that directions are computed twice: a full circle holds both signs; "
-                "leave --signs both out, or give half of the circle, such as 0:150:6.",
+                "leave `signs='both'` out, or give half of the circle, such as 0:150:6.",
                 OutOfRangeWarning,
                 stacklevel=3,
             )
@@ -168,18 +171,17 @@ class MotionRequest:
             Any of the other parameters of :class:`MotionRequest`.
         """
         if azimuth is not None and azimuths is not None:
-            raise InputError("--azimuth and --azimuths are both given; give one of the two.")
-        if vertical not in ("on", "off"):
-            raise InputError(f"--vertical is {vertical!r}; allowed is on or off.")
+            raise InputError("`azimuth` and `azimuths` are both given; give one of the two.", "azimuth")
+        check_choice("`vertical`", vertical, ("on", "off"))
         turns = () if azimuths is None else tuple(azimuth_range(azimuths).tolist())
         return cls(
             files=tuple(motion or ()),
             separate=separate,
-            dt=None if dt is None else parse_time(dt),
-            azimuths=turns if azimuth is None else (_angle("--azimuth", azimuth),),
+            dt=None if dt is None else parse_time(dt, "dt"),
+            azimuths=turns if azimuth is None else (parse_angle(azimuth, "azimuth"),),
             condition=tuple(condition or ()),
-            scale=None if scale is None else parse_number("--scale", scale),
-            pga=None if pga is None else parse_acceleration(pga),
+            scale=None if scale is None else parse_number("`scale`", scale),
+            pga=None if pga is None else parse_acceleration(pga, "pga"),
             vertical=vertical == "on",
             **{key: value for key, value in texts.items() if value is not None},
         )
@@ -190,7 +192,7 @@ class MotionRequest:
         folders = [path for path in self.files if Path(path).is_dir()]
         if folders and len(self.files) > 1 and not self.separate:
             raise InputError(
-                f"--motion is {folders[0]}, a folder, and other paths; give one folder, or files of one record."
+                f"`files` is {folders[0]}, a folder, and other paths; give one folder, or files of one record."
             )
         many = self.separate or bool(folders)
         return many or self.component == "all" or len(self.azimuths) > 1 or self.signs == "both"
@@ -266,12 +268,13 @@ class MotionRequest:
                 length = motion.metadata["pulse_length"] + FREE_ROCKING / frequency_parameter
                 motion, unknown = parse_pulse(str(self.pulse), length, allow_unknown=True)
         if unknown and not amplitude_open:
-            option, text = ("--harmonic", self.harmonic) if self.harmonic is not None else ("--pulse", self.pulse)
-            raise InputError(f"{option} {text!r} leaves the amplitude open; state it here, such as 0.3g.")
+            name, text = ("harmonic", self.harmonic) if self.harmonic is not None else ("pulse", self.pulse)
+            raise InputError(f"`{name}` {text!r} leaves the amplitude open; state it here, such as 0.3g.", "amplitude")
         if amplitude_open and not unknown:
             raise InputError(
                 f"the motion {self.harmonic or self.pulse!r} states its amplitude, which is what is looked for; write ?g "
-                "for it."
+                "for it.",
+                "amplitude",
             )
         return motion
 
@@ -351,10 +354,3 @@ def _reversed(motion: Motion, record: str) -> Motion:
         metadata={**motion.metadata, "direction": {**_direction(motion, record), "reversed": True}},
         processing=(*motion.processing, "horizontal components reversed"),
     )
-
-
-def _angle(option: str, text: str) -> float:
-    try:
-        return parse_angle(text)
-    except InputError:
-        raise InputError(f"{option} is {text!r}; write it with its unit, such as 30deg.") from None

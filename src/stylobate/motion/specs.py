@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable
+from itertools import zip_longest
 from typing import Literal, overload
 
 from ..constants import g
-from ..errors import InputError, suggest
+from ..errors import InputError, check_choice, within
 from . import pulses
 from .harmonic import harmonic
 from .motion import Motion
@@ -93,21 +94,21 @@ def acceleration_unit(text: str) -> tuple[str, float]:
     key = text.strip().lower().replace("²", "2").replace(" ", "" if "s-2" not in text else " ")
     key = _SPELLINGS.get(key, key)
     if key not in ACCELERATION_UNITS:
-        raise InputError(f"unit of acceleration is {text!r}; allowed is {', '.join(ACCELERATION_UNITS)}.")
+        check_choice("unit of acceleration", text, ACCELERATION_UNITS, field="unit")
     return key, ACCELERATION_UNITS[key]
 
 
-def parse_number(option: str, text: str, example: str = "such as 1.5") -> float:
-    """A number without a unit, as typed after an option."""
+def parse_number(name: str, text: str, example: str = "such as 1.5") -> float:
+    """A number without a unit, as typed for the parameter of that name, as a message calls it."""
     try:
         return float(text)
     except ValueError:
-        raise InputError(f"{option} is {text!r}; allowed is a number, {example}.") from None
+        raise InputError(f"{name} is {text!r}; allowed is a number, {example}.", name.strip("`-"), value=text) from None
 
 
-def parse_acceleration(text: str) -> float:
-    """An acceleration such as ``0.3g``, ``2.9m/s2`` or ``300gal`` in m/s²."""
-    return _quantity(text, "acceleration", "0.3g")
+def parse_acceleration(text: str, name: str | None = None) -> float:
+    """An acceleration such as ``0.3g``, ``2.9m/s2`` or ``300gal`` in m/s²; ``name`` of the parameter, for messages."""
+    return _quantity(text, "acceleration", "0.3g", name)
 
 
 def parse_velocity(text: str) -> float:
@@ -115,9 +116,9 @@ def parse_velocity(text: str) -> float:
     return _in_units(text, "velocity", VELOCITY_UNITS, "", "'0.2m/s' (m/s, cm/s, mm/s)")
 
 
-def parse_time(text: str) -> float:
-    """A time such as ``5s`` or ``20ms`` in s."""
-    return _quantity(text, "time", "5s")
+def parse_time(text: str, name: str | None = None) -> float:
+    """A time such as ``5s`` or ``20ms`` in s; ``name`` of the parameter, for messages."""
+    return _quantity(text, "time", "5s", name)
 
 
 def parse_pressure(text: str) -> float:
@@ -125,14 +126,14 @@ def parse_pressure(text: str) -> float:
     return _in_units(text, "pressure", PRESSURE_UNITS, "Pa", "'2MPa' (Pa, kPa, MPa, GPa)")
 
 
-def parse_frequency(text: str) -> float:
-    """A frequency such as ``1.0Hz`` in Hz."""
-    return _quantity(text, "frequency", "1.0Hz")
+def parse_frequency(text: str, name: str | None = None) -> float:
+    """A frequency such as ``1.0Hz`` in Hz; ``name`` of the parameter, for messages."""
+    return _quantity(text, "frequency", "1.0Hz", name)
 
 
-def parse_angle(text: str) -> float:
-    """An angle such as ``30deg`` or ``0.5rad`` in degrees."""
-    return _quantity(text, "angle", "30deg")
+def parse_angle(text: str, name: str | None = None) -> float:
+    """An angle such as ``30deg`` or ``0.5rad`` in degrees; ``name`` of the parameter, for messages."""
+    return _quantity(text, "angle", "30deg", name)
 
 
 @overload
@@ -165,9 +166,9 @@ def parse_harmonic(
         The text cannot be understood; the message shows how to write it.
     """
     example = "1.0Hz,0.3g,10s"
-    found = _parts(text.split(","), text, "--harmonic", example)
-    _only(found, ("frequency", "acceleration", "time"), text, "--harmonic", example)
-    amplitude = _amplitude(found, text, "--harmonic", example, allow_unknown)
+    found = _parts(text.split(","), text, "harmonic", example)
+    _only(found, ("frequency", "acceleration", "time"), text, "harmonic", example)
+    amplitude = _amplitude(found, text, "harmonic", example, allow_unknown)
     unknown = math.isnan(found["acceleration"])
     other = None if across is None else _across(across, unknown, allow_unknown)
     motion = harmonic(found["frequency"], amplitude, found.get("time", 10.0), across=other)
@@ -176,14 +177,15 @@ def parse_harmonic(
 
 def _across(text: str, unknown: bool, allow_unknown: bool) -> tuple[float, float, float]:
     example = "1.0Hz,0.15g,90deg"
-    found = _parts(text.split(","), text, "--across", example)
-    _only(found, ("frequency", "acceleration", "angle"), text, "--across", example)
+    found = _parts(text.split(","), text, "across", example)
+    _only(found, ("frequency", "acceleration", "angle"), text, "across", example)
     if allow_unknown and unknown != math.isnan(found["acceleration"]):
         raise InputError(
-            "--harmonic and --across: the amplitude of one is stated and that of the other looked for; write ?g for both, "
-            "which are then the same."
+            "`harmonic` and `across`: the amplitude of one is stated and that of the other looked for; write ?g for both, "
+            "which are then the same.",
+            "across.amplitude",
         )
-    amplitude = _amplitude(found, text, "--across", example, allow_unknown)
+    amplitude = _amplitude(found, text, "across", example, allow_unknown)
     return found["frequency"], amplitude, math.radians(found.get("angle", 0.0))
 
 
@@ -220,14 +222,11 @@ def parse_pulse(
     example = "half-sine,1.0Hz,0.3g"
     kind, *parts = text.split(",")
     key = kind.strip().lower()
-    if key not in PULSES:
-        raise InputError(
-            f"kind of pulse is {kind.strip()!r}; {suggest(key, PULSES)}allowed is {', '.join(PULSES)}: {example!r}."
-        )
+    check_choice("kind of pulse", key, PULSES, field="pulse", remedy=f"write it as {example!r}")
     example = f"{key},1.0Hz,0.3g"
-    found = _parts(parts, text, "--pulse", example)
-    _only(found, ("frequency", "acceleration", "time"), text, "--pulse", example)
-    amplitude = _amplitude(found, text, "--pulse", example, allow_unknown)
+    found = _parts(parts, text, "pulse", example)
+    _only(found, ("frequency", "acceleration", "time"), text, "pulse", example)
+    amplitude = _amplitude(found, text, "pulse", example, allow_unknown)
     length = found.get("time")
     if length is None and default_length is not None:
         alone = PULSES[key](found["frequency"], amplitude).metadata["pulse_length"]
@@ -252,63 +251,77 @@ def parse_synthetic(text: str) -> Motion:
             r"(?P<seed>seed)\s*=\s*(?P<number>\d{1,18})|(?P<value>\d+\.?\d*|\.\d+)\s*(?P<unit>mw|km)", part.lower()
         )
         if match is None:
-            raise InputError(f"--synthetic {text!r}: {part!r} is not understood; write it as {example!r}.")
+            raise InputError(f"`synthetic` {text!r}: {part!r} is not understood; write it as {example!r}.", "synthetic")
         key = match["seed"] or match["unit"]
         if key in found:
-            raise InputError(f"--synthetic {text!r} holds two values of {key}; write it as {example!r}.")
+            raise InputError(f"`synthetic` {text!r} holds two values of {key}; write it as {example!r}.", "synthetic")
         found[key] = int(match["number"]) if match["seed"] else float(match["value"])
     for key, word in (("mw", "magnitude such as 6.5Mw"), ("km", "distance such as 20km")):
         if key not in found:
-            raise InputError(f"--synthetic {text!r} holds no {word}; write it as {example!r}.")
+            raise InputError(f"`synthetic` {text!r} holds no {word}; write it as {example!r}.", "synthetic")
     return stochastic_motion(found["mw"], found["km"] * 1e3, region.lower(), seed=int(found.get("seed", 0)))
 
 
-def _parts(parts: list[str], text: str, option: str, example: str) -> dict[str, float]:
+#: Fields of what is typed for a motion, in their usual order.
+_FIELDS = {
+    "harmonic": ("frequency", "amplitude", "duration"),
+    "across": ("across.frequency", "across.amplitude", "across.phase"),
+    "pulse": ("frequency", "amplitude", "duration"),
+}
+
+
+def _parts(parts: list[str], text: str, name: str, example: str) -> dict[str, float]:
     """Quantities by kind; the units say which is which. An acceleration that is looked for is NaN."""
     found: dict[str, float] = {}
-    for part in parts:
-        kind, value = _measure(part, f"{option} {text!r}", example)
-        if kind in found:
-            raise InputError(f"{option} {text!r} holds two values of {kind}; write it as {example!r}.")
+    for part, place in zip_longest(parts, _FIELDS[name][: len(parts)], fillvalue=name):
+        with within("", place):
+            kind, value = _measure(part, f"`{name}` {text!r}", example)
+            if kind in found:
+                raise InputError(f"`{name}` {text!r} holds two values of {kind}; write it as {example!r}.")
         found[kind] = value
-    for kind, sample in (("frequency", "1.0Hz"), ("acceleration", "0.3g")):
+    for kind, sample, place in zip(("frequency", "acceleration"), ("1.0Hz", "0.3g"), _FIELDS[name]):
         if kind not in found:
-            raise InputError(f"{option} {text!r} holds no {kind} such as {sample}; write it as {example!r}.")
+            said = f"`{name}` {text!r} holds no {kind} such as {sample}; write it as {example!r}."
+            raise InputError(said, place)
     return found
 
 
-def _only(found: dict[str, float], kinds: tuple[str, ...], text: str, option: str, example: str) -> None:
+def _only(found: dict[str, float], kinds: tuple[str, ...], text: str, name: str, example: str) -> None:
     for kind in found:
         if kind not in kinds:
             word = "an" if kind[0] in "aeiou" else "a"
-            raise InputError(f"{option} {text!r} holds {word} {kind}, which it has none of; write it as {example!r}.")
+            said = f"`{name}` {text!r} holds {word} {kind}, which it has none of; write it as {example!r}."
+            raise InputError(said, name)
 
 
-def _amplitude(found: dict[str, float], text: str, option: str, example: str, allow_unknown: bool) -> float:
+def _amplitude(found: dict[str, float], text: str, name: str, example: str, allow_unknown: bool) -> float:
     value = found["acceleration"]
     if not math.isnan(value):
         return value
     if not allow_unknown:
-        raise InputError(f"{option} {text!r} leaves the amplitude open; state it here, as in {example!r}.")
+        said = f"`{name}` {text!r} leaves the amplitude open; state it here, as in {example!r}."
+        raise InputError(said, _FIELDS[name][1])
     return 1.0
 
 
-def _quantity(text: str, kind: str, example: str) -> float:
-    found, value = _measure(text, f"{kind} {text!r}", example)
-    if found != kind or math.isnan(value):
-        raise InputError(f"{text!r} is not a value of {kind}; write it with its unit, as in {example!r}.")
+def _quantity(text: str, kind: str, example: str, name: str | None) -> float:
+    with within("", *([name] if name else [])):
+        found, value = _measure(text, f"`{name}`" if name else f"{kind} {text!r}", example)
+        if found != kind or math.isnan(value):
+            what = f"`{name}`: {text!r}" if name else repr(text)
+            raise InputError(f"{what} is not a value of {kind}; write it with its unit, as in {example!r}.")
     return value
 
 
 def _measure(text: str, where: str, example: str) -> tuple[str, float]:
     match = _QUANTITY.fullmatch(text)
     if match is None:
-        raise InputError(f"{where}: {text.strip()!r} is not a number with a unit; write it as {example!r}.")
+        raise InputError(f"{where}: {text.strip()!r} is not a number with a unit; write it as {example!r}.", value=text)
     number, unit = match.group(1), match.group(2)
     if unit is None:
         sample = None if "," in example else _QUANTITY.fullmatch(example)
         as_meant = f"with one, such as {number}{sample.group(2)}" if sample is not None else f"as {example!r}"
-        raise InputError(f"{where}: {text.strip()!r} has no unit; write it {as_meant}.")
+        raise InputError(f"{where}: {text.strip()!r} has no unit; write it {as_meant}.", value=text)
     name = unit.lower()
     for kind, units in (("frequency", FREQUENCY_UNITS), ("time", TIME_UNITS), ("angle", ANGLE_UNITS)):
         if name in units and number != "?":

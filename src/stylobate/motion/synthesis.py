@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..errors import InputError, check_range
+from ..errors import InputError, check_choice, check_range
 from .motion import MAX_SAMPLES, Motion, integrate
 
 #: Average radiation of shear waves, share of one horizontal component, and the free surface's doubling.
@@ -315,6 +315,5 @@ def _window(duration: float, dt: float) -> np.ndarray:
 def _region(region: Region | str) -> Region:
     if isinstance(region, Region):
         return region
-    if region not in REGIONS:
-        raise InputError(f"region is {region!r}; allowed is {', '.join(REGIONS)}.")
+    check_choice("region", region, REGIONS)
     return REGIONS[region]

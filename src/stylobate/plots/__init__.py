@@ -22,9 +22,10 @@ from .risk import draw_risk, draw_survival
 from .rocking_spectrum import draw_rocking_spectrum
 from .spectra import draw_spectra
 from .states import draw_states
-from .style import save
+from .style import save, save_as
 from .suite import draw_suite
 from .uplift import draw_uplift
+from .views import draw_views
 
 __all__ = [
     "draw_amplitudes",
@@ -56,5 +57,7 @@ __all__ = [
     "draw_suite",
     "draw_survival",
     "draw_uplift",
+    "draw_views",
     "save",
+    "save_as",
 ]

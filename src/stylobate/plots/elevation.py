@@ -55,7 +55,7 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     figure, axes = panel(ax, (WIDTH, TALL))
     corners = np.concatenate([*outlines, *built])
     low, high = corners.min(axis=0), corners.max(axis=0)
-    sheet = _Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
+    sheet = Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
     slope = _slope(column)
     axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
     marked = {one.drum for one in column.as_found.drums if _said(one)}
@@ -87,21 +87,30 @@ def outlines_of(structure: Structure) -> list[np.ndarray]:
 
 
 @dataclass(frozen=True)
-class _Sheet:
+class Sheet:
     """The paper around what is drawn: how many metres a point of it is."""
 
     metres: float
 
     @classmethod
     def around(
-        cls, axes: Axes, low: np.ndarray, high: np.ndarray, *, left: float, right: float, below: float, above: float
-    ) -> _Sheet:
-        """Limits with room for words on each side [points], in true proportion."""
+        cls,
+        axes: Axes,
+        low: np.ndarray,
+        high: np.ndarray,
+        *,
+        left: float,
+        right: float,
+        below: float,
+        above: float,
+        least: float = 0.0,
+    ) -> Sheet:
+        """Limits with room for words on each side [points], in true proportion, ``least`` metres a point at least."""
         figure = cast(Figure, cast(Figure, axes.figure).figure)  # the whole one, where axes stand in a part of it
         place = axes.get_position()
         wide, tall = figure.get_figwidth() * place.width * 72.0, figure.get_figheight() * place.height * 72.0
         size = high - low
-        metres = max(size[0] / max(wide - left - right, 40.0), size[1] / max(tall - below - above, 40.0))
+        metres = max(size[0] / max(wide - left - right, 40.0), size[1] / max(tall - below - above, 40.0), least)
         axes.set_aspect("equal")
         axes.set_axis_off()
         spare = 0.5 * max(wide - left - right - size[0] / metres, 0.0)
@@ -114,7 +123,7 @@ class _Sheet:
         return z + self.metres * points
 
 
-def _heights(axes: Axes, sheet: _Sheet, column: Column, edge: float) -> None:
+def _heights(axes: Axes, sheet: Sheet, column: Column, edge: float) -> None:
     """Two chains of dimensions to the left: the drums', and that of all."""
     levels = [*column.joint_heights.tolist(), column.height]
     chain, whole = sheet.up(edge, -26.0), sheet.up(edge, -66.0)
@@ -139,7 +148,7 @@ def _tick(axes: Axes, x: float, z: float) -> None:
     axes.plot(x, z, marker=(2, 0, -45), color=BLACK, markersize=6, linestyle="none", markeredgewidth=0.9)
 
 
-def _words_beside(axes: Axes, sheet: _Sheet, column: Column, outlines: list[np.ndarray], edge: float) -> None:
+def _words_beside(axes: Axes, sheet: Sheet, column: Column, outlines: list[np.ndarray], edge: float) -> None:
     """Numbers of drums in them; widths, and what is as found, to the right; joints by number at their levels."""
     round_ = "⌀ " if column.section == "circular" else ""
     every = math.ceil(column.n / WRITTEN)
@@ -174,7 +183,7 @@ def _words_beside(axes: Axes, sheet: _Sheet, column: Column, outlines: list[np.n
             axes.text(*place, found, fontsize=7.0, ha="left", va="center" if tight else "top", color=RED)
 
 
-def _links(axes: Axes, sheet: _Sheet, column: Column) -> None:
+def _links(axes: Axes, sheet: Sheet, column: Column) -> None:
     """Dowels and bars across their joints, ties and cores from end to end, layers along theirs; at their true x."""
 
     def draw(x: list[float], z: list[float], marker: str = "", style: Any = "-") -> None:
@@ -192,7 +201,7 @@ def _links(axes: Axes, sheet: _Sheet, column: Column) -> None:
             draw([x, x], [z - reach, z + reach], "_" if link.mark == "anchor" else "")
 
 
-def _width(axes: Axes, sheet: _Sheet, width: float, ends: np.ndarray, away: float, section: str) -> None:
+def _width(axes: Axes, sheet: Sheet, width: float, ends: np.ndarray, away: float, section: str) -> None:
     """A horizontal dimension so many points over or under a face, which runs between two ends [m]."""
     level = sheet.up(float(ends[:, 1].mean()), away)
     for x, z in ends:
@@ -246,7 +255,7 @@ def _blocks(structure: Structure, shapes: list[np.ndarray], title: str | None, a
     size = high - low
     tall = min(TALL, max(2.6, 0.75 * WIDTH * size[1] / size[0] + 1.2))
     figure, axes = panel(ax, (WIDTH, tall))
-    sheet = _Sheet.around(axes, low, high, left=60.0, right=24.0, below=40.0, above=18.0)
+    sheet = Sheet.around(axes, low, high, left=60.0, right=24.0, below=40.0, above=18.0)
     if structure.ground is not None:
         axes.axhline(structure.ground, color=BLACK, linewidth=1.4)
     many = len(shapes) > NAMED
@@ -269,7 +278,7 @@ def _blocks(structure: Structure, shapes: list[np.ndarray], title: str | None, a
         ends = np.array(link.place)[:, None] + 12.0 * sheet.metres * np.outer(link.along, (-1.0, 1.0))
         axes.plot(*ends, color=BLUE, linewidth=2.4, zorder=5)
     for along, start, end in ((0, low, high), (1, low, high)):
-        _dimension(axes, sheet, along, start, end)
+        dimension(axes, sheet, along, start, end)
     if title:
         axes.set_title(title)
     return figure
@@ -279,7 +288,7 @@ def _middle(shape: np.ndarray) -> np.ndarray:
     return 0.5 * (shape.min(axis=0) + shape.max(axis=0))
 
 
-def _dimension(axes: Axes, sheet: _Sheet, along: int, low: np.ndarray, high: np.ndarray) -> None:
+def dimension(axes: Axes, sheet: Sheet, along: int, low: np.ndarray, high: np.ndarray) -> None:
     """Width under the picture (0), or height to its left (1)."""
     if along == 0:
         level = sheet.up(float(low[1]), -20.0)

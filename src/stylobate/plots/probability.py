@@ -73,7 +73,7 @@ def message(result: CollapseProbability) -> str:
     facts = result.summary()
     open_cells = facts["no_verdict"]
     if open_cells:
-        said = f"{percent(open_cells / facts['cells'])} of the cells have no verdict: follow the column longer (--tail)"
+        said = f"{percent(open_cells / facts['cells'])} of the cells have no verdict: follow the column longer"
         if open_cells == facts["cells"]:
             return said
         return f"{_about_the_others(result, facts)}\n{said}"

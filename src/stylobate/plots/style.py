@@ -101,24 +101,30 @@ def save(figure: Figure, stem: str | Path) -> list[Path]:
     list of Path
         The two files.
     """
-    png, svg = Path(f"{stem}.png"), Path(f"{stem}.svg")
+    return save_as(figure, Path(f"{stem}.png"), Path(f"{stem}.svg"))
+
+
+def save_as(figure: Figure, *files: Path) -> list[Path]:
+    """Write files of the kinds that their names end in, ``.png``, ``.svg`` or ``.pdf``; as :func:`save`."""
     layout, dots = figure.get_layout_engine(), figure.dpi
     settled: dict[Any, Any] = {"figure.constrained_layout.use": False}
     with matplotlib.rc_context(_STYLE | settled):
-        # The layout is settled once, for both files, at the resolution of the PNG file: letters are wider at some
+        # The layout is settled once, for all files, at the resolution of the PNG file: letters are wider at some
         # resolutions than at others, and what fits at another one may be cut off in the file.
         figure.set_dpi(DOTS_PER_INCH)
         figure.draw_without_rendering()
         figure.set_layout_engine(None)
         figure.set_dpi(dots)
         try:
-            with replacing(png) as partial:
-                figure.savefig(partial, dpi=DOTS_PER_INCH, facecolor="white")
-            with replacing(svg) as partial:
-                figure.savefig(partial, facecolor="white", metadata={"Date": None})  # same picture, same bytes
+            for file in files:
+                kind = file.suffix.lower()[1:]
+                undated: Any = {"png": None, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
+                dots = DOTS_PER_INCH if kind == "png" else "figure"
+                with replacing(file) as partial:  # same picture, same bytes
+                    figure.savefig(partial, format=kind, dpi=dots, facecolor="white", metadata=undated)
         finally:
             figure.set_layout_engine(layout)
-    return [png, svg]
+    return list(files)
 
 
 def page(given: Figure | SubFigure | None, size: tuple[float, float]) -> Figure:

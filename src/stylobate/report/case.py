@@ -74,7 +74,7 @@ def write_report(
         raise InputError(f"{target} ends in {target.suffix!r}; a report is an HTML file: name it such as report.html.")
     found = [one for given in results for one in ([given] if isinstance(given, Result) else read_results([given]))]
     if not found:
-        raise InputError("no result is given to report; give the folder that a command wrote with --out.")
+        raise InputError("no result is given to report; give the folder in which a command wrote it.")
     names = [target.name, *([target.with_suffix(".pdf").name] if pdf else [])]
     with output_folder(target.parent, names) as folder:
         return _write(found, folder / target.name, title, pdf)

@@ -18,7 +18,7 @@ from ..constants import g
 from ..outcome import Outcome
 from ..percent import percent
 from ..response import Response
-from ..response.words import doubt_of, longer_tail
+from ..response.words import doubt_of, to_decide
 from ..results import RunResult, SeveralRuns
 from . import numbers as n
 from .certainty import OF_TWINS, beside_them, certainty_section, certainty_sentence
@@ -128,12 +128,12 @@ def _scope(run: RunResult) -> str:
 def _doubts(run: RunResult) -> list[str]:
     r, found = run.response, []
     if not r.decided and r.outcome is not Outcome.FAILED:
-        longer = longer_tail(float(r.provenance.get("tail_s", 0.0)))
-        found.append(f"the run ended before the verdict was certain; go on with {longer} before relying on it.")
+        cure = to_decide(r.structure, r.provenance.get("parameters", {}), float(r.provenance.get("tail_s", 0.0)))
+        found.append(f"the run ended before the verdict was certain; {cure}: do not rely on it before.")
     if abs(r.energy_imbalance) > IMBALANCE:
         found.append(
             f"the energy balance misses {percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
-            "(--set step_factor=…) and compare."
+            "(a smaller step factor) and compare."
         )
     if left_out := [str(one) for one in r.provenance.get("left_out", ())]:
         found.append(f"left out of the motion, which the model does not take: {'; '.join(left_out)}.")

@@ -70,7 +70,7 @@ def motion_section(
         text = "Its source gives this record as uncorrected; " + (
             "what was corrected here stands under processing."
             if corrected
-            else "its baseline was not corrected here either (--condition): velocities and displacements may drift."
+            else "its baseline was not corrected here either: velocities and displacements may drift."
         )
         items.insert(len(note) + 1, Note([text], "fair"))
     if column is not None and motion.pga > 0.0:

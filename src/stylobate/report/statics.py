@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 
 from ..analysis.capacity_spectrum import CapacityCheck, capacity_spectrum_check
 from ..analysis.limit import limit_analysis, towards
+from ..analysis.limit_assemblies import listed
 from ..analysis.limit_directions import limit_directions
 from ..analysis.pushover import pushover
 from ..column import Column
@@ -188,14 +190,15 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
     to = f", pushed towards {s['weakest_azimuth_deg']:g}°" if "weakest_azimuth_deg" in s else ""
     sentence = (
-        f"Under steady horizontal forces the column becomes a mechanism at {s['collapse_multiplier_g']:.4g} times its "
-        f"weight{to}."
+        f"Under steady horizontal forces the {'assembly' if s.get('moving') else 'column'} becomes a mechanism at "
+        f"{s['collapse_multiplier_g']:.4g} times its weight{to}."
     )
     modes = "; ".join(f"joint {one['joint']} {one['mode']}" for one in s.get("active_joints", ()))
     pairs = [
         ("mechanism", modes or n.NONE),
         ("numbers of the joints at their strength", n.plain(s.get("joints_at_strength"))),
         ("flow rule of friction", n.plain(s.get("flow"))),
+        *_who_moves(s),
     ]
     if "lower_bound_g" in s:
         pairs.insert(0, ("kinematic bound, from above", f"{s['upper_bound_g']:.6g} g"))
@@ -216,6 +219,18 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     return (sentence, " plain"), items
 
 
+def _who_moves(s: dict[str, Any]) -> list[tuple[str, str]]:
+    """Of an assembly, which bodies the mechanism moves, and where the multiplier is only a bound."""
+    if not s.get("moving"):
+        return []
+    bound = "only an upper bound: stones slide or round faces twist" if s["upper_bound"] else n.NONE
+    return [
+        ("its lowest joint", " – ".join(s["between"])),
+        ("bodies that move", listed(s["moving"])),
+        ("multiplier", bound),
+    ]
+
+
 def static_model() -> Section:
     """What statics assume, and where they end."""
     items: list[Item] = [
@@ -226,6 +241,7 @@ def static_model() -> Section:
                 "Forces are horizontal, proportional to the masses unless a pattern was given, and steady.",
                 "A column as found is pushed where it is weakest.",
                 "A circular column is taken by the diameters of its faces; crushing counts only where a strength was given.",
+                "Friction in an assembly in space is associated: where it acts, the multiplier is an upper bound.",
             ]
         ),
         "They end here:",

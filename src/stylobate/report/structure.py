@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
 
 from ..column import Column
@@ -11,7 +14,7 @@ from ..column.found_in_space import weakest_uplift
 from ..column.plausible import unit_doubts
 from ..column.structure import Structure
 from ..constants import g
-from ..plots import draw_elevation
+from ..plots import draw_elevation, draw_views
 from . import numbers as n
 from .page import Facts, Item, Picture, Rows, Section
 from .pictures import picture
@@ -195,14 +198,17 @@ _TOLD = ("kind", "between", "at", "to", "name")
 
 
 def _blocks(structure: Structure) -> list[Item]:
-    caption = f"Elevation of {structure.name}, with the size of all of it in m; supports that are held are grey."
+    contacts = structure.space_joints
+    joints_of: Sequence[Any] = structure.face_pairs if contacts is None else contacts
+    seen = "Elevation" if contacts is None else "Elevations, plan and view"
+    caption = f"{seen} of {structure.name}, with the size of all of it in m; supports that are held are grey."
     caption += " Blue: links." if structure.links else ""
     bodies = structure.bodies[structure.first :]
     near = [one for one in bodies if np.ptp(one.corners, axis=0).max() <= FAR_AWAY]
     held = sum(one.fixed for one in near)
     facts = [
         ("blocks", f"{sum(not one.fixed for one in bodies)} that can move" + (f", {held} held" if held else "")),
-        ("joints", str(len(structure.face_pairs))),
+        ("joints", str(len(joints_of))),
         ("ground", "none" if structure.ground is None else f"level at z = {structure.ground:g} m"),
     ]
     body = []
@@ -220,7 +226,7 @@ def _blocks(structure: Structure) -> list[Item]:
             f"{joint.law.normal_stiffness:.3g}",
             f"{joint.law.shear_stiffness:.3g}",
         ]
-        for joint in structure.face_pairs[:MOST]
+        for joint in joints_of[:MOST]
     ]
     joints = Rows(
         ["joint", "μ [–]", "k_n [N/m³]", "k_s [N/m³]"],
@@ -228,7 +234,8 @@ def _blocks(structure: Structure) -> list[Item]:
         "Joints. μ is the friction coefficient, k_n and k_s the normal and shear stiffness per area.",
         numbers=True,
     )
-    found: list[Item] = [picture(draw_elevation(structure), caption), Facts(facts), rows, *([joints] if laws else [])]
+    drawn = draw_elevation(structure) if contacts is None else draw_views(structure)
+    found: list[Item] = [picture(drawn, caption), Facts(facts), rows, *([joints] if laws else [])]
     return [*found, _links_between_blocks(structure)] if structure.links else found
 
 

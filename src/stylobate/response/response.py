@@ -16,7 +16,7 @@ from .words import describe, sentence_of
 if TYPE_CHECKING:
     import xarray
 
-    from ..plots.inline import Film
+    from .. import Film
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -93,11 +93,9 @@ class Response(Recorded):
 
         Returns
         -------
-        stylobate.plots.inline.Film
+        stylobate.Film
         """
-        from ..plots.inline import (
-            Film,
-        )  # pictures stand above responses: a film is at hand here, and loaded when asked for
+        from .. import Film  # of the package: who draws stands above what is drawn, and is loaded when asked for
 
         return Film(self, frames_per_second, speed, window)
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 from ..outcome import Outcome
 from .links import sentence_of as sentence_of_links
 
 if TYPE_CHECKING:
+    from ..column.structure import Structure
     from .recorded import Recorded
 
 
@@ -42,11 +44,17 @@ UNDAMPED = {"stiffness_damping": 0.0, "mass_damping": 0.0, "restitution": 1.0, "
 WOBBLES = 0.02
 
 
-#: What is said of round drums that stand in a plane, under however few components.
-ROUND_DRUMS = (
-    "Round drums, computed in a plane: in space they wobble out of it by themselves, under one component too, and can fall "
-    "where they stand here; compute it with dem3d before relying on it."
-)
+#: What stands before all that rests on round columns in a plane; of several drums they leave it by themselves.
+ROUND_IN_THE_PLANE = "Round columns, computed in a plane: in space they can fall under much weaker motions"
+
+
+def round_in_the_plane(structure: Structure) -> str:
+    """What stands before a favourable verdict of a model in the plane on what stands; empty where nothing does."""
+    if structure.section != "circular":
+        return ""
+    several = structure.stack is not None and structure.stack.n > 1
+    too = ", under one component too" if several else ""
+    return f"{ROUND_IN_THE_PLANE}{too}; compute them in space (dem3d) before relying on it."
 
 
 def doubt_of(response: Recorded) -> str:
@@ -59,8 +67,8 @@ def doubt_of(response: Recorded) -> str:
     known, space = response.provenance.get("parameters", {}), response.measures.space
     slenderness = response.structure.slenderness
     if space is None:
-        several = response.structure.section == "circular" and len(response.bodies.names) > 1
-        return ROUND_DRUMS if several and response.outcome in (Outcome.ROCKED, Outcome.DISPLACED) else ""
+        several = len(response.bodies.names) > 1 and response.outcome in (Outcome.ROCKED, Outcome.DISPLACED)
+        return round_in_the_plane(response.structure) if several else ""
     if slenderness is None or not space.peak_tilt > WOBBLES * slenderness:
         return ""
     damped = any(known.get(name) not in (None, none) for name, none in UNDAMPED.items())
@@ -68,23 +76,41 @@ def doubt_of(response: Recorded) -> str:
         return ""
     return (
         "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall "
-        "with --set stiffness_damping=1e-4, and with 1e-3, before relying on it."
+        "with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it."
     )
 
 
 def longer_tail(given: float) -> str:
-    """The option that follows a run which ended before its verdict was certain longer than it was.
+    """The tail that follows a run which ended before its verdict was certain longer than it was.
 
     Parameters
     ----------
     given : float
         How long it went on after the motion [s].
     """
-    return f"--tail {max(SHORTEST_TAIL, 2.0 * given):g}s"
+    return f"a tail of {max(SHORTEST_TAIL, 2.0 * given):g} s"
 
 
 #: The least time after a motion in which a run may become certain [s].
 SHORTEST_TAIL = 5.0
+
+
+def to_decide(structure: Structure, parameters: Mapping[str, Any], given: float) -> str:
+    """What decides a run that ended before its verdict was certain, in a clause.
+
+    Parameters
+    ----------
+    structure : Structure
+    parameters : mapping
+        Of the model.
+    given : float
+        How long it went on after the motion [s].
+    """
+    free = parameters.get("pivot_friction", 1.0) < 1.0 and not parameters.get("planar")
+    moved = any(one.offset or one.tilt or one.chipped for one in structure.as_found.drums)
+    if free and moved and structure.section == "circular":
+        return "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
+    return f"go on with {longer_tail(given)}"
 
 
 def _undecided(response: Recorded) -> str:
@@ -92,13 +118,14 @@ def _undecided(response: Recorded) -> str:
 
     Of a column whose links pulled from the start, what they and the joints that they press hold counts against it.
     """
-    longer = longer_tail(float(response.provenance.get("tail_s", 0.0)))
+    known = response.provenance
+    cure = to_decide(response.structure, known.get("parameters", {}), float(known.get("tail_s", 0.0)))
     if response.structure.pretensioned:
         return (
-            f"The verdict may still change: at the end it is not at rest (go on with {longer}), or it is, and what its "
-            "pretension holds could overturn it if it came free, which no tail decides."
+            f"The verdict may still change: at the end it is not at rest ({cure}), or it is, and what its pretension "
+            "holds could overturn it if it came free, which no tail decides."
         )
-    return f"The verdict may still change: at the end it is far from rest; go on with {longer}."
+    return f"The verdict may still change: at the end it is far from rest; {cure}."
 
 
 def describe(response: Recorded) -> str:

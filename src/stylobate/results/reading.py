@@ -74,7 +74,7 @@ def read_results(folders: Iterable[str | Path]) -> list[Result]:
     """
     found = [one for folder in folders for one in read_folder(folder)]
     if not found:
-        raise InputError("no folder of results is given; give one that a command wrote with --out.")
+        raise InputError("no folder of results is given; give one in which a command wrote its files.")
     return found
 
 
@@ -88,9 +88,9 @@ def read_folder(folder: str | Path) -> list[Result]:
     """
     place = Path(folder)
     if not place.exists():
-        raise InputError(f"there is no folder {shown(place)}; give one that a command wrote with --out.")
+        raise InputError(f"there is no folder {shown(place)}; give one in which a command wrote its files.")
     if not place.is_dir():
-        raise InputError(f"{shown(place)} is a file; give the folder of a result, as a command wrote it with --out.")
+        raise InputError(f"{shown(place)} is a file; give the folder in which a command wrote its files.")
     markers = [one for one in _READERS if (place / one).is_file()]
     if "states.json" in markers and PLAN_FILE in markers:
         markers.remove(PLAN_FILE)  # the runs of the states, which are compared
@@ -104,13 +104,13 @@ def read_folder(folder: str | Path) -> list[Result]:
 
 def _foreign(place: Path) -> str:
     if not any(place.iterdir()):
-        return f"folder {shown(place)} is empty; give one that a command wrote with --out."
+        return f"folder {shown(place)} is empty; give one in which a command wrote its files."
     if (place / "data" / "study.json").is_file() or (place / "index.html").is_file():
         return f"{shown(place)} holds no result of a command, but a page or the paper's study; open its HTML file."
     refuse_former(*place.glob(FORMER_FILES))
     if (place / RUNS_FILE).is_file():
         return f"{shown(place)} holds a command's work that is not finished; give the same command again, then report."
-    return f"{shown(place)} holds no result of stylobate; give a folder that a command wrote with --out."
+    return f"{shown(place)} holds no result of stylobate; give a folder in which a command wrote its files."
 
 
 # -- kinds ---------------------------------------------------------------------------------------------------------
@@ -177,7 +177,8 @@ def _read_study(place: Path) -> StudyFolder:
     study = StudyResult.in_folder(place)
     summary = study.summary()
     if (place / "study.json").is_file():
-        summary |= {"wall_s": read_json(place / "study.json").get("wall_s")}
+        written = read_json(place / "study.json")
+        summary |= {name: written.get(name) for name in ("wall_s", "doubt")}
     ranked, kept, names = study.ranked(), {}, [PLAN_FILE, "study.json", "study.csv", "study.parquet"]
     for name, number in {"median": (len(ranked) - 1) // 2, "worst": -1}.items() if ranked else ():
         file = f"histories/{study.plan.digests[ranked[number]]}.nc"

@@ -8,11 +8,11 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..analysis.difference import ROUND_IN_THE_PLANE
 from ..analysis.evidence import STOOD
 from ..errors import InputError
 from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
+from ..response.words import ROUND_IN_THE_PLANE
 from .asked import Asked, asked_file, scales_of
 
 if TYPE_CHECKING:

@@ -23,15 +23,15 @@ export function start(where) {
 }
 
 function set(key, value) { change({ domain: { ...state.domain, [key]: value.trim() } }); }
-const box = (key, label) => field(label, el("input", { value: state.domain[key], inputmode: "decimal", "data-field": key, oninput: event => set(key, event.target.value) }));
+const box = (key, label, path = key) => field(label, el("input", { value: state.domain[key], inputmode: "decimal", "data-field": path, oninput: event => set(key, event.target.value) }));
 
 function render() {
   const canvas = el("canvas", { role: "application", tabindex: 0, "aria-label": "Map of verdicts: arrows move from cell to cell, Enter opens the film of a cell" });
   fill(panel, el("h1", {}, "Domain"), el("p", { class: "lead" }, "Which sines the column stands, and which bring it down. Cells appear as they are computed; each opens its film."),
     el("div", { class: "sheet left" },
       el("div", {}, el("div", { class: "card", id: "domain-asked", "data-errors": true }, el("p", { class: "hint", id: "domain-case" }),
-        el("div", { class: "row tight" }, box("f0", "Hz, from"), box("f1", "to"), box("fn", "values")),
-        el("div", { class: "row tight" }, box("a0", "g, from"), box("a1", "to"), box("an", "values")),
+        el("div", { class: "row tight" }, box("f0", "Hz, from", "frequencies"), box("f1", "to", "frequencies.last"), box("fn", "values", "frequencies.number")),
+        el("div", { class: "row tight" }, box("a0", "g, from", "amplitudes"), box("a1", "to", "amplitudes.last"), box("an", "values", "amplitudes.number")),
         el("div", { class: "row" }, box("duration", `${labels.duration} [s]`), field(`${labels.tail} [s]`, el("input", { value: state.tail, placeholder: "0", inputmode: "decimal", "data-field": "tail", oninput: event => change({ tail: event.target.value.trim() }) }))),
         el("div", { class: "row" }, el("button", { type: "button", class: "primary", onclick: go }, "Map it"), el("small", { class: "hint", id: "domain-count" }))),
       el("div", { class: "card", id: "domain-said", "aria-live": "polite", hidden: true })),

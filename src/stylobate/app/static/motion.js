@@ -62,7 +62,7 @@ function slider(key, label, unit, low, high, step, logarithmic = false) {
   const round = one => String(+one.toPrecision(3));
   const range = el("input", { type: "range", min: to(low), max: to(high), step, value: Number.isFinite(given) && given > 0 ? to(given) : to(low), "aria-label": `${label} slider`,
     oninput: event => { box.value = round(from(+event.target.value)); set({ [key]: box.value }); } });
-  const box = el("input", { value: state.motion[key], inputmode: "decimal", "data-field": key, "aria-label": `${label} [${unit}]`,
+  const box = el("input", { value: state.motion[key], inputmode: "decimal", "data-field": key === "phase" ? "across.phase" : key, "aria-label": `${label} [${unit}]`,
     oninput: event => { const now = Number(event.target.value); if (now > 0) range.value = to(now); set({ [key]: event.target.value.trim() }); } });
   return el("div", { class: "slider" }, el("span", {}, label), range, el("span", { class: "unit" }, box, el("small", {}, unit)));
 }
@@ -81,7 +81,7 @@ function controls() {
       el("p", { class: "hint" }, (samples.find(one => one.name === m.sample) || { about: "" }).about), component()];
   }
   if (m.kind === "record") return record(m);
-  return [field("Region, magnitude, distance, seed", el("input", { value: m.region, "data-field": "region", oninput: event => set({ region: event.target.value }) })),
+  return [field("Region, magnitude, distance, seed", el("input", { value: m.region, "data-field": "synthetic", oninput: event => set({ region: event.target.value }) })),
     el("p", { class: "hint" }, "Such as greece,6.5Mw,20km,seed=3.")];
 }
 const component = () => field(`${labels.component} (number, label or azimuth; as recorded if empty)`,

@@ -1,7 +1,7 @@
 // What is said of a job while it waits, is computed, and has ended. Buttons stay where they are while numbers change.
 
 import { post } from "./api.js";
-import { el, fill, find, notice, number } from "./dom.js";
+import { el, fill, find, mark, notice, number } from "./dom.js";
 
 export const isOpen = job => job.state === "waiting" || job.state === "running";
 
@@ -31,4 +31,6 @@ export function tell(place, job, rest = () => []) {
   fill(place, isOpen(job) || job.sentence ? el("p", { class: "verdict sentence" }, sentence(job)) : null,
     isOpen(job) && el("progress", { "aria-label": "progress", ...(job.total ? { max: job.total } : {}), ...(job.total ? { value: job.done } : {}) }),
     buttons.length > 0 && el("div", { class: "row" }, buttons), [rest()].flat(9));
+  const panel = place.closest("section");
+  if (job.state === "refused" && job.field && panel && find(`[data-field="${CSS.escape(job.field)}"]`, panel)) mark(panel, { error: job.sentence, field: job.field });
 }

@@ -52,7 +52,7 @@ function renderAsked() {
 
 // The smallest amplitude of this motion that brings the column down.
 function critical() {
-  const box = (key, label) => field(label, el("input", { value: state.critical[key], inputmode: "decimal", "data-field": `critical.${key}`,
+  const box = (key, label) => field(label, el("input", { value: state.critical[key], inputmode: "decimal", "data-field": { first: "start", last: "stop" }[key] || key,
     oninput: event => change({ critical: { ...state.critical, [key]: event.target.value.trim() } }) }));
   return el("details", { id: "critical", open: criticalOpen }, el("summary", { onclick: () => { criticalOpen = !find("#critical", panel).open; } }, "What amplitude brings it down?"),
     el("div", { class: "row tight" }, box("first", `${labels.from} [g]`), box("last", `${labels.to} [g]`), box("step", `${labels.step} [g]`)),
@@ -150,7 +150,7 @@ function verdict(r, words) {
     const piece = el("i", { class: name }); piece.style.width = `${100 * count / total}%`; return piece;
   }));
   return [el("p", { class: `verdict ${look}` }, words || r.outcome.replace("_", " "), sure && el("small", {}, sure.sentence)), bar, beside && el("p", { class: "warning" }, beside),
-    r.doubt && el("p", { class: "warning" }, r.model !== "dem3d" ? r.doubt : "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it.")];
+    r.doubt && el("p", { class: "warning" }, r.doubt)];
 }
 
 function measures(r) {

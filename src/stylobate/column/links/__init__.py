@@ -6,7 +6,7 @@ import dataclasses
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from ...errors import InputError, suggest
+from ...errors import InputError, check_choice, suggest
 from .bar import Bar
 from .clamp import Clamp
 from .core import Core
@@ -83,15 +83,14 @@ def block_link(
     made = _made(kind, KINDS)
     _refuse_unknown(kind, what, made.known())
     if to is not None and made.lies == "joint":
-        raise InputError(f"a {kind} has one place, at; leave to out, or make it a clamp or a tie.")
+        raise InputError(f"a {kind} has one place, at; leave to out, or make it a clamp or a tie.", "to")
     values = {one: tuple(value) if isinstance(value, list) else value for one, value in what.items()}
     place: dict[str, Any] = {"between": between, "at": at, "name": name} | ({} if to is None else {"to": to})
     return made(**place, **values).in_numbers()
 
 
 def _made(kind: str, kinds: Mapping[str, type[Link]]) -> Any:
-    if kind not in kinds:
-        raise InputError(f"kind of a link is {kind!r}; {suggest(kind, kinds)}allowed are {', '.join(kinds)}.")
+    check_choice("kind", kind, kinds, of="a link")
     return kinds[kind]
 
 
@@ -99,4 +98,4 @@ def _refuse_unknown(kind: str, values: Mapping[str, Any], known: set[str]) -> No
     for name in values:
         if name not in known:
             allowed = sorted(known)
-            raise InputError(f"a {kind} has no {name!r}; {suggest(name, allowed)}it has {', '.join(allowed)}.")
+            raise InputError(f"a {kind} has no {name!r}; {suggest(name, allowed)}it has {', '.join(allowed)}.", name)

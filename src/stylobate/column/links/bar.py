@@ -52,7 +52,9 @@ class Bar(Dowel):
         self._range("ultimate_elongation", 0.0, LONGEST, "m", open_low=True)
         self._range("pretension", 0.0, STRONGEST, "N")
         if self.material is None and self.axial_stiffness is None:
-            raise InputError("a bar has neither material nor axial_stiffness; give one, or make it a dowel.")
+            raise InputError(
+                "a bar has neither material nor axial_stiffness; give one, or make it a dowel.", "axial_stiffness"
+            )
 
     def held(self, site: Site) -> Numbers:
         """As a dowel, and against opening by even bond over its embedment in both drums."""

@@ -44,7 +44,9 @@ class Clamp(Pin):
         if self.section is not None:
             self._pair("section")
             if min(self.section) <= 0.0:
-                raise InputError(f"section of a clamp is {list(self.section)} m; give its width and height [m].")
+                raise InputError(
+                    f"section of a clamp is {list(self.section)} m; give its width and height [m].", "section"
+                )
             if self.diameter is None:
                 object.__setattr__(self, "diameter", math.sqrt(4.0 / math.pi * math.prod(self.section)))
         super()._check()
@@ -52,7 +54,9 @@ class Clamp(Pin):
         self._capacity("axial_capacity")
         self._range("ultimate_elongation", 0.0, LONGEST, "m", open_low=True)
         if self.material is None and self.axial_stiffness is None:
-            raise InputError("a clamp has neither material nor axial_stiffness; give one of the two.")
+            raise InputError(
+                "a clamp has neither material nor axial_stiffness; give one of the two.", "axial_stiffness"
+            )
 
     def held(self, site: Site) -> Numbers:
         """What a clamp of a length between its legs holds.

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from ...errors import InputError, suggest
+from ...errors import InputError, check_choice
 from .link import LONGEST, STIFFEST, Link, Numbers, Site
 from .materials import MATERIALS
 
@@ -51,15 +51,16 @@ class Pin(Link):
         self._range("ultimate_slip", 0.0, LONGEST, "m", open_low=True)
         self._range("stone_modulus", 1e6, 1e12, "Pa")
         self._range("stone_strength", 1e4, 1e10, "Pa")
-        if self.failure is not None and self.failure not in FAILURES:
-            raise InputError(
-                f"failure of a {self.kind} is {self.failure!r}; {suggest(self.failure, FAILURES)}allowed are "
-                f"{', '.join(FAILURES)}."
-            )
+        if self.failure is not None:
+            check_choice("failure", self.failure, FAILURES, of=f"a {self.kind}")
         if self.material is None and self.shear_stiffness is None:
-            raise InputError(f"a {self.kind} has neither material nor shear_stiffness; give one of the two.")
+            raise InputError(
+                f"a {self.kind} has neither material nor shear_stiffness; give one of the two.", "shear_stiffness"
+            )
         if self.material is not None and self.embedment is None:
-            raise InputError(f"a {self.kind} of {self.material} has no embedment; give its length in each drum [m].")
+            raise InputError(
+                f"a {self.kind} of {self.material} has no embedment; give its length in each drum [m].", "embedment"
+            )
         self._check_hole()
 
     def _check_hole(self) -> None:
@@ -68,13 +69,15 @@ class Pin(Link):
         hole = 2.0 * self.diameter if self.hole is None else self.hole
         if hole < self.diameter:
             raise InputError(
-                f"hole of a {self.kind} is {hole:g} m, and its diameter {self.diameter:g} m; make the hole wider."
+                f"hole of a {self.kind} is {hole:g} m, and its diameter {self.diameter:g} m; make the hole wider.",
+                "hole",
             )
         slack, room = self.clearance or 0.0, 0.5 * (hole - self.diameter)
         if slack > room * (1.0 + 1e-9):
             which = "its hole" if self.hole is not None else "a hole twice as wide as it"
             raise InputError(
-                f"clearance of a {self.kind} is {slack:g} m, and {which} leaves {room:g} m all round; make it smaller."
+                f"clearance of a {self.kind} is {slack:g} m, and {which} leaves {room:g} m all round; make it smaller.",
+                "clearance",
             )
 
     def across(self, embedment: float | None) -> dict[str, Any]:

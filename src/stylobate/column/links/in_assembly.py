@@ -49,13 +49,16 @@ def _placed(link: Link, bodies: Sequence[Block], joints: Sequence[FaceJoint]) ->
     missing = next((one for one in link.between if one not in names), None)
     if missing is not None:
         raise InputError(
-            f"a {link.kind} names block {missing!r}, which does not exist; {suggest(missing, names)}correct its name."
+            f"a {link.kind} names block {missing!r}, which does not exist; {suggest(missing, names)}correct its name.",
+            "between",
         )
     one, other = (names.index(name) for name in link.between)
     if one == other:
-        raise InputError(f"a {link.kind} is between {link.between[0]!r} and itself; name two blocks.")
+        raise InputError(f"a {link.kind} is between {link.between[0]!r} and itself; name two blocks.", "between")
     if bodies[one].fixed and bodies[other].fixed:
-        raise InputError(f"a {link.kind} is between two bodies that both move with the ground; name one that can move.")
+        raise InputError(
+            f"a {link.kind} is between two bodies that both move with the ground; name one that can move.", "between"
+        )
     along = (1.0, 0.0)
     if link.lies == "joint":
         one, other, low, along = _in_joint(link, bodies, joints, one, other)
@@ -96,7 +99,8 @@ def _ends(link: Link, bodies: Sequence[Block], one: int, other: int) -> tuple[Po
             within = f"within {far:g} m of it" if far else "in it"
             raise InputError(
                 f"{name} of a {link.kind} is {told(end)}, {outside:.3g} m outside block {block.name!r}; its end must be "
-                f"{within}."
+                f"{within}.",
+                name,
             )
     if getattr(link, "through_stone", False):
         return low, high
@@ -127,7 +131,8 @@ def _in_joint(
     if joint is None:
         raise InputError(
             f"{link.between[0]!r} and {link.between[1]!r} have no joint for a {link.kind}; name two blocks whose faces "
-            "touch, or make it a clamp or a tie."
+            "touch, or make it a clamp or a tie.",
+            "between",
         )
     faces = []
     for body, k in ((joint.lower, joint.lower_face), (joint.upper, joint.upper_face)):
@@ -146,17 +151,20 @@ def _in_joint(
         if abs(off) > BESIDE:
             raise InputError(
                 f"a {link.kind} at {told(place)} is {abs(off):.3g} m from the joint of {link.between[0]!r} and "
-                f"{link.between[1]!r}; give a place in it, or leave at out for its middle."
+                f"{link.between[1]!r}; give a place in it, or leave at out for its middle.",
+                "at",
             )
         if not low <= s <= high:
             raise InputError(
-                f"a {link.kind} at {told(place)} is outside the section, by {max(low - s, s - high):.3g} m; move it inward."
+                f"a {link.kind} at {told(place)} is outside the section, by {max(low - s, s - high):.3g} m; move it inward.",
+                "at",
             )
     inside = min(s - low, high - s) - 0.5 * link.numbers.diameter
     if link.numbers.diameter and inside < RIM:
         raise InputError(
             f"a {link.kind} at {s - low:.3g} m from the end of its joint leaves {1000.0 * inside:.3g} mm of stone to the "
-            f"rim; at least {1000.0 * RIM:g} mm must be left: move it inward or make it thinner."
+            f"rim; at least {1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
+            "at",
         )
     for body in (joint.lower, joint.upper):
         block = bodies[body]
@@ -165,7 +173,8 @@ def _in_joint(
         if link.numbers.diameter and not block.fixed and tall < lift < math.inf:
             raise InputError(
                 f"a {link.kind} is embedded by {lift:g} m, and block {block.name!r} is {tall:.4g} m high there; make "
-                "it shorter."
+                "it shorter.",
+                "embedment",
             )
     link.check_joint(joint.law)
     x, z = (float(one) for one in left + s * t)
@@ -178,7 +187,8 @@ def _check_legs(link: Any, *blocks: Block) -> None:
         if not block.fixed and block.thickness < legs < math.inf:
             raise InputError(
                 f"legs of a {link.kind} are {legs:g} m long, and block {block.name!r} is {block.thickness:.4g} m thick; "
-                "make them shorter."
+                "make them shorter.",
+                "legs",
             )
 
 

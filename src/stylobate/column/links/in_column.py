@@ -30,7 +30,7 @@ def place_in_column(stack: Stack, links: Sequence[Link], name: str) -> tuple[Pla
 
     def place(link: Link) -> PlacedLink:
         if link.between is not None:
-            raise InputError(f"a {link.kind} of a column has no between; give its joint or drums by number.")
+            raise InputError(f"a {link.kind} of a column has no between; give its joint or drums by number.", "between")
         if link.lies == "side":
             raise InputError(f"a {link.kind} holds blocks side by side, of which a column has none; give a bar.")
         return _line(link, stack) if isinstance(link, Line) else _in_joint(link, stack)
@@ -42,7 +42,7 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
     """What lies in a joint: at its place in the section, from the drum below to the drum above."""
     if link.joint > stack.n:
         raise InputError(
-            f"there is no joint {link.joint} for a {link.kind}; the joints are 1 (with the base) to {stack.n}."
+            f"there is no joint {link.joint} for a {link.kind}; the joints are 1 (with the base) to {stack.n}.", "joint"
         )
     upper = link.joint - 1
     numbers = link.held(Site(math.nan, float(stack.joint_areas[upper]), stack.joint_edge(upper)))
@@ -53,18 +53,22 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
         inside = _inside(drum, side, link.at)
         where = f"a {link.kind} at {_place(link.at)} in joint {link.joint}"
         if inside < 0.0:
-            raise InputError(f"{where} is outside the section, by {-inside:.3g} m on drum {number}; move it inward.")
+            raise InputError(
+                f"{where} is outside the section, by {-inside:.3g} m on drum {number}; move it inward.", "at"
+            )
         inside -= 0.5 * numbers.diameter
         if pin and inside < RIM:
             raise InputError(
                 f"{where} leaves {1000.0 * inside:.3g} mm of stone to the rim of drum {number}; at least "
-                f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner."
+                f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
+                "at",
             )
     for drum, _, number in faces:
         if numbers.lift < math.inf and numbers.lift > drum.height:
             raise InputError(
                 f"a {link.kind} is embedded by {numbers.lift:g} m, and drum {number} is {drum.height:g} m high; make "
-                "it shorter."
+                "it shorter.",
+                "embedment",
             )
     link.check_joint(stack.joints[upper])
     place = (*link.at, float(stack.joint_heights[upper]))
@@ -78,7 +82,7 @@ def _line(link: Line, stack: Stack) -> PlacedLink:
     upper = stack.n if link.to_drum is None else link.to_drum
     if upper > stack.n or link.from_drum >= upper:
         raise InputError(
-            f"a {link.kind} goes from drum {link.from_drum} to drum {upper}; the drums are 1 to {stack.n}."
+            f"a {link.kind} goes from drum {link.from_drum} to drum {upper}; the drums are 1 to {stack.n}.", "to_drum"
         )
     bodies = link.from_drum, upper
     levels = [_level(stack, *end) for end in zip(bodies, link.holds_at, (link.from_height, link.to_height))]
@@ -89,11 +93,11 @@ def _line(link: Line, stack: Stack) -> PlacedLink:
         if not bottom - 1e-9 <= end[2] <= top + 1e-9:
             allowed = f"{bottom:g} to {top:g} m" if drum else "up to 0 m"
             raise InputError(
-                f"{name} of a {link.kind} is {end[2]:g} m; allowed on drum {drum} is {allowed} above the base."
+                f"{name} of a {link.kind} is {end[2]:g} m; allowed on drum {drum} is {allowed} above the base.", name
             )
     length = math.dist(low, high)
     if length < 1e-3:
-        raise InputError(f"a {link.kind} has no length: both its ends are at {_place(low)}; move one of them.")
+        raise InputError(f"a {link.kind} has no length: both its ends are at {_place(low)}; move one of them.", "to")
     numbers = link.held(Site(length))
     if link.through_stone:
         _check_hole(link, stack, low, high, numbers.diameter)
@@ -131,7 +135,8 @@ def _check_way(link: Link, stack: Stack, low: Point, high: Point) -> None:
             stone = "the base" if z < 0.0 else f"drum {number}"
             raise InputError(
                 f"a {link.kind} passes through stone: {1000.0 * deep:.3g} mm inside {stone}, {z:.3g} m above the base; move "
-                "it outward, or make it a core."
+                "it outward, or make it a core.",
+                "at",
             )
 
 
@@ -145,7 +150,8 @@ def _check_hole(link: Line, stack: Stack, low: Point, high: Point, diameter: flo
             if inside < RIM:
                 raise InputError(
                     f"a {link.kind} leaves {1000.0 * inside:.3g} mm of stone to the rim of drum {number}; at least "
-                    f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner."
+                    f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
+                    "at",
                 )
 
 

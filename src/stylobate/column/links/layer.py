@@ -51,7 +51,10 @@ class Layer(Link):
         self._range("damping", 0.0, THICKEST, "N s/m")
         self._range("ultimate_slip", 0.0, LONGEST, "m", open_low=True)
         if self.friction_coefficient is None and not self.shear_stiffness and not self.damping:
-            raise InputError("a layer has neither friction_coefficient, shear_stiffness nor damping; give one.")
+            raise InputError(
+                "a layer has neither friction_coefficient, shear_stiffness nor damping; give one.",
+                "friction_coefficient",
+            )
 
     def held(self, site: Site) -> Numbers:
         """All as given."""

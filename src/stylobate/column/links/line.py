@@ -57,7 +57,8 @@ class Line(Link):
             if self.to_drum <= self.from_drum:
                 raise InputError(
                     f"a {self.kind} goes from drum {self.from_drum} to drum {self.to_drum}; the second must be the higher "
-                    "one."
+                    "one.",
+                    "to_drum",
                 )
         for name in ("from_height", "to_height"):
             self._range(name, -LONGEST, 1e3, "m")

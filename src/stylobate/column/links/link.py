@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal, NamedTuple, Self
 
-from ...errors import InputError, as_typed, check_range, suggest
+from ...errors import InputError, as_typed, check_choice, check_range, check_whole
 from ..joint import Joint
 from .materials import MATERIALS
 
@@ -188,7 +188,7 @@ class Link:
         if self.numbers is not None:
             return self
         if self.between is None:
-            raise InputError(f"a {self.kind} is between no bodies; give between = ['a', 'b'], two names.")
+            raise InputError(f"a {self.kind} is between no bodies; give between = ['a', 'b'], two names.", "between")
         at, to = self.ends
         site = Site() if self.lies == "joint" else Site(length_of(self.kind, at, to))
         return self.restated(self.held(site), at=at, to=to, name=self.name, between=self.between)
@@ -203,11 +203,11 @@ class Link:
         between: Any = self.between
         if isinstance(between, str) or len(between) != 2:
             count = 1 if isinstance(between, str) else len(between)
-            raise InputError(f"a {self.kind} is between {count} bodies; name two, e.g. ['a', 'b'].")
+            raise InputError(f"a {self.kind} is between {count} bodies; name two, e.g. ['a', 'b'].", "between")
         object.__setattr__(self, "between", tuple(between))
         for one in dataclasses.fields(self):
             if one.name in PLACES[:5] and getattr(self, one.name) != one.default:
-                raise InputError(f"a {self.kind} between two bodies has no {one.name}; give its place, at.")
+                raise InputError(f"a {self.kind} between two bodies has no {one.name}; give its place, at.", one.name)
         for name in ("at", "to"):
             place = getattr(self, name, None)
             if place is not None:
@@ -216,47 +216,43 @@ class Link:
     def _pair(self, name: str) -> None:
         value = getattr(self, name)
         if not isinstance(value, (tuple, list)) or len(value) != 2:
-            raise InputError(f"{name} of a {self.kind} is {as_typed(value)}; it must be a place in plan, [x, y] in m.")
-        place = tuple(check_range(f"{name} of a {self.kind}", one, -LONGEST, LONGEST, unit="m") for one in value)
+            raise InputError(
+                f"{name} of a {self.kind} is {as_typed(value)}; it must be a place in plan, [x, y] in m.", name
+            )
+        place = tuple(check_range(name, one, -LONGEST, LONGEST, unit="m", of=f"a {self.kind}") for one in value)
         object.__setattr__(self, name, place)
 
     def _number(self, name: str, least: int = 1) -> None:
-        value = getattr(self, name)
-        if isinstance(value, bool) or not isinstance(value, int) or value < least:
-            said = repr(value) if not isinstance(value, float) or math.isfinite(value) else str(value)
-            raise InputError(f"{name} of a {self.kind} is {said}; allowed is a whole number from {least}.")
+        check_whole(name, getattr(self, name), least, of=f"a {self.kind}")
 
     def _joint(self, joint: int | None) -> None:
         if self.between is not None:
             return
         if joint is None:
-            raise InputError(f"a {self.kind} has no joint; give its number, 1 at the base.")
+            raise InputError(f"a {self.kind} has no joint; give its number, 1 at the base.", "joint")
         self._number("joint")
 
     def _range(self, name: str, low: float, high: float, unit: str, **more: Any) -> None:
         value = getattr(self, name)
         if value is not None:
-            number = check_range(f"{name} of a {self.kind}", value, low, high, unit=unit, **more)
+            number = check_range(name, value, low, high, unit=unit, of=f"a {self.kind}", **more)
             object.__setattr__(self, name, number)
 
     def _capacity(self, name: str) -> None:
         value = getattr(self, name)
         if value is not None and value == 0.0:
             raise InputError(
-                f"{name} of a {self.kind} is 0 N, which holds nothing; give what it holds, or leave it out."
+                f"{name} of a {self.kind} is 0 N, which holds nothing; give what it holds, or leave it out.", name
             )
         self._range(name, 0.0, STRONGEST, "N", open_low=True)
 
     def _material(self, material: str | None, diameter: float | None) -> None:
         if material is None:
             return
-        if material not in MATERIALS:
-            raise InputError(
-                f"material of a {self.kind} is {material!r}; {suggest(material, MATERIALS)}known are "
-                f"{', '.join(MATERIALS)}, or give stiffness and capacity instead."
-            )
+        remedy = "give stiffness and capacity of another"
+        check_choice("material", material, MATERIALS, of=f"a {self.kind}", remedy=remedy)
         if diameter is None:
-            raise InputError(f"a {self.kind} of {material} has no diameter; give it one [m].")
+            raise InputError(f"a {self.kind} of {material} has no diameter; give it one [m].", "diameter")
 
 
 def _said(one: Link | Numbers) -> dict[str, Any]:
@@ -276,12 +272,12 @@ def length_of(kind: str, at: tuple[float, ...] | None, to: tuple[float, ...] | N
     """Length of a link between two places as drawn [m]."""
     if at is None or to is None:
         raise InputError(
-            f"a {kind} has two ends; give at = [x, z] in the first body and to = [x, z] in the second [m]."
+            f"a {kind} has two ends; give at = [x, z] in the first body and to = [x, z] in the second [m].", "to"
         )
     low, high = in_space(at), in_space(to)
     length = math.dist(low, high)
     if length < 1e-3 or (kind == "clamp" and math.hypot(high[0] - low[0], high[2] - low[2]) < 1e-3):
-        raise InputError(f"a {kind} has no length: both its ends are at {told(low)}; move one of them.")
+        raise InputError(f"a {kind} has no length: both its ends are at {told(low)}; move one of them.", "to")
     return length
 
 
@@ -299,6 +295,7 @@ def told(place: tuple[float, ...]) -> str:
 def _place(kind: str, name: str, place: Any) -> tuple[float, ...]:
     if len(place) not in (2, 3) or not all(math.isfinite(one) and abs(one) <= 10.0 * LONGEST for one in place):
         raise InputError(
-            f"{name} of a {kind} is {list(place)}; it must be a place, [x, z] or [x, y, z] within {10 * LONGEST:g} m."
+            f"{name} of a {kind} is {list(place)}; it must be a place, [x, z] or [x, y, z] within {10 * LONGEST:g} m.",
+            name,
         )
     return tuple(float(one) for one in place)

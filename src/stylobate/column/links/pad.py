@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
 
 from ...constants import DEGREE
-from ...errors import InputError, suggest
+from ...errors import InputError, check_choice
 from ..joint import Joint
 from .link import Link, Mark, Numbers, Site
 
@@ -68,7 +68,7 @@ class Pad(Link):
         super()._check()
         self._joint(self.joint)
         if self.at not in (None, (0.0, 0.0)):
-            raise InputError(f"a pad covers its joint, and at is {list(self.at or ())}; leave it out.")
+            raise InputError(f"a pad covers its joint, and at is {list(self.at or ())}; leave it out.", "at")
         self._range("thickness", 1e-5, 1.0, "m")
         self._range("normal_stiffness", 1.0, 1e15, "N/m³")
         self._range("shear_stiffness", 1.0, 1e15, "N/m³")
@@ -78,19 +78,20 @@ class Pad(Link):
         if self.friction_coefficient is not None and self.friction_angle is not None:
             raise InputError(
                 f"friction_coefficient of a pad is {self.friction_coefficient:g} and its friction_angle "
-                f"{self.friction_angle:g} degrees; give one of the two."
+                f"{self.friction_angle:g} degrees; give one of the two.",
+                "friction_coefficient",
             )
         if self.material is None:
             if self.normal_stiffness is None or self.shear_stiffness is None:
-                raise InputError("a pad has neither material nor both normal_stiffness and shear_stiffness; give them.")
+                raise InputError(
+                    "a pad has neither material nor both normal_stiffness and shear_stiffness; give them.",
+                    "normal_stiffness",
+                )
             return
-        if self.material not in PAD_MATERIALS:
-            raise InputError(
-                f"material of a pad is {self.material!r}; {suggest(self.material, PAD_MATERIALS)}known are "
-                f"{', '.join(PAD_MATERIALS)}, or give normal_stiffness and shear_stiffness instead."
-            )
+        remedy = "give normal_stiffness and shear_stiffness of another"
+        check_choice("material", self.material, PAD_MATERIALS, of="a pad", remedy=remedy)
         if self.thickness is None:
-            raise InputError(f"a pad of {self.material} has no thickness; give it one [m].")
+            raise InputError(f"a pad of {self.material} has no thickness; give it one [m].", "thickness")
 
     def check_joint(self, joint: Joint) -> None:
         """Refuse a joint whose stones hold together: a pad parts them."""
@@ -124,6 +125,7 @@ class Pad(Link):
         if math.isnan(shape):
             raise InputError(
                 f"a pad of {self.material} between two bodies has no shape_factor; give its loaded area over that of its "
-                "free edges, or its normal_stiffness."
+                "free edges, or its normal_stiffness.",
+                "shape_factor",
             )
         return 1.0 / (1.0 / (made.modulus * (1.0 + 2.0 * made.shape * shape**2)) + 1.0 / made.bulk)

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, within
 from . import COLUMN_KINDS
 from .link import Lies, Link, Mark, Numbers
 
@@ -104,6 +104,12 @@ class PlacedLink(Numbers):
         return self.lower <= joint < self.upper
 
 
+def stands_at(place: tuple[float, float], angle: float, arm: Sequence[float] | np.ndarray) -> Point:
+    """Where a point is that is so far from the place of a body, in axes that are inclined by an angle [m], [rad]."""
+    (x, y, z), c, s = (float(one) for one in arm), math.cos(angle), math.sin(angle)
+    return place[0] + (c * x - s * z), y, place[1] + (s * x + c * z)
+
+
 class Stroke(NamedTuple):
     """A line that stands for a link: of either end the body, its place in that body's axes, and the place as drawn [m]."""
 
@@ -146,10 +152,8 @@ def for_each(links: Sequence[Any], owner: str, do: Callable[[Link], Result]) -> 
         if not isinstance(link, Link):
             *others, last = (kind.__name__ for kind in COLUMN_KINDS.values())
             raise InputError(f"link {number} of {owner!r} is {link!r}; give a {', '.join(others)} or {last}.")
-        try:
+        with within(f"link {number} of {owner!r}", "link", number):
             found.append(do(link))
-        except InputError as error:
-            raise InputError(f"link {number} of {owner!r}: {error}") from None
     return found
 
 
@@ -177,13 +181,14 @@ def _check(one: PlacedLink, others: Sequence[PlacedLink]) -> None:
     if one.pretension > one.axial_capacity:
         raise InputError(
             f"pretension of a {one.kind} is {one.pretension:g} N, more than its axial capacity of "
-            f"{one.axial_capacity:.4g} N; make it smaller."
+            f"{one.axial_capacity:.4g} N; make it smaller.",
+            "pretension",
         )
     if one.pretension and not one.axial_stiffness:
-        raise InputError(f"a {one.kind} without axial_stiffness cannot be pretensioned; give one.")
+        raise InputError(f"a {one.kind} without axial_stiffness cannot be pretensioned; give one.", "axial_stiffness")
     beside = [other for other in others if (other.lower, other.upper) == (one.lower, one.upper)]
     where = f"joint {one.joint}" if one.joint else "its joint"
     if one.friction_coefficient is not None and any(other.friction_coefficient is not None for other in beside):
-        raise InputError(f"{where} has two layers with a friction_coefficient; keep one.")
+        raise InputError(f"{where} has two layers with a friction_coefficient; keep one.", "joint")
     if one.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
-        raise InputError(f"{where} has two {one.kind}s; keep one.")
+        raise InputError(f"{where} has two {one.kind}s; keep one.", "joint")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, get_type_hints
 
 from pydantic import create_model
 
-from ...errors import InputError
+from ...errors import InputError, within
 from ..toml import Table
 from . import COLUMN_KINDS, KINDS, block_link, link_from_dict
 from .link import Link
@@ -64,13 +64,11 @@ def links_of(tables: Sequence[LinkTable], joints: int) -> tuple[Link, ...]:
     found: list[Link] = []
     for number, table in enumerate(tables, 1):
         fields = table.model_dump(exclude={"joints"}, exclude_none=True)
-        try:
+        with within(f"[[link]] number {number}", "link", number):
             if table.joints is None:
                 found.append(link_from_dict(fields))
             else:
                 found += [link_from_dict(fields | {"joint": joint}) for joint in _joints(table, joints)]
-        except InputError as error:
-            raise InputError(f"[[link]] number {number}: {error}") from None
     return tuple(found)
 
 
@@ -78,20 +76,18 @@ def links_between(tables: Sequence[BlockLinkTable]) -> list[Link]:
     """Links of an assembly; errors as of :func:`links_of`."""
     found = []
     for number, table in enumerate(tables, 1):
-        try:
+        with within(f"[[link]] number {number}", "link", number):
             found.append(block_link(**table.model_dump(exclude_none=True)))
-        except InputError as error:
-            raise InputError(f"[[link]] number {number}: {error}") from None
     return found
 
 
 def _joints(table: LinkTable, joints: int) -> Sequence[int]:
     if table.joint is not None:
-        raise InputError(f"joint = {table.joint} and joints are both given; keep one of the two.")
+        raise InputError(f"joint = {table.joint} and joints are both given; keep one of the two.", "joint")
     if table.kind in KINDS and KINDS[table.kind].lies != "joint":
-        raise InputError(f"a {table.kind} has no joints; give from_drum and to_drum.")
+        raise InputError(f"a {table.kind} has no joints; give from_drum and to_drum.", "joint")
     if isinstance(table.joints, list):
         return table.joints
     if table.joints != "all":
-        raise InputError(f'joints is {table.joints!r}; it must be "all", or a list of numbers.')
+        raise InputError(f'joints is {table.joints!r}; it must be "all", or a list of numbers.', "joint")
     return range(1, joints + 1)

@@ -49,7 +49,9 @@ class Tie(Line):
         self._range("ultimate_elongation", 0.0, LONGEST, "m", open_low=True)
         self._range("pretension", 0.0, STRONGEST, "N")
         if self.material is None and self.axial_stiffness is None:
-            raise InputError(f"a {self.kind} has neither material nor axial_stiffness; give one of the two.")
+            raise InputError(
+                f"a {self.kind} has neither material nor axial_stiffness; give one of the two.", "axial_stiffness"
+            )
 
     def held(self, site: Site) -> Numbers:
         """A straight bar of its length: E A/ℓ and f_y A."""

@@ -182,9 +182,7 @@ class SpatialAssembly(Structure):
                 gap, _ = separation(one, other, near)
                 if gap < -OVERLAPPING * min(one.size, other.size):
                     names = f"block {self.stones[k].name!r} and block {self.stones[i].name!r}"
-                    raise InputError(
-                        f"{names} overlap by {1000.0 * -gap:.3g} mm; move one of them or correct its sizes."
-                    )
+                    raise InputError(f"{names} overlap by {_length(-gap)}; move one of them or correct its sizes.")
                 if gap > near:
                     continue
                 met = True
@@ -204,9 +202,7 @@ class SpatialAssembly(Structure):
             gap, near = float(part.low[2]) - self.ground, TOUCHING * part.size
             if gap < -OVERLAPPING * part.size:
                 name = self.stones[i].name
-                raise InputError(
-                    f"block {name!r} lies in the ground by {1000.0 * -gap:.3g} mm; move it or correct its sizes."
-                )
+                raise InputError(f"block {name!r} lies in the ground by {_length(-gap)}; move it or correct its sizes.")
             if gap > near:
                 continue
             pairs.append((0, i + 1))
@@ -249,7 +245,7 @@ class SpatialAssembly(Structure):
         if not best:
             return ""
         gap, name = min(best)
-        return f", {1000.0 * gap:.3g} mm from {name}"
+        return f", {_length(gap)} from {name}"
 
     # -- what asks for less --------------------------------------------------------------------------------------------
 
@@ -306,6 +302,11 @@ def refuse_many(bodies: int) -> None:
         )
 
 
+def _length(size: float) -> str:
+    """A length for people [m]."""
+    return f"{size:.3g} m" if size >= 1.0 else f"{1000.0 * size:.3g} mm"
+
+
 def _check_parts(one: Stone) -> None:
     """Refuse parts of a body that overlap, which would count twice, or that do not hang together."""
     solids = [Solid(part) for part in one.pieces]
@@ -316,7 +317,7 @@ def _check_parts(one: Stone) -> None:
         gap = gaps[i, k] = separation(solids[i], solids[k], TOUCHING * small)[0] / small
         if gap < -OVERLAPPING:
             raise InputError(
-                f"parts {i + 1} and {k + 1} of block {one.name!r} overlap by {1000.0 * -gap * small:.3g} mm, which would "
+                f"parts {i + 1} and {k + 1} of block {one.name!r} overlap by {_length(-gap * small)}, which would "
                 "count twice; let them touch."
             )
     while True:

@@ -166,7 +166,7 @@ class Stone(Outlined):
         """Its own axes as columns, in those of space [-], shape (3, 3)."""
         return matrix_of(self.orientation)
 
-    @cached_property
+    @property
     def placed(self) -> tuple[Placed, ...]:
         """Its parts where they stand, in the axes of space."""
         found = []
@@ -286,13 +286,17 @@ def hull_shape(vertices: Any, who: str) -> tuple[ConvexSolid, np.ndarray]:
     if not LENGTHS[0] <= size <= LENGTHS[1]:
         raise InputError(f"{who} is {size:.4g} m large; allowed is {LENGTHS[0]:g} to {LENGTHS[1]:g} m: use SI units.")
     try:
-        found = ConvexHull(points - middle)
+        found: Any = ConvexHull(points - middle)
     except QhullError:
         raise InputError(
             f"the vertices of {who} lie in one plane, and it has no thickness; give those of a solid."
         ) from None
-    if found.volume < 1e-9 * size**3:
-        raise InputError(f"{who} has a volume of {found.volume:.3g} m³ at a size of {size:.3g} m; give it a thickness.")
+    levels = (points - middle) @ found.equations[:, :3].T + found.equations[:, 3]  # at most 0, within a facet
+    thin = float(-levels.min(axis=0).max())
+    if thin < LENGTHS[0]:
+        raise InputError(
+            f"{who} has a thickness of {thin:.3g} m; allowed is {LENGTHS[0]:g} m or more: give it a thickness."
+        )
     if len(found.vertices) > MOST_CORNERS:
         raise InputError(f"{who} has {len(found.vertices)} corners; allowed is up to {MOST_CORNERS}: thin them out.")
     corners = points[np.sort(found.vertices)] - middle
@@ -317,7 +321,7 @@ def triple(name: str, values: Any, most: float, unit: str) -> Triple:
         x, y, z = values
     except (TypeError, ValueError):
         raise InputError(f"{name} is {as_typed(values)}; give three numbers, x, y and z [{unit}].") from None
-    found = [check_range(f"{axis} of the {name}", one, -most, most, unit=unit) for axis, one in zip("xyz", (x, y, z))]
+    found = [check_range(f"{axis} of {name}", one, -most, most, unit=unit) for axis, one in zip("xyz", (x, y, z))]
     return found[0], found[1], found[2]
 
 

@@ -152,7 +152,7 @@ def _in_space(one: dict[str, Any], kind: str) -> bool:
 
 
 def _long(vertices: Any) -> bool:
-    return isinstance(vertices, list) and any(isinstance(one, list) and len(one) == 3 for one in vertices)
+    return bool(vertices) and isinstance(vertices, list) and all(isinstance(p, list) and len(p) == 3 for p in vertices)
 
 
 def _short(vertices: Any) -> bool:

@@ -167,9 +167,3 @@ def vertex_fields() -> list[tuple]:
 
 #: Most rows of vertices that a body may have.
 MOST_ROWS = 5120
-
-
-def rows(array, name: str) -> int:
-    """Rows of a field of an array of records as the compiler knows it, 0 where it has no such field."""
-    field = array.dtype.fields.get(name)
-    return 0 if field is None else 1 if len(field.type.shape) == 1 else field.type.shape[0]

@@ -1,11 +1,12 @@
 """The step of bodies in space: forces of all contacts, motion, looks between chunks, and the ledger, each once.
 
 What the bodies of an array stand on, and whether there are links, is told by the types of its records (``records.py``): the
-functions chosen by them here are compiled with what they are chosen for.
+functions chosen by them here are compiled with what they are chosen for. Each thing that bodies stand on has a loop over the
+joints of all lanes.
 """
 
 from ..ground import sample
-from ..jit import chosen, kernel, long_law, strict
+from ..jit import apart, chosen, kernel, law, long_law, strict
 from ..run_codes import CHUNK, RUNNING
 from ..shared.frame import run_chunks
 from ..shared.links import add_to_ledger
@@ -23,16 +24,77 @@ from ..shared.records import (
     SPAN,
     TOUCH,
     WATCH,
+    rows,
 )  # fmt: skip
 from . import vertices
-from .joints import joint_forces
+from .beds import disc_beds, ring_beds
+from .corners import on_corners
 from .links import add_links, look_at_all, look_for_slack
 from .look import check_finite, column_state, look_at_column
 from .move import gather_all, kinetic_and_gravitational, move_all, stored_in_faces
-from .records import rows
+from .rims import chipped_rims, whole_rims
+from .round_faces import on_face
 
 #: The models read these here.
 __all__ = ["advance", "energies", "forces", "gather", "joint_state"]
+
+
+@law
+def round_joints(pressure_of, body, joint, load, pair, lane):
+    """All joints of round faces in all lanes, under a law of pressure."""
+    o = lane[0]
+    for q in range(joint.shape[0]):
+        u = body[pair[q].upper]
+        v = body[pair[q].lower]
+        e = joint[q]
+        f = load[q]
+        for l in range(o.dt.shape[0]):
+            on_face(pressure_of, e, f, o, u, v, l)
+
+
+@apart
+def whole_rim_joints(body, joint, load, pair, lane):
+    """Joints of whole round faces on their rims."""
+    round_joints(whole_rims, body, joint, load, pair, lane)
+
+
+@apart
+def chipped_rim_joints(body, joint, load, pair, lane):
+    """Joints of chipped round faces on what is left of their rims."""
+    round_joints(chipped_rims, body, joint, load, pair, lane)
+
+
+@apart
+def bed_joints(body, joint, load, pair, lane):
+    """Joints of round faces on an elastic bed."""
+    round_joints(disc_beds, body, joint, load, pair, lane)
+
+
+@apart
+def ring_joints(body, joint, load, pair, lane):
+    """Joints of faces with sunken middles on an elastic bed."""
+    round_joints(ring_beds, body, joint, load, pair, lane)
+
+
+@apart
+def corner_joints(body, joint, load, pair, lane):
+    """Joints of rectangular faces on their corners."""
+    for q in range(joint.shape[0]):
+        on_corners(joint[q], load[q], lane[0], body[pair[q].upper], body[pair[q].lower])
+
+
+@chosen
+def joint_forces(body, joint, load, pair, lane):
+    """Forces of all joints at t_n, as their records tell; brings the contact memory from t_{n−1} to t_n."""
+    if rows(joint, "rest"):
+        loop = vertices.on_vertices
+    elif rows(joint, "w"):
+        loop = corner_joints
+    elif rows(joint, "ring"):
+        loop = ring_joints if rows(joint, "ring") > 1 else bed_joints
+    else:
+        loop = chipped_rim_joints if rows(joint, "chip") > 1 else whole_rim_joints
+    return lambda body, joint, load, pair, lane: loop(body, joint, load, pair, lane)
 
 
 @chosen

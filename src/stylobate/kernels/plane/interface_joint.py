@@ -1,6 +1,7 @@
-"""A joint that is one interface for compression, shear and moment, in one lane: the joint of rigid blocks.
+"""A joint that is one interface for compression, shear and moment, in one lane: the joint of rigid blocks as built.
 
-Law: ``interface_law.py``. Fields of its record besides those that all joints have::
+Law: ``interface_law.py``; both faces lie along the axes of their bodies. Fields of its record besides those that all joints
+have::
 
     kn km ks       k_n A [N/m], k_n J [N m], k_s A [N/m]
     co             cohesion × area [N]
@@ -16,15 +17,13 @@ Law: ``interface_law.py``. Fields of its record besides those that all joints ha
 from ..jit import apart, law
 from . import contact as ct
 from .interface_law import compression, compression_with_strength, shear
-from .point_joint import face
 from .records import BETA
 
 
 @law
 def interface(u, v, e, f, o, l, crushing, damped):
     """Force of an interface at t_n, written as its load; brings its memory from t_{n−1} to t_n."""
-    cl, sl = face(v, l, e.lc[l], e.ls[l])
-    cu, su = face(u, l, e.uc[l], e.us[l])
+    cl, sl = v.c[l], v.s[l]
     ht = e.ht[l]
     w = e.wr[l]
     b = e.br[l]
@@ -32,7 +31,7 @@ def interface(u, v, e, f, o, l, crushing, damped):
     kn = e.kn[l]
     km = e.km[l]
     ks = e.ks[l]
-    ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], cu, su, v.x[l], v.z[l], cl, sl, ht)
+    ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], u.c[l], u.s[l], v.x[l], v.z[l], cl, sl, ht)
     tau = ps + s * hb
     closure = c * hb - pq
     # The faces' overlap, seen from the middle of the upper face: slip shortens it on one side.
@@ -120,3 +119,15 @@ def stored(e, o, l, weight, elastic, held):
         elastic += weight * e.el[l]
         held += weight * 0.5 * e.fs[l] ** 2 / e.ks[l]
     return elastic, held
+
+
+@law
+def look_at_gaps(joint, watch):
+    """The peak of openings in every lane, of interfaces so far."""
+    w = watch[0]
+    for l in range(w.status.shape[0]):
+        w.open[l] = 0.0
+    for j in range(joint.shape[0]):
+        e = joint[j]
+        for l in range(w.status.shape[0]):
+            w.open[l] = max(w.open[l], e.gap[l])

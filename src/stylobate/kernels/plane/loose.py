@@ -35,10 +35,10 @@ from . import contact as ct
 from .bed import bed_forces, stored_by_bed
 from .links import link_forces
 from .motion import drift, gather
-from .point_joint import meeting, press, put
+from .point_joint import meeting, press, put, stored
 from .records import ALPHA, BETA, LOCAL
 from .search import place, renew_pairs
-from .step import energies, fill_ground, look_at, stored_by_points
+from .step import energies, fill_ground, look_at
 
 #: A joint acts alone as long as the overlap is more than this share of the smaller face, the bed alone below the second.
 OVERLAP_FROM, OVERLAP_TO = 0.05, 0.01
@@ -204,7 +204,7 @@ def ledger_loose(state, search, gx, gz, dt, out):
     held = 0.0
     for j in range(joint.shape[0]):
         if hand[j].live != 0:
-            elastic, held = stored_by_points(joint[j], o, 0, hand[j].weight, elastic, held)
+            elastic, held = stored(joint[j], o, 0, hand[j].weight, elastic, held)
     start = joint.shape[0] + state[LINK].shape[0]
     pressed, sheared = stored_by_bed(
         state[BODY], state[PAIR], start, now, hand, shape, corner, joined, law, memory, real, whole

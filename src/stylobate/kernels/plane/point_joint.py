@@ -15,13 +15,21 @@ def face(b, l, c, s):
 
 
 @law
+def upper_face(u, e, l):
+    """Cosine and sine of the direction of the upper face of a joint."""
+    if e.turned.shape[0] > 1:
+        return face(u, l, e.turned[0, l], e.turned[1, l])
+    return u.c[l], u.s[l]
+
+
+@law
 def meeting(u, v, e, l):
     """How the faces of a joint lie to one another: direction of the lower one; centroid, cosine and sine of the upper body;
     corners of its face; ends of the overlap, and its length.
     """
     ht = e.ht[l]
     cl, sl = face(v, l, e.lc[l], e.ls[l])
-    cu, su = face(u, l, e.uc[l], e.us[l])
+    cu, su = upper_face(u, e, l)
     ps, pq, c, s = ct.relative_pose(u.x[l], u.z[l], cu, su, v.x[l], v.z[l], cl, sl, ht)
     left_s, left_q, right_s, right_q = ct.face_corners(ps, pq, c, s, e.bl[l], e.br[l], e.hb[l])
     lo = max(left_s, -e.wl[l])

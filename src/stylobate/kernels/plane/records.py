@@ -16,7 +16,8 @@ positions at t_n, velocities at t_{n−1/2})::
                               centroids [N m]
     joint[j]   ht wl wr       of the lower body: centroid to its face; from the centroid's foot to the face's left and right
                               end [m];  lc ls  direction of the face in the axes of that body
-               hb bl br       the same of the upper body;  uc us  direction of its face
+               hb bl br       the same of the upper body;  turned[2]  direction of its face; one row, unused, where all upper
+                              faces lie along the axes of their bodies, as those of columns do
                mu             tan φ
                fs fn dn ds    spring and dashpot forces [N]
       with contact points (a row for each point):
@@ -59,10 +60,11 @@ def _fields(names, *shape):
     return [(name, np.float64, shape) for name in names.split()]
 
 
-def point_joint(points, damped, lanes):
-    """Record type of a joint with contact points."""
+def point_joint(points, damped, lanes, turned=False):
+    """Record type of a joint with contact points; ``turned`` where upper faces may be inclined to their bodies' axes."""
     return np.dtype(
-        _fields("ht wl wr lc ls hb bl br uc us kn ks co mu over", lanes)
+        _fields("ht wl wr lc ls hb bl br kn ks co mu over", lanes)
+        + _fields("turned", 2 if turned else 1, lanes)
         + _fields("fs fn", points, lanes)
         + _fields("dn ds", points if damped else 1, lanes)
     )
@@ -71,7 +73,8 @@ def point_joint(points, damped, lanes):
 def interface_joint(crushing, damped, lanes):
     """Record type of a joint that is one interface."""
     return np.dtype(
-        _fields("ht wl wr lc ls hb bl br uc us kn km ks co mu tau chi sp fs fn el gap", lanes)
+        _fields("ht wl wr lc ls hb bl br kn km ks co mu tau chi sp fs fn el gap", lanes)
+        + _fields("turned", 1, lanes)
         + _fields("crush", 2 if crushing else 1, lanes)
         + _fields("dn ds", 2 if damped else 1, lanes)
     )

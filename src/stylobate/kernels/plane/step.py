@@ -1,10 +1,10 @@
 """The engine in the plane over lanes: explicit central differences of rigid bodies on joints and links.
 
 Records: ``records.py``; a state is a tuple of them in the order of ``shared/records.py``. Joints follow one of two laws,
-``point_joint.py`` or ``interface_joint.py``; everything else is the same.
+``point_joint.py`` or ``interface_joint.py``, as the types of their records tell; everything else is the same.
 """
 
-from ..jit import kernel, law, strict
+from ..jit import chosen, kernel, law, strict
 from ..shared.frame import run_chunks
 from ..shared.links import add_to_ledger
 from ..shared.records import (
@@ -22,14 +22,45 @@ from ..shared.records import (
     STACK,
     TOUCH,
     WATCH,
+    rows,
 )  # fmt: skip
 from . import interface_joint, look, point_joint
 from . import links as ties
-from .motion import gather, kinetic_and_gravitational
+from .motion import gather as gather_loads
+from .motion import kinetic_and_gravitational
 from .motion import move as move_bodies
 
-fill_base, point_forces, interface_forces = look.fill_ground, point_joint.joint_forces, interface_joint.joint_forces
-stored_by_points, stored_by_interface = point_joint.stored, interface_joint.stored
+fill_base = look.fill_ground
+
+
+@chosen
+def joint_forces(body, joint, load, pair, lane):
+    """Forces of all joints at t_n, as their records tell; brings their memory from t_{n−1} to t_n."""
+    loop = point_joint.joint_forces if rows(joint, "over") else interface_joint.joint_forces
+    return lambda body, joint, load, pair, lane: loop(body, joint, load, pair, lane)
+
+
+@chosen
+def look_at_gaps(joint, watch):
+    """Of interfaces the peak of openings without the elastic gap at an edge that their law keeps closed."""
+    if rows(joint, "over"):
+        return lambda joint, watch: None
+    return lambda joint, watch: interface_joint.look_at_gaps(joint, watch)
+
+
+@chosen
+def stored(joint, lane, l):
+    """Energy that all joints hold in one lane by pressure, and by shear [J]."""
+    of_one = point_joint.stored if rows(joint, "over") else interface_joint.stored
+
+    def of_all(joint, lane, l):
+        elastic = 0.0
+        held = 0.0
+        for j in range(joint.shape[0]):
+            elastic, held = of_one(joint[j], lane[0], l, 1.0, elastic, held)
+        return elastic, held
+
+    return of_all
 
 
 @law
@@ -45,16 +76,9 @@ def look_ahead(state):
 
 
 @law
-def forces_of_points(state):
-    """Forces of all joints with contact points, and of all links, at t_n."""
-    point_forces(state[BODY], state[JOINT], state[LOAD], state[PAIR], state[LANE])
-    ties.link_forces(state[BODY], state[JOINT], state[LOAD], state[LINK], state[BOND], state[PAIR])
-
-
-@law
-def forces_of_interfaces(state):
-    """Forces of all joints that are interfaces, and of all links, at t_n."""
-    interface_forces(state[BODY], state[JOINT], state[LOAD], state[PAIR], state[LANE])
+def forces(state):
+    """Forces of all joints and links at t_n."""
+    joint_forces(state[BODY], state[JOINT], state[LOAD], state[PAIR], state[LANE])
     ties.link_forces(state[BODY], state[JOINT], state[LOAD], state[LINK], state[BOND], state[PAIR])
 
 
@@ -74,19 +98,7 @@ def look_at(state):
         look.observe(state[BODY], state[JOINT], state[LANE], state[FEED], watch, state[HOLD], state[STACK])
     else:
         look.straighten(state[BODY])
-
-
-@law
-def look_at_interfaces(state):
-    """As :func:`look_at`; the peak of openings without the elastic gap at an edge that the law keeps closed."""
-    look_at(state)
-    joint, w = state[JOINT], state[WATCH][0]
-    for l in range(w.status.shape[0]):
-        w.open[l] = 0.0
-    for j in range(joint.shape[0]):
-        e = joint[j]
-        for l in range(w.status.shape[0]):
-            w.open[l] = max(w.open[l], e.gap[l])
+    look_at_gaps(state[JOINT], watch)
 
 
 @law
@@ -109,48 +121,22 @@ def energies(state, elastic, held, gx, gz, dt, l, out):
 
 
 @kernel
-def advance_points(state, chunks):
-    """Advance all lanes of bodies on joints with contact points: see :func:`run_chunks`."""
-    run_chunks(fill_ground, look_ahead, forces_of_points, move, look_at, state, chunks)
+def advance(state, chunks):
+    """Advance all lanes: see :func:`run_chunks`."""
+    run_chunks(fill_ground, look_ahead, forces, move, look_at, state, chunks)
 
 
 @kernel
-def advance_interfaces(state, chunks):
-    """Advance all lanes of bodies on interfaces: see :func:`run_chunks`."""
-    run_chunks(fill_ground, look_ahead, forces_of_interfaces, move, look_at_interfaces, state, chunks)
-
-
-@kernel
-def gather_points(state):
-    """Forces on all bodies at t_n, with joints that have contact points; brings the contact memory to t_n."""
-    forces_of_points(state)
-    gather(state[BODY], state[LOAD], state[SPAN], state[TOUCH])
-
-
-@kernel
-def gather_interfaces(state):
-    """Forces on all bodies at t_n, with joints that are interfaces; brings their memory to t_n."""
-    forces_of_interfaces(state)
-    gather(state[BODY], state[LOAD], state[SPAN], state[TOUCH])
+def gather(state):
+    """Forces on all bodies at t_n; brings the memory of contacts to t_n."""
+    forces(state)
+    gather_loads(state[BODY], state[LOAD], state[SPAN], state[TOUCH])
 
 
 @strict
-def ledger_points(state, gx, gz, dt, l, out):
-    """Ledger of bodies on joints with contact points: see :func:`energies`."""
-    elastic = 0.0
-    held = 0.0
-    for j in range(state[JOINT].shape[0]):
-        elastic, held = stored_by_points(state[JOINT][j], state[LANE][0], l, 1.0, elastic, held)
-    energies(state, elastic, held, gx, gz, dt, l, out)
-
-
-@strict
-def ledger_interfaces(state, gx, gz, dt, l, out):
-    """Ledger of bodies on interfaces: see :func:`energies`."""
-    elastic = 0.0
-    held = 0.0
-    for j in range(state[JOINT].shape[0]):
-        elastic, held = stored_by_interface(state[JOINT][j], state[LANE][0], l, 1.0, elastic, held)
+def ledger(state, gx, gz, dt, l, out):
+    """Ledger of bodies on joints and links: see :func:`energies`."""
+    elastic, held = stored(state[JOINT], state[LANE], l)
     energies(state, elastic, held, gx, gz, dt, l, out)
 
 

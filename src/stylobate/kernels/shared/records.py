@@ -39,3 +39,9 @@ BODY, JOINT, LOAD, LINK, BOND, LANE, GROUND, FEED, WATCH, HOLD, PAIR, SPAN, TOUC
 PAIR_TYPE = np.dtype([("lower", np.uint64), ("upper", np.uint64)])
 SPAN_TYPE = np.dtype([(name, np.uint64) for name in ("under", "above", "first", "count")] + [("fixed", np.int64)])
 TOUCH_TYPE = np.dtype([("contact", np.uint64), ("upper", np.int64)])
+
+
+def rows(array, name: str) -> int:
+    """Rows of a field of an array of records as the compiler knows it, 0 where it has no such field."""
+    field = array.dtype.fields.get(name)
+    return 0 if field is None else 1 if len(field.type.shape) == 1 else field.type.shape[0]

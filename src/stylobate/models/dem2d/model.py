@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ...column import Column
 from ...column.assembly import Assembly
 from ...column.shapes import DRUMS, Prism
 from ...column.structure import Structure
-from ...errors import InputError, as_typed, check_range
+from ...errors import InputError, check_choice, check_range, check_whole
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import LANES
 from ...motion import Motion
@@ -24,19 +24,15 @@ from ..drums.joints import contact_points, damping_rows, joint_stiffnesses
 from ..drums.links import link_stiffness, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
-from ..plane.assemblies import AssemblyNumbers, expected_step, measures_of_assemblies, run_assembly
-from ..plane.block import Law
+from ..plane.assemblies import expected_step, measures_of_assemblies, run_assembly
 from ..plane.columns import ColumnLanes
 from ..plane.found_start import found_start
-from ..plane.laws import point_law
+from ..plane.laws import Types, point_law
 from ..plane.loose import Contacts
 from ..plane.packing import joint_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.toes import point_toes
-
-if TYPE_CHECKING:
-    from ..plane.collapse import FollowedColumn
 
 MAX_POINTS = 32
 
@@ -98,7 +94,7 @@ class DistinctElement2D(SteppedDrums):
     takes_as_found: ClassVar[bool] = True
     follows_to_rest: ClassVar[bool] = True
     takes_start: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad", "clamp"})
+    takes_links: ClassVar[frozenset[str]] = SteppedDrums.takes_links | {"clamp"}
 
     points: int = 2
     block_modulus: float | None = None
@@ -107,12 +103,10 @@ class DistinctElement2D(SteppedDrums):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if isinstance(self.points, bool) or int(self.points) != self.points or not 2 <= self.points <= MAX_POINTS:
-            raise InputError(f"points is {as_typed(self.points)}; allowed is a whole number from 2 to {MAX_POINTS}.")
+        check_whole("points", self.points, 2, MAX_POINTS)
         if self.block_modulus is not None:
             check_range("block_modulus", self.block_modulus, 0.0, 1e14, unit="Pa", open_low=True)
-        if self.start not in ("static", "settle"):
-            raise InputError(f"start is {self.start!r}; allowed are static, settle.")
+        check_choice("start", self.start, ("static", "settle"))
         if self.restitution is not None:
             check_range("restitution", self.restitution, 0.0, 1.0)
 
@@ -122,13 +116,13 @@ class DistinctElement2D(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def law(self, linked: bool) -> Law:
-        """The law of the joints, for columns with links or without."""
+    def record_types(self, linked: bool) -> Types:
+        """Types of the records by the law of the joints, for columns with links or without."""
         return point_law(self.points, self.damped, LANES, linked)
 
     def block_for(self, kind: Topology, options: RunOptions) -> ColumnLanes:
         """A block of lanes for columns of a kind."""
-        return ColumnLanes(self.law(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
+        return ColumnLanes(self.record_types(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
 
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it, settled if asked for."""
@@ -149,20 +143,20 @@ class DistinctElement2D(SteppedDrums):
         if options.until_end or options.until_rest:
             from ..plane.collapse import follow
 
-            return follow(column, motion, self.followed(column, options), options)
+            return follow(column, motion, self.followed(column, options), self.contacts, options)
         return super().run(column, motion, options)
 
     @property
     def contacts(self) -> Contacts:
-        """Numbers of the contacts, for the engine of assemblies."""
-        return Contacts(self.points, self.stiffness_damping, self.mass_damping, self.block_modulus)
+        """Numbers for what may come loose."""
+        return Contacts(
+            self.name, self.points, self.stiffness_damping, self.mass_damping, self.block_modulus, self.restitution,
+            self.step_factor, self.time_step, self.start == "settle",
+        )  # fmt: skip
 
-    def followed(self, column: Column, options: RunOptions) -> FollowedColumn:
-        """What a column that is followed to the ground is computed with."""
-        from ..plane.collapse import FollowedColumn
-
-        block = self.block_for(self.kind(column), replace(options, until_end=True))
-        return FollowedColumn(self.name, block, self.contacts, self.step_for(column), self.restitution)
+    def followed(self, column: Column, options: RunOptions) -> ColumnLanes:
+        """Lanes for a column that is followed to the ground."""
+        return self.block_for(self.kind(column), replace(options, until_end=True))
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs of columns in lanes, or of assemblies one by one in threads; never of both in one batch."""
@@ -180,13 +174,13 @@ class DistinctElement2D(SteppedDrums):
         InputError
             The stone is given a modulus, the step asked for is unstable, or the assembly cannot settle.
         """
-        return run_assembly(assembly, motion, self.assembly_numbers(), options, recorded=recorded)
+        return run_assembly(assembly, motion, self.contacts_of_blocks(), options, recorded=recorded)
 
     def expected_step(self, column: Structure, motion: Motion) -> tuple[float, float]:
         """Time step and its cost [s]; of an assembly as long as it stands."""
         if column.stack is not None:
             return super().expected_step(column.stack, motion)
-        return expected_step(column.must_be("assembly"), motion, self.assembly_numbers())
+        return expected_step(column.must_be("assembly"), motion, self.contacts_of_blocks())
 
     def check_length(self, column: Any, motion: Motion, options: RunOptions) -> None:
         """As of all models; the step of what may come loose is known once its contacts are: each run asks for itself."""
@@ -197,14 +191,13 @@ class DistinctElement2D(SteppedDrums):
         """How many are taken along: of columns only, what may come loose is alone in its lane."""
         return 0 if column.stack is None else self.carries
 
-    def assembly_numbers(self) -> AssemblyNumbers:
-        """What assemblies are computed with."""
+    def contacts_of_blocks(self) -> Contacts:
+        """Numbers for assemblies, whose blocks are rigid."""
         if self.block_modulus is not None:
             raise InputError(
                 f"block_modulus is {self.block_modulus:g} Pa; the blocks of an assembly are rigid: leave it out."
             )
-        settle = self.start == "settle"
-        return AssemblyNumbers(self.name, self.contacts, self.step_factor, self.time_step, self.restitution, settle)
+        return self.contacts
 
 
 @lru_cache(maxsize=4096)
@@ -220,7 +213,7 @@ def _pack(column: Column, model: DistinctElement2D) -> Packed:
         state, shear = _settled(column, model)
         drums |= state
     joint = joint_fields(column, kn, ks) | {"fs": shear}
-    types = point_law(model.points, model.damped, 1, bool(column.links)).types
+    types = point_law(model.points, model.damped, 1, bool(column.links))
     damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
     fields = drums, joint, lane_fields(column, damp, model.points)
     return pack_column(column, types, fields, model.step_for(column), point_toes(column, kn, float(share[-1])))

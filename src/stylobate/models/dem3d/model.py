@@ -15,12 +15,11 @@ from ...column.found_in_space import shares_left
 from ...column.shapes import DRUMS, ConvexSolid, Glued
 from ...column.specimen import Specimen
 from ...column.structure import Structure
-from ...errors import InputError, check_range
+from ...errors import InputError, check_choice, check_range
 from ...kernels.dem3d.records import types
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, RunOptions
-from ..drums.barriers import lowest_barrier
 from ..drums.bodies import Topology
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
@@ -32,14 +31,13 @@ from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
 from ..space.assemblies import SpatialNumbers, expected_step, run_in_space
 from .arrays import Records
-from .block import SpaceBlock
+from .block import SpaceBlock, Stack
 from .found_start import found_start
 from .links import link_fields
 from .packing import chipped, drum_fields, joint_fields, lane_fields, pack_column
 from .restitution import damping_for
 from .specimen import FreeBody, pack_specimen, rows_for, top_frequency
 from .stability import highest_frequency
-from .stack import Stack
 from .verdict import numbers_for
 
 #: Bending stiffness of a closed joint over k_n J, less 1: of each law of contact of round faces, and of corners.
@@ -140,7 +138,6 @@ class DistinctElement3D(SteppedDrums):
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid, Glued)
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
-    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
 
     law: str = "rim"
     pivot_friction: float = 1.0
@@ -151,8 +148,7 @@ class DistinctElement3D(SteppedDrums):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if self.law not in LAWS:
-            raise InputError(f"law is {self.law!r}; allowed is {', '.join(LAWS)}.")
+        check_choice("law", self.law, LAWS)
         check_range("pivot_friction", self.pivot_friction, 0.0, 1.0)
         check_range("rolling_resistance", self.rolling_resistance, 0.0, 1.0)
         if self.restitution is not None:
@@ -363,7 +359,7 @@ def _pack(column: Column, model: DistinctElement3D) -> Packed:
     numbers = pack_column(model.records(kind), column, (drums, joints, lane), links, top)
     law = model.law if column.section == "circular" else "corners"
     stand = numbers_for(column, TOES[law](column, kn * shares_left(column)))
-    return Packed(numbers, bonds(column), model.step_for(column), column.joint_widths, lowest_barrier(column), stand)
+    return Packed(numbers, bonds(column), model.step_for(column), column.joint_widths, column.lowest_barrier, stand)
 
 
 @lru_cache(maxsize=4096)

@@ -11,7 +11,6 @@ import numpy as np
 from ...column import Column
 from ...column.found_in_space import space_geometry, upward
 from ...constants import DEGREE
-from ..shared.toes import centroids_above
 
 
 @lru_cache(maxsize=4096)
@@ -53,5 +52,5 @@ def numbers_for(column: Column, toes: np.ndarray) -> np.ndarray:
     stand["under"] = [math.inf, *(0.5 * drum.top_width for drum in below)]
     stand["beside"] = [math.inf, *(0.5 * drum.upper_depth for drum in below)]
     stand["weight"], stand["moment"] = column.joint_weights, column.joint_weights * 0.5 * column.joint_widths
-    stand["over"] = centroids_above(column)
+    stand["over"] = column.parts_above[1]
     return stand

@@ -18,12 +18,12 @@ from ...response.measures import SpaceMeasures
 from ..base import Case, RunOptions
 from ..shared import ledger, quiet
 from ..shared.lanes import longest_piece
+from ..shared.stable_step import whole_steps
 from ..start import check_takes_pose
 from .histories import ledger_imbalance
 from .links import acting, link_measures, link_snapshot
 from .pretension import held_at_start, set_free, without_tension
 from .records import LaneRecords, Packed
-from .whole_steps import whole_steps
 
 #: Calls of the kernel per run.
 CALLS_PER_RUN = 100

@@ -15,10 +15,9 @@ from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..shared.lanes import Riders, run_alike
 from ..shared.soft_joints import check_sinking, check_step_resolves
-from ..shared.stable_step import chosen_step
+from ..shared.stable_step import chosen_step, whole_steps
 from .bodies import Topology
 from .histories import histories
-from .whole_steps import whole_steps
 
 #: Largest share of the stable step at which columns alike are computed in one step: joints 2.8 times as stiff bear it.
 SAFE_FACTOR = 0.6
@@ -41,6 +40,7 @@ class SteppedDrums(Model):
     """
 
     carries: ClassVar[int] = 15
+    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
 
     step_factor: float = 0.4
     time_step: float | None = None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -23,39 +22,13 @@ from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.stable_step import chosen_step, highest_frequency, stable_step
 from .links import stiffness_between
-from .loose import COST_STANDING, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
-
-
-@dataclass(frozen=True)
-class AssemblyNumbers:
-    """What a run of an assembly is computed with.
-
-    Parameters
-    ----------
-    name : str
-        Of the model, for the response.
-    contacts : Contacts
-    step_factor, time_step : float, float or None
-        Share of the largest stable step, or the step itself [s].
-    restitution : float or None
-        Of the bed; by default 1, and 0.3 in a run until rest.
-    must_settle : bool
-        Refuse an assembly that is not in equilibrium as drawn.
-    """
-
-    name: str
-    contacts: Contacts
-    step_factor: float
-    time_step: float | None
-    restitution: float | None
-    must_settle: bool
-
+from .loose import COST_STANDING, LONGEST_WAIT, Contacts, Loose
 
 #: Time after the last block has fallen at which a run of a batch ends [s].
 AFTER_THE_FALL = 5.0
 
 
-def step_for(engine: Loose, numbers: AssemblyNumbers) -> float:
+def step_for(engine: Loose, contacts: Contacts) -> float:
     """Time step of a run [s]; whole chunks of steps fill the motion.
 
     Raises
@@ -65,19 +38,19 @@ def step_for(engine: Loose, numbers: AssemblyNumbers) -> float:
     """
     name = repr(engine.structure.name)
     return min(
-        chosen_step(stable_step_of(engine), numbers.step_factor, numbers.time_step, name),
+        chosen_step(stable_step_of(engine), contacts.step_factor, contacts.time_step, name),
         engine.motion.duration / CHUNK,
     )
 
 
-def expected_step(assembly: Assembly, motion: Motion, numbers: AssemblyNumbers) -> tuple[float, float]:
+def expected_step(assembly: Assembly, motion: Motion, contacts: Contacts) -> tuple[float, float]:
     """Time step, and about what a step costs on one core as long as all stands, both [s]; what falls is dearer."""
-    engine = Loose(assembly, numbers.contacts, motion, motion.duration)
-    return step_for(engine, numbers), COST_STANDING * len(engine.records.body) * numbers.contacts.points
+    engine = Loose(assembly, contacts, motion, motion.duration)
+    return step_for(engine, contacts), COST_STANDING * len(engine.records.body) * contacts.points
 
 
 def run_assembly(
-    assembly: Assembly, motion: Motion, numbers: AssemblyNumbers, options: RunOptions, *, recorded: bool = True
+    assembly: Assembly, motion: Motion, contacts: Contacts, options: RunOptions, *, recorded: bool = True
 ) -> Response:
     """One run of an assembly to the end of the motion and its tail, or until rest.
 
@@ -90,7 +63,7 @@ def run_assembly(
     ----------
     assembly : Assembly
     motion : Motion
-    numbers : AssemblyNumbers
+    contacts : Contacts
     options : RunOptions
     recorded : bool
         Whether histories are wanted; without them the ledger is drawn up at the end only, and forces of links are not kept.
@@ -105,17 +78,15 @@ def run_assembly(
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
-    restitution = numbers.restitution
-    if restitution is None:
-        restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
-    engine = Loose(assembly, numbers.contacts, motion, motion.duration + options.tail, restitution)
-    step = step_for(engine, numbers)
+    restitution = contacts.given_back(options)
+    engine = Loose(assembly, contacts, motion, motion.duration + options.tail, restitution)
+    step = step_for(engine, contacts)
     length = engine.duration + (LONGEST_WAIT if options.until_rest else 0.0)
     refuse_endless(f"{assembly.name!r} under {motion.name!r}", length, step, engine.cost)
     refuse_long_histories(length / options.output_interval, len(assembly.blocks))
     engine.start(step)
     balanced = engine.settle()
-    if not balanced and numbers.must_settle:
+    if not balanced and contacts.must_settle:
         raise InputError(
             f"{assembly.name!r} is not in equilibrium as drawn; support its blocks, or leave start=settle out to let "
             "it move."
@@ -147,7 +118,7 @@ def run_assembly(
         energy_imbalance=imbalance,
         time_step=engine.dt,
         steps=engine.steps,
-        model=numbers.name,
+        model=contacts.name,
         touched=touched,
         links=link_measures(acting(assembly), engine.records.link, 0, engine.dt),
         held=link_histories(states) if recorded else None,

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 
@@ -13,23 +11,7 @@ from ...motion import Motion
 from ..drums.bodies import Topology
 from ..drums.records import LaneRecords
 from ..shared.ground import along_base
-
-
-class Law(NamedTuple):
-    """The law of the joints of a block.
-
-    Parameters
-    ----------
-    types : dict of str to dtype
-        Of its records by their names, see ``kernels/plane/records.py``.
-    advance, gather, ledger : callable
-        Kernels: see ``kernels/plane/step.py``.
-    """
-
-    types: dict[str, np.dtype]
-    advance: Callable[..., None]
-    gather: Callable[..., None]
-    ledger: Callable[..., None]
+from .laws import Types
 
 
 class Records(LaneRecords):
@@ -37,20 +19,21 @@ class Records(LaneRecords):
 
     Parameters
     ----------
-    law : Law
+    types : mapping of str to dtype
+        Of :mod:`stylobate.models.plane.laws`.
     """
 
-    def __init__(self, law: Law, topology: Topology, spare: int = 0) -> None:
+    def __init__(self, types: Types, topology: Topology, spare: int = 0) -> None:
         from ...kernels.plane import step
 
-        super().__init__(law.types, topology, len(topology.joints), spare)
-        self.law, self.step = law, step
+        super().__init__(types, topology, len(topology.joints), spare)
+        self.types, self.kernel = types, step
 
     def forces(self, lane: int) -> tuple[np.ndarray, ...]:
         """Force along x and z [N] and moment [N m] on every body in its present position, on a copy; shapes (N,)."""
         state = self.now()
         state[STATE.index("lane")]["dt"][0, lane] = 0.0
-        self.law.gather(state)
+        self.kernel.gather(state)
         body = state[STATE.index("body")]
         return tuple(body[name][:, lane] for name in ("fx", "fz", "mo"))
 
@@ -58,15 +41,15 @@ class Records(LaneRecords):
         """Ledger of a lane now: input, kinetic, gravitational, elastic, friction, viscous; the middle two absolute [J]."""
         state = self.now()  # the forces at the present positions, as the next step will find them
         state[STATE.index("lane")]["dt"][0, lane] = dt
-        self.law.gather(state)
+        self.kernel.gather(state)
         out = np.empty(6)
-        self.law.ledger(state, base[0], base[1], dt, lane, out)
+        self.kernel.ledger(state, base[0], base[1], dt, lane, out)
         return out
 
     def joint_state(self, lane: int) -> tuple[np.ndarray, np.ndarray]:
         """Opening of every joint, and where the body above it is along it [m], each of shape (joints,)."""
         opening, slip = np.empty(len(self.joint)), np.empty(len(self.joint))
-        self.step.joint_state(self.state, lane, opening, slip)
+        self.kernel.joint_state(self.state, lane, opening, slip)
         return opening, slip
 
     def acceleration(self, lane: int) -> float:

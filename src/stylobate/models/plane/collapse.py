@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,40 +17,11 @@ from ...response.mechanism import find_mechanism
 from ..base import Case, RunOptions
 from ..drums.histories import histories
 from .columns import ColumnLanes
-from .loose import ENDLESS, LONGEST_WAIT, RESTITUTION_TO_REST, Contacts, Loose
+from .loose import ENDLESS, LONGEST_WAIT, Contacts, Loose
 from .packing import OF_BODY
 
 
-@dataclass(frozen=True, eq=False)
-class FollowedColumn:
-    """What a column that may fall is computed with.
-
-    Parameters
-    ----------
-    name : str
-        Of the model, for the response.
-    block : ColumnLanes
-        Lanes for the column, that go on after a collapse.
-    contacts : Contacts
-    step : float
-        Time step [s].
-    restitution : float or None
-        Of contacts between drums that are not joined; by default 1, and 0.3 in a run until rest.
-    """
-
-    name: str
-    block: ColumnLanes
-    contacts: Contacts
-    step: float
-    restitution: float | None
-
-
-def follow(
-    column: Column,
-    motion: Motion,
-    numbers: FollowedColumn,
-    options: RunOptions,
-) -> Response:
+def follow(column: Column, motion: Motion, block: ColumnLanes, contacts: Contacts, options: RunOptions) -> Response:
     """One run of a column in which drums may strike one another and the ground.
 
     Until bodies that are no neighbours come close to each other, or a joint is close to handing over, this is the run
@@ -60,12 +31,14 @@ def follow(
     ----------
     column : Column
     motion : Motion
-    numbers : FollowedColumn
+    block : ColumnLanes
+        Lanes for the column, that go on after a collapse.
+    contacts : Contacts
     options : RunOptions
         A run goes on after its collapse with ``until_end``, and after the motion until everything lies still with
         ``until_rest``.
     """
-    run = _ColumnRun(column, motion, numbers, options)
+    run = _ColumnRun(column, motion, block, contacts, options)
     engine = run.engine
     every = max(1, min(engine.chunks, round(options.output_interval / (CHUNK * engine.dt))))
     residual = engine.residual_acceleration()
@@ -80,16 +53,15 @@ def follow(
 class _ColumnRun:
     """A column in the lanes as long as only neighbours can touch, in the engine of assemblies from there on."""
 
-    def __init__(self, column: Column, motion: Motion, numbers: FollowedColumn, options: RunOptions) -> None:
-        self.column, self.motion, self.name, self.options = column, motion, numbers.name, options
-        self.restitution = numbers.restitution
-        if self.restitution is None:
-            self.restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
-        self.block = block = numbers.block
+    def __init__(
+        self, column: Column, motion: Motion, block: ColumnLanes, contacts: Contacts, options: RunOptions
+    ) -> None:
+        self.column, self.motion, self.block, self.name, self.options = column, motion, block, contacts.name, options
+        self.restitution = contacts.given_back(options)
         block.load(0, Case(column, motion))
         duration = motion.duration + options.tail
-        self.engine = engine = Loose(column, numbers.contacts, motion, duration, self.restitution)
-        engine.start(numbers.step)
+        self.engine = engine = Loose(column, contacts, motion, duration, self.restitution)
+        engine.start(block.packed[0].step)
         self.loose, self.ahead = False, 0
         self.take_over()
         self.start = block.start[0].copy()
@@ -101,7 +73,7 @@ class _ColumnRun:
         for name in OF_BODY:
             here.body[name][:, 0] = there.body[name][:, 0]
         for name in there.joint.dtype.names or ():
-            if name not in ("dn", "ds") or there.joint[name].shape[1] == here.joint[name].shape[1]:
+            if there.joint[name].shape[:-1] == here.joint[name].shape[:-1]:
                 here.joint[name][..., 0] = there.joint[name][..., 0]
         for name in ("work", "shear", "visc", "g", "gx", "xi", "sh"):
             here.lane[name][..., 0] = there.lane[name][..., 0]

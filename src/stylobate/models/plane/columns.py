@@ -16,7 +16,8 @@ from ..drums.bodies import Topology
 from ..drums.records import Packed
 from ..drums.runs import LaneRuns
 from ..start import check_in_plane
-from .block import Law, Records, base_acceleration, slope_base
+from .block import Records, base_acceleration, slope_base
+from .laws import Types
 from .pose import leans_right, placed, sink_in
 from .standing import numbers_for
 
@@ -26,8 +27,8 @@ class ColumnLanes(LaneRuns):
 
     Parameters
     ----------
-    law : Law
-        Of the joints.
+    types : mapping of str to dtype
+        Of the records, by the law of the joints.
     pack : callable
         Gives the numbers of a column.
     topology : Topology
@@ -38,9 +39,9 @@ class ColumnLanes(LaneRuns):
     """
 
     def __init__(
-        self, law: Law, pack: Callable[[Column], Packed], topology: Topology, options: RunOptions, cost: float
+        self, types: Types, pack: Callable[[Column], Packed], topology: Topology, options: RunOptions, cost: float
     ) -> None:
-        self.records = records = Records(law, topology)
+        self.records = records = Records(types, topology)
         super().__init__(pack, records, options, cost)
         self.slip = np.zeros((self.lanes, topology.stack))
         self.stood = np.zeros((self.lanes, 2, topology.stack))
@@ -67,11 +68,11 @@ class ColumnLanes(LaneRuns):
 
     def step(self, chunks: int) -> None:
         """Let the kernel take so many chunks of steps."""
-        self.records.law.advance(self.records.state, chunks)
+        self.records.kernel.advance(self.records.state, chunks)
 
     def energies_without_tension(self, lane: int, bare: Column) -> np.ndarray:
         """Ledger as if the column stood in a lane without its pretension; ``bare`` is that column [J]."""
-        records = Records(self.records.law, Topology.of(bare))
+        records = Records(self.records.types, Topology.of(bare))
         packed = self.pack(bare)
         records.put(0, packed.lane)
         records.bond[...], records.feed[...] = packed.bond, self.feed

@@ -15,13 +15,14 @@ from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
 from ...motion import Motion
+from ..base import RunOptions
 from ..drums.bodies import Topology, body_fields
 from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_snapshot
 from ..drums.records import UNSEEN
-from ..drums.whole_steps import whole_steps
 from ..shared.lanes import longest_piece
 from ..shared.settling import LOCAL_DAMPING, settled
+from ..shared.stable_step import whole_steps
 from .beds import bed_laws, fill_hands, fill_shapes
 from .block import Records, base_acceleration, slope_base
 from .laws import point_law
@@ -65,22 +66,41 @@ SKIN = 0.1
 
 
 class Contacts(NamedTuple):
-    """Numbers of the contacts of an assembly.
+    """Numbers of a model for what may come loose.
 
     Parameters
     ----------
+    name : str
+        Of the model, for the response.
     points : int
         Contact points of a joint.
     stiffness_damping, mass_damping : float
         [s], [1/s]
     block_modulus : float or None
         Of the stone of a column, in series with its joints [Pa].
+    restitution : float or None
+        Of the bed; by default 1, and 0.3 in a run until rest.
+    step_factor, time_step : float, float or None
+        Of assemblies: share of the largest stable step, or the step itself [s].
+    must_settle : bool
+        Refuse an assembly that is not in equilibrium as drawn.
     """
 
+    name: str
     points: int
     stiffness_damping: float
     mass_damping: float
     block_modulus: float | None
+    restitution: float | None
+    step_factor: float
+    time_step: float | None
+    must_settle: bool
+
+    def given_back(self, options: RunOptions) -> float:
+        """Restitution of the bed in a run [-]."""
+        if self.restitution is not None:
+            return self.restitution
+        return RESTITUTION_TO_REST if options.until_rest else 1.0
 
 
 class Loose:
@@ -107,8 +127,8 @@ class Loose:
         self.kernel, self.ties, self.structure, self.motion = kernel, ties, structure, motion
         bodies, topology = structure.bodies, Topology.of(structure)
         n = len(bodies)
-        law = point_law(contacts.points, True, 1, bool(topology.links))
-        self.records = records = Records(law, topology, spare=n * (n - 1) // 2)
+        types = point_law(contacts.points, True, 1, bool(topology.links), turned=True)
+        self.records = records = Records(types, topology, spare=n * (n - 1) // 2)
         now, hand, shape = (np.zeros(rows, one) for rows, one in zip((1, len(records.joint), n), kernel.search_types()))
         lane = lane_fields(
             structure, damping_rows(True, contacts.stiffness_damping, contacts.mass_damping), contacts.points
@@ -116,7 +136,7 @@ class Loose:
         records.fill(
             0,
             body=body_fields(structure),
-            joint=joint_fields(structure, *joint_stiffnesses(structure, contacts.block_modulus)),
+            joint=joint_fields(structure, *joint_stiffnesses(structure, contacts.block_modulus), turned=True),
             lane=lane,
         )
         corner = fill_shapes(shape, structure)
@@ -208,7 +228,7 @@ class Loose:
             if self.safe > 0:
                 self.records.link["dt"] = self.dt
                 self.records.forget_pairs()  # none of them touches, but their last loads are kept
-                self.records.law.advance(self.records.state, piece)
+                self.records.kernel.advance(self.records.state, piece)
                 self.safe -= piece
             else:
                 self.records.bond["near"] = 1

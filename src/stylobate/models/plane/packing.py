@@ -10,7 +10,6 @@ import numpy as np
 from ...column import Column
 from ...column.found_geometry import gravity_vector
 from ...column.structure import Structure
-from ..drums.barriers import lowest_barrier
 from ..drums.bodies import Topology
 from ..drums.joints import contact_points
 from ..drums.links import bonds
@@ -32,32 +31,32 @@ def pack_column(
     face = {"th": top.height, "tc": top.direction[0], "ts": top.direction[1]}
     records.fill(0, body=body, joint=joint, lane=lane, watch=UNSEEN | face)
     records.link[...] = links_at_rest(column, records.body)
-    return Packed(records.taken(0), bonds(column), step, column.joint_widths, lowest_barrier(column), toes)
+    return Packed(records.taken(0), bonds(column), step, column.joint_widths, column.lowest_barrier, toes)
 
 
 #: Fields of a body that a run begins with.
 OF_BODY = ("x", "z", "th", "c", "s", "vx", "vz", "w", "m", "i", "im", "ii")
 
 
-def face_fields(structure: Structure) -> dict[str, np.ndarray]:
-    """Fields that say where the faces of the joints are, each of shape (joints,)."""
+def face_fields(structure: Structure, *, turned: bool = False) -> dict[str, np.ndarray]:
+    """Fields that say where the faces of the joints are, by rows of shape (joints,); ``turned`` as of their records."""
     pairs = structure.face_pairs
-    names = (("lc", "ls", "ht", "wl", "wr"), ("uc", "us", "hb", "bl", "br"))
-    faces = ([one.below for one in pairs], [one.above for one in pairs])
-    return {
-        name: values
-        for of, some in zip(names, faces, strict=True)
-        for name, values in zip(
-            of, np.array([(*one.direction, *one[1:]) for one in some]).reshape(-1, 5).T, strict=True
-        )
-    }
+    below, above = (
+        np.array([(*one.direction, *one[1:]) for one in some]).reshape(-1, 5)
+        for some in ([one.below for one in pairs], [one.above for one in pairs])
+    )
+    names = ("lc", "ls", "ht", "wl", "wr", "hb", "bl", "br")
+    found = dict(zip(names, (*below.T, *above[:, 2:].T), strict=True))
+    return found | ({"turned": above[:, :2]} if turned else {})
 
 
-def joint_fields(structure: Structure, kn: np.ndarray, ks: np.ndarray) -> dict[str, np.ndarray]:
+def joint_fields(
+    structure: Structure, kn: np.ndarray, ks: np.ndarray, *, turned: bool = False
+) -> dict[str, np.ndarray]:
     """Faces and law of joints of contact points, from their normal and shear stiffness per area [N/m³], shape (joints,)."""
     pairs = structure.face_pairs
     area, width = (np.array([getattr(one, name) for one in pairs]) for name in ("area", "width"))
-    return face_fields(structure) | {
+    return face_fields(structure, turned=turned) | {
         "kn": kn * area / width,
         "ks": ks * area / width,
         "co": np.array([one.law.cohesion for one in pairs]) * area / width,

@@ -68,7 +68,7 @@ def sink_in(records: Records, lane: int, force: float) -> None:
     state[LANE]["dt"][0, lane] = 0.0
 
     def carried() -> float:
-        records.law.gather(state)
+        records.kernel.gather(state)
         return float(records.load["fz"][0, lane])
 
     sink(records.body["z"], lane, force, carried)

@@ -10,7 +10,6 @@ import numpy as np
 
 from ...column import Column
 from ...constants import DEGREE
-from ..shared.toes import centroids_above
 
 
 @lru_cache(maxsize=4096)
@@ -28,7 +27,7 @@ def numbers_for(column: Column) -> tuple[np.ndarray, np.ndarray]:
     stand["right"] = bottom - [one.chip_right for one in found]
     stand["under"] = [math.inf, *(0.5 * drum.top_width for drum in column.drums[:-1])]
     stand["weight"], stand["moment"] = column.joint_weights, column.joint_weights * 0.5 * column.joint_widths
-    stand["over"] = centroids_above(column)
+    stand["over"] = column.parts_above[1]
     offsets = np.array([one.offset for one in found])
     put_down(stand, offsets)
     return stand, offsets

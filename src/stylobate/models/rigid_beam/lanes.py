@@ -46,7 +46,7 @@ def loop_for(beam: PackedBeam, motion: Motion) -> Loop:
     step = beam.step_for(motion)
     steps = 2 ** max(0, min(round(math.log2(CHUNK)), math.floor(math.log2(LOOK / step))))
     vertical = motion.z_samples is not None
-    return Loop(beam.seen.n, steps, beam.sliding, beam.bed, vertical, beam.stiffness_damping > 0.0)
+    return Loop(beam.column.n, steps, beam.sliding, beam.bed, vertical, beam.stiffness_damping > 0.0)
 
 
 class BeamLanes:
@@ -85,7 +85,7 @@ class BeamLanes:
         self.values[..., lane] = 0.0  # clear all fields: a NaN of the last run would persist
         for name, values in _drum_fields(beam).items():
             self.drum[name][1:-1, lane] = values
-        seen, theta = beam.seen, -beam.initial_rotation
+        seen, theta = beam.column, -beam.initial_rotation
         for name in ("th", "ts"):
             self.drum[name][1:-1, lane] = theta
         for name in ("x", "xs"):
@@ -185,7 +185,7 @@ class BeamLanes:
         time = float(watch["when"]) * self.dt[lane]
         failure = f"the state is not finite at {self.time(lane):.4g} s; shorten the time_step" if failed else ""
         at_end = self.drum["te"][1:-1, lane]
-        after = time > loaded[0].motion.duration and beam.passes.inside(at_end, np.zeros_like(at_end))
+        after = time > loaded[0].motion.duration and beam.inside(at_end, np.zeros_like(at_end))
         return measures_of(
             beam,
             {
@@ -195,9 +195,9 @@ class BeamLanes:
                 "unaccounted": ledger.unaccounted(row), "released": ledger.released(row),
                 "lost": int(watch["which"]), "side": int(watch["side"]),
                 "time": time, "end": self.time(lane),
-                "failure": off_the_ground(loaded[0].motion, beam.seen.gravity, time) or failure,
+                "failure": off_the_ground(loaded[0].motion, beam.column.gravity, time) or failure,
                 "top": float(watch["top"]), "turn": float(watch["turn"]), "opening": float(watch["open"]),
-                "residual": float((theta + beam.initial_rotation) @ beam.seen.heights + slip.sum()),
+                "residual": float((theta + beam.initial_rotation) @ beam.column.heights + slip.sum()),
                 "step": float(self.dt[lane]), "steps": int(watch["step"]),
             },
         )  # fmt: skip
@@ -219,7 +219,7 @@ def run_one(beam: PackedBeam, column: Column, motion: Motion, options: RunOption
 
 @lru_cache(64)
 def _drum_fields(beam: PackedBeam) -> dict[str, np.ndarray]:
-    column, matrices = beam.seen, beam.matrices
+    column, matrices = beam.column, beam.matrices
     pivot, upper, nodes = tridiagonal(column)
     weight = column.gravity if beam.geometric else 0.0
     own = column.centroid_heights - column.joint_heights

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...column import Column
-from ...errors import InputError, as_typed, check_range
+from ...errors import InputError, check_choice, check_range
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
@@ -22,7 +22,6 @@ from .equations import BeamMatrices
 
 if TYPE_CHECKING:
     from .state import PackedBeam
-    from .verdict import Passes
 
 LAWS = ("winkler", "bilinear", "trilinear", "housner")
 
@@ -128,8 +127,7 @@ class RigidBeam(Model):
             ("idealisation", ("true", "prism")),
             ("critical_angle", ("stack", "drum")),
         ):
-            if getattr(self, key) not in allowed:
-                raise InputError(f"{key} is {as_typed(getattr(self, key))}; allowed are {', '.join(allowed)}.")
+            check_choice(key, getattr(self, key), allowed)
         check_range("xi", self.xi, 0.0, 1.0, open_low=True, remedy="1 is the bi-linear law")
         check_range("stiffness_damping", self.stiffness_damping, 0.0, 1.0, unit="s")
         check_range("initial_rotation", self.initial_rotation, -1.0, 1.0, unit="rad")
@@ -254,7 +252,7 @@ class RigidBeam(Model):
 
     def flutters(self, column: Column) -> bool:
         """Whether the closed column has complex frequencies, as laws in the rotations of single drums can have them."""
-        return self._passes(column).flutters
+        return self.pack(column).flutters
 
     def block(self, column: Column) -> RockingBlock:
         """For ``housner``: the beam of one drum as a rocking block; rotation about the middle of its base."""
@@ -272,14 +270,6 @@ class RigidBeam(Model):
     def pack(self, column: Column) -> PackedBeam:
         """Everything about a column that the lanes need, computed once."""
         return _packed(self, column)
-
-    def _passes(self, seen: Column) -> Passes:
-        from .verdict import Passes
-
-        return Passes(
-            seen, self.joints(seen), self.bed(seen), self.critical_angles(seen), self.opening_rotations(seen),
-            self.second_order == "geometric", self.rotation == "relative", self.sliding,
-        )  # fmt: skip
 
     # -- Model -----------------------------------------------------------------------------------------------------
 
@@ -340,15 +330,9 @@ class RigidBeam(Model):
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs through blocks of lanes."""
         if self.moment_law == "housner":
-            from ..rocking.lanes import RockingLanes
+            from ..rocking.lanes import run_blocks
 
-            step, start = self.time_step, self.initial_rotation
-            return run_alike(
-                lambda case: case.motion.z_samples is not None,
-                lambda vertical: RockingLanes(self.block, options, start, step, vertical),
-                cases,
-                threads,
-            )
+            return run_blocks(self, cases, options, threads)
         from .lanes import BeamLanes, loop_for
 
         return run_alike(
@@ -364,22 +348,18 @@ def _packed(model: RigidBeam, column: Column) -> PackedBeam:
     from .state import PackedBeam
 
     seen = model.idealised(column)
-    passes = model._passes(seen)
-    shear = np.array([joint.shear_stiffness for joint in seen.joints]) * seen.joint_areas
     return PackedBeam(
-        seen=seen,
-        matrices=BeamMatrices(seen),
-        joints=passes.joints,
-        bed=passes.bed,
-        alpha=passes.alpha,
-        opening=passes.opening,
-        shear=shear,
-        passes=passes,
+        column=seen,
+        joints=model.joints(seen),
+        bed=model.bed(seen),
+        alpha=model.critical_angles(seen),
+        opening=model.opening_rotations(seen),
+        geometric=model.second_order == "geometric",
+        relative=model.rotation == "relative",
+        sliding=model.sliding,
+        shear=np.array([joint.shear_stiffness for joint in seen.joints]) * seen.joint_areas,
         longest_step=model.longest_step(seen),
         fixed_step=model.time_step,
-        geometric=passes.geometric,
-        relative=passes.relative,
-        sliding=passes.sliding,
         stiffness_damping=model.stiffness_damping,
         initial_rotation=model.initial_rotation,
     )

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...column import Column
 from ...kernels.rigid_beam import moment_law
 from ...motion import Motion
 from ...outcome import Outcome, classify
@@ -16,7 +15,6 @@ from ...response.collapse import OVERTURNED, in_plane
 from ..shared import ledger
 from ..shared.ground import ground_histories
 from ..shared.lanes import MOST_SAMPLES
-from .equations import BeamMatrices
 from .verdict import Passes
 
 #: Why a column that falls by itself has no verdict: the motion has no part in it.
@@ -24,43 +22,24 @@ TOO_SOFT = "the joints are too soft to hold the column upright under its own wei
 
 
 @dataclass(frozen=True, eq=False)
-class PackedBeam:
-    """Everything about a column that the rigid beam needs, computed once.
+class PackedBeam(Passes):
+    """A column as the lanes need it, computed once: the ways over its joints, and how it is stepped.
 
     Parameters
     ----------
-    seen : Column
-        As the model sees it.
-    matrices : BeamMatrices
-    joints : array, shape (5, n)
-    bed : tuple of float, True or None
-        The joints' law, see ``kernels/rigid_beam/moment_law.py``.
-    alpha, opening : array, shape (n,)
-        Critical angles of the law, rotations at which the joints open [rad].
     shear : array, shape (n,)
         k_s A [N/m].
-    passes : Passes
     longest_step, fixed_step : float, float or None
         Time step where the motion allows it, and the one asked for instead [s].
-    geometric, relative, sliding : bool
-        Gravity stands in the equations of motion; the law is in relative rotations; joints slip.
     stiffness_damping, initial_rotation : float
         [s], [rad]
+
+    Others as for :class:`Passes`.
     """
 
-    seen: Column
-    matrices: BeamMatrices
-    joints: np.ndarray
-    bed: tuple[float, ...] | bool | None
-    alpha: np.ndarray
-    opening: np.ndarray
     shear: np.ndarray
-    passes: Passes
     longest_step: float
     fixed_step: float | None
-    geometric: bool
-    relative: bool
-    sliding: bool
     stiffness_damping: float
     initial_rotation: float
 
@@ -71,7 +50,7 @@ class PackedBeam:
     @property
     def ultimate(self) -> np.ndarray:
         """M_u of each joint [N m], shape (n,)."""
-        return self.seen.joint_weights * 0.5 * self.seen.joint_widths
+        return self.column.joint_weights * 0.5 * self.column.joint_widths
 
     def joint_rotations(self, theta: np.ndarray) -> np.ndarray:
         """φ_i = θ_i − θ_{i−1} along the last axis."""
@@ -85,7 +64,7 @@ class PackedBeam:
         theta, omega, slip, slip_rate, plastic : array, shape (n,)
             Rotations towards +x, their velocities, slips, their velocities and plastic parts.
         """
-        weight = self.seen.gravity * self.matrices.load
+        weight = self.column.gravity * self.matrices.load
         if self.sliding:
             q = np.concatenate((omega, slip_rate))
             kinetic = 0.5 * q @ self.matrices.sliding_mass @ q
@@ -94,7 +73,7 @@ class PackedBeam:
         gravitational = 0.0
         if self.geometric:
             below = np.concatenate(([0.0], theta[:-1]))
-            gravitational = -0.5 * weight @ theta**2 - self.seen.joint_weights @ (slip * below)
+            gravitational = -0.5 * weight @ theta**2 - self.column.joint_weights @ (slip * below)
         elastic = moment_law.stored(self.joint_rotations(theta), self.joints, self.bed).sum()
         elastic += 0.5 * self.shear @ (slip - plastic) ** 2
         return np.array([kinetic, gravitational, elastic])
@@ -102,7 +81,7 @@ class PackedBeam:
     def lift(self, phi: np.ndarray) -> np.ndarray:
         """Gap of each joint at the edge that opens [m]."""
         size = np.abs(phi)
-        return np.where(size > self.opening, self.seen.joint_widths * (size - np.sqrt(size * self.opening)), 0.0)
+        return np.where(size > self.opening, self.column.joint_widths * (size - np.sqrt(size * self.opening)), 0.0)
 
 
 def measures_of(beam: PackedBeam, found: dict) -> Measures:
@@ -112,10 +91,10 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
     start), work (largest of the input), given (see :func:`given`), unaccounted and released (by the ledger) [J]; lost
     (joint from 1, 0: none), side, time of collapse, end, failure, top, residual, turn, opening, step, steps.
     """
-    column, passes = beam.seen, beam.passes
-    failure = found["failure"] or ("" if passes.stands else TOO_SOFT)
+    column = beam.column
+    failure = found["failure"] or ("" if beam.stands else TOO_SOFT)
     imbalance = ledger.imbalance(
-        found["unaccounted"], work=found["work"], start=found["start"], barrier=passes.lowest_rigid,
+        found["unaccounted"], work=found["work"], start=found["start"], barrier=beam.lowest_rigid,
         released=found["released"],
     )  # fmt: skip
     state = (*found["theta"], *found["slip"], found["energy"], imbalance)
@@ -126,10 +105,10 @@ def measures_of(beam: PackedBeam, found: dict) -> Measures:
     if not failure and found["lost"]:
         collapsed, decided = True, True
         side = "right" if found["side"] > 0 else "left"
-        reason = f"{passes.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
+        reason = f"{beam.part(found['lost'])} overturns to the {side} over joint {found['lost']}"
     elif not failure:
-        collapsed, decided, reason, joint = passes.verdict(found)
-    if collapsed and not passes.reached(found["start"] + found["given"], beam.initial_rotation):
+        collapsed, decided, reason, joint = beam.verdict(found)
+    if collapsed and not beam.reached(found["start"] + found["given"], beam.initial_rotation):
         failure = reason = ledger.MADE_ENERGY
         collapsed, decided = False, False
     widths = column.joint_widths
@@ -175,7 +154,7 @@ def histories_of(beam: PackedBeam, motion: Motion, time, theta, slip, energy) ->
     energy : array, shape (T, 6)
         Input, kinetic, gravitational, elastic, friction, viscous [J].
     """
-    column = beam.seen
+    column = beam.column
     phi = beam.joint_rotations(theta)
     lever = beam.matrices.lever
     base = np.cumsum(slip, axis=1)

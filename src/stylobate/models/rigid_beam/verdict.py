@@ -79,9 +79,13 @@ class Passes:
     @cached_property
     def gravity(self) -> tuple[np.ndarray, np.ndarray]:
         """g S_i and g Σ_j≥i m_j (z_j − z_i) [N m], shape (n,); zero where the law holds the second-order effect."""
-        matrices = BeamMatrices(self.column)
         weight = self.column.gravity if self.geometric else 0.0
-        return weight * matrices.load, weight * matrices.overturning
+        return weight * self.matrices.load, weight * self.matrices.overturning
+
+    @cached_property
+    def matrices(self) -> BeamMatrices:
+        """Of the equations of motion."""
+        return BeamMatrices(self.column)
 
     @cached_property
     def angles(self) -> np.ndarray:
@@ -206,7 +210,7 @@ class Passes:
         difference = np.eye(n) - np.eye(n, k=-1)
         law = difference if self.relative else np.eye(n)
         stiffness = difference.T @ (self.joints[0][:, None] * law) - np.diag(self.gravity[0])
-        squares, shapes = np.linalg.eig(np.linalg.solve(BeamMatrices(self.column).mass, stiffness))
+        squares, shapes = np.linalg.eig(np.linalg.solve(self.matrices.mass, stiffness))
         return squares, shapes
 
     @cached_property

@@ -133,7 +133,7 @@ class BlockStack:
         if not column.as_found.in_plane:
             raise InputError(
                 f"{column.name!r} is found out of the plane of x and z, and the statics of blocks are plane; "
-                "'limit' goes round it in space; project it onto a plane (--project AZIMUTH), or leave azimuths "
+                "'limit' goes round it in space; project it onto a plane (`project=AZIMUTH`), or leave azimuths "
                 "and turns out."
             )
         at, n = geometry(column), column.n

@@ -18,12 +18,11 @@ from ..drums.joints import damping_rows
 from ..drums.links import link_stiffness, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
-from ..plane.block import Law
 from ..plane.columns import ColumnLanes
-from ..plane.laws import interface_law
+from ..plane.laws import Types, interface_law
 from ..plane.packing import face_fields, lane_fields, pack_column
 from ..shared import stable_step as shared
-from ..shared.toes import centroids_above, point_toes
+from ..shared.toes import point_toes
 from .block_stack import BlockStack
 
 
@@ -76,7 +75,6 @@ class RigidBlock(SteppedDrums):
         "A drum touches its neighbours only; what comes down is not followed.",
         "Columns that are not as built are refused, and links with pretension.",
     )
-    takes_links: ClassVar[frozenset[str]] = frozenset({"dowel", "tie", "pad"})
 
     compressive_strength: float | None = None
     step_factor: float = 0.2
@@ -108,13 +106,13 @@ class RigidBlock(SteppedDrums):
 
     # -- what a block of lanes needs -----------------------------------------------------------------------------
 
-    def law(self, linked: bool) -> Law:
-        """The law of the joints, for columns with links or without."""
+    def record_types(self, linked: bool) -> Types:
+        """Types of the records by the law of the joints, for columns with links or without."""
         return interface_law(self.compressive_strength is not None, self.damped, LANES, linked)
 
     def block_for(self, kind: Topology, options: RunOptions) -> ColumnLanes:
         """A block of lanes for columns of a kind."""
-        return ColumnLanes(self.law(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
+        return ColumnLanes(self.record_types(bool(kind.links)), self.pack, kind, options, self.cost(kind.stack))
 
     def pack(self, column: Column) -> Packed:
         """A column as the engine wants it."""
@@ -139,7 +137,7 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
         "crush": np.zeros((n, 1)) if strength is None else np.repeat((1.0 / (strength * area))[:, None], 2, 1),
         "chi": np.ones(n),
     }
-    types = interface_law(strength is not None, model.damped, 1, bool(column.links)).types
+    types = interface_law(strength is not None, model.damped, 1, bool(column.links))
     damp = damping_rows(model.damped, model.stiffness_damping, model.mass_damping)
     fields = body_fields(column, column.joint_weights / kn), joint, lane_fields(column, damp)
     return pack_column(column, types, fields, model.step_for(column), _toes(column, strength))
@@ -153,7 +151,7 @@ def _toes(column: Column, strength: float | None) -> np.ndarray:
     if strength is None:
         return toes
     inset = half * column.joint_weights / (strength * column.joint_areas)
-    return toes + column.joint_weights * inset * half / np.hypot(half, centroids_above(column))
+    return toes + column.joint_weights * inset * half / np.hypot(half, column.parts_above[1])
 
 
 def joint_stiffness(column: Column) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

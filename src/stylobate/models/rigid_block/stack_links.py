@@ -10,8 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...column import Column
-from ...column.found_geometry import geometry
-from ...column.links.placed import PlacedLink, Point
+from ...column.links.placed import PlacedLink, stands_at
 from ...errors import InputError
 
 #: What a link does: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
@@ -115,20 +114,11 @@ def stack_links(column: Column) -> tuple[Hold, ...]:
     """What the links of a column do in the plane of x and z, where its drums are found."""
     if not column.links:
         return ()
-    at = geometry(column)
-
-    def place(body: int, point: Point) -> Point:
-        """A point of a body in the column as built, as the column is found; body 0 is the base."""
-        if body == 0:
-            return point
-        i = body - 1
-        angle = at.lean[i] + at.tilt[i]
-        x, z = point[0], point[2] - column.centroid_heights[i]
-        c, s = math.cos(angle), math.sin(angle)
-        return float(at.centroid[i, 0] + c * x - s * z), point[1], float(at.centroid[i, 1] + s * x + c * z)
 
     def found(link: PlacedLink) -> PlacedLink:
-        return replace(link, low=place(link.lower, link.low), high=place(link.upper, link.high))
+        stand = (column.bodies[link.lower], column.bodies[link.upper])
+        low, high = (stands_at(body.place, body.angle, arm) for body, arm in zip(stand, link.arms, strict=True))
+        return replace(link, low=low, high=high)
 
     return tuple(holds([found(link) for link in column.placed_links]))
 

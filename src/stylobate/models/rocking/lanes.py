@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Iterator, Sequence
+from typing import Protocol
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ...kernels.rocking import step as kernel
 from ...motion import Motion
 from ...response import Measures
 from ..base import Case, RunOptions
-from ..shared.lanes import MOST_SAMPLES
+from ..shared.lanes import MOST_SAMPLES, run_alike
 from .block import REST, RockingBlock, half_steps, lightest_weight, off_the_ground, remaining_peak
 
 #: Chunks of steps between two looks of the interpreter: some milliseconds.
@@ -40,21 +41,36 @@ def steps_of(motion: Motion, wanted: float) -> tuple[int, float]:
     return steps, motion.duration / steps
 
 
+class Rocking(Protocol):
+    """A model that sees one block in a column, or takes its one drum for a block."""
+
+    @property
+    def initial_rotation(self) -> float: ...
+    @property
+    def time_step(self) -> float | None: ...
+    def block(self, column: Column) -> RockingBlock: ...
+
+
+def run_blocks(
+    model: Rocking, cases: Sequence[Case], options: RunOptions, threads: int
+) -> Iterator[tuple[int, Measures]]:
+    """Many runs by the lane kernel, impacts located; those with a vertical component apart."""
+    return run_alike(
+        lambda case: case.motion.z_samples is not None,
+        lambda vertical: RockingLanes(model, options, vertical),
+        cases,
+        threads,
+    )
+
+
 class RockingLanes:
-    """A block of lanes of rocking blocks; see :class:`stylobate.models.lanes.LaneBlock`."""
+    """A block of lanes of rocking blocks; see :class:`stylobate.models.shared.lanes.LaneBlock`."""
 
     lanes = kernel.LANES
 
-    def __init__(
-        self,
-        rocking: Callable[[Column], RockingBlock],
-        options: RunOptions,
-        initial_rotation: float,
-        time_step: float | None,
-        vertical: bool,
-    ) -> None:
-        self.rocking, self.options = rocking, options
-        self.initial_rotation, self.time_step, self.vertical = initial_rotation, time_step, vertical
+    def __init__(self, model: Rocking, options: RunOptions, vertical: bool) -> None:
+        self.rocking, self.options, self.vertical = model.block, options, vertical
+        self.initial_rotation, self.time_step = model.initial_rotation, model.time_step
         n = self.lanes
         self.state = np.zeros(kernel.ROWS * n)
         self.rows = self.state.reshape(kernel.ROWS, n)

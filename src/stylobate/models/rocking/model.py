@@ -12,7 +12,6 @@ from ...errors import InputError, check_range
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
-from ..shared.lanes import run_alike
 from ..shared.rocking_limits import warn, warn_of_free_flight, warn_sliding
 from .block import RockingBlock
 
@@ -155,9 +154,6 @@ class HousnerBlock(Model):
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs by the lane kernel, impacts located."""
-        from .lanes import RockingLanes
+        from .lanes import run_blocks
 
-        def make_block(vertical: bool) -> RockingLanes:
-            return RockingLanes(self.block, options, self.initial_rotation, self.time_step, vertical)
-
-        return run_alike(lambda case: case.motion.z_samples is not None, make_block, cases, threads)
+        return run_blocks(self, cases, options, threads)

@@ -7,6 +7,9 @@ import math
 import numpy as np
 
 from ...errors import InputError
+from ...kernels.run_codes import CHUNK
+from ...motion import Motion
+from .soft_joints import resolving
 
 
 def highest_frequency(stiffness: np.ndarray, inverse_masses: np.ndarray) -> float:
@@ -64,3 +67,14 @@ def chosen_step(stable: float, step_factor: float, time_step: float | None, what
             f"give at most {0.9 * stable:.3g} s, or leave it out."
         )
     return time_step
+
+
+def whole_steps(motion: Motion, tail: float, step: float) -> tuple[float, int]:
+    """Largest step up to ``step`` that resolves the motion and of which whole chunks fill it [s], and how many chunks
+    there are with the tail.
+
+    The tail has no say in the step: what happens before it does not depend on it.
+    """
+    step = resolving(step, motion)
+    dt = motion.duration / (CHUNK * max(1, math.ceil(motion.duration / (CHUNK * step))))
+    return dt, math.ceil((motion.duration + tail) / (CHUNK * dt) * (1.0 - 1e-12))

@@ -28,7 +28,7 @@ def rim_toes(column: Column, kn: np.ndarray) -> np.ndarray:
         Normal stiffness per area [N/m³], shape (n,).
     """
     weight, radius = column.joint_weights, 0.5 * column.joint_widths
-    height = centroids_above(column)
+    height = column.parts_above[1]
     # N = 4/3 k_n (R/2) R √2 e^1.5 / √(R sin α)
     stiffness = (2.0 * np.sqrt(2.0) / 3.0) * kn * radius**2 / np.sqrt(radius * radius / np.hypot(radius, height))
     return _chipped(column, SHORT_ARC * 0.6 * weight * (weight / stiffness) ** (2.0 / 3.0) - _closed(column, kn))
@@ -41,7 +41,7 @@ def bed_toes(column: Column, kn: np.ndarray) -> np.ndarray:
         return _chipped(column, rings - _closed(column, kn))
     weight, radius = column.joint_weights, 0.5 * column.joint_widths
     # N = 8 √2/15 k_n √R e^2.5 / (tan α)^1.5
-    steepness = (centroids_above(column) / radius) ** 1.5
+    steepness = (column.parts_above[1] / radius) ** 1.5
     stiffness = (8.0 * np.sqrt(2.0) / 15.0) * kn * np.sqrt(radius) * steepness
     return _chipped(column, SHORT_ARC * 5.0 / 7.0 * weight * (weight / stiffness) ** 0.4 - _closed(column, kn))
 
@@ -49,7 +49,7 @@ def bed_toes(column: Column, kn: np.ndarray) -> np.ndarray:
 def _ring_toe(column: Column, kn: float, j: int) -> float:
     """By how much the toe of a ring under the weight above lowers the energy [J]: its depth is found by bisection."""
     weight, outer = float(column.joint_weights[j]), 0.5 * float(column.joint_widths[j])
-    inner, slope = 0.5 * max(column.sunken_widths(j)), outer / float(centroids_above(column)[j])
+    inner, slope = 0.5 * max(column.sunken_widths(j)), outer / float(column.parts_above[1][j])
 
     def carried(toe: float) -> tuple[float, float]:
         force, stored = disc_on_bed(kn, outer, toe - slope * outer, slope)
@@ -92,13 +92,6 @@ def point_toes(column: Column, kn: np.ndarray, share: float | np.ndarray) -> np.
     """As :func:`rim_toes`, of joints whose edge has a share of the joint's stiffness: a corner, the last of some points."""
     closed = _closed(column, kn)
     return _chipped(column, SHORT_ARC * closed / share - closed)
-
-
-def centroids_above(column: Column) -> np.ndarray:
-    """Height of the centroid of the part above each joint over that joint [m], shape (n,)."""
-    mass = np.cumsum(column.masses[::-1])[::-1]
-    arms = np.cumsum((column.masses * column.centroid_heights)[::-1])[::-1]
-    return arms / mass - column.joint_heights
 
 
 def _chipped(column: Column, toes: np.ndarray) -> np.ndarray:

@@ -46,7 +46,7 @@ def check_sampling(dt: float, what: str) -> float:
     if not SHORTEST_STEP <= dt <= LONGEST_STEP:
         thousandth = dt > LONGEST_STEP and 1e-3 * dt >= SHORTEST_STEP
         remedy = (
-            f"if it counts milliseconds, name the column time_ms (without times: --dt {dt:g}ms)"
+            f"if it counts milliseconds, name the column time_ms (without times: `dt={1e-3 * dt:g}`)"
             if thousandth
             else "mend it"
         )

@@ -76,7 +76,7 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
         for one in components:
             one.dt = said.step
     elif dt is None:
-        raise UnstatedError(f"{source.name} has no time column; state the step: dt=0.01 (--dt 0.01s).")
+        raise UnstatedError(f"{source.name} has no time column; state the step: `dt=0.01`.", field="dt")
     _check(components, said, source.name, first)
     if "sha256" in comments:
         _check_digest(components, comments["sha256"], source.name)
@@ -199,11 +199,15 @@ def _components(
         label = name.direction or "X"
         stated = name.unit or said.unit
         if stated is None and unit is None:
-            raise UnstatedError(_no_unit(file if len(order) == 1 else f"{file}: column {i + 1} ({label})"))
+            raise UnstatedError(
+                _no_unit(file if len(order) == 1 else f"{file}: column {i + 1} ({label})"), field="unit"
+            )
         shown, size = acceleration_unit(stated or unit or "")
         if stated and unit and acceleration_unit(unit)[1] != size:
             where = f"the line {said.unit_line!r}" if name.unit is None and said.unit_line else "the header"
-            raise InputError(f"{file}: {where} says {stated}, but unit is given as {unit!r}; leave the unit out.")
+            raise InputError(
+                f"{file}: {where} says {stated}, but unit is given as {unit!r}; leave the unit out.", "unit"
+            )
         units.append(shown)
         one = Component(_scaled(table[:, i], size * name.sign), np.nan, label.lower() if ranks else label)
         if name.sign < 0.0:
@@ -228,7 +232,8 @@ def _set_step(
         bad = first_bad_step(time)
         raise InputError(
             f"{file}, line {first + bad + 1}: the time goes from {time[bad - 1]:g} s to {time[bad]:g} s, unlike the "
-            "other steps; mend it, or state a step to resample to: dt=0.01 (--dt 0.01s)."
+            "other steps; mend it, or state a step to resample to: `dt=0.01`.",
+            "dt",
         )
     if step is None and (np.diff(time) <= 0.0).any():
         bad = int(np.flatnonzero(np.diff(time) <= 0.0)[0]) + 1
@@ -243,4 +248,4 @@ def _set_step(
 
 
 def _no_unit(what: str) -> str:
-    return f"{what} states no unit; state it: unit='g' (--unit g), or 'm/s2', 'gal', 'mm/s2'."
+    return f"{what} states no unit; state it: `unit='g'`, or m/s2, gal, mm/s2."

@@ -165,7 +165,7 @@ class Header:
         if self.unknown is not None:
             raise InputError(
                 f"{shown} holds {self.unknown!r}, which is neither the name of a column nor a unit that is known here (of "
-                f"acceleration, allowed is {', '.join(ACCELERATION_UNITS)}); {EXAMPLE}, or take the line out."
+                f"acceleration, allowed are {', '.join(ACCELERATION_UNITS)}); {EXAMPLE}, or take the line out."
             )
         columns, doubts = len(grows), []
         fitting: dict[tuple[Name, ...], None] = {}

@@ -117,14 +117,14 @@ def assemble(
     if not horizontal:
         raise InputError(
             f"{name} holds only the vertical component {vertical[0].label!r}, and a motion needs a horizontal one; "
-            "give the horizontal files with it, or choose it as the horizontal input with component='1' "
-            "(--component 1)."
+            "give the horizontal files with it, or choose it as the horizontal input with `component='1'`.",
+            "component",
         )
     if len(horizontal) > 2 or len(vertical) > 1:
         raise InputError(
             f"{name} holds {len(components)} components ({', '.join(one.label or '?' for one in components)}), more "
-            "than one place's two horizontal ones and the vertical; choose one by its number with component='1' "
-            "(--component 1)."
+            "than one place's two horizontal ones and the vertical; choose one by its number with `component='1'`.",
+            "component",
         )
     used = horizontal + vertical
     processing: list[str] = []
@@ -187,7 +187,9 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
         f"{i} ({one.label or 'no label'}{', axis ' + by_axis[id(one)] if id(one) in by_axis else ''})"
         for i, one in enumerate(components, 1)
     )
-    raise InputError(f"{name} has no component {wanted!r}; it holds {labels}: give a number, a label or an axis.")
+    raise InputError(
+        f"{name} has no component {wanted!r}; it holds {labels}: give a number, a label or an axis.", "component"
+    )
 
 
 def _doubt(text: str) -> None:
@@ -210,7 +212,7 @@ def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None
         fastest = float(np.abs(integrate(array, step)).max())
         if fastest > LARGEST_VELOCITY and peaks[axis] <= LARGEST_PEAK:
             cure = cure_of(array, step, LARGEST_VELOCITY)
-            drift = "" if cure is None else f", or take off the drift of the baseline (--condition {cure})"
+            drift = "" if cure is None else f", or take off the drift of the baseline (`condition={cure!r}`)"
             _doubt(
                 f"{name}: component {axis} reaches a velocity of {fastest:.3g} m/s, more than was ever recorded; check the "
                 f"unit and the step{drift}."
@@ -224,8 +226,7 @@ def _warn_of_offset(values: dict[str, np.ndarray], name: str) -> None:
         if peak > 0.0 and abs(mean) > OFFSET_SHARE * peak:
             _doubt(
                 f"{name}: the mean of component {axis} is {mean / g:.3g} g, {percent(abs(mean) / peak)} of its peak, as "
-                "when an instrument's offset was left in; take it off with stylobate.motion.demean (--condition "
-                "demean) unless it is meant."
+                "when an instrument's offset was left in; take it off (`condition='demean'`) unless it is meant."
             )
 
 

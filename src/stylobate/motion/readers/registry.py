@@ -164,7 +164,7 @@ def _read_file(
     if matches:
         if unit is not None:
             raise InputError(
-                f"{source.name} is of format {matches[0].name}, which states its unit; leave the unit out."
+                f"{source.name} is of format {matches[0].name}, which states its unit; leave the unit out.", "unit"
             )
         components, metadata = matches[0].read(source)
         if not components:
@@ -175,7 +175,7 @@ def _read_file(
     if columns.recognises(source):
         known = source.sample.unit if source.sample is not None else None
         if known is not None and unit is not None:
-            raise InputError(f"the sample {source.name} is in {known}, as is known; leave the unit out.")
+            raise InputError(f"the sample {source.name} is in {known}, as is known; leave the unit out.", "unit")
         return columns.read(source, unit or known, dt)
     if source.name.lower().endswith(".toml"):
         raise InputError(f"{source.name} is a TOML file, as of a column or a study, and no record; give a record.")

@@ -77,7 +77,8 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
         if dt is None and count > 100 * len(time) + 1000:
             raise InputError(
                 f"{name}: the steps of the times range from {steps.min():.4g} to {steps.max():.4g} s, which is a "
-                "gap, not film; mend the times, or state a step to resample to: dt=0.01 (--dt 0.01s)."
+                "gap, not film; mend the times, or state a step to resample to: `dt=0.01`.",
+                "dt",
             )
         grid = time[0] + step * np.arange(count)
         found = np.interp(grid, time, values)
@@ -86,7 +87,7 @@ def resampled(time: np.ndarray, values: np.ndarray, dt: float | None, name: str)
         ) / peak
 
     if dt is not None:
-        step = check_sampling(dt, "dt (--dt)")
+        step = check_sampling(dt, "`dt`")
         new, departure = at(step)
     else:
         step = decimal_of(time, median)
@@ -129,8 +130,8 @@ def same_step(components: list[Component], name: str, dt: float | None, processi
     steps = [one.dt for one in components]
     if any(math.isnan(step) for step in steps):
         if dt is None:
-            raise InputError(f"{name} has no time column and states no step; state it: dt=0.01 (--dt 0.01s).")
-        return check_sampling(dt, f"the step of {name}, dt (--dt),")
+            raise InputError(f"{name} has no time column and states no step; state it: `dt=0.01`.", "dt")
+        return check_sampling(dt, f"the step of {name}, `dt`,")
     if max(steps) - min(steps) > 1e-6 * max(steps):
         shown = ", ".join(f"{step:g} s" for step in steps)
         raise InputError(f"components of {name} have different steps ({shown}); resample them to one step before use.")

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from ...errors import InputError
+from ...errors import InputError, within
 from ..specs import acceleration_unit
 from .checks import CUT, check_ended, check_peak, check_peak_time, printed
 from .numbers import NUMBER, read_numbers
@@ -76,10 +76,8 @@ def unit(text: Sequence[str], otherwise: str, file: str, first: int) -> tuple[st
     for number, line in enumerate(text, first + 1):
         if found := _UNIT.search(line):
             stated = (found["unit"] or found["only"]).rstrip(".")
-            try:
+            with within(f"{file}, line {number}"):
                 return acceleration_unit(stated)
-            except InputError as error:
-                raise InputError(f"{file}, line {number}: {error}") from None
     return acceleration_unit(otherwise)
 
 

@@ -2,32 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-import typer
+from functools import partial
 
 from stylobate.cli import options as o
 
 
 def bench(
-    full: Annotated[bool, typer.Option("--full", help="Also time the domains of 768 cells, and Dask workers.")] = False,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    full: bool = o.option(None, "Also time the domains of 768 cells, and Dask workers.", False),
+    *,
+    execution: o.Plain,
 ) -> None:
     """Speed on this machine, beside the same step in native code."""
     from stylobate.cli import console
 
     from ..speed.benchmark import bench as measure
 
-    with console.folder(out, "bench.json") as folder:
-        found = measure(
-            o.the_threads(threads), full=full, say=lambda text: None if as_json else print(text, flush=True)
-        )
-        files = [] if folder is None else [console.write_json(folder / "bench.json", found)]
-    if as_json:
-        console.emit(found | {"files": [str(file) for file in files]})
-    else:
+    with execution.files("bench", "bench.json") as files:
+        told = (lambda _: None) if execution.as_json else partial(print, flush=True)
+        found = measure(execution.count, full=full, say=told)
+        if files.wanted:
+            files.json(found, "bench.json")
+    if not execution.emits(found | {"files": files.names}):
         console.say("Speed of the distinct elements.", {key: _text(value) for key, value in found.items()}, files)
 
 

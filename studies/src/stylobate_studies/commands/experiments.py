@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from stylobate.cli import options as o
 from stylobate.errors import InputError
@@ -31,27 +29,12 @@ WRITES = (
 
 
 def experiments(
-    folder: Annotated[
-        Path, typer.Argument(metavar="DIR", help="Folder that holds granite and cube, or one of the two.")
-    ],
-    realisations: Annotated[
-        str,
-        typer.Option(
-            "--realisations", metavar="N", help="Of what is uncertain about the boulders: a probability each."
-        ),
-    ] = "0",
-    calibration: Annotated[
-        str,
-        typer.Option(
-            "--calibration", metavar="on|off", help="Also choose friction and restitution on a part, test on another."
-        ),
-    ] = "on",
-    films: Annotated[
-        bool, typer.Option("--films", help="Films (GIF) of the ten worst tests beside their strips.")
-    ] = False,
-    threads: o.Threads = None,
-    out: o.Out = None,
-    as_json: o.Json = False,
+    folder: Path = o.argument("DIR", "Folder that holds granite and cube, or one of the two."),
+    realisations: str = o.option("N", "Of what is uncertain about the boulders: a probability each.", "0"),
+    calibration: str = o.option("on|off", "Also choose friction and restitution on a part, test on another.", "on"),
+    films: bool = o.option(None, "Films (GIF) of the ten worst tests beside their strips.", False),
+    *,
+    execution: o.Plain,
 ) -> None:
     """Compute shaking-table tests of boulders and tosses of a cube, and score the results against what was measured.
 
@@ -65,19 +48,18 @@ def experiments(
         raise InputError(f"--realisations is {realisations!r}; allowed is a whole number from 0 to {MOST}.")
     if calibration not in ("on", "off"):
         raise InputError(f"--calibration is {calibration!r}; allowed are on, off.")
-    workers, found = o.the_threads(threads), study.read(folder)
-    with console.folder(out, *WRITES) as place:
+    found = study.read(folder)
+    with console.folder(execution.out, *WRITES) as place:
         results = study.compute(
             found,
             realisations=int(realisations),
             calibrate=calibration == "on",
-            threads=workers,
+            threads=execution.count,
             bars=console.progress,
             ledger=console.ledger(place),
         )
         files = [] if place is None else _write(results, found, place, films)
-    if as_json:
-        console.emit(results.summary | {"files": [str(file) for file in files]})
+    if execution.emits(results.summary | {"files": [str(file) for file in files]}):
         return
     _say(results)
     for why in found.refused:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import dataclasses
 import time
+from contextlib import nullcontext
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from stylobate.cli import options as o
 from stylobate.percent import percent
@@ -18,32 +18,30 @@ if TYPE_CHECKING:
 FOLDER = Path("reproduction")
 
 
+@dataclass(frozen=True)
+class Folder(o.Execution):
+    """Where it is computed, and the folder that it needs."""
+
+    out: Path | None = o.option("DIR", "Folder for everything; reproduction, by default reproduction.")
+
+
 def reproduce(
-    context: typer.Context,
-    quick: Annotated[
-        bool, typer.Option("--quick", help="Coarser grids: one to two minutes on two cores, instead of five to ten.")
-    ] = False,
-    threads: o.Threads = None,
-    dask: o.Dask = None,
-    out: Annotated[
-        Path | None,
-        typer.Option("--out", metavar="DIR", help="Folder for everything; reproduction, by default reproduction."),
-    ] = None,
-    as_json: o.Json = False,
+    quick: bool = o.option(None, "Coarser grids: one to two minutes on two cores, instead of five to ten.", False),
+    *,
+    execution: Folder,
 ) -> None:
     """The paper in one command: both columns, all models, every figure, and what holds.
 
     What was interrupted goes on where it was.
     """
+    from stylobate.campaign.cluster import on_cluster
     from stylobate.cli import console
 
-    count = o.the_threads(threads)
-    folder = out or (FOLDER.with_name("reproduction-quick") if quick else FOLDER)
-    o.the_engine(context, dask, count)
-    summary = build(folder, quick, count)
-    if as_json:
-        console.emit(summary)
-    else:
+    count, dask = execution.count, execution.dask
+    folder = execution.out or (FOLDER.with_name("reproduction-quick") if quick else FOLDER)
+    with nullcontext() if dask is None else on_cluster(dask, count, console.note):
+        summary = build(folder, quick, count)
+    if not execution.emits(summary):
         describe(summary)
 
 

@@ -12,8 +12,9 @@ from typing import Any
 
 import numpy as np
 
+from stylobate.campaign.campaign import Campaign, Progress
 from stylobate.campaign.digests import Digests, Hasher
-from stylobate.campaign.runs import Progress, Request, Runs, Stopped
+from stylobate.campaign.runs import Request, Runs, Stopped
 from stylobate.constants import g
 from stylobate.models.base import Case
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -151,7 +152,7 @@ def run(
     request = Request(cases, Digests.of(each), [(np.arange(len(todo)), MODEL, run_options(LONGER))])
     count = thread_count(threads)
     try:
-        with closing(Runs(ledger)) as runs, closing(runs.products(request, make, count)) as finished:
+        with closing(Runs(Campaign(ledger=ledger))) as runs, closing(runs.products(request, make, count)) as finished:
             for number, row in finished:
                 rows[number] = row
                 if progress:

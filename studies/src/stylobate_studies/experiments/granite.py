@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from stylobate.campaign.campaign import Campaign, Progress
 from stylobate.campaign.digests import Hasher
-from stylobate.campaign.runs import Progress, Request, run_all
+from stylobate.campaign.runs import Request, run_all
 from stylobate.column.specimen import Specimen
 from stylobate.constants import g
 from stylobate.models.base import Case
@@ -106,7 +107,9 @@ def run(
         if key not in motions:
             motions[key] = motion_of(test, found[v].azimuth)
     cases = [Case(found[v].body, motions[test.number, found[v].azimuth]) for v, test in pairs]
-    made = run_all(Request.of(cases, Hasher(DistinctElement3D())), threads=threads, progress=progress, ledger=ledger)
+    made = run_all(
+        Request.of(cases, Hasher(DistinctElement3D())), Campaign(threads=threads, progress=progress, ledger=ledger)
+    )
     rows = []
     for (v, test), row in zip(pairs, made):
         assert row is not None

@@ -9,7 +9,7 @@ from datetime import date
 from pathlib import Path
 from typing import Any
 
-from stylobate.campaign.runs import Progress
+from stylobate.campaign.campaign import Progress
 from stylobate.errors import InputError
 from stylobate.version import __version__
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from stylobate.atomic import replacing
+from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import Hasher
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.campaign.runs import Request, run_all
@@ -57,7 +58,7 @@ def _population(name: str, law: str, across: float, ledger: Path) -> dict[str, l
     beside = (frequency, across * amplitude, 0.5 * np.pi) if across else None
     motion = harmonic(frequency, amplitude, duration, across=beside)
     cases = [Case(column, motion) for column in columns]
-    rows = run_all(Request.of(cases, Hasher(DistinctElement3D(law=law), tail)), ledger=ledger)
+    rows = run_all(Request.of(cases, Hasher(DistinctElement3D(law=law), tail)), Campaign(ledger=ledger))
     asked = {
         "collapsed": "collapsed",
         "peak": "peak_top_displacement_m",

@@ -21,9 +21,10 @@ from stylobate.analysis.domain import Domain, collapse_domain, grid_coordinates
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.analysis.replicates import collapse_probability
 from stylobate.atomic import replacing
+from stylobate.campaign.campaign import Campaign, Progress
 from stylobate.campaign.digests import Digests, Hasher
 from stylobate.campaign.ledger import RUNS_FILE
-from stylobate.campaign.runs import Progress, Request, Runs
+from stylobate.campaign.runs import Request, Runs
 from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.models.base import Case, Model
@@ -120,7 +121,10 @@ def histories_piece(
     hasher, cases = Hasher(model, tail), [Case(column, motion) for motion in motions]
     each = Digests.of([hasher.of_product([column.digest, motion.digest], __file__) for motion in motions])
     request = Request(cases, each, [(np.arange(len(cases)), model, run_options(tail, 0.02))])
-    with closing(Runs(data / RUNS_FILE)) as runs, closing(runs.products(request, make, threads)) as finished:
+    with (
+        closing(Runs(Campaign(ledger=data / RUNS_FILE))) as runs,
+        closing(runs.products(request, make, threads)) as finished,
+    ):
         for done, (number, row) in enumerate(finished, 1):
             keep(number, row)
             if progress:

@@ -14,7 +14,7 @@ from stylobate.analysis.domain import Domain
 from stylobate.analysis.probability import CollapseProbability
 from stylobate.analysis.pushover import PushoverResult, pushover
 from stylobate.analysis.step_sensitivity import StepComparison, halved_step
-from stylobate.campaign.runs import Progress
+from stylobate.campaign.campaign import Progress
 from stylobate.column import preset
 from stylobate.column.presets import PRESETS
 from stylobate.constants import g

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from stylobate.campaign.cluster import LOCAL, on_cluster
-from stylobate.campaign.executor import compute
+from stylobate.campaign.executor import executor
 from stylobate.column import Column, preset
 from stylobate.constants import g
 from stylobate.errors import StylobateError
@@ -129,7 +129,7 @@ def _on_workers(column: Column, model: SteppedDrums, count: int) -> float | None
     cases = [Case(column, motion) for motion in shaking]
 
     def finish(some: list[Case]) -> None:
-        deque(compute(some, model, run_options(), count), maxlen=0)
+        deque(executor()(some, model, run_options(), count), maxlen=0)
 
     threads, workers = [], []
     for _ in range(2):

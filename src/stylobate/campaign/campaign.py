@@ -1,0 +1,195 @@
+"""How many runs are made, as one value: of which twins, for how long, where they are computed, kept and told of."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from functools import wraps
+from pathlib import Path
+from typing import Any, TypedDict, TypeVar
+
+from ..column.scatter import Scatter
+from ..errors import InputError, as_typed, check_range, check_whole
+from .ledger import RUNS_FILE
+
+#: Largest number of twins.
+MAX_TWINS = 100_000
+
+#: Called with (finished runs, all runs) whenever a run finishes; by a single run with times.
+Progress = Callable[[Any, Any], None]
+
+
+class Computing(TypedDict, total=False):
+    """Fields of a campaign that any runs have, as keywords."""
+
+    tail: float
+    threads: int | None
+    dask: str | None
+    progress: Progress | None
+    ledger: str | Path | None
+
+
+class Fields(Computing, total=False):
+    """All fields of a campaign, as keywords."""
+
+    replicates: int
+    scatter: Scatter | None
+    seed: int
+    whole: bool
+
+
+@dataclass(frozen=True)
+class Campaign:
+    """How runs are made: asked for once, the same for the command line, study files, the page and Python.
+
+    Parameters
+    ----------
+    replicates : int
+        Number of columns like each one, its twins; 0 for none.
+    scatter : Scatter, optional
+        How they differ; by default as columns of their material do.
+    seed : int
+        Of these columns: the same seed gives the same ones.
+    tail : float
+        Time to go on after each motion has ended [s].
+    whole : bool
+        Step all of a record; by default its quiet, below a tenth of what opens a joint, is left out before and between
+        shocks and at the end, where the column lies at rest (``stepped_from_s``, ``stepped_to_s``, ``stepped_s`` say so).
+    threads : int, optional
+        All cores by default.
+    dask : str, optional
+        Scheduler of a Dask cluster that computes instead, such as ``tcp://10.0.0.1:8786``; ``local`` starts workers here.
+    progress : callable, optional
+        Called with (finished, all).
+    ledger : path, optional
+        File that keeps every finished run for good: a call that was stopped goes on from there, another one makes only the
+        runs that are new. It stays for the caller to remove.
+
+    Raises
+    ------
+    InputError
+        A number that is not allowed.
+    """
+
+    replicates: int = 0
+    scatter: Scatter | None = None
+    seed: int = 0
+    tail: float = 0.0
+    whole: bool = False
+    threads: int | None = None
+    dask: str | None = None
+    progress: Progress | None = None
+    ledger: str | Path | None = None
+
+    def __post_init__(self) -> None:
+        check_whole("`replicates`", self.replicates, 0, MAX_TWINS)
+        check_whole("`seed`", self.seed, 0, 2**63 - 1)
+        if not (self.scatter is None or isinstance(self.scatter, Scatter)):
+            raise InputError(
+                f"`scatter` is {as_typed(self.scatter)}; allowed is a Scatter, such as Scatter(friction=0.1).",
+                "scatter",
+            )
+        check_range("`tail`", self.tail, 0.0, 1e4, unit="s")
+        if self.threads is not None:
+            check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
+
+    @property
+    def of_runs(self) -> Campaign:
+        """What it says of the runs themselves."""
+        return replace(self, **dict.fromkeys(COMPUTING))
+
+    @property
+    def of_computing(self) -> Campaign:
+        """Where it says that they are computed and kept, and who is told."""
+        return Campaign(**{name: getattr(self, name) for name in COMPUTING})
+
+    def kept_in(self, folder: str | Path | None) -> Campaign:
+        """The same, with the ledger of a folder unless it has one.
+
+        Raises
+        ------
+        InputError
+            There is no such folder.
+        """
+        made = self if folder is None or self.ledger is not None else replace(self, ledger=Path(folder) / RUNS_FILE)
+        if made.ledger is not None and not Path(made.ledger).parent.is_dir():
+            raise InputError(f"folder {Path(made.ledger).parent} does not exist; create it first.")
+        return made
+
+
+#: Fields that say where runs are computed and kept, and who is told.
+COMPUTING = ("threads", "dask", "progress", "ledger")
+
+#: How runs are made where nothing is asked for.
+USUAL = Campaign()
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+
+def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Callable[[Function], Function]:
+    """For functions of a ``campaign``: its fields are keywords of theirs, with signature, documentation and checks.
+
+    Parameters
+    ----------
+    keywords : type
+        The typed dictionary of the fields, which the function declares for type checkers (``**fields: Unpack[...]``).
+    but : tuple of str
+        Those of them that the function does not take.
+    **usual
+        Fields with another default.
+    """
+    taken = [one for one in fields(Campaign) if one.name in keywords.__annotations__ and one.name not in but]
+    others = [one for one in fields(Campaign) if one not in taken]
+    standard = replace(USUAL, **usual)
+
+    def of(function: Function) -> Function:
+        if isinstance(function, type):
+            function.__init__ = of(function.__init__)  # type: ignore[misc]
+            function.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
+            return function  # type: ignore[return-value]
+        named = function.__qualname__.removesuffix(".__init__")
+        own = inspect.signature(function)
+        plain = [one for one in own.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
+        given = own.replace(parameters=plain)
+
+        @wraps(function)
+        def taking(*args: Any, **kwargs: Any) -> Any:
+            changes = {one.name: kwargs.pop(one.name) for one in taken if one.name in kwargs}
+            value = kwargs.pop("campaign", None) or standard
+            if not isinstance(value, Campaign):
+                raise InputError(
+                    f"campaign is {as_typed(value)}; allowed is a Campaign, such as Campaign(replicates=30)."
+                )
+            made = replace(value, **changes)
+            for one in others:
+                if getattr(made, one.name) != one.default:
+                    raise InputError(f"{named} takes no {one.name}; leave it out of the campaign.")
+            try:
+                given.bind(*args, **kwargs, campaign=made)
+            except TypeError as error:
+                raise TypeError(f"{named}: {error}") from None
+            return function(*args, **kwargs, campaign=made)
+
+        *before, last = plain
+        assert last.name == "campaign"
+        spread = [
+            inspect.Parameter(one.name, last.KEYWORD_ONLY, default=getattr(standard, one.name), annotation=one.type)
+            for one in taken
+        ]
+        taking.__signature__ = own.replace(parameters=[*before, *spread, last.replace(default=None)])  # type: ignore[attr-defined]
+        taking.__doc__ = _documented(function.__doc__ or "", [one.name for one in taken])
+        return taking  # type: ignore[return-value]
+
+    return of
+
+
+def _documented(text: str, names: list[str]) -> str:
+    """A docstring with the fields of a campaign in front of the campaign, in the words of :class:`Campaign`."""
+    own = inspect.cleandoc(text)
+    before, entry, after = own.partition("\ncampaign : Campaign")
+    entries = re.findall(r"^((\w+) : .*(?:\n {4}.*)+)", inspect.cleandoc(Campaign.__doc__ or ""), re.MULTILINE)
+    told = "".join(f"\n{words}" for words, name in entries if name in names)
+    return f"{before}{told}{entry}{after}" if entry else own

@@ -1,0 +1,39 @@
+"""``stylobate draw``: what stands, dimensioned, before anything is run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from ..errors import InputError
+from . import options as o
+
+#: Kinds of files that pictures are written as.
+KINDS = (".png", ".svg", ".pdf")
+
+
+def draw(
+    column: o.StructureName,
+    out: Path = o.option("FILE", "The picture: .png, .svg or .pdf; a file there is replaced.", ...),
+    *,
+    execution: Annotated[o.Execution, o.But("threads", "dask", "out")],
+) -> None:
+    """Elevations from two sides and the plan.
+
+    Of a column or an assembly as it stands before the motion, with its measures in m.
+    """
+    from . import console
+
+    structure = o.the_structure(column)
+    if out.suffix.lower() not in KINDS:
+        raise InputError(f"--out is {str(out)!r}; allowed are files that end in {', '.join(KINDS)}.")
+    if out.is_dir() or not out.parent.is_dir():
+        what = "is a folder" if out.is_dir() else f"lies in {str(out.parent)!r}, which is no folder"
+        raise InputError(f"--out {str(out)!r} {what}; name a file in a folder that is there.")
+    from .. import plots
+
+    files = plots.save_as(plots.draw_views(structure, structure.name), out)
+    moving = sum(not one.fixed for one in structure.bodies)
+    if execution.emits({"name": structure.name, "bodies": moving, "files": [str(one) for one in files]}):
+        return
+    console.say(f"{structure.name}, {moving} {'body' if moving == 1 else 'bodies'} that can move: {files[0]}", {})

@@ -1,0 +1,130 @@
+"""What stands in space before anything is run: elevations from two sides, the plan, and a view from above a corner."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.figure import Figure
+
+from ..column.block import FAR_AWAY
+from ..column.shapes import hull
+from ..column.structure import Structure
+from ..column.turning import matrix_of
+from .elevation import NAMED, WORDS, Sheet, dimension
+from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
+from .style import BLACK, GREY, WIDTH, in_lines, styled
+from .view import ALONG_X, ALONG_Y, OBLIQUE, View
+
+#: From above, x to the right and y upward.
+PLAN = View(-0.5 * math.pi, 0.5 * math.pi)
+
+#: Most and least height of the upper pictures [inch], and of the lower ones.
+TALL, LOW = (4.6, 1.8), (3.2, 1.6)
+
+#: A ground farther below what stands than this is left out of a picture [m].
+BESIDE = 5.0
+
+
+@styled
+def draw_views(structure: Structure, title: str | None = None) -> Figure:
+    """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m.
+
+    Parameters
+    ----------
+    structure : Column, Assembly, SpatialAssembly or Specimen
+    title : str, optional
+        None by default.
+    """
+    bodies = [one for one in structure.bodies if not (one.fixed and one.size > FAR_AWAY)]
+    named = [(body.name, body.fixed, part) for body in bodies for part in body.placed]
+    solids = [
+        Solid(_plain(surface_of(part.shape, fixed)), np.array(part.place), matrix_of(part.orientation))
+        for _, fixed, part in named
+    ]
+    names = [name for name, *_ in named]
+    points = np.concatenate([one.vertices for one in solids])
+    size = np.ptp(points, axis=0)
+    across, up, deep = (max(float(one), 0.05 * float(size.max())) for one in (size[0], size[2], size[1]))
+    share = 0.62 * WIDTH / (across + deep)
+    heights = [min(max(share * one + 1.0, least), most) for one, (most, least) in ((up, TALL), (deep, LOW))]
+    figure = Figure(figsize=(WIDTH, sum(heights)))
+    ratio = min(max(across / deep, 0.6), 1.7)
+    (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
+    elevations = ((front, ALONG_X, "along y: x to the right"), (side, ALONG_Y, "against x: y to the right"))
+    scale = max(_sheet(axes, solids, view, structure.ground).metres for axes, view, _ in elevations)
+    for axes, view, said in (*elevations, (plan, PLAN, "plan: x to the right, y upward")):
+        level, least = (None, 0.0) if view is PLAN else (structure.ground, scale)
+        sheet = _sheet(axes, solids, view, level, least)
+        if level is not None:
+            axes.axhline(level, color=BLACK, linewidth=1.2, zorder=0)
+        _paint(axes, solids, view)
+        low, high = _box(solids, view, None)
+        for along in (0, 1):
+            dimension(axes, sheet, along, low, high)
+        if len(set(names)) <= NAMED:
+            _names(axes, sheet, solids, names, view)
+        axes.set_title(said, fontsize=8.5, color=GREY)
+    _paint(oblique, solids, OBLIQUE)
+    oblique.set_aspect("equal")
+    oblique.autoscale_view()
+    oblique.set_axis_off()
+    if title:
+        figure.suptitle(in_lines(title), x=0.02, ha="left")
+    return figure
+
+
+def _plain(surface: Surface) -> Surface:
+    """The surface without the mark that shows how a body has turned: nothing has."""
+    return Surface(surface.vertices, surface.faces, tuple(STONE if one == MARK else one for one in surface.tones))
+
+
+def _box(solids: list[Solid], view: View, level: float | None) -> tuple[np.ndarray, np.ndarray]:
+    """Corners of the box around what is seen, and around the ground where it is near [m], shape (2,) each."""
+    flat = np.concatenate([view.across(one.vertices) for one in solids])
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    if level is not None:
+        low[1] = min(low[1], max(level, low[1] - BESIDE))
+    return low, high
+
+
+def _sheet(axes: Axes, solids: list[Solid], view: View, level: float | None, least: float = 0.0) -> Sheet:
+    low, high = _box(solids, view, level)
+    return Sheet.around(axes, low, high, left=46.0, right=8.0, below=34.0, above=8.0, least=least)
+
+
+def _paint(axes: Axes, solids: list[Solid], view: View) -> None:
+    polygons, colours, outlines = painted(solids, view)
+    edges = np.where(np.array(outlines)[:, None], 0.35, colours)
+    widths = [0.9 if one else 0.2 for one in outlines]
+    axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors=edges, linewidths=widths, zorder=2))
+
+
+def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view: View) -> None:
+    """Names where they fit into what is seen of their body; of "column 1, drum 5" the drum if only that fits."""
+    order = painting_order(solids, view)
+    shapes = [hull(view.across(one.vertices)) for one in solids]
+    for place, number in enumerate(order):
+        shape = shapes[number]
+        wide, high = np.ptp(shape, axis=0) / sheet.metres
+        name = names[number]
+        if 4.2 * len(name) > max(wide, high):
+            name = name.rpartition(", ")[2]
+        if 4.2 * len(name) > max(wide, high) or min(wide, high) < WORDS:
+            continue
+        turned = 90 if wide < 4.2 * len(name) else 0
+        middle = 0.5 * (shape.min(axis=0) + shape.max(axis=0))
+        half = 2.0 * len(name) * sheet.metres
+        ends = middle + np.outer((-half, 0.0, half), (0.0, 1.0) if turned else (1.0, 0.0))
+        if any(_covers(shapes[other], end) for other in order[place + 1 :] for end in ends):
+            continue
+        x, y = (float(one) for one in middle)
+        axes.text(x, y, name, fontsize=6.5, ha="center", va="center", rotation=turned, zorder=5)
+
+
+def _covers(shape: np.ndarray, point: np.ndarray) -> bool:
+    """Whether a point lies in a convex polygon, counter-clockwise."""
+    side, way = np.roll(shape, -1, axis=0) - shape, point - shape
+    return bool((side[:, 0] * way[:, 1] - side[:, 1] * way[:, 0] > 0.0).all())

@@ -1,0 +1,123 @@
+"""Assemblies in space on the command line: what stands, statics, picture, report; how they are shaken, and who cannot."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from stylobate.cli.main import call
+
+FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"
+STATUE = str(FOLDER / "statue.toml")
+PORTAL = str(FOLDER / "portal_in_space.toml")
+
+
+@pytest.fixture
+def answered(capsys):
+    """What a command prints, and its JSON object where one is asked for."""
+
+    def command(*arguments):
+        assert call([str(one) for one in arguments]) == 0
+        out, err = capsys.readouterr()
+        assert err == ""
+        return json.loads(out) if "--json" in arguments else out
+
+    return command
+
+
+@pytest.fixture
+def refused(capsys):
+    def command(*arguments):
+        assert call([str(one) for one in arguments]) == 2
+        out, err = capsys.readouterr()
+        assert out == ""
+        assert err.count("\n") == 1
+        return err
+
+    return command
+
+
+def test_what_stands(answered):
+    """Masses by hand: 2700 kg/m³ of 0.8 × 0.7 × 1.0 m of pedestal; the extent is that of what can move."""
+    (told,) = answered("columns", STATUE, "--json")["columns"]
+    assert told["fixed"] == ["ground", "step"]
+    assert [one["name"] for one in told["bodies"]] == ["pedestal", "statue"]
+    assert (told["heaviest"], told["heaviest_mass_kg"]) == ("pedestal", pytest.approx(1512.0))
+    assert (told["joints"], told["height_m"]) == (2, pytest.approx(3.37))
+    assert told["extent_m"] == pytest.approx([0.8, 0.7, 3.12])
+    said = answered("columns", STATUE, FOLDER / "portal.toml", "paper-monolithic")
+    assert "2 that can move, 1 fixed" in said
+    assert said.count("heaviest") == 2
+
+
+def test_limit_all_round_with_its_pictures_and_its_report(answered, tmp_path):
+    found = answered("limit", PORTAL, "--directions", "0:90:3", "--out", tmp_path / "out", "--json")
+    assert found["weakest_azimuth_deg"] == 90.0
+    assert found["collapse_multiplier_g"] == pytest.approx(0.15805, abs=1e-5)
+    assert [one["multiplier_g"] for one in found["directions"]] == pytest.approx([0.2, 0.2235, 0.15805], abs=1e-4)
+    assert (found["between"], found["moving"]) == (["ground", "left"], ["left", "right", "beam"])
+    assert (found["dims"], found["flow"], found["upper_bound"]) == ("xyz", "associated", False)
+    assert {Path(one).name for one in found["files"]} == {
+        "limit.json", "directions.png", "directions.svg", "asked-limit.json"
+    }  # fmt: skip
+    answered("report", tmp_path / "out", "--out", tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    for words in ("the assembly becomes a mechanism at 0.1581", "left, right and beam", "The assembly in space"):
+        assert words in page
+    assert "flow rule of friction" in page
+
+
+def test_limit_in_words(answered):
+    said = answered("limit", PORTAL, "--directions", "90:90:1")
+    assert "The assembly becomes a mechanism at 0.1581 g, pushed towards 90 degrees." in said
+    assert "joint 1 (between ground and left) rocking" in said
+    assert "all 3 bodies" in said
+    assert "upper bound" not in said
+    askew = answered("limit", FOLDER / "wall_corner.toml", "--directions", "45:45:1")
+    assert "stones slide or round faces twist in this mechanism, so that the multiplier is an upper bound" in askew
+
+
+@pytest.mark.parametrize("kind", [".png", ".svg", ".pdf"])
+def test_draw(answered, tmp_path, kind):
+    file = tmp_path / f"statue{kind}"
+    assert answered("draw", STATUE, "--out", file, "--json") == {"name": "statue", "bodies": 2, "files": [str(file)]}
+    first = file.read_bytes()
+    assert first[:5] in (b"\x89PNG\r", b"<?xml", b"%PDF-")
+    answered("draw", STATUE, "--out", file)
+    assert file.read_bytes() == first
+
+
+def test_draw_refuses_other_files(refused, tmp_path):
+    assert "allowed are files that end in .png, .svg, .pdf" in refused("draw", STATUE, "--out", tmp_path / "a.jpg")
+    assert "which is no folder; name a file in a folder" in refused("draw", STATUE, "--out", tmp_path / "no" / "a.png")
+    (tmp_path / "a.png").mkdir()
+    assert "is a folder; name a file" in refused("draw", STATUE, "--out", tmp_path / "a.png")
+    assert not list((tmp_path / "a.png").iterdir())
+
+
+SHAKEN = ["--pulse", "ricker,1Hz,0.2g"]
+
+
+def test_it_is_shaken_by_dem3d(answered):
+    """Which the screen of help names."""
+    assert "in space dem3d" in answered("run", "--help")
+    found = answered("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.05g,1.5s", "--json")
+    assert found["outcome"] == "at_rest"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["run", STATUE, *SHAKEN], "dem2d cannot shake 'statue', which is an assembly in space; dem3d can, and its"),
+        (["run", STATUE, "--model", "housner", *SHAKEN], "housner cannot shake 'statue'"),
+        (["critical", STATUE, "--pulse", "ricker,1Hz,?g", "--from", "0.1g", "--to", "0.2g"], "dem2d cannot shake"),
+        (["run", STATUE, "--model", "dem3d", *SHAKEN, "--replicates", "3"], "'statue' is no column"),
+        (["compare", STATUE, "--models", "dem2d,dem3d", *SHAKEN], "and 'limit' and 'draw' where it is in space"),
+        (["pushover", STATUE], "and 'limit' and 'draw' where it is in space"),
+        (["limit", STATUE, "--project", "30deg"], "--project is for columns, and 'statue' is an assembly in space."),
+        (["limit", STATUE, "--tilt", "3"], "--pattern, --tilt and --compressive-strength are for"),
+        (["columns", STATUE, "--out", "never"], "--out writes column files, and 'statue' is an assembly in space"),
+    ],
+)  # fmt: skip
+def test_what_is_not_known_of_it_is_said(refused, arguments, says):
+    assert says in refused(*arguments)

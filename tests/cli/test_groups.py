@@ -1,0 +1,96 @@
+"""Options that commands share mean the same in all of them."""
+
+import json
+
+import numpy as np
+import pytest
+
+from stylobate.cli.main import call, commands
+from stylobate.cli.options import Execution, Following, Motions, Population
+
+COLUMN = """
+name = "three"
+section = "rectangular"
+depth = 0.5
+density = 2600.0
+[tapered]
+height = 2.4
+bottom_width = 0.5
+top_width = 0.45
+drums = 3
+[joint]
+normal_stiffness = 5.0e9
+shear_stiffness = 2.5e9
+friction_angle = 35.0
+"""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A column, and a record of one shock behind two quiet seconds."""
+    (tmp_path / "column.toml").write_text(COLUMN)
+    time = np.arange(0.0, 3.0, 0.01)
+    shock = 0.3 * np.exp(-(((time - 2.5) / 0.2) ** 2)) * np.sin(2.0 * np.pi * 2.0 * time) * (time > 1.9)
+    lines = [f"{t:.2f},{a:.6f}" for t, a in zip(time, shock, strict=True)]
+    (tmp_path / "record.csv").write_text("\n".join(["time_s,ax_g", *lines]) + "\n")
+    return tmp_path
+
+
+def answer(capsys, *words):
+    assert call([*map(str, words), "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_compare_leaves_the_quiet_of_a_record_out_as_run_does(capsys, folder):
+    column, record = folder / "column.toml", ("--motion", folder / "record.csv")
+    run = answer(capsys, "run", column, *record, "--replicates", "0")
+    (compared,) = answer(capsys, "compare", column, "--models", "dem2d", *record)["runs"]
+    assert compared["stepped_s"] is not None
+    assert {key: compared[key] for key in run.keys() & compared.keys() - {"wall_s"}} == {
+        key: run[key] for key in run.keys() & compared.keys() - {"wall_s"}
+    }
+    (whole,) = answer(capsys, "compare", column, "--models", "dem2d", *record, "--whole")["runs"]
+    assert whole.get("stepped_s") is None
+    assert whole["steps"] > compared["steps"]
+
+
+def test_states_step_all_of_a_record_where_asked(capsys, folder):
+    (folder / "again.toml").write_text(COLUMN)
+    states = "--as-built", folder / "column.toml", "--with", folder / "again.toml"
+    for options, stepped in (((), True), (("--whole",), False)):
+        out = folder / f"out{len(options)}"
+        answer(capsys, "states", folder / "record.csv", *states, *options, "--out", out)
+        assert ("stepped_s" in (out / "states.csv").read_text().splitlines()[0]) == stepped
+
+
+def test_an_ida_takes_both_signs_of_a_record_and_counts_it_once(capsys, folder):
+    words = folder / "record.csv", "--model", "rigid-block", "--im", "pga", "--runs", "4", "--signs", "both"
+    found = answer(capsys, "ida", folder / "column.toml", *words)
+    assert [one["motion"] for one in found["capacities"]] == ["record.csv", "record.csv reversed"]
+    assert found["records"] == 1
+
+
+def test_options_of_a_group_are_said_alike_wherever_they_are():
+    """The help of an option is that of its group, unless the command says more of it."""
+    own = {
+        ("critical", "harmonic"),
+        ("critical", "across"),
+        ("critical", "pulse"),
+        ("domain", "tail"),
+        ("domain", "duration"),
+    }
+    own |= {("spectrum", "tail"), ("compare", "settings"), ("reproduce", "out"), ("report", "out"), ("serve", "out")}
+    groups = {
+        name: one.default
+        for kind in (Motions, Following, Population, Execution)
+        for name, one in kind.__dataclass_fields__.items()
+    }
+    shared = 0
+    for command, made in commands().commands.items():
+        for one in getattr(made, "params", ()):
+            known = groups.get(one.name)
+            if known is None or (command, one.name) in own or getattr(one, "help", None) is None or one.name == "seed":
+                continue
+            assert one.help == known.help, (command, one.name)
+            shared += 1
+    assert shared > 100

@@ -1,0 +1,51 @@
+"""Elevations from two sides and the plan: measures, names, one scale of both elevations."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate import plots
+
+FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"
+
+
+def words(axes):
+    return [text.get_text() for text in axes.texts]
+
+
+def test_views_of_an_assembly_in_space():
+    """Widths, depth and height in m where they are true; names of what is seen; metres a point the same in elevations."""
+    figure = plots.draw_views(st.read_assembly(FOLDER / "portal_in_space.toml"), "portal")
+    front, side, plan, oblique = figure.axes
+    assert {"3.200 m", "4.600 m", "left", "right", "beam"} <= set(words(front))
+    assert {"0.800 m", "4.600 m", "right"} <= set(words(side))
+    assert "left" not in words(side)  # behind the other
+    assert {"3.200 m", "0.800 m", "beam"} <= set(words(plan))
+    assert words(oblique) == []
+    figure.draw_without_rendering()
+    scales = [np.ptp(axes.get_xlim()) / axes.get_position().width for axes in (front, side)]
+    assert scales[0] == pytest.approx(scales[1], rel=1e-6)
+    assert len(plan.collections[0].get_paths()) > 3
+
+
+@pytest.mark.parametrize("name", ["column", "plane", "specimen", "found"])
+def test_views_of_everything_that_stands(name):
+    found = st.AsFound((st.FoundDrum(2, offset=0.05, tilt=1.0, tilt_azimuth=40.0),), base_tilt=0.5, base_azimuth=90.0)
+    column = st.read_column(FOLDER / "column5.toml")
+    cube = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
+    structure = {
+        "column": column,
+        "found": column.replace(as_found=found),
+        "plane": st.read_assembly(FOLDER / "portal.toml"),
+        "specimen": st.Specimen(100.0, [20.0, 20.0, 20.0], cube, name="cube"),
+    }[name]
+    front, side, plan, _ = plots.draw_views(structure).axes
+    assert len(front.collections[0].get_paths()) >= len(structure.shapes) - 1
+    sizes = [
+        float(text.removesuffix(" m")) for axes in (front, side, plan) for text in words(axes) if text.endswith(" m")
+    ]
+    assert len(sizes) == 6
+    corners = np.concatenate([one.corners for one in structure.bodies if not one.fixed])
+    assert max(sizes[:2]) == pytest.approx(np.ptp(corners, axis=0).max(), rel=5e-3)

@@ -1,0 +1,101 @@
+"""How runs are made is one value: its fields are keywords, options and words of help, checked in one place."""
+
+import inspect
+import re
+
+import pytest
+
+import stylobate as st
+from stylobate.analysis.compare import compare_domains
+from stylobate.analysis.critical_suite import critical_suite
+from stylobate.analysis.step_sensitivity import compare_steps
+from stylobate.cli.main import call
+
+COLUMN = st.preset("paper-monolithic")
+GRID = COLUMN, st.HousnerBlock(), [1.0], [2.0, 4.0], 2.0
+ALL = ["replicates", "scatter", "seed", "tail", "whole", "threads", "dask", "progress", "ledger"]
+SINES = ["tail", "threads", "dask", "progress", "ledger"]
+TAKEN = {
+    st.suite_table: ALL,
+    st.ida: ALL,
+    st.critical_amplitude: ALL,
+    critical_suite: ALL,
+    st.collapse_domain: SINES,
+    compare_domains: SINES,
+    compare_steps: SINES,
+    st.collapse_probability: [one for one in ALL if one != "whole"],
+    st.compare_states: ALL[:-1],
+    st.compare_models: ["tail", "whole", "progress", "ledger"],
+    st.certainty: ["replicates", "scatter", "seed", "tail", "threads", "progress"],
+    st.run_study: ["threads", "dask", "progress"],
+    st.Study: ["replicates", "scatter", "seed", "tail", "whole"],
+}
+
+
+@pytest.mark.parametrize(("made", "fields"), TAKEN.items(), ids=lambda one: getattr(one, "__name__", ""))
+def test_its_fields_are_keywords_with_their_words_and_one_default(made, fields):
+    found = inspect.signature(made).parameters
+    assert [name for name in found if name in ALL] == fields
+    assert not any(one.kind is one.VAR_KEYWORD for one in found.values())
+    usual = {"replicates": {st.certainty: 15, st.collapse_probability: 20}.get(made, 0)}
+    for name in fields:
+        assert found[name].default == usual.get(name, getattr(st.Campaign(), name)), name
+    words = inspect.getdoc(made) or ""
+    documented = re.findall(r"^(\w+) : ", words, re.MULTILINE)
+    if "Parameters" in words:  # the others name the function whose parameters they share
+        assert [name for name in documented if name in ALL] == fields
+
+
+def test_a_value_and_keywords_ask_for_the_same():
+    by_keywords = st.collapse_domain(*GRID, tail=1.0, threads=1)
+    as_value = st.collapse_domain(*GRID, campaign=st.Campaign(tail=3.0, threads=1), tail=1.0)
+    assert by_keywords.provenance == as_value.provenance
+    assert by_keywords.table.equals(as_value.table)
+
+
+def test_what_is_not_taken_is_refused_by_name():
+    with pytest.raises(TypeError, match=r"collapse_domain: .*'replicates'"):
+        st.collapse_domain(*GRID, replicates=3)
+    with pytest.raises(st.InputError, match="collapse_domain takes no seed; leave it out"):
+        st.collapse_domain(*GRID, campaign=st.Campaign(seed=3))
+    with pytest.raises(st.InputError, match="campaign is 3; allowed is a Campaign"):
+        st.collapse_domain(*GRID, campaign=3)  # pyright: ignore[reportArgumentType]
+    with pytest.raises(TypeError, match=r"Study: .*'realisations'"):
+        st.Study([COLUMN], [], [], realisations=3)  # pyright: ignore[reportCallIssue]
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"replicates": -1}, "`replicates` is -1; allowed is a whole number from 0 to 100000"),
+        ({"replicates": 2.5}, "`replicates` is 2.5; allowed is a whole number"),
+        ({"seed": True}, "`seed` is True; allowed is a whole number"),
+        (
+            {"scatter": "friction=10%"},
+            r"`scatter` is 'friction=10%'; allowed is a Scatter, such as Scatter\(friction=0.1\)",
+        ),
+        ({"tail": -1.0}, r"`tail` is -1 s; allowed is \[0, 10000\] s"),
+        ({"threads": 0}, r"`threads` is 0; allowed is \[1, 1024\]; leave it out"),
+    ],
+)
+def test_a_number_that_is_not_allowed_is_refused_where_the_value_is_made(fields, words):
+    with pytest.raises(st.InputError, match=words):
+        st.Campaign(**fields)
+
+
+@pytest.mark.parametrize(
+    ("command", "option"),
+    [
+        (("domain", "paper-monolithic", "--frequencies=1:2:2", "--amplitudes=0.1g:0.2g:2"), "--whole"),
+        (("ida", "paper-monolithic", "sample:el-centro-1940"), "--scale=2"),
+        (("run", "paper-monolithic", "--harmonic=1Hz,0.1g,1s"), "--dask=local"),
+        (("compare", "paper-monolithic", "--models=housner", "--harmonic=1Hz,0.1g,1s"), "--dask=local"),
+        (
+            ("compare", "paper-monolithic", "--models=housner", "--frequencies=1:2:2", "--amplitudes=0.1g:0.2g:2"),
+            "--whole",
+        ),
+    ],
+)
+def test_an_option_that_a_command_ignores_is_not_accepted(capsys, command, option):
+    assert call([*command, option]) == 2
+    assert option.split("=")[0] in capsys.readouterr().err
