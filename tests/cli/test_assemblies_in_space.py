@@ -102,7 +102,7 @@ def test_it_is_shaken_by_dem3d(answered):
     """Which the screen of help names."""
     assert "in space dem3d" in answered("run", "--help")
     found = answered("run", STATUE, "--model", "dem3d", "--pulse", "ricker,2Hz,0.05g,1.5s", "--json")
-    assert found["outcome"] == "at_rest"
+    assert found["outcome"] == "rocked"
 
 
 @pytest.mark.parametrize(
