@@ -1,11 +1,15 @@
 """Assemblies in space under motions, from the structure to the response: a portal under pulses, and what is refused."""
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.models.space import assemblies
+
+GALLERY = Path(__file__).parents[2] / "gallery" / "assemblies"
 
 TAN_PHI = math.degrees(math.atan(0.7))
 
@@ -65,6 +69,23 @@ def test_a_portal_falls_and_comes_to_rest():
     assert measures.blocks.at_rest
     assert measures.energy_imbalance < 0.01
     assert response.poses.position[-1, 1:, 2].min() > 0.25
+
+
+def test_a_run_out_of_balance_has_no_verdict(monkeypatch):
+    """Whatever it shows; before anything fell, energy is missed of the input, not of all that the fall sets free."""
+    monkeypatch.setattr(assemblies, "LARGEST_IMBALANCE", 1e-5)
+    response = st.simulate(portal(5e9), pulse(0.6, 0.6, 0.5), st.DistinctElement3D(), tail=2.0)
+    assert response.measures.blocks.fell_at
+    assert response.measures.outcome == st.Outcome.FAILED
+    assert not response.measures.decided
+    assert "no verdict on the assembly. Reason: the energy ledger is out of balance by" in response.describe()
+
+
+def test_a_corner_of_a_temple_settles():
+    """Its step is a tenth of a portal's: how long it may take is a time, not a number of steps."""
+    structure = st.read_assembly(GALLERY / "temple_corner.toml")
+    still = st.Motion(0.001, np.zeros(11))
+    assert st.simulate(structure, still, st.DistinctElement3D()).measures.blocks.in_equilibrium
 
 
 def test_what_is_not_known_is_refused():

@@ -27,7 +27,7 @@ def recorded_in_space(
     ground_displacement: np.ndarray,
     *,
     at_rest: bool,
-    failed: bool,
+    failure: str,
     in_equilibrium: bool | None,
     energy_imbalance: float,
     time_step: float,
@@ -48,9 +48,12 @@ def recorded_in_space(
         Ledger [J], each term of shape (T,).
     ground_acceleration, ground_displacement : array
         [m/s²], [m], shape (T, 3)
-    at_rest, failed, in_equilibrium, energy_imbalance, time_step, steps, model, provenance
+    at_rest, in_equilibrium, energy_imbalance, time_step, steps, model, provenance
         As of an assembly in the plane.
+    failure : str
+        Why the run has failed and has no verdict; empty if it has one.
     """
+    failed = bool(failure)
     opening, slip, twist = joint_histories(structure, position, axes)
     moved = np.linalg.norm(position - position[0], axis=-1)
     down = fallen(structure, position[0], axes[0], position, axes)
@@ -76,6 +79,7 @@ def recorded_in_space(
         energy_imbalance=energy_imbalance,
         time_step=time_step,
         steps=steps,
+        reason=failure,
         collapse=Collapse(first, None, FELL, azimuth) if collapsed else None,
         blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
     )

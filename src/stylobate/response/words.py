@@ -172,7 +172,8 @@ def _of_blocks(response: Recorded) -> str:
     all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")
     in_place = f"{all_of_them} in place"
     if response.outcome is Outcome.FAILED:
-        return "The computation could not be completed; this is no verdict on the assembly."
+        why = f" Reason: {response.measures.reason}." if response.measures.reason else ""
+        return f"The computation could not be completed; this is no verdict on the assembly.{why}"
     if response.outcome is Outcome.COLLAPSED:
         order = sorted(fell, key=lambda name: fell[name])
         said = ", ".join(order[:6]) + (f" and {len(order) - 6} more" if len(order) > 6 else "")

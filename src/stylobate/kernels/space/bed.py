@@ -258,10 +258,11 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     ks *= share
     # pressure  # Eq. (Q2)
     fn = kn * volume
-    if share < 1.0 or now.last == 0.0:  # what a joint hands over, and what overlaps at the start, no work has pressed
-        p.en = max(p.en, 0.5 * fn * volume / area)
+    if now.last == 0.0:  # no work has pressed what overlaps at the start
+        p.en = 0.5 * fn * volume / area
     before = 0.5 * p.fn * dot(w, of(p.n)) * now.last
-    fn = returnable(fn, before, volume / area, vn, now.last, p.en)
+    if share == 1.0:  # a joint that hands over has its own
+        fn = returnable(fn, before, volume / area, vn, now.last, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.en -= before + 0.5 * fn * vn * now.last
     f, twist = rub(

@@ -189,19 +189,20 @@ class DistinctElement3D(SteppedDrums):
     def run_in_space(
         self, structure: Structure, motion: Motion, options: RunOptions, *, recorded: bool = True
     ) -> Response:
-        """One run of an assembly in space, with histories where they are wanted.
+        """One run of an assembly in space; its histories are kept, wanted or not: the verdict rests on its ledger.
 
         Raises
         ------
         InputError
             A start, or something that its engine does not know, is asked for.
         """
+        del recorded
         if options.start is not None:
             raise InputError(
                 f"a start from a pose is for columns, and {structure.name!r} is {structure.described}; give its bodies "
                 "orientations and velocities, and leave start out."
             )
-        return run_in_space(structure, motion, self.spatial_numbers, options, recorded=recorded)
+        return run_in_space(structure, motion, self.spatial_numbers, options)
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
         """Many runs in lanes, or of assemblies one by one in threads; never of both in one batch."""

@@ -51,8 +51,8 @@ def imbalance(missing: float, *, work: float, start: float, barrier: float, rele
     return abs(missing) / max(work, start, barrier, released, 1e-300)
 
 
-def out_of_balance(share: float) -> str:
+def out_of_balance(share: float, allowed: float = LARGEST_IMBALANCE) -> str:
     """Why a run with this energy imbalance has failed; empty if it has not. A share that is not finite is no balance."""
-    if share <= LARGEST_IMBALANCE:
+    if share <= allowed:
         return ""
-    return f"the energy ledger is out of balance by {share:.2g} (allowed is {LARGEST_IMBALANCE}); shorten the time_step"
+    return f"the energy ledger is out of balance by {share:.2g} (allowed is {allowed}); shorten the time_step"

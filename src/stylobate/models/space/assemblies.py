@@ -28,6 +28,9 @@ RESTITUTION_TO_REST = 0.3
 #: Time after the motion at which a run that waits for rest is given up [s].
 LONGEST_WAIT = 60.0
 
+#: A run has failed when its ledger misses more than this share of the energy at stake, at the end or before anything fell.
+LARGEST_IMBALANCE = 0.05
+
 #: Time after the last body has fallen at which a run ends, if nothing else is asked for [s].
 AFTER_THE_FALL = 5.0
 
@@ -83,14 +86,11 @@ def step_for(engine: Loose, structure: Structure, numbers: SpatialNumbers) -> fl
     return chosen_step(engine.stable_step(), numbers.step_factor, numbers.time_step, repr(structure.name))
 
 
-def run_in_space(
-    structure: Structure, motion: Motion, numbers: SpatialNumbers, options: RunOptions, *, recorded: bool = True
-) -> Response:
+def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, options: RunOptions) -> Response:
     """One run of an assembly in space to the end of the motion and its tail, or until rest.
 
     With neither ``until_end`` nor ``until_rest`` it ends some seconds after the last body has fallen. The contacts are
-    closed by the weight they carry; an assembly that is not in equilibrium begins as drawn, with a warning. Without
-    histories (``recorded``) the ledger is drawn up at the start and at the end only.
+    closed by the weight they carry; an assembly that is not in equilibrium begins as drawn, with a warning.
 
     Raises
     ------
@@ -120,13 +120,13 @@ def run_in_space(
             warnings.warn(said, OutOfRangeWarning, stacklevel=4)
     engine.shake(motion)
     start = engine.energies()
-    states, still = _follow(engine, structure, motion, duration, options, recorded)
+    states, still = _follow(engine, structure, motion, duration, options)
     stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0]}
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
-    imbalance = ledger.imbalance(
-        ledger.unaccounted(change[-1] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0)),
-        work=float(np.abs(change[:, 0]).max()), start=float(start[3]), barrier=0.0, released=ledger.released(change[-1]),
-    )  # fmt: skip
+    imbalance = max(_imbalance(change, start), _imbalance_before_falls(structure, stack, change, start))
+    failure = ledger.out_of_balance(imbalance, LARGEST_IMBALANCE)
+    if engine.failed:
+        failure = f"the bodies could not be followed beyond {engine.time:.4g} s; try a smaller step_factor"
     acceleration, displacement = ground_histories(motion, stack["time"])
     made = recorded_in_space(
         structure,
@@ -138,7 +138,7 @@ def run_in_space(
         displacement,
         at_rest=still,
         in_equilibrium=balanced,
-        failed=engine.failed or bool(ledger.out_of_balance(imbalance)),
+        failure=failure,
         energy_imbalance=imbalance,
         time_step=engine.dt,
         steps=engine.steps,
@@ -152,13 +152,38 @@ def run_in_space(
     return Response.of(made)
 
 
+def _imbalance(change: np.ndarray, start: np.ndarray) -> float:
+    """Energy imbalance at the last of some states, whose ledgers have changed so since the start."""
+    return ledger.imbalance(
+        ledger.unaccounted(change[-1] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0)),
+        work=float(np.abs(change[:, 0]).max()), start=float(start[3]), barrier=0.0, released=ledger.released(change[-1]),
+    )  # fmt: skip
+
+
+def _imbalance_before_falls(
+    structure: Structure, stack: dict[str, Any], change: np.ndarray, start: np.ndarray
+) -> float:
+    """What the ledger misses when potential energy was last no less than at first, over the input before anything fell.
+
+    What is missed by then may have decided over the fall, which sets free far more.
+    """
+    down = fallen(structure, stack["position"][0], stack["axes"][0], stack["position"], stack["axes"]).any(axis=1)
+    if not down.any():
+        return 0.0
+    upright = change[: np.argmax(down)]
+    last = int(np.flatnonzero(upright[:, 2] + upright[:, 3] >= 0.0)[-1])
+    missing = ledger.unaccounted(upright[last] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0))
+    work = float(np.abs(upright[:, 0]).max())
+    return ledger.imbalance(missing, work=work, start=float(start[3]), barrier=0.0, released=0.0)
+
+
 def _follow(
-    engine: Loose, structure: Structure, motion: Motion, duration: float, options: RunOptions, recorded: bool
+    engine: Loose, structure: Structure, motion: Motion, duration: float, options: RunOptions
 ) -> tuple[list[dict[str, Any]], bool]:
     """Go on to where the run ends; the states on the way, and whether all lies still."""
     chunks = math.ceil(duration / (CHUNK * engine.dt) * (1.0 - 1e-12))
     every = max(1, min(chunks, round(options.output_interval / (CHUNK * engine.dt))))
-    states, still = [_state(engine, motion, True)], False
+    states, still = [_state(engine, motion)], False
     down, since = np.zeros(len(engine.body), dtype=bool), 0.0
     while not engine.failed:
         left = chunks - engine.steps // CHUNK
@@ -168,7 +193,7 @@ def _follow(
         if left <= 0 and (not options.until_rest or still or engine.time > duration + LONGEST_WAIT):
             break
         engine.advance(min(every, left) if left > 0 else every)
-        states.append(_state(engine, motion, recorded))
+        states.append(_state(engine, motion))
         if options.progress:
             options.progress(min(engine.time, duration), duration)
         if options.until_end or options.until_rest:
@@ -178,16 +203,11 @@ def _follow(
             down, since = now, engine.time
         if down.any() and engine.time - since > AFTER_THE_FALL:
             break
-    if not recorded:
-        states[-1] = _state(engine, motion, True)
     return states, still
 
 
-def _state(engine: Loose, motion: Motion, whole: bool) -> dict[str, Any]:
-    """What a history keeps of the present state; of its ledger the input alone where the whole of it is not wanted."""
-    if not whole:
-        energy = np.array([float(engine.now["work"][0]), *[math.nan] * 5])
-        return {"time": engine.time, "position": engine.places, "axes": engine.axes_of_all, "energy": energy}
+def _state(engine: Loose, motion: Motion) -> dict[str, Any]:
+    """What a history keeps of the present state."""
     place, base = engine.time / motion.dt, np.zeros(3)
     if place <= motion.steps - 1:
         for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):

@@ -27,9 +27,9 @@ MOST_NEAR = 64
 #: At rest: nothing has moved by this share of the smallest body's radius, for so long [s].
 REST_WAY, REST_TIME = 2.0e-4, 0.5
 
-#: Bodies are in equilibrium as drawn if their accelerations fall below this [m/s²] within so many steps of local damping,
+#: Bodies are in equilibrium as drawn if their accelerations fall below this [m/s²] within so long with local damping [s],
 #: while none goes farther than this share of the smallest one's radius.
-SETTLED, SETTLE_STEPS, AS_DRAWN = 1e-4, 40_000, 0.02
+SETTLED, SETTLE_TIME, AS_DRAWN = 1e-4, 10.0, 0.02
 
 #: Step times the circular frequency of a body on its largest face, at the usual share of the largest stable step.
 STRUCK, USUAL = 0.5, 0.4
@@ -257,7 +257,7 @@ class Loose:
         drawn, places = [one.copy() for one in arrays], self.places
         self.now["local"], self.feed["last"] = LOCAL_DAMPING, 0
         rests = settled(
-            self.advance, self.residual_acceleration, SETTLED, SETTLE_STEPS // CHUNK,
+            self.advance, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
             lost=lambda: self.failed or float(np.abs(self.places - places).max()) > AS_DRAWN * self.smallest,
         )  # fmt: skip
         before = drawn[3]
