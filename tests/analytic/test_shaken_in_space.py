@@ -46,17 +46,28 @@ def test_a_portal_at_rest_stays(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("share", "duration", "cycles", "peak"), [(0.35, 0.8, 0.5, 0.08719524), (0.35, 0.8, 1.0, 0.016169558)]
+    ("share", "duration", "cycles", "stands", "peak"),
+    [
+        (0.35, 0.8, 0.5, True, 0.08719524),
+        (0.35, 0.8, 1.0, True, 0.016169558),
+        (0.45, 1.0, 0.5, False, None),
+        (0.45, 1.0, 1.0, False, 0.06014188),
+        (0.6, 0.5, 0.5, False, None),
+        (0.6, 0.5, 1.0, True, 0.027741575),
+        (0.8, 0.6, 0.5, False, None),
+        (0.8, 0.6, 1.0, None, 0.071342357),
+    ],
 )
-def test_first_peak_of_a_portal_under_a_pulse(share, duration, cycles, peak):
-    """The equivalent block of Makris and Vassiliou (2013): 2 %."""
-    response = st.simulate(
-        portal(5e11), pulse(share, duration, cycles), st.DistinctElement3D(), tail=0.6, until_end=True
-    )
-    lean = np.abs(response.histories.poses.axis[:, 1, 0])
-    first = np.argmax(lean[1:-1] > np.maximum(np.maximum.accumulate(lean)[:-2] - 1e-12, lean[2:] + 1e-9)) + 1
-    assert response.measures.blocks.fell_at == ()
-    assert math.asin(lean[first]) == pytest.approx(peak, rel=0.02)
+def test_a_portal_under_a_pulse(share, duration, cycles, stands, peak):
+    """Verdict, where impacts do not decide it, and first peak to 2 %: the block of Makris and Vassiliou (2013)."""
+    response = st.simulate(portal(5e11), pulse(share, duration, cycles), st.DistinctElement3D(), tail=2.5)
+    assert response.measures.outcome != st.Outcome.FAILED
+    if stands is not None:
+        assert (response.measures.blocks.fell_at == ()) == stands
+    if peak is not None:
+        lean = np.abs(response.histories.poses.axis[:, 1, 0])
+        first = np.argmax(lean[1:-1] > np.maximum(np.maximum.accumulate(lean)[:-2] - 1e-12, lean[2:] + 1e-9)) + 1
+        assert math.asin(lean[first]) == pytest.approx(peak, rel=0.02)
 
 
 def test_a_portal_falls_and_comes_to_rest():
