@@ -92,6 +92,14 @@ def test_a_run_out_of_balance_has_no_verdict(monkeypatch):
     assert "no verdict on the assembly. Reason: the energy ledger is out of balance by" in response.describe()
 
 
+def test_bodies_that_sink_into_one_another_have_no_verdict(monkeypatch):
+    """In a collapse on soft joints contacts are some millimetres deep."""
+    monkeypatch.setattr(assemblies, "DEEPEST", 1e-3)
+    response = st.simulate(portal(5e9), pulse(0.6, 0.6, 0.5), st.DistinctElement3D(), tail=2.0)
+    assert response.measures.outcome == st.Outcome.FAILED
+    assert "bodies sank into one another" in response.describe()
+
+
 def test_a_corner_of_a_temple_settles():
     """Its step is a tenth of a portal's: how long it may take is a time, not a number of steps."""
     structure = st.read_assembly(GALLERY / "temple_corner.toml")

@@ -31,6 +31,9 @@ LONGEST_WAIT = 60.0
 #: A run has failed when its ledger misses more than this share of the energy at stake, at the end or before anything fell.
 LARGEST_IMBALANCE = 0.05
 
+#: Nor has a run a verdict in which a contact was deeper than this share of the smallest body's radius.
+DEEPEST = 0.25
+
 #: Time after the last body has fallen at which a run ends, if nothing else is asked for [s].
 AFTER_THE_FALL = 5.0
 
@@ -125,6 +128,11 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = max(_imbalance(change, start), _imbalance_before_falls(structure, stack, change, start))
     failure = ledger.out_of_balance(imbalance, LARGEST_IMBALANCE)
+    deepest = float(engine.now["deepest"][0])
+    if deepest > DEEPEST * engine.smallest:
+        failure = (
+            f"bodies sank into one another, {deepest:.3g} m at a contact; try a smaller step_factor, or stiffer joints"
+        )
     if engine.failed:
         failure = f"the bodies could not be followed beyond {engine.time:.4g} s; try a smaller step_factor"
     acceleration, displacement = ground_histories(motion, stack["time"])
@@ -146,7 +154,7 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
         provenance={
             "restitution": restitution,
             "joints": len(engine.joint),
-            "deepest_penetration_m": float(engine.now["deepest"][0]),
+            "deepest_penetration_m": deepest,
         },
     )
     return Response.of(made)
