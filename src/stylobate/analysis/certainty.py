@@ -1,4 +1,4 @@
-"""How sure the verdict of one run is: the same motion for columns that could as well stand there."""
+"""Certainty of the verdict of one run: the same motion for columns that could as well stand there."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Population:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many twins have each verdict."""
+        """Number of twins of each verdict."""
         return v.count(self.verdicts)
 
     @property
@@ -92,7 +92,7 @@ class Population:
             fell = bool(row["collapsed"])
             return fell, -row["collapse_time_s"] if fell else abs(row["peak_top_displacement_m"])
 
-        sound = [i for i, one in enumerate(self.verdicts) if one != v.FAILED]
+        sound = [i for i, verdict in enumerate(self.verdicts) if verdict != v.FAILED]
         return sorted(sound, key=harm)
 
     @property
@@ -107,7 +107,7 @@ class Population:
 
     @property
     def sentence(self) -> str:
-        """How sure the verdict is, in a sentence."""
+        """Certainty of the verdict, in a sentence."""
         counts, number = self.counts, len(self.rows)
         trials = number - counts[v.FAILED]
         if trials == 0:
@@ -128,22 +128,22 @@ class Population:
 
     @property
     def columns(self) -> dict[str, Any]:
-        """How sure the verdict is, as columns of a table; displacements that a share of the twins does not exceed."""
+        """Certainty of the verdict, as columns of a table; displacements that a share of the twins does not exceed."""
         low, high = self.interval
-        found: dict[str, Any] = {
+        columns: dict[str, Any] = {
             "collapse_probability": self.probability,
             "collapse_interval_low": low,
             "collapse_interval_high": high,
             "replicates": len(self.rows),
         }
-        found |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
+        columns |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
         spread = self.spread["peak_top_displacement_m"]
         for i, share in enumerate((16, 50, 84)):
-            found[f"peak_top_displacement_{share}_m"] = None if spread is None else spread[i]
-        return found
+            columns[f"peak_top_displacement_{share}_m"] = None if spread is None else spread[i]
+        return columns
 
     def beside(self, run: Mapping[str, Any]) -> str:
-        """What must be said of a run that is no example of its twins; empty where it is one.
+        """Caveat on a run that is no example of its twins; empty where it is one.
 
         Parameters
         ----------
@@ -152,7 +152,9 @@ class Population:
         """
         if said := set_against(run, self.counts, self.confidence):
             return said
-        stood = [abs(row["peak_top_displacement_m"]) for row, one in zip(self.rows, self.verdicts) if one == v.STANDS]
+        stood = [
+            abs(row["peak_top_displacement_m"]) for row, verdict in zip(self.rows, self.verdicts) if verdict == v.STANDS
+        ]
         own = run.get("peak_top_displacement_m")
         if run["collapsed"] or own is None or len(stood) < ENOUGH or min(stood) <= abs(own) <= max(stood):
             return ""
@@ -191,7 +193,7 @@ class Population:
         return counts[v.COLLAPSED], counts[v.STANDS], counts[v.UNDECIDED]
 
     def _percentiles(self, name: str) -> list[float] | None:
-        sound = [row for row, one in zip(self.rows, self.verdicts, strict=True) if one != v.FAILED]
+        sound = [row for row, verdict in zip(self.rows, self.verdicts, strict=True) if verdict != v.FAILED]
         values = np.array([np.inf if row["collapsed"] else abs(row[name]) for row in sound])
         if not len(values):
             return None
@@ -219,7 +221,7 @@ class Certainty:
 
     @property
     def sentence(self) -> str:
-        """What happened, and how sure that is."""
+        """Outcome, and its certainty."""
         beside = self.population.beside(self.response.summary())
         return f"{self.response.sentence} {self.population.sentence} {beside}".rstrip()
 
@@ -249,7 +251,7 @@ def chance_words(row: Mapping[str, Any]) -> str:
 
 
 def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: float = 0.95) -> str:
-    """What must be said where most columns like one end otherwise than it did, the run counted in; empty where they do not.
+    """Caveat where most columns like one end otherwise than it did, the run counted in; empty where they do not.
 
     The column as surveyed is one of its population: its collapse is never set aside because others stand.
 
@@ -281,7 +283,7 @@ def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: f
 
 
 def _not_fallen(counts: Mapping[str, int]) -> str:
-    """How many columns stand, and how many are undecided."""
+    """Numbers of columns that stand and that are undecided."""
     stood, open_ = counts[v.STANDS], counts[v.UNDECIDED]
     words = [f"{stood} stand{'s' if stood == 1 else ''}"]
     words += [f"{open_} {'is' if open_ == 1 else 'are'} undecided"] if open_ else []
@@ -328,8 +330,8 @@ def certainty(
         column, motion, model, tail=tail, output_interval=output_interval, until_end=until_end, until_rest=until_rest,
         twins=riding, quiet=quiet, progress=campaign.progress,
     )  # fmt: skip
-    rows = [one.row() for one in response.twins]
-    rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
+    rows = [twin.row() for twin in response.twins]
+    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail))
     return Certainty(response, population, time.perf_counter() - began)
 

@@ -146,7 +146,7 @@ class CriticalAmplitude:
 
     @property
     def as_recorded(self) -> dict[str, Any] | None:
-        """What the record does as it is: amplitude, verdict, share of the twins with its interval and their verdicts.
+        """Effect of the record as it is: amplitude, verdict, share of the twins with its interval and their verdicts.
 
         None for a formula, or beyond the grid.
         """
@@ -178,7 +178,7 @@ class CriticalAmplitude:
 
     @property
     def alternation(self) -> pandas.DataFrame:
-        """How the verdicts alternate with growing amplitude: one row per stretch of equal verdict."""
+        """Alternation of verdicts with growing amplitude: one row per stretch of equal verdict."""
         import pandas
 
         return pandas.DataFrame(
@@ -327,9 +327,9 @@ def sweep(
     return results, time.perf_counter() - started
 
 
-def _with_own(grid: np.ndarray, one: Shaken) -> np.ndarray:
+def _with_own(grid: np.ndarray, shaken: Shaken) -> np.ndarray:
     """The grid with the amplitude that a record has as it is, unless that is beyond the grid's end."""
-    return np.union1d(grid, [one.as_is]) if one.recorded and one.as_is <= grid[-1] else grid
+    return np.union1d(grid, [shaken.as_is]) if shaken.recorded and shaken.as_is <= grid[-1] else grid
 
 
 def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:

@@ -48,7 +48,7 @@ class CriticalPopulation:
 
     @property
     def counts(self) -> dict[str, np.ndarray]:
-        """How many twins have each verdict at each amplitude, under the names of tables."""
+        """Number of twins of each verdict at each amplitude, under the names of tables."""
         return {f"twins_{one}": (self.verdicts == one).sum(axis=0) for one in v.MADE}
 
     @property
@@ -71,12 +71,12 @@ class CriticalPopulation:
     @property
     def capacities(self) -> list[Capacity]:
         """Between which amplitudes the first collapse of each twin lies [m/s²]."""
-        return [of_levels(self.amplitudes, list(one)) for one in self.verdicts]
+        return [of_levels(self.amplitudes, list(verdict)) for verdict in self.verdicts]
 
     @property
     def critical(self) -> np.ndarray:
         """Smallest amplitude that collapses each twin [m/s²], shape (twins,); infinite where none of the grid does."""
-        return np.array([one.high for one in self.capacities])
+        return np.array([capacity.high for capacity in self.capacities])
 
     @property
     def factors(self) -> np.ndarray | None:

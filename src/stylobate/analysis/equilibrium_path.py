@@ -301,7 +301,7 @@ class EquilibriumPath:
         return found
 
     def result(self, complete: bool, stop: str) -> PushoverResult:
-        """What was found so far."""
+        """Findings so far."""
         report = np.array([item[3] for item in self.kept])
         return PushoverResult(
             displacement=np.array([item[0] for item in self.kept]) - self.kept[0][0],
@@ -319,7 +319,7 @@ class EquilibriumPath:
             stop=stop,
             geometric=self.geometric,
             arms=self.height - self.stack.joint[:, 1],
-            links=tuple((one.name, one.action) for one in self.stack.links),
+            links=tuple((link.name, link.action) for link in self.stack.links),
             link_force=np.array(self.link_forces).reshape(len(self.kept), len(self.stack.links)),
         )
 

@@ -16,13 +16,13 @@ from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 #: Intensities that differ by less are one [-].
 CLOSE = 1e-6
 
-#: What a verdict says about collapse.
+#: Answer of a verdict on collapse.
 CODES = {v.COLLAPSED: EXCEEDED, v.STANDS: NOT_EXCEEDED, v.UNDECIDED: OPEN, v.FAILED: FAILED, v.NOT_RUN: FAILED}
 
 
 @dataclass(frozen=True)
 class Share:
-    """How many of the runs that could be computed for all exceed a limit state.
+    """Number of the runs, computed for all, that exceed a limit state.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class Share:
 
     @property
     def collapses(self) -> str:
-        """How many of the runs collapse, with the share and its interval, in a sentence."""
+        """Number of runs that collapse, with the share and its interval, in a sentence."""
         several = "" if self.runs == 1 else "s"
         if not self.runs:
             return f"{self.label}: no run could be computed."
@@ -109,7 +109,7 @@ def shares(codes: Mapping[Any, np.ndarray], records: Sequence[Any] | np.ndarray 
     records : array, optional
         Of which record each run is, in the same order; each of its own by default.
     """
-    same = np.all([one != FAILED for one in codes.values()], axis=0)
+    same = np.all([code != FAILED for code in codes.values()], axis=0)
     names = (
         np.arange(len(same)) if records is None else np.unique(np.asarray(records, dtype=str), return_inverse=True)[1]
     )
@@ -129,13 +129,13 @@ def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
     runs = np.bincount(owner)
     there = runs > 0
     hits = [codes == EXCEEDED, np.isin(codes, (EXCEEDED, OPEN))]
-    passed = [float((np.bincount(owner, one, len(runs))[there] / runs[there]).sum()) for one in hits]
+    passed = [float((np.bincount(owner, hit, len(runs))[there] / runs[there]).sum()) for hit in hits]
     low, high = (float(v.wilson_interval(one, there.sum())[k]) for k, one in enumerate(passed))
     return (min(low, float(hits[0].mean())), max(high, float(hits[1].mean()))) if len(codes) else (low, high)
 
 
 def codes_of(verdicts: np.ndarray) -> np.ndarray:
-    """What verdicts say about collapse, shape of ``verdicts``."""
+    """Collapse by verdicts, shape of ``verdicts``."""
     return np.select([verdicts == name for name in CODES], list(CODES.values()), FAILED).astype(np.int8)
 
 
@@ -153,18 +153,18 @@ def median_words(curve: Mapping[str, Any]) -> str:
     ends = [curve["median"], curve["median"]]
     if curve["undecided"] + curve["failed"]:
         ends = sorted(known_end(curve, key) for key in ("if_open_exceed", "if_open_do_not"))
-    return " to ".join(dict.fromkeys(within(one, curve["levels"]) for one in ends)) + unit
+    return " to ".join(dict.fromkeys(within(end, curve["levels"]) for end in ends)) + unit
 
 
 def median_name(*curves: Mapping[str, Any] | None) -> str:
-    """What :func:`median_words` of any of these curves are: never an interval of confidence.
+    """Kind of median of these curves: never an interval of confidence.
 
     Parameters
     ----------
     *curves : mapping
         As there; None where there is no curve.
     """
-    open_ = any(one["undecided"] + one["failed"] for one in curves if one is not None)
+    open_ = any(curve["undecided"] + curve["failed"] for curve in curves if curve is not None)
     return "median (undecided both ways)" if open_ else "median"
 
 

@@ -40,13 +40,13 @@ async def json_object(request: Request) -> dict[str, Any]:
         It holds none, or what no file can hold.
     """
     try:
-        found = json.loads(await request.body(), parse_constant=_finite, parse_float=_finite)
+        json_object = json.loads(await request.body(), parse_constant=_finite, parse_float=_finite)
     except (ValueError, RecursionError):
-        found = None
-    if not isinstance(found, dict):
+        json_object = None
+    if not isinstance(json_object, dict):
         raise InputError("the request holds no JSON object of finite numbers; reload the page.")
-    check_values(found, "the request")
-    return found
+    check_values(json_object, "the request")
+    return json_object
 
 
 def _finite(text: str) -> float:
@@ -62,7 +62,7 @@ def found_wrong(error: InputError) -> Response:
 
 
 class Missing(Exception):
-    """What was asked for by its name is not here."""
+    """Nothing of the name that was asked for is here."""
 
 
 def missing(what: str) -> Response:
@@ -109,7 +109,7 @@ async def _on_gone(request: Request, error: Exception) -> Response:
     return _about("the request broke off; send it again.", 400)  # nobody hears it
 
 
-#: What is answered where something goes wrong.
+#: Answers where something goes wrong.
 HANDLERS: dict[Any, Any] = {
     TooLarge: _on_too_large,
     TooSlow: _on_too_slow,

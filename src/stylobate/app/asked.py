@@ -1,4 +1,4 @@
-"""What the page asks for, checked, and the command lines that do it."""
+"""Requests of the page, checked, and the command lines that do them."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class MotionAsked(Table):
 
 
 class JobAsked(Table):
-    """What is to be computed, and of what: all but kind, column and model as on the command line.
+    """Computation that is asked for: all but kind, column and model as on the command line.
 
     ``column`` is what a column file holds, ``assembly`` the text of an assembly file; of ``critical`` the amplitudes go from
     ``first`` to ``last`` by ``step``. ``page`` is what the page's fields hold, for it to fill them again.
@@ -120,9 +120,9 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
 
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
-    if any(len(records.get(one, ())) > 1 for one in asked.records):
+    if any(len(records.get(record, ())) > 1 for record in asked.records):
         raise InputError("a record of several files is no record of a fragility here; upload one file for each record.")
-    files = [path for one in asked.records for path in _files(one, records)]
+    files = [path for record in asked.records for path in _files(record, records)]
     analysis = ["ida", *common, *files, *_options(unit=asked.unit, im=asked.im, runs=asked.runs), *end]
     if len(asked.records) < FEWEST:
         return [analysis]

@@ -21,7 +21,7 @@ from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
 from .words import doubted, warned
 
-#: What messages about a column call it at first; on the page that goes without saying.
+#: Name of a column in messages, at first; on the page that goes without saying.
 SOURCE = "the column"
 
 
@@ -50,12 +50,12 @@ def presets() -> dict[str, dict[str, Any]]:
 
 
 def tables_in(path: Path) -> dict[str, Any]:
-    """What a column file holds, drum by drum, whichever way it is written."""
+    """Contents of a column file, drum by drum, whichever way it is written."""
     return tables_of(Column.from_toml(path))
 
 
 def describe(table: Mapping[str, Any]) -> dict[str, Any]:
-    """What the page shows of a column: properties, warnings and outlines.
+    """Column on the page: properties, warnings and outlines.
 
     Raises
     ------
@@ -98,7 +98,7 @@ def _in_plane(column: Column) -> list[np.ndarray]:
 
 
 def _placed(column: Column) -> np.ndarray:
-    """Where the drums of a column found in the plane are: x and z of their centroids [m], and their angles [rad]."""
+    """Places of the drums of a column found in the plane: x and z of their centroids [m], and their angles [rad]."""
     still = np.zeros((1, column.n))
     return bodies_of(column).reference.plane(PlanePoses(still, still, still))[0]
 
@@ -118,7 +118,7 @@ def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
         def plane(body: int, place: np.ndarray) -> list[float]:
             return _turned(place[None, [0, 2]], at[body])[0].round(4).tolist()
 
-        return {"xz": [[plane(*one.lower[:2]), plane(*one.upper[:2])] for one in strokes(column.placed_links)]}
+        return {"xz": [[plane(*stroke.lower[:2]), plane(*stroke.upper[:2])] for stroke in strokes(column.placed_links)]}
     space, upright = space_geometry(column), base_axes(column)
 
     def seen(body: int, place: np.ndarray, axis: int) -> list[float]:
@@ -127,7 +127,7 @@ def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
 
     lines = strokes(column.placed_links)
     return {
-        name: [[seen(*one.lower[:2], axis), seen(*one.upper[:2], axis)] for one in lines]
+        name: [[seen(*line.lower[:2], axis), seen(*line.upper[:2], axis)] for line in lines]
         for name, axis in (("xz", 0), ("yz", 1))
     }
 
@@ -135,11 +135,11 @@ def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
 def _outlines(column: Column, axis: int) -> list[np.ndarray]:
     """The same of a column that is found out of the plane, over x or over y."""
     at, upright = space_geometry(column), base_axes(column)
-    found = []
+    outlines = []
     for i, shape in enumerate(bodies_of(column).shapes):
         points = (at.centroid[i] + shape.mesh().vertices @ at.axes[i].T) @ upright.T
-        found.append(hull(points[:, [axis, 2]]))
-    return found
+        outlines.append(hull(points[:, [axis, 2]]))
+    return outlines
 
 
 def refuse_large(table: Mapping[str, Any]) -> None:

@@ -38,7 +38,7 @@ PLAYER = Path(__file__).parents[1] / "plots"
 
 #: Files of the page by the end of their address: nothing else of the disk has one.
 KINDS = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
-PAGES = {f"/static/{one.name}": one for one in STATIC.iterdir() if one.suffix in KINDS} | {
+PAGES = {f"/static/{path.name}": path for path in STATIC.iterdir() if path.suffix in KINDS} | {
     f"/static/{name}": PLAYER / name for name in ("player.js", "player_space.js")
 }
 
@@ -74,8 +74,8 @@ class Site:
         return FileResponse(found, media_type=KINDS[found.suffix], headers={"cache-control": "no-cache"})
 
     async def about(self, request: Request) -> Response:
-        """What there is to choose from."""
-        listed = [{"name": one.name, "about": one.about} for one in samples().values()]
+        """Choices."""
+        listed = [{"name": sample.name, "about": sample.about} for sample in samples().values()]
         return Answer({"version": __version__, "presets": columns.presets(), "samples": listed, "labels": LABELS})
 
     # -- columns and motions -------------------------------------------------------------------------------------
@@ -98,7 +98,7 @@ class Site:
             return PlainTextResponse(path.read_text(encoding="utf-8"))
 
     async def column_file(self, request: Request) -> Response:
-        """What an uploaded file holds: a column, or an assembly."""
+        """Contents of an uploaded file: a column, or an assembly."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "your-column.toml"
             path.write_bytes(await request.body())
@@ -113,7 +113,7 @@ class Site:
                 raise
 
     async def assembly(self, request: Request) -> Response:
-        """What is shown of an assembly."""
+        """Summary of an assembly."""
         text = (await json_object(request)).get("assembly")
         try:
             return Answer(await run_in_threadpool(assemblies.describe, str(text)))

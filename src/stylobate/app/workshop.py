@@ -1,4 +1,4 @@
-"""Where jobs are done: one process, one job at a time, the others in a visible queue."""
+"""Workshop of jobs: one process, one job at a time, the others in a visible queue."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .process import PATIENCE, Process
 #: Most jobs that wait, and that are kept.
 WAIT, KEEP = 50, 300
 
-#: What the process says beside its jobs, beside their folder.
+#: Words of the process beside its jobs, beside their folder.
 LOG = "worker.log"
 
 #: Kinds of jobs that can be stopped and go on later where they were.
@@ -53,7 +53,7 @@ class Workshop:
         self.folder, self.worker, self.told = private(folder), list(worker), told
         self._log = self.folder.parent / LOG
         self._log.unlink(missing_ok=True)
-        loaded = [Job.load(one) for one in self.folder.iterdir() if one.is_dir()]
+        loaded = [Job.load(path) for path in self.folder.iterdir() if path.is_dir()]
         self.jobs = {one.id: one for one in sorted((job for job in loaded if job), key=lambda job: job.created)}
         self.version = 0
         self._queue: deque[str] = deque()
@@ -160,7 +160,7 @@ class Workshop:
         shutil.rmtree(job.folder, ignore_errors=True)
 
     def place(self, job: Job) -> int:
-        """How many jobs are done before this one."""
+        """Number of jobs that are done before this one."""
         with self._lock:
             waiting = list(self._queue)
             return waiting.index(job.id) + (self._current is not None) if job.id in waiting else 0
@@ -175,7 +175,7 @@ class Workshop:
             self._wake.notify()
 
     def _turn(self, job: Job) -> int:
-        """Where a job comes in the queue: after all others, but before the long ones where it is none of them."""
+        """Place of a job in the queue: after all others, but before the long ones where it is none of them."""
         return len(self._queue) if job.kind in LONG else self._before_long()
 
     def _before_long(self) -> int:
@@ -302,7 +302,9 @@ class Workshop:
             self._end(job, DONE, "")
             return True
         complaints = [str(one) for one in what["complained"]]
-        job.warnings += [one.removeprefix("warning: ") for one in complaints if one.startswith("warning: ")]
+        job.warnings += [
+            complaint.removeprefix("warning: ") for complaint in complaints if complaint.startswith("warning: ")
+        ]
         with suppress(ValueError):
             job.results.append(json.loads(what["said"]))
         if what["code"] == 0:
@@ -313,7 +315,9 @@ class Workshop:
         if what["code"] == INTERRUPTED or job.state == CANCELLED:
             self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
             return True
-        sentence = next((one for one in reversed(complaints) if not one.startswith("warning: ")), "It failed.")
+        sentence = next(
+            (complaint for complaint in reversed(complaints) if not complaint.startswith("warning: ")), "It failed."
+        )
         for file in (COLUMN, ASSEMBLY, STUDY):  # the job's own, of which the page knows nothing
             sentence = sentence.removeprefix(f"{file}: ")
         job.field = what.get("field")

@@ -1,4 +1,4 @@
-"""What to cite: the package, the sources of a model, and where a motion comes from."""
+"""Citations: the package, the sources of a model, and where a motion comes from."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ PACKAGE = Reference(
     ),
 )
 
-#: What a motion's metadata say of its source, in the order of a citation.
+#: Facts on the source in a motion's metadata, in the order of a citation.
 _SOURCE = ("station", "station_name", "network", "event", "start_time", "reference", "comments", "terms", "file")
 
 
 @dataclass(frozen=True)
 class Citation:
-    """What to cite.
+    """Citations.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Citation:
         lines = ["Please cite the package:", "", f"  {PACKAGE.text}"]
         if self.references:
             lines += ["", f"and what it rests on ({self.about}):", ""]
-            lines += [f"  {one.text}" for one in self.references]
+            lines += [f"  {reference.text}" for reference in self.references]
         if self.motion:
             lines += ["", "and the source of the ground motion:", ""]
             lines += [f"  {name.replace('_', ' ')}: {value}" for name, value in self.motion.items()]
@@ -82,7 +82,7 @@ class Citation:
 
 
 def cite(keys: Iterable[str] = (), about: str = "") -> Citation:
-    """What to cite for sources given by their keys."""
+    """Citations for sources given by their keys."""
     known, wanted = bibliography(), list(dict.fromkeys(keys))
     return Citation(
         about,
@@ -92,7 +92,7 @@ def cite(keys: Iterable[str] = (), about: str = "") -> Citation:
 
 
 def cite_run(provenance: Mapping[str, Any]) -> Citation:
-    """What to cite for a result, from its provenance.
+    """Citations for a result, from its provenance.
 
     Parameters
     ----------

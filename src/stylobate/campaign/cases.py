@@ -35,7 +35,7 @@ MAX_CASES = 20_000_000
 #: Measures of a motion that relate it to the slenderness of a column.
 RELATIVE = ("pga_over_g_tan_alpha", "omega_g_over_p", "uniform_duration_s", "pgv_p_over_g_tan_alpha")
 
-#: What is kept besides the table, the worst and the median run.
+#: Runs that are kept besides the table, the worst and the median run.
 KEEP = ("rows", "histories")
 
 
@@ -147,7 +147,7 @@ class Study:
         return np.array([share_of([motion], self.campaign.whole) for motion in self.motions])
 
     def plan(self) -> Plan:
-        """What is run, as plain data with the digest of every case."""
+        """Runs, as plain data with the digest of every case."""
         sizes = self.factors * np.array([[motion.factor] for motion in self.motions])
         each = list(zip(self.motions, sizes.tolist(), self.quiet.tolist(), strict=True))
         digests = np.empty((self.size, LENGTH), dtype=np.uint8)
@@ -222,18 +222,18 @@ class Study:
         for motion in self.motions:
             if samples_of(motion) not in seen:
                 seen[samples_of(motion)] = told(motion.replace(factor=1.0), relations)
-        found = {}
+        intensities = {}
         for name, power in told_powers().items():
             if name in RELATIVE and all(angle is None for angle in angles):
                 continue
             sizes = [abs(motion.factor) ** power for motion in self.motions]
             each = [[one.get(name) for one in seen[samples_of(motion)]] for motion in self.motions]
             if any(value is not None for values in each for value in values):
-                found[name] = [
+                intensities[name] = [
                     [None if value is None else value * size for value in values]
                     for values, size in zip(each, sizes, strict=True)
                 ]
-        return found
+        return intensities
 
     def _factors(self, motion: Motion) -> list[float]:
         if self.im is None:
@@ -243,9 +243,9 @@ class Study:
         value = self.im.of(motion)
         if not value > 0.0:
             raise InputError(f"{self.im.name} of {motion.name!r} is {value:g}, and cannot be scaled to a level.")
-        found = [float((level / value) ** (1.0 / self.im.power)) for level in self.levels]
-        warn_of_scaling(motion.scaled(max(found)))
-        return found
+        factors = [float((level / value) ** (1.0 / self.im.power)) for level in self.levels]
+        warn_of_scaling(motion.scaled(max(factors)))
+        return factors
 
 
 def must_be_alike(structures: Sequence[Structure], what: str) -> None:
@@ -255,6 +255,6 @@ def must_be_alike(structures: Sequence[Structure], what: str) -> None:
     ------
     InputError
     """
-    if len({one.slenderness is None for one in structures}) > 1:
-        names = ", ".join(one.name for one in structures)
+    if len({structure.slenderness is None for structure in structures}) > 1:
+        names = ", ".join(structure.name for structure in structures)
         raise InputError(f"the {what} holds columns and assemblies ({names}); give each kind a {what} of its own.")

@@ -18,7 +18,7 @@ def motion(
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, *o.SEVERAL, "vertical")],
     execution: o.Plain,
 ) -> None:
-    """What the record of a ground motion holds, and which records come with the package.
+    """Contents of records of ground motion, and the records that come with the package.
 
     Format, unit as found, step, duration, and the peaks of each component; with --out, pictures, and the motion as
     columns of text.
@@ -52,9 +52,14 @@ def _list_samples(execution: o.Execution) -> None:
     from . import console
 
     names = "name", "about", "format", "terms"
-    listed = [{name: getattr(one, name) for name in names} | {"name": PREFIX + one.name} for one in samples().values()]
+    listed = [
+        {name: getattr(sample, name) for name in names} | {"name": PREFIX + sample.name}
+        for sample in samples().values()
+    ]
     if not execution.emits({"samples": listed}):
-        facts = {PREFIX + one.name: f"{one.about} ({one.format}); {one.terms}" for one in samples().values()}
+        facts = {
+            PREFIX + sample.name: f"{sample.about} ({sample.format}); {sample.terms}" for sample in samples().values()
+        }
         console.say("Sample motions, for --motion and wherever a record is asked for", facts, [])
 
 
@@ -66,7 +71,7 @@ def _facts(summary: dict) -> dict[str, str]:
     for key, value in summary.items():
         if key in ("name", "files") or value in (None, [], {}):
             continue
-        ending = next((one for one in _UNITS if key.endswith(one)), "")
+        ending = next((unit for unit in _UNITS if key.endswith(unit)), "")
         name = key.removesuffix(ending).replace("_", " ") + _UNITS.get(ending, "")
         facts[name] = _text(value)
     return facts

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Drawn(NamedTuple):
-    """What is drawn of a run: its figures, and the strip of the median column like it."""
+    """Pictures of a run: its figures, and the strip of the median column like it."""
 
     all: bool = True
     median: bool = False
@@ -140,8 +140,8 @@ def each_record(
     from . import console
 
     places: list[Path | None] = []
-    for one in motions:
-        places.append(None if out is None else out / safe_name(one.name, places))
+    for motion in motions:
+        places.append(None if out is None else out / safe_name(motion.name, places))
     campaign = follow.keywords["campaign"]
     following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
     hasher = Hasher(model, campaign.tail)
@@ -149,12 +149,12 @@ def each_record(
     made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
     each = [
         hasher.of_product(
-            {"run": [stone.digest, one.name, one.digest, place and place.name], "drawn": drawn, **made}, __file__
+            {"run": [stone.digest, motion.name, motion.digest, place and place.name], "drawn": drawn, **made}, __file__
         )
-        for one, place in zip(motions, places, strict=True)
+        for motion, place in zip(motions, places, strict=True)
     ]
 
-    cases = [Case(stone, one) for one in motions]
+    cases = [Case(stone, motion) for motion in motions]
     request = Request(cases, Digests.of(each), [(np.arange(len(cases)), model, options)])
 
     def make(number: int) -> dict[str, Any]:
@@ -271,7 +271,7 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
 
 
 def quiet_facts(response: Response) -> dict[str, str]:
-    """How much of a record was stepped, where its quiet was left out."""
+    """Stepped share of a record, where its quiet was left out."""
     stepped = response.measures.stepped
     if stepped is None:
         return {}
@@ -280,7 +280,7 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 
 def population_facts(population: Population) -> dict[str, str]:
-    """What columns like this one are, and how much they moved."""
+    """Columns like this one, and their displacements."""
     from . import console
 
     facts = {"columns like this": population.drawn.words}

@@ -59,7 +59,7 @@ def write_column(column: Column, path: str | Path) -> Path:
 
 
 def tables_of(column: Column) -> dict[str, Any]:
-    """What a column file of this column holds, drum by drum, as TOML gives it."""
+    """Contents of a column file of this column, drum by drum, as TOML gives it."""
     first = column.drums[0]
     common = Counter(column.joints).most_common(1)[0][0]
     sizes = ("height", "bottom_width", "top_width", "density")
@@ -90,14 +90,14 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     joints = tuple(Joint(**fields) for fields in data["joints"])
     found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
     as_found = AsFound(
-        tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
+        tuple(FoundDrum(**drum) for drum in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
     )
     links = tuple(link_from_dict(fields) for fields in data.get("links", ()))
     return Column(drums, joints, data["name"], data["gravity"], as_found, data.get("material"), links)
 
 
 def _joint_fields(joint: Joint) -> dict[str, float]:
-    """What a file says of a joint: the form of its friction from which the other follows to the last bit."""
+    """Joint of a file: the form of its friction from which the other follows to the last bit."""
     fields = given(joint)
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"
@@ -110,8 +110,8 @@ def _as_found_fields(found: AsFound) -> dict[str, Any]:
         table["base_azimuth"] = found.base_azimuth
     if found.drums:
         table["drum"] = [
-            {"index": one.drum}
-            | {key: value for key, value in dataclasses.asdict(one).items() if key != "drum" and value != 0.0}
-            for one in found.drums
+            {"index": drum.drum}
+            | {key: value for key, value in dataclasses.asdict(drum).items() if key != "drum" and value != 0.0}
+            for drum in found.drums
         ]
     return table

@@ -1,4 +1,4 @@
-"""What every model is: a frozen set of parameters that can run one case or many."""
+"""Base of models: a frozen set of parameters that can run one case or many."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Cases(Sequence[Any]):
 
 @dataclass(frozen=True)
 class RunOptions:
-    """How long and how closely a run is followed; the same for every model.
+    """Length and closeness of a run; the same for every model.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ class Model:
         return self.follows_to_rest
 
     def carried(self, column: Any) -> int:
-        """How many of its kind are taken along in a run of what stands."""
+        """Number of twins along a run of what stands."""
         del column
         return self.carries
 
@@ -262,5 +262,7 @@ def _parse(key: str, text: str, hint: Any) -> Any:
         return TypeAdapter(hint).validate_python(text)
     except ValidationError as error:
         mistakes = error.errors()
-    expected = next((_EXPECTED[one["type"]] for one in mistakes if one["type"] in _EXPECTED), mistakes[0]["msg"])
+    expected = next(
+        (_EXPECTED[mistake["type"]] for mistake in mistakes if mistake["type"] in _EXPECTED), mistakes[0]["msg"]
+    )
     raise InputError(f"parameter {key} is {text!r}; allowed is {expected}.", key, value=text, allowed=expected)

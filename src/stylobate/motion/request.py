@@ -32,7 +32,7 @@ from .specs import (
 #: Of which a motion comes, by the parameters of a request.
 SOURCES = ("harmonic", "pulse", "synthetic", "files")
 
-#: What may be asked for of the horizontal components of a record besides one of them by name.
+#: Choices for the horizontal components of a record besides one of them by name.
 COMPONENTS = ("all", "strongest")
 
 #: Time that follows a pulse whose length is left open, times p of the column [-]: free rocking from close to overturning
@@ -46,7 +46,7 @@ SAME_DIRECTION = 1e-6
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """What to shake with: asked for once, the same for the command line, study files and pages.
+    """Requests for motions: the same for the command line, study files and pages.
 
     Exactly one of ``harmonic``, ``pulse``, ``synthetic`` and ``files`` is given. The steps are taken in the order of the
     parameters below.
@@ -105,7 +105,7 @@ class MotionRequest:
     vertical: bool = True
 
     def __post_init__(self) -> None:
-        given = [f"`{one}`" for one in SOURCES if getattr(self, one) not in (None, ())]
+        given = [f"`{source}`" for source in SOURCES if getattr(self, source) not in (None, ())]
         if len(given) != 1:
             what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
             raise InputError(f"{what}; give one of `harmonic`, `pulse`, `synthetic` and `files`.", "files")
@@ -119,8 +119,8 @@ class MotionRequest:
         check_choice("`signs`", self.signs, ("+", "both"))
         if self.scale is not None and self.pga is not None:
             raise InputError("`scale` and `pga` are both given; give one of the two.", "pga")
-        for one in self.azimuths:
-            check_range("azimuth", one, -360.0, 360.0, unit="degrees")
+        for azimuth in self.azimuths:
+            check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees")
         opposite = next(
             (
                 pair
@@ -217,8 +217,8 @@ class MotionRequest:
             raise InputError(f"{folder} is a folder; give the file or the files of one record here.")
         if self.several:
             raise InputError("several motions are asked for; one motion, one direction and one sign can be given here.")
-        (found,) = self._variants(self._source(frequency_parameter, amplitude_open))
-        return found
+        (motion,) = self._variants(self._source(frequency_parameter, amplitude_open))
+        return motion
 
     def expand(self, frequency_parameter: float | None = None, *, amplitude_open: bool = False) -> Suite:
         """All motions that are asked for, and what could not be used, with the reason; see :meth:`motion`.
@@ -280,7 +280,7 @@ class MotionRequest:
 
     def _variants(self, motion: Motion) -> list[Motion]:
         """The motion in every direction and with every sign asked for, conditioned and scaled."""
-        found = []
+        variants = []
         for first in _as_x(motion, self.component):
             ready = []
             for azimuth in self.azimuths or (None,):
@@ -293,8 +293,8 @@ class MotionRequest:
                 both = [one, _reversed(one, motion.name)] if self.signs == "both" else [one]
                 ready += [self._conditioned(each) for each in both]
             strongest = max(ready, key=lambda one: one.pga)
-            found += [self._sized(one, strongest) for one in ready]
-        return found
+            variants += [self._sized(one, strongest) for one in ready]
+        return variants
 
     def _turned(self, motion: Motion, azimuth: float) -> Motion:
         if motion.y_samples is None and not self.files:  # a computed motion along x has nothing along y
@@ -341,7 +341,7 @@ def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:
 
 
 def _direction(motion: Motion, record: str) -> dict[str, Any]:
-    """What is known of where a motion has been turned to, and of which record it is."""
+    """Direction to which a motion has been turned, and the record that it is made of."""
     return {"record": record, "reversed": False, **motion.metadata.get("direction", {})}
 
 

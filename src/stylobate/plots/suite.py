@@ -23,7 +23,7 @@ SMALLEST = 1e-4
 #: More records than this are not numbered in the picture.
 MOST_NUMBERS = 40
 
-#: What is drawn, by the column of the table: of columns, of assemblies.
+#: Quantities in pictures, by the column of the table: of columns, of assemblies.
 PEAKS = {
     "peak_top_over_base_width": "peak top displacement\n/ base width [-]",
     "peak_displacement_m": "peak displacement\nof a block [m]",
@@ -71,7 +71,7 @@ def draw_suite(
     figure = page(figure, (WIDTH, 1.2 + 2.7 * len(columns)))
     panels = figure.subplots(len(columns), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     values = table[against].to_numpy(dtype=float)
-    name = next(one for one in PEAKS if one in table)
+    name = next(peak for peak in PEAKS if peak in table)
     peaks = table[name].to_numpy(dtype=float)
     groups = _groups(table)
     finite = peaks[np.isfinite(peaks) & (groups != v.COLLAPSED)]

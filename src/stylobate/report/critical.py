@@ -16,7 +16,7 @@ from .pictures import kept
 #: Most rows of a table; the CSV files in the folder hold them all.
 MOST = 40
 
-#: What is told of each motion; what only columns like it add is left out where there are none.
+#: Facts of each motion; those that only columns like it add are left out where there are none.
 BY_RECORD = (
     *("motion", "pga_g", "pgv_m_s", "as_recorded", "critical_g", "critical_factor", "all_collapse_above_g"),
     *("lowest_collapse_g", "lowest_collapse_factor", "critical_16_g", "critical_50_g", "critical_84_g"),
@@ -25,7 +25,7 @@ BY_RECORD = (
 
 
 def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    """What amplitudes brought down the column, and columns like it; under one motion or several."""
+    """Amplitudes that brought down the column, and columns like it; under one motion or several."""
     s = result.summary
     records = s.get("records") or []
     pairs = [
@@ -91,7 +91,7 @@ def _share(fell: int, stood: int, undecided: int) -> str:
 def _by_record(records: Sequence[Mapping[str, Any]]) -> Rows:
     alone = "critical_50_g" not in records[0]
     keys = [key for key in BY_RECORD if key in records[0] and not (alone and key.startswith("lowest"))]
-    rows = [[n.plain(one.get("bounds", {}).get(key, one.get(key))) for key in keys] for one in records[:MOST]]
+    rows = [[n.plain(record.get("bounds", {}).get(key, record.get(key))) for key in keys] for record in records[:MOST]]
     caption = "By motion; ≤ and > mark bounds, where no amplitude on the other side was stood, or brought collapse."
     left_out = f" The first {MOST} of {len(records)}." if len(records) > MOST else ""
     return Rows([n.named(key) for key in keys], rows, caption + left_out, numbers=True)

@@ -1,4 +1,4 @@
-"""What follows from the runs of other commands: fragility, risk under a hazard, survival over the years."""
+"""Consequences of the runs of other commands: fragility, risk under a hazard, survival over the years."""
 
 from __future__ import annotations
 
@@ -45,17 +45,17 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     return (sentence + open_runs(one, "left out of the curve, and counted both ways in its interval"), ""), items
 
 
-#: What no interval of a fragility holds.
+#: Limits of the intervals of a fragility.
 _HOLDS = "The interval is over {}: it does not hold what the model or the survey may be wrong about."
 
 
 def _over(curve: Mapping[str, Any]) -> str:
-    """What the interval of a curve is over."""
+    """Population of the interval of a curve."""
     return "runs" if curve.get("records_are_one") else "records"
 
 
 def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    """How often a year, and what that rests on."""
+    """Rate per year, and its basis."""
     s = result.summary
     period = s.get("return_period_y")
     sentence = f"{s.get('name', 'The column')}: {s.get('state', 'collapse')} " + (
@@ -72,7 +72,7 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     ]
     if known:
         median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
-        levels = " to ".join(f"{one:.3g}" for one in known["levels"])
+        levels = " to ".join(f"{level:.3g}" for level in known["levels"])
         counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
         pairs += [
             ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
@@ -97,7 +97,7 @@ def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         "survival_probability_high",
         "weight",
     ]
-    said = ", ".join(f"{one['hazard']}: {float(one['survival_probability']):.2g}" for one in s["hazards"])
+    said = ", ".join(f"{hazard['hazard']}: {float(hazard['survival_probability']):.2g}" for hazard in s["hazards"])
     sentence = (
         f"Probability that the column would still stand after {n.plain(s.get('age_y'))} years, by hazard curve: {said}."
     )

@@ -20,12 +20,12 @@ from .page import Facts, Item, Note, Points, Rows, Section
 from .pictures import kept
 from .structure import what_opens
 
-#: What is told of a link in a limit analysis.
+#: Facts of a link in a limit analysis.
 _LINK = ("link", "action", "force_n", "capacity_n", "yields")
 
 
 def statics_section(column: Column, run: RunResult | None) -> Section:
-    """What horizontal forces at rest would do: uplift and limit analysis."""
+    """Statics under horizontal forces: uplift and limit analysis."""
     opens, said = what_opens(column, run is not None and run.response.dims == "xyz")
     pairs = [("opens the first joint", said)]
     try:
@@ -137,7 +137,7 @@ def code_check(column: Column, result: Result, run: RunResult | None) -> Section
 
 
 def _beside_run(check: CapacityCheck, result: Result, run: RunResult) -> list[Item]:
-    """What the run in time says to the displacement that the check expects."""
+    """Words of the run in time on the displacement that the check expects."""
     r = run.response
     if r.collapsed:
         return [Note(["The run in time under the same motion collapsed: rely on the run, not on this check."], "bad")]
@@ -193,7 +193,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         f"Under steady horizontal forces the {'assembly' if s.get('moving') else 'column'} becomes a mechanism at "
         f"{s['collapse_multiplier_g']:.4g} times its weight{to}."
     )
-    modes = "; ".join(f"joint {one['joint']} {one['mode']}" for one in s.get("active_joints", ()))
+    modes = "; ".join(f"joint {joint['joint']} {joint['mode']}" for joint in s.get("active_joints", ()))
     pairs = [
         ("mechanism", modes or n.NONE),
         ("numbers of the joints at their strength", n.plain(s.get("joints_at_strength"))),
@@ -206,7 +206,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items: list[Item] = [Facts([(name, value) for name, value in pairs if value != n.NONE])]
     items += kept(result.pictures, "limit", "Mechanism: velocities drawn as displacements.")
     items += kept(result.pictures, "directions", "The multiplier by the direction in which the forces push.")
-    if held := [one for one in s.get("links", ()) if one.get("force_n")]:
+    if held := [link for link in s.get("links", ()) if link.get("force_n")]:
         body = [[str(one[key]) if key in ("link", "action") else n.plain(one[key]) for key in _LINK] for one in held]
         items.append(
             Rows(
@@ -232,7 +232,7 @@ def _who_moves(s: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def static_model() -> Section:
-    """What statics assume, and where they end."""
+    """Assumptions and limits of statics."""
     items: list[Item] = [
         "Pushover and limit analysis assume:",
         Points(

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def title_of(response: Recorded) -> str:
-    """What stood, motion, model and outcome in one line."""
+    """Structure, motion, model and outcome in one line."""
     undecided = "" if response.decided else ", undecided"
     motion = response.provenance.get("motion", "motion")
     outcome = response.outcome.label.replace("_", " ")
@@ -22,7 +22,7 @@ def title_of(response: Recorded) -> str:
 
 
 def sentence_of(response: Recorded) -> str:
-    """What happened, in one to three sentences."""
+    """Outcome, in one to three sentences."""
     m = response.measures
     links = sentence_of_links(m.links)
     if m.blocks is not None:
@@ -37,7 +37,7 @@ def sentence_of(response: Recorded) -> str:
     return " ".join(words)
 
 
-#: What damps a run in space, by the names of the parameters, and the value with which it does not.
+#: Damping of a run in space, by the names of the parameters, and the value with which there is none.
 UNDAMPED = {"stiffness_damping": 0.0, "mass_damping": 0.0, "restitution": 1.0, "rolling_resistance": 0.0}
 
 #: Tilt beyond which a column wobbles, as a share of its slenderness [-].
@@ -107,7 +107,7 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], given: float)
         How long it went on after the motion [s].
     """
     free = parameters.get("pivot_friction", 1.0) < 1.0 and not parameters.get("planar")
-    moved = any(one.offset or one.tilt or one.chipped for one in structure.as_found.drums)
+    moved = any(drum.offset or drum.tilt or drum.chipped for drum in structure.as_found.drums)
     if free and moved and structure.section == "circular":
         return "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
     return f"go on with {longer_tail(given)}"

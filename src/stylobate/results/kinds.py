@@ -1,4 +1,4 @@
-"""What a folder of results can hold, as types: each kind with what its report and its readers need."""
+"""Kinds of results of a folder, as types: each with what its report and its readers need."""
 
 from __future__ import annotations
 
@@ -84,18 +84,18 @@ class Result:
 
     @property
     def structures(self) -> Sequence[Structure]:
-        """What it is about, as far as the folder tells."""
+        """Subject, as far as the folder tells."""
         return [] if self.asked is None else self.asked.stood
 
     @property
     def name(self) -> str:
         """Of what stood; the folder's where that is not known."""
-        return ", ".join(dict.fromkeys(one.name for one in self.structures)) or self.folder.name
+        return ", ".join(dict.fromkeys(structure.name for structure in self.structures)) or self.folder.name
 
     @property
     def pictures(self) -> dict[str, Path]:
         """Pictures (PNG) as stylobate wrote them, by their names; one that was changed since is left out."""
-        named = [one for one in self.files if one.name.endswith(".png") and one.unchanged is not False]
+        named = [file for file in self.files if file.name.endswith(".png") and file.unchanged is not False]
         return {Path(one.name).stem: self.folder / one.name for one in named}
 
 
@@ -118,7 +118,7 @@ class RunResult(Result):
 
     @property
     def structures(self) -> Sequence[Structure]:
-        """What stood."""
+        """Structure."""
         return [self.response.structure]
 
 
@@ -130,7 +130,7 @@ class SeveralRuns(Result):
 
     @property
     def structures(self) -> Sequence[Structure]:
-        """What stood."""
+        """Structure."""
         return [self.runs[0].response.structure]
 
 
@@ -142,7 +142,7 @@ class Grid(Result):
 
     @property
     def structures(self) -> Sequence[Column]:
-        """What stood."""
+        """Structure."""
         return [self.data.column]
 
 

@@ -1,4 +1,4 @@
-"""What a result was computed from: the table of runs of another command, with what that one was asked, or of anybody."""
+"""Origin of a result: the table of runs of another command, with that command's request, or of anybody."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Source:
 
     @cached_property
     def kept(self) -> Asked | str:
-        """What the command that wrote the table was asked, or why that is not known."""
+        """Request of the command that wrote the table, or why that is not known."""
         command = COMMANDS.get(self.table.stem)
         file = self.table.parent / asked_file(command or "")
         if command is None or not file.is_file() or not OwnFiles(self.table.parent).lists(self.table):
@@ -53,7 +53,7 @@ class Source:
 
     @property
     def asked(self) -> Asked | None:
-        """What the command that wrote the table was asked; None where that is not known."""
+        """Request of the command that wrote the table; None where that is not known."""
         return self.kept if isinstance(self.kept, Asked) else None
 
     def names(self, column: str) -> list[str]:
@@ -62,12 +62,12 @@ class Source:
 
     @property
     def stood(self) -> list[str]:
-        """What stood in these runs, as the table calls it: columns, or states of one."""
+        """Structures of these runs, as the table calls them: columns, or states of one."""
         return next((found for one in STOOD if (found := self.names(one))), [])
 
     @property
     def structures(self) -> list[dict[str, Any]]:
-        """What stood in these runs, as kept by the command."""
+        """Structures of these runs, as kept by the command."""
         asked, names = self.asked, self.stood
         kept = asked.structures if asked is not None else ()
         labels = asked.options.get("states") if asked is not None else None
@@ -79,20 +79,20 @@ class Source:
     def models(self) -> list[dict[str, Any]]:
         """Models of these runs, as kept by the command."""
         asked, names = self.asked, self.names("model")
-        return [one for one in (asked.models if asked is not None else ()) if not names or one["name"] in names]
+        return [model for model in (asked.models if asked is not None else ()) if not names or model["name"] in names]
 
     @property
     def doubt(self) -> str:
-        """What stands before all that rests on these runs: that round columns were computed in a plane, where they were."""
+        """Caveat before all that rests on these runs: that round columns were computed in a plane, where they were."""
         round_ = any(
             drum.get("section") == "circular"
-            for one in self.structures
-            for drum in (one.get("column") or {}).get("drums", ())
+            for structure in self.structures
+            for drum in (structure.get("column") or {}).get("drums", ())
         )
         plane = any(
-            model_class(one["name"]).is_plane(one.get("parameters") or {})
-            for one in self.models
-            if one["name"] in MODELS
+            model_class(model["name"]).is_plane(model.get("parameters") or {})
+            for model in self.models
+            if model["name"] in MODELS
         )
         return f"{ROUND_IN_THE_PLANE}." if round_ and plane else ""
 
@@ -101,11 +101,13 @@ class Source:
         """Motions of these runs, as kept by the command, each with the factors by which it was multiplied."""
         asked = self.asked
         scaled = None if self.table.stem == "suite" else self.runs  # a suite runs its motions as they are
-        return [] if asked is None else [{**scales_of(scaled, str(one["name"])), **one} for one in asked.motions]
+        return (
+            [] if asked is None else [{**scales_of(scaled, str(motion["name"])), **motion} for motion in asked.motions]
+        )
 
     @property
     def facts(self) -> dict[str, Any]:
-        """What is kept of it beside the result that rests on it."""
+        """Facts that are kept beside the result that rests on it."""
         asked, records = self.asked, self.names("record")
         listed = (self.table.parent / LIST).is_file() and OwnFiles(self.table.parent).lists(self.table)
         return {
@@ -125,16 +127,16 @@ class Source:
 
 
 def kept_of(sources: Sequence[Source]) -> dict[str, Any]:
-    """What results that rest on these runs keep of them, as arguments of :meth:`Asked.of`; each structure once."""
+    """Part of these runs that results resting on them keep, as arguments of :meth:`Asked.of`; each structure once."""
     found: dict[str, dict[str, Any]] = {"structures": {}, "models": {}, "motions": {}}
     warnings: dict[str, None] = {}
-    for one in sources:
+    for source in sources:
         for kind, some in found.items():
-            for value in getattr(one, kind):
+            for value in getattr(source, kind):
                 some.setdefault(str(value.get("digest") or sorted(value.items(), key=str)), value)
-        warnings |= dict.fromkeys(one.asked.warnings if one.asked is not None else ())
+        warnings |= dict.fromkeys(source.asked.warnings if source.asked is not None else ())
     kept = {kind: list(some.values()) for kind, some in found.items()}
-    return kept | {"sources": [one.facts for one in sources], "earlier": list(warnings)}
+    return kept | {"sources": [source.facts for source in sources], "earlier": list(warnings)}
 
 
 def _named(structure: dict[str, Any], name: str) -> bool:

@@ -89,12 +89,12 @@ class PlacedLink(Numbers):
 
     @property
     def place(self) -> tuple[float, float]:
-        """Where what crosses a joint acts, as drawn: halfway between its ends [m]."""
+        """Point of action across a joint, as drawn: halfway between its ends [m]."""
         return 0.5 * (self.low[0] + self.high[0]), 0.5 * (self.low[2] + self.high[2])
 
     @property
     def arms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Where it acts on its two bodies: from their origins, in their own axes [m], each of shape (3,)."""
+        """Points of action on the two bodies: from their origins, in their own axes [m], each of shape (3,)."""
         middle = self.place[0], self.low[1], self.place[1]
         ends = (self.low, self.high) if self.straight else (middle, middle)
         return np.subtract(ends[0], self.origins[0]), np.subtract(ends[1], self.origins[1])
@@ -138,7 +138,7 @@ def strokes(links: Sequence[PlacedLink]) -> list[Stroke]:
 
 
 def for_each(links: Sequence[Any], owner: str, do: Callable[[Link], Result]) -> list[Result]:
-    """What is made of each link of a column or an assembly of this name.
+    """Facts of each link of a column or an assembly of this name.
 
     Raises
     ------
@@ -176,19 +176,19 @@ def place_all(links: Sequence[Link], owner: str, place: Callable[[Link], PlacedL
     )
 
 
-def _check(one: PlacedLink, others: Sequence[PlacedLink]) -> None:
+def _check(link: PlacedLink, others: Sequence[PlacedLink]) -> None:
     """Refuse what no place can mend: pretension that it cannot hold, two laws for one joint."""
-    if one.pretension > one.axial_capacity:
+    if link.pretension > link.axial_capacity:
         raise InputError(
-            f"pretension of a {one.kind} is {one.pretension:g} N, more than its axial capacity of "
-            f"{one.axial_capacity:.4g} N; make it smaller.",
+            f"pretension of a {link.kind} is {link.pretension:g} N, more than its axial capacity of "
+            f"{link.axial_capacity:.4g} N; make it smaller.",
             "pretension",
         )
-    if one.pretension and not one.axial_stiffness:
-        raise InputError(f"a {one.kind} without axial_stiffness cannot be pretensioned; give one.", "axial_stiffness")
-    beside = [other for other in others if (other.lower, other.upper) == (one.lower, one.upper)]
-    where = f"joint {one.joint}" if one.joint else "its joint"
-    if one.friction_coefficient is not None and any(other.friction_coefficient is not None for other in beside):
+    if link.pretension and not link.axial_stiffness:
+        raise InputError(f"a {link.kind} without axial_stiffness cannot be pretensioned; give one.", "axial_stiffness")
+    beside = [other for other in others if (other.lower, other.upper) == (link.lower, link.upper)]
+    where = f"joint {link.joint}" if link.joint else "its joint"
+    if link.friction_coefficient is not None and any(other.friction_coefficient is not None for other in beside):
         raise InputError(f"{where} has two layers with a friction_coefficient; keep one.", "joint")
-    if one.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
-        raise InputError(f"{where} has two {one.kind}s; keep one.", "joint")
+    if link.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
+        raise InputError(f"{where} has two {link.kind}s; keep one.", "joint")

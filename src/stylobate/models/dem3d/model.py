@@ -44,7 +44,7 @@ from .verdict import numbers_for
 LAWS = {"rim": 1.0, "bed": 0.0}
 ON_CORNERS = 2.0
 
-#: What a joint of each law gives with its load on its edge.
+#: Energy of a joint of each law with its load on its edge.
 TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
 
 #: In place of a section: one body that stands on its vertices; round drums on rings, or with chips.
@@ -58,7 +58,7 @@ ALONE = Topology(2, ((0, 1),), stack=1)
 
 
 class Kind(NamedTuple):
-    """What shares blocks of lanes.
+    """Common block of lanes.
 
     Parameters
     ----------
@@ -263,7 +263,7 @@ class DistinctElement3D(SteppedDrums):
         del motion
         if self.law != "bed":
             column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
-        twice = next((one.drum for one in column.as_found.drums if one.chip_left and one.chip_right), None)
+        twice = next((drum.drum for drum in column.as_found.drums if drum.chip_left and drum.chip_right), None)
         if twice is not None and chipped(column):
             raise InputError(
                 f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "

@@ -19,18 +19,22 @@ from ..shared.stable_step import highest_frequency
 
 def acting(structure: Structure) -> tuple[PlacedLink, ...]:
     """Links that do anything besides lowering friction."""
-    return tuple(one for one in structure.placed_links if one.acts)
+    return tuple(link for link in structure.placed_links if link.acts)
 
 
 def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
     """By which numbers each link holds, as the fields of ``bond`` and ``link``, each of shape (m,)."""
 
     def of(name: str) -> np.ndarray:
-        return np.array([getattr(one, name) for one in links], dtype=float)
+        return np.array([getattr(link, name) for link in links], dtype=float)
 
-    straight, stiffness, axial = np.array([one.straight for one in links]), of("shear_stiffness"), of("axial_stiffness")
-    failure, across = [one.failure for one in links], [one.axial_failure for one in links]
-    clamps = np.array([one.lies == "side" for one in links])
+    straight, stiffness, axial = (
+        np.array([link.straight for link in links]),
+        of("shear_stiffness"),
+        of("axial_stiffness"),
+    )
+    failure, across = [link.failure for link in links], [link.axial_failure for link in links]
+    clamps = np.array([link.lies == "side" for link in links])
     return {
         "line": straight.astype(int),
         "ten": ((axial > 0.0) & ~straight).astype(int),
@@ -56,7 +60,7 @@ def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
 
 
 def bonds(structure: Structure) -> np.ndarray:
-    """What the links of a structure are in all lanes."""
+    """Constants of the links of a structure in all lanes."""
     links = acting(structure)
     records = np.zeros(len(links), BOND_TYPE)
     if links:
@@ -108,7 +112,7 @@ class LinkStiffness(NamedTuple):
 
 
 def link_stiffness(column: Column) -> LinkStiffness:
-    """How stiff the links are against the drums' masses: an upper bound of what they add to any state of the joints."""
+    """Stiffness of the links against the drums' masses: an upper bound of what they add to any state of the joints."""
     links, n = acting(column), column.n
     if not links:
         return LinkStiffness(0.0, 0.0)
@@ -131,7 +135,7 @@ def link_stiffness(column: Column) -> LinkStiffness:
 
 
 def _square(column: Column, link: PlacedLink, way: np.ndarray) -> np.ndarray:
-    """What a unit of stiffness along a direction adds to the stiffness of the drums."""
+    """Share of a unit of stiffness along a direction in the stiffness of the drums."""
     row = np.zeros(6 * column.n)
     low, high = link.arms
     for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):
@@ -155,7 +159,7 @@ def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
 
 
 def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
-    """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
+    """Results of a run for each of the links, whose records these are; ``step`` is that of time [s]."""
     found = []
     for m, link in enumerate(links):
         when = int(records["when"][m, lane])

@@ -1,4 +1,4 @@
-"""What models of stacked drums share that step them explicitly in blocks of lanes: options, time step, runs."""
+"""Common parts of models of stacked drums that step them explicitly in blocks of lanes: options, time step, runs."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class SteppedDrums(Model):
     mass_damping: float = 0.0
 
     def __post_init__(self) -> None:
-        default = next(one.default for one in fields(self) if one.name == "step_factor")
+        default = next(field.default for field in fields(self) if field.name == "step_factor")
         remedy = f"{default:g} is the default"
         check_range("step_factor", self.step_factor, 0.0, 1.0, open_low=True, open_high=True, remedy=remedy)
         if self.time_step is not None:
@@ -82,7 +82,7 @@ class SteppedDrums(Model):
     # -- shared --------------------------------------------------------------------------------------------------
 
     def kind(self, column: Any) -> Any:
-        """What tells which columns can share a block of lanes: which contacts there are."""
+        """Mark of columns that can share a block of lanes: which contacts there are."""
         return Topology.of(column)
 
     def check(self, column: Column, motion: Motion) -> None:
@@ -125,7 +125,7 @@ class SteppedDrums(Model):
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
         every, end, dt = stride * block.chunk, int(block.steps[0]), float(block.dt[0])
-        twins = Riders(block, [Case(one, motion) for one in options.twins])
+        twins = Riders(block, [Case(twin, motion) for twin in options.twins])
         residual = block.residual_acceleration(0)
         states: list[dict[str, Any]] = []
 

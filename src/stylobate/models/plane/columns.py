@@ -85,7 +85,7 @@ class ColumnLanes(LaneRuns):
         ground = self.ground_acceleration(lane)
         turn: float | np.ndarray = 0.0
         if self.options.start is not None:
-            fx, fz, mo = (one[1:] for one in records.forces(lane))
+            fx, fz, mo = (force[1:] for force in records.forces(lane))
             ground = (
                 ground[0] - fx * body["im"][1:, lane],
                 ground[1] + records.lane["g"][0, lane] - fz * body["im"][1:, lane],
@@ -132,7 +132,7 @@ class ColumnLanes(LaneRuns):
         return self.measures(lane, np.abs(self.slips(lane)), residual, self.peak(lane, "turn"))
 
     def slips(self, lane: int) -> np.ndarray:
-        """How far every joint has slipped since the start [m], shape (n,)."""
+        """Slip of every joint since the start [m], shape (n,)."""
         return self.records.joint_state(lane)[1] - self.slip[lane]
 
     def stays(self, lane: int, energy: float) -> bool:

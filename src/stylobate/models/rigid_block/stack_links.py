@@ -13,7 +13,7 @@ from ...column import Column
 from ...column.links.placed import PlacedLink, stands_at
 from ...errors import InputError
 
-#: What a link does: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
+#: Action of a link: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
 SHEAR, CLOSING, LINE = "shear", "closing", "line"
 
 
@@ -111,7 +111,7 @@ def holds(links: Sequence[PlacedLink]) -> list[Hold]:
 
 
 def stack_links(column: Column) -> tuple[Hold, ...]:
-    """What the links of a column do in the plane of x and z, where its drums are found."""
+    """Links of a column in the plane of x and z, where its drums are found."""
     if not column.links:
         return ()
 
@@ -150,9 +150,9 @@ def link_strains(
     n = len(centroid)
     moved = np.zeros((n, 3)) if position is None else position
     strain, opening, slope = np.zeros(len(links)), np.zeros(len(links)), np.zeros((len(links), 3 * n))
-    for k, one in enumerate(links):
-        strain[k], opening[k], by_low, by_high = link_strain(one, centroid, joint_angle, moved)
-        for block, by in zip(one.blocks, (by_low, by_high), strict=True):
+    for k, link in enumerate(links):
+        strain[k], opening[k], by_low, by_high = link_strain(link, centroid, joint_angle, moved)
+        for block, by in zip(link.blocks, (by_low, by_high), strict=True):
             if block >= 0:
                 slope[k, 3 * block : 3 * block + 3] += by
     return strain, slope, opening
@@ -190,7 +190,7 @@ def _axes(angle: float) -> tuple[np.ndarray, np.ndarray]:
 def _point(
     block: int, place: tuple[float, float], centroid: np.ndarray, moved: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where a point of a block is [m], and its derivative by the block's coordinates, shape (2, 3)."""
+    """Place of a point of a block [m], and its derivative by the block's coordinates, shape (2, 3)."""
     if block < 0:
         return np.array(place), np.zeros((2, 3))
     x, z, turn = moved[block]

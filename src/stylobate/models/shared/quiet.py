@@ -1,4 +1,4 @@
-"""What of a record need not be stepped: the quiet before the shaking, and between and after shocks once all lies at rest.
+"""Quiet of a record: before the shaking, and between and after shocks once all lies at rest.
 
 A joint opens, or slides, at the earliest where the horizontal acceleration a reaches what a static one needs, less what the
 vertical one takes off the weight. The *level* of a motion is its share of that,
@@ -67,7 +67,7 @@ def shaking(motion: Motion, column: Column, share: float) -> np.ndarray:
 
 def share_of(motions: Sequence[Motion], whole: bool) -> float:
     """The share below which motions are quiet [-]: of records; 0 for computed motions, which have no quiet to speak of."""
-    return 0.0 if whole or not all("format" in one.metadata for one in motions) else QUIET
+    return 0.0 if whole or not all("format" in motion.metadata for motion in motions) else QUIET
 
 
 def is_cut(case: Case, options: RunOptions) -> bool:

@@ -215,7 +215,7 @@ def _follow(
 
 
 def _state(engine: Loose, motion: Motion) -> dict[str, Any]:
-    """What a history keeps of the present state."""
+    """Part of the present state in a history."""
     place, base = engine.time / motion.dt, np.zeros(3)
     if place <= motion.steps - 1:
         for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):

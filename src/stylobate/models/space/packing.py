@@ -34,7 +34,7 @@ def solids_of(structure: Structure) -> tuple[list[Solid], np.ndarray]:
         mass = 0.0 if stone.fixed else stone.mass
         solids.append(
             Solid(
-                [part_of(one) for one in stone.pieces],
+                [part_of(piece) for piece in stone.pieces],
                 np.array(stone.position),
                 stone.axes,
                 mass,
@@ -43,7 +43,7 @@ def solids_of(structure: Structure) -> tuple[list[Solid], np.ndarray]:
                 np.array(stone.angular_velocity),
             )
         )
-    return solids, np.cumsum([0, *(len(one.parts) for one in solids)])
+    return solids, np.cumsum([0, *(len(solid.parts) for solid in solids)])
 
 
 def part_of(part: Placed) -> Any:
@@ -71,18 +71,18 @@ def laws_of(structure: Structure) -> np.ndarray:
 
 def joints_of(structure: Structure, solids: list[Solid], first: np.ndarray) -> list[FacesJoined]:
     """Joints of the faces that lie on one another at the start."""
-    found = []
-    for one in structure.space_joints or ():
-        lower, upper = solids[one.lower], solids[one.upper]
+    joints = []
+    for joint in structure.space_joints or ():
+        lower, upper = solids[joint.lower], solids[joint.upper]
         ground = isinstance(lower.parts[0], HalfSpace)
-        below = _level(one, lower) if ground else _face(one.below, lower)
-        law = one.law
-        found.append(
+        below = _level(joint, lower) if ground else _face(joint.below, lower)
+        law = joint.law
+        joints.append(
             FacesJoined(
-                int(first[one.lower]) + one.lower_part,
-                int(first[one.upper]) + one.upper_part,
+                int(first[joint.lower]) + joint.lower_part,
+                int(first[joint.upper]) + joint.upper_part,
                 below,
-                _face(one.above, upper),
+                _face(joint.above, upper),
                 law.normal_stiffness,
                 law.shear_stiffness,
                 law.tan_phi,
@@ -90,7 +90,7 @@ def joints_of(structure: Structure, solids: list[Solid], first: np.ndarray) -> l
                 LAST_TILT,
             )
         )
-    return found
+    return joints
 
 
 def _face(face: Any, solid: Solid) -> Face:

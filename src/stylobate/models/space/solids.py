@@ -223,7 +223,7 @@ class _Rows:
 
 def pack_joints(joints: Sequence[FacesJoined], packed: Packed) -> tuple[np.ndarray, np.ndarray]:
     """Records of joints in the order of their shapes, and the corners of all faces, one after another."""
-    ordered = sorted(joints, key=lambda one: (min(one.lower, one.upper), max(one.lower, one.upper)))
+    ordered = sorted(joints, key=lambda joint: (min(joint.lower, joint.upper), max(joint.lower, joint.upper)))
     records, rows, first = np.zeros(len(joints), types()["joint"]), [np.zeros((1, 2))], 1
     for e, one in zip(records, ordered, strict=True):
         e["a"], e["b"] = one.lower, one.upper

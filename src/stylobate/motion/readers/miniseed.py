@@ -166,7 +166,7 @@ def _beside(source: Source) -> list[Source]:
 
 @contextlib.contextmanager
 def _complaints_raised() -> Iterator[None]:
-    """What ObsPy warns of (records that are cut or skipped, samples that disagree with their checks) is an error.
+    """Warnings of ObsPy (records that are cut or skipped, samples that disagree with their checks) are errors.
 
     The traces that its callbacks print on a damaged header are kept quiet; the error itself comes through.
     """
@@ -176,9 +176,9 @@ def _complaints_raised() -> Iterator[None]:
         with warnings.catch_warnings(record=True) as complaints:
             warnings.simplefilter("always")
             yield
-        for one in complaints:
-            if not issubclass(one.category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning)):
-                raise ValueError(str(one.message))
+        for complaint in complaints:
+            if not issubclass(complaint.category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning)):
+                raise ValueError(str(complaint.message))
     finally:
         sys.unraisablehook = hook
 
