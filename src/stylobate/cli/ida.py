@@ -43,7 +43,7 @@ def ida(
     from ..analysis.ida_curves import check_response, median_of
     from ..motion.intensity_specs import parse_levels, parse_measure
     from ..motion.orientation import record_of
-    from ..response.words import longer_tail
+    from ..response.words import to_decide
     from . import console
 
     campaign = execution.campaign(following, population)
@@ -95,7 +95,8 @@ def ida(
         facts["columns like this"] = drawn.words
     if result["undecided"] or result["failed"]:
         facts["open"] = (
-            f"{result['undecided']} undecided, {result['failed']} failed; go on with {longer_tail(campaign.tail)}"
+            f"{result['undecided']} undecided, {result['failed']} failed; "
+            f"{to_decide(stone, how.parameters(), campaign.tail)}"
         )
     console.say(f"{stone.name}, {how.name}: {_count(len(curves), 'curve')} over {measure.words}.", facts, files)
     if len(best):
