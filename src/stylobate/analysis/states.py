@@ -25,7 +25,7 @@ from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, bootstrap, fragility
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
 from .lognormal import falls, fit
-from .paired import levels_of, share_limits, unseen
+from .paired import levels_of, median_ends, share_limits, unseen
 from .side_by_side import Share, shares
 from .studies import StudyResult, run_study
 
@@ -274,40 +274,45 @@ def _difference(
         low, high = share_limits(sums[paired], runs[paired], levels, drawn, confidence)
     ratio = (math.nan, math.nan, math.nan)
     if first_curve is not None and other_curve is not None:
-        ratio = _ratio(first, other, first_curve, samples, seed)
+        ratio = _ratio((first, other), (first_curve, other_curve), samples, seed)
     return Difference(
         other.name, first.name, int(known.sum()), int((was & ~now).sum()), int((now & ~was).sum()), share, low,
         high, *ratio,
     )  # fmt: skip
 
 
-def _ratio(first: Evidence, other: Evidence, curve: Fragility, samples: int, seed: int) -> tuple[float, float, float]:
+def _ratio(
+    both: tuple[Evidence, Evidence], curves: tuple[Fragility, Fragility], samples: int, seed: int
+) -> tuple[float, float, float]:
     """Ratio of the medians and its interval: both curves fitted to the runs that both states know, and to the same samples
     of their records. NaN where these runs alone make no curve.
 
-    Its limits are at least as far off as the runs leave both medians open, and as records that nobody saw may move them.
+    Its limits are at least as far off as the levels leave both medians open, and as records that nobody saw may move them.
     """
-    known = (first.codes >= 0) & (other.codes >= 0)
-    best, drawn, slack = [], [], 0.0
-    for one in (first, other):
-        low, high, owner = intervals(one, np.where(known, one.codes, OPEN), "runs")
+    known = (both[0].codes >= 0) & (both[1].codes >= 0)
+    best, drawn, ends = [], [], []
+    for one, alone in zip(both, curves, strict=True):
+        codes = np.where(known, one.codes, OPEN)
+        low, high, owner = intervals(one, codes, "runs")
         if not len(low):
             return math.nan, math.nan, math.nan
         curve_of_both = fit(low, high)
         best.append(float(curve_of_both.log_median[0]) if not falls(curve_of_both) else math.nan)
-        slack += 0.5 * max(0.0, float(high.min() - low.max()))
         drawn.append(bootstrap(low, high, owner, samples, np.random.default_rng(seed))[:, 0])
+        ends.append(median_ends(*intervals(one, codes, "records")[:2], alone.median_interval))
     if not np.isfinite(best).all():
         return math.nan, math.nan, math.nan
-    middle = best[1] - best[0]
+    middle, curve = best[1] - best[0], curves[0]
     with np.errstate(invalid="ignore"):
         change = drawn[1] - drawn[0]
     change = change[np.isfinite(change)]
-    number, step = len(np.unique(first.records[known])), levels_of(first.records[known], first.im[known])[1]
+    records, im = both[0].records[known], both[0].im[known]
+    number, step = len(np.unique(records)), levels_of(records, im)[1]
     if len(change) < samples // 2 or math.isnan(step):
         return math.exp(middle), math.nan, math.nan
-    slack = max(slack, unseen(number, curve.confidence) * step)
+    slack = unseen(number, curve.confidence) * step
     low, high = curve.basic(middle, change)
-    low, high = min(low, middle - slack), max(high, middle + slack)
+    (first_low, first_high), (other_low, other_high) = ends
+    low, high = min(low, middle - slack, other_low - first_high), max(high, middle + slack, other_high - first_low)
     with np.errstate(over="ignore"):
         return math.exp(middle), float(np.exp(low)), float(np.exp(high))

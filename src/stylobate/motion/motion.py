@@ -150,6 +150,12 @@ class Motion:
         """Largest absolute velocity along x from rest, also between samples [m/s]."""
         return peak_velocity(self.acceleration, self.dt)
 
+    @property
+    def record(self) -> str:
+        """Name of the record that this motion is of: the same for all directions, signs, components and scaled copies."""
+        turned = self.metadata.get("direction") or {}
+        return str(turned.get("record") or self.metadata.get("record") or self.name)
+
     # -- changed copies ------------------------------------------------------------------------------------------
 
     def replace(self, **changes) -> Motion:
@@ -168,9 +174,13 @@ class Motion:
         return Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
 
     def scaled(self, factor: float) -> Motion:
-        """A copy with every component multiplied by ``factor``, which its name says; the samples are shared."""
+        """A copy with every component multiplied by ``factor`` [-], which its name says; the samples are shared.
+
+        It stays the same record: copies of one record are no independent evidence, however they are named.
+        """
         times = check_range("`scale`", factor, -1e6, 1e6)
-        return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}")
+        kept = {**self.metadata, "record": self.record}
+        return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}", metadata=kept)
 
     def scaled_to_pga(self, pga: float) -> Motion:
         """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike.

@@ -229,7 +229,7 @@ class MotionRequest:
             Not one of them can be used.
         """
         if not self.several:
-            return Suite((self.motion(frequency_parameter, amplitude_open=amplitude_open),), {})
+            return Suite((_as_asked(self.motion(frequency_parameter, amplitude_open=amplitude_open)),), {})
         if self.separate or any(Path(path).is_dir() for path in self.files):
             picked = None if self.component in COMPONENTS else self.component
             suite = read_suite(self._listed(), self.unit, self.dt, component=picked)
@@ -243,7 +243,7 @@ class MotionRequest:
                 refused[motion.name] = str(error)
         if not motions:
             raise InputError(f"no record of the suite can be used; the first reason: {next(iter(refused.values()))}")
-        return Suite(tuple(motions), refused)
+        return Suite(tuple(map(_as_asked, motions)), refused)
 
     def _listed(self) -> list[Path]:
         found: list[Path] = []
@@ -324,6 +324,11 @@ class MotionRequest:
         if self.scale is not None or self.pga is not None:
             warn_of_scaling(motion)
         return motion if self.vertical else keep_axes(motion, "xy")
+
+
+def _as_asked(motion: Motion) -> Motion:
+    """A motion of a suite as a record of its own, called as it was asked for: each is of another one."""
+    return motion.replace(metadata={key: value for key, value in motion.metadata.items() if key != "record"})
 
 
 def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:
