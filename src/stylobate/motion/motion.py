@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
+from typing import ClassVar
 
 import numpy as np
 
@@ -46,6 +47,8 @@ class Motion:
     InputError
         A step that is not positive, samples that are not finite, components of unequal length.
     """
+
+    wanted: ClassVar[str] = "a Motion, as read_motion, harmonic and MotionRequest(…).motion() make it"
 
     dt: float
     samples: np.ndarray
@@ -169,7 +172,7 @@ class Motion:
 
     def scaled(self, factor: float) -> Motion:
         """A copy with every component multiplied by ``factor``, which its name says; the samples are shared."""
-        times = check_range("`scale`", factor, -1e6, 1e6)
+        times = check_range("factor", factor, -1e6, 1e6)
         return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}")
 
     def scaled_to_pga(self, pga: float) -> Motion:
