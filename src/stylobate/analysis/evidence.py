@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..outcome import Outcome
 from ..reading import check_file, shown
@@ -171,6 +171,11 @@ def evidence(
     InputError
         The measure or the state is not in the table, or a value makes no sense.
     """
+    import pandas
+
+    check_kind("table", table, pandas.DataFrame, allowed="a table of runs, such as that of read_table or suite_table")
+    check_kind("measure", measure, (str, IntensityMeasure), optional=True)
+    check_kind("state", state, (str, LimitState), allowed="a limit state, such as 'collapse'")
     measure = parse_measure(measure) if isinstance(measure, str) else measure
     state = parse_state(state) if isinstance(state, str) else state
     key = "im" if measure is None else next(
@@ -187,8 +192,6 @@ def evidence(
             f"the runs of {name} have the columns im and {' and '.join(rivals)}, and which of them is {measure.name} in "
             f"{measure.unit} is not said; call that one {measure.key}."
         )
-    import pandas
-
     numbers: Any = pandas.to_numeric(table[key], errors="coerce")
     im = np.asarray(numbers, dtype=float)
     bad = np.flatnonzero(~(np.isfinite(im) & (im >= 0.0)))

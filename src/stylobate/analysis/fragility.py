@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtr
 
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from . import likelihood_region, lognormal
 from .evidence import Evidence, intervals
 from .fragility_checks import check_number, check_shape
@@ -298,6 +298,7 @@ def fragility(
         Fewer than ten records of which a run is decided; no run that exceeds the state, or none that does not; all runs at
         one intensity; or runs that exceed it no oftener where the intensity is larger: that is no fragility.
     """
+    check_kind("evidence", evidence, Evidence)
     clusters = np.arange(len(evidence.im)).astype(str).astype(object)
     used = replace(evidence, records=clusters, curves=None) if records_are_one else evidence
     check_number(used, records_are_one)

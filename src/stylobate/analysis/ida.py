@@ -8,6 +8,7 @@ import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -17,7 +18,7 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import the_twins
 from ..column import Column
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, OutOfRangeWarning, check_all, check_kind, check_range
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
 from ..motion import Motion
@@ -97,11 +98,19 @@ def ida(
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     started = time.perf_counter()
+    check_kind("column", column, Column)
+    motions = check_all("motions", motions, Motion)
+    check_kind("model", model, Model)
+    check_kind("im", im, (str, IntensityMeasure))
+    check_kind("about", about, Mapping, allowed="a mapping by name of a record", optional=True)
+    levels = None if levels is None else check_all("levels", levels, Real)
     measure = parse_measure(im) if isinstance(im, str) else im
-    check_range("runs of a record", runs, 4, 1000, field="runs")
+    check_range("runs", runs, 4, 1000)
     check_range("`largest_factor`", largest_factor, 0.0, 1e4, open_low=True)
-    if levels is not None and not (len(levels) and all(one > 0.0 for one in levels)):
-        raise InputError("the levels are none, or not positive; give at least one positive level.")
+    if levels is not None and not len(levels):
+        raise InputError("levels is an empty list; give at least one positive level.", "levels")
+    for one in levels or ():
+        check_range("one of the levels", one, 0.0, 1e6, open_low=True, field="levels")
     if not motions:
         raise InputError("no record is given; give files or a folder of records.")
     if measure.power == 0:

@@ -14,7 +14,7 @@ import numpy as np
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.cases import Study
 from ..column import Column
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
@@ -171,7 +171,10 @@ def compare_states(
     InputError
         Fewer than two states, or input that the model refuses.
     """
+    check_kind("states", states, Mapping, allowed="a mapping of columns by their labels, such as {'as built': column}")
     labels = tuple(states)
+    for label, column in states.items():
+        check_kind(f"the state {label!r}", column, Column)
     if len(labels) < FEWEST_STATES:
         raise InputError(f"{len(labels)} state of a column is given; give at least {FEWEST_STATES} to compare.")
     named = tuple(column.replace(name=label) for label, column in states.items())

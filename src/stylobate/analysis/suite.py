@@ -14,7 +14,7 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, run_all
 from ..campaign.twins import the_twins
 from ..column.structure import Structure
-from ..errors import check_choice
+from ..errors import check_all, check_choice, check_kind
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -103,7 +103,9 @@ def suite_table(
     """
     import pandas
 
-    stands: list[Any] = [columns] if isinstance(columns, Structure) else list(columns)
+    stands = check_all("columns", columns, Structure)
+    motions = check_all("motions", motions, Motion)
+    check_kind("model", model, Model)
     must_be_alike(stands, "suite")
     records = [_record(motion) for motion in motions]
     rows: list[dict[str, Any]] = []

@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from numbers import Real
 from typing import Any, Unpack
 
 import numpy as np
@@ -13,7 +14,7 @@ import numpy as np
 from ..column import Column
 from ..column.scatter import usual_scatter
 from ..column.structure import Structure
-from ..errors import InputError, check_choice, check_range
+from ..errors import InputError, check_all, check_choice, check_range
 from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -94,8 +95,11 @@ class Study:
         given = {"columns": columns, "motions": motions, "models": models, "levels": levels}
         for name, value in (given | {"im": im, "campaign": campaign, "keep": keep}).items():
             object.__setattr__(self, name, value)
-        for name, what in (("columns", "column"), ("motions", "record"), ("models", "model"), ("levels", "level")):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        for name, what, kind in (
+            ("columns", "column", Structure), ("motions", "record", Motion), ("models", "model", Model),
+            ("levels", "level", Real),
+        ):  # fmt: skip
+            object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
             if not getattr(self, name):
                 raise InputError(f"the study names no {what}; give at least one.")
         names = [column.name for column in self.columns]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, within
+from ..errors import InputError, OutOfRangeWarning, check_kind, within
 from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
@@ -121,7 +121,7 @@ def read_as(kind: Any, path: str | Path) -> Any:
     InputError
         The file cannot be read or does not describe a column; the message names the file, the key and the remedy.
     """
-    data = parse_toml(path)
+    data = parse_toml(check_kind("path", path, (str, Path)))
     if describes_assembly(data):
         raise InputError(
             f"{shown(path)} describes an assembly of blocks, which 'run', 'critical', 'suite' and 'study' take "

@@ -102,6 +102,7 @@ class Model:
     which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost.
     """
 
+    wanted: ClassVar[str] = "a model, such as DistinctElement2D()"
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     references: ClassVar[tuple[str, ...]] = ()

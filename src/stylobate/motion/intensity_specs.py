@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -107,6 +108,8 @@ class IntensityMeasure:
         ``x`` (the plane of the plane models), ``y``, ``z``, or of both horizontal components their geometric mean, the
         larger one, or the median or largest over all directions (RotD50, RotD100: of ``pga``, ``pgv``, ``sa``, ``avgsa``).
     """
+
+    wanted: ClassVar[str] = "an intensity measure (parse_measure)"
 
     kind: str
     periods: tuple[float, ...] = ()

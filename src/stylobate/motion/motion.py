@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
+from typing import ClassVar
 
 import numpy as np
 
@@ -46,6 +47,8 @@ class Motion:
     InputError
         A step that is not positive, samples that are not finite, components of unequal length.
     """
+
+    wanted: ClassVar[str] = "a Motion, as read_motion, harmonic and MotionRequest(…).motion() make it"
 
     dt: float
     samples: np.ndarray
@@ -178,7 +181,7 @@ class Motion:
 
         It stays the same record: copies of one record are no independent evidence, however they are named.
         """
-        times = check_range("`scale`", factor, -1e6, 1e6)
+        times = check_range("factor", factor, -1e6, 1e6)
         kept = {**self.metadata, "record": self.record}
         return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}", metadata=kept)
 

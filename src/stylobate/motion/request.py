@@ -6,13 +6,14 @@ import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, OutOfRangeWarning, check_choice, check_range
+from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range
 from .condition_specs import conditioned
 from .conditioning import warn_of_scaling
 from .motion import Motion
@@ -105,6 +106,13 @@ class MotionRequest:
     vertical: bool = True
 
     def __post_init__(self) -> None:
+        for name, kind in (("files", (str, Path)), ("azimuths", Real), ("condition", str)):
+            object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
+        for name in ("harmonic", "across", "pulse", "synthetic", "unit"):
+            check_kind(name, getattr(self, name), str, optional=True)
+        check_kind("component", self.component, (str, int), optional=True)
+        for name in ("dt", "scale", "pga"):
+            check_kind(name, getattr(self, name), Real, optional=True)
         given = [f"`{one}`" for one in SOURCES if getattr(self, one) not in (None, ())]
         if len(given) != 1:
             what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
