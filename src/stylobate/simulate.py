@@ -210,6 +210,8 @@ def simulate_many(
         One row per run in the order given, columns named as the JSON keys of ``stylobate run``.
     """
     columns = [column] * len(motions) if isinstance(column, Structure) else list(column)
+    if not len(motions):
+        raise InputError("no motion is given; give at least one.", "motions")
     if len(columns) != len(motions):
         raise InputError(
             f"{len(columns)} columns are given for {len(motions)} motions; give one column, or one for each motion."

@@ -149,7 +149,7 @@ def test_the_ratio_of_medians_is_that_of_the_runs_that_both_states_know():
 
 
 def test_the_ratio_of_medians_holds_what_wide_levels_leave_open():
-    """8 of 12 records collapse at 1.5 g, none at 1 g: the median lies between, and the ratio was told as if it were at 1.5."""
+    """8 of 12 records collapse at 1.5 g, none at 1 g: the median lies between, and the ratio was told as if at 1.5."""
 
     def compared(levels):
         told = []
