@@ -256,7 +256,7 @@ def test_an_ida_is_evidence_and_makes_a_fragility_as_it_is(found):
     one, other = evidence(found), evidence(found.runs, im="pga")
     assert (one.measure, one.unit, one.codes.tolist()) == ("pga", "g", other.codes.tolist())
     assert evidence(found, "pgv").unit == "m/s"
-    with pytest.raises(InputError, match="given twice, as `measure` and as `im`"):
+    with pytest.raises(InputError, match="given twice, as measure and as im"):
         evidence(found, "pga", im="pga")
     with pytest.raises(InputError, match="a fragility of 5 records"):
         fragility(found)

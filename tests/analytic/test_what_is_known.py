@@ -68,7 +68,7 @@ def test_stripes_that_no_run_contradicts_tell_the_bracket():
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
-        ({"confidence": 95}, "confidence` is 95; allowed is (0, 1)"),
+        ({"confidence": 95}, "confidence is 95; allowed is (0, 1)"),
         ({"samples": -3}, "samples` is -3; allowed is a whole number from 40"),
         ({"samples": 10}, "samples` is 10"),
         ({"seed": "a"}, "seed` is 'a'; allowed is a whole number"),

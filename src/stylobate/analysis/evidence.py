@@ -176,7 +176,7 @@ def evidence(
         The measure or the state is not in the table, or a value makes no sense.
     """
     if measure is not None and im is not None:
-        raise InputError("the intensity is given twice, as `measure` and as `im`; give it once.")
+        raise InputError("the intensity is given twice, as measure and as im; give it once.")
     measure = im if measure is None else measure
     if isinstance(table, Ida):
         measure, table = measure or table.measure, table.runs

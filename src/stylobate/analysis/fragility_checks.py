@@ -22,7 +22,7 @@ def check_bootstrap(samples: int, seed: int, confidence: float) -> None:
     """Refuse numbers with which no interval can be made."""
     check_whole("`samples`", samples, FEWEST_SAMPLES)
     check_whole("`seed`", seed, 0, 2**63 - 1)
-    check_range("`confidence`", confidence, 0.0, 1.0, open_low=True, open_high=True, remedy="such as 0.95")
+    check_range("confidence", confidence, 0.0, 1.0, open_low=True, open_high=True, remedy="such as 0.95")
 
 
 def check_number(evidence: Evidence, records_are_one: bool) -> None:

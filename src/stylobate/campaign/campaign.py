@@ -98,10 +98,10 @@ class Campaign:
             raise InputError(f"`whole` is {as_typed(self.whole)}; allowed is True or False.", "whole")
         if not (self.progress is None or callable(self.progress)):
             raise InputError(
-                f"`progress` is {as_typed(self.progress)}; allowed is a function of two numbers.", "progress"
+                f"progress is {as_typed(self.progress)}; allowed is a function of two numbers.", "progress"
             )
         if not (self.ledger is None or isinstance(self.ledger, (str, Path))):
-            raise InputError(f"`ledger` is {as_typed(self.ledger)}; allowed is the path of a file.", "ledger")
+            raise InputError(f"ledger is {as_typed(self.ledger)}; allowed is the path of a file.", "ledger")
         if self.threads is not None:
             check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
 
