@@ -218,6 +218,8 @@ def simulate_many(
     """
     motions = check_all("motions", motions, Motion)
     columns = [column] * len(motions) if isinstance(column, Structure) else check_all("column", column, Structure)
+    if not len(motions):
+        raise InputError("no motion is given; give at least one.", "motions")
     if len(columns) != len(motions):
         raise InputError(
             f"{len(columns)} columns are given for {len(motions)} motions; give one column, or one for each motion."

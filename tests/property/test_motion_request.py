@@ -232,3 +232,14 @@ def test_motions_of_a_suite_are_called_as_they_were_asked_for():
     (one,) = st.MotionRequest(**asked).expand().motions
     assert record_of(one) == one.name
     assert record_of(one) != record_of(st.MotionRequest(**asked).motion())
+
+
+def test_runs_of_nothing_are_refused():
+    block, model = rocking_block(2.0, 0.2), st.HousnerBlock()
+    for run in (
+        lambda: st.suite_table([], [st.ricker(1.0, 2.0)], model),
+        lambda: st.suite_table(block, [], model),
+        lambda: st.simulate_many(block, [], model),
+    ):
+        with pytest.raises(st.InputError, match="give at least one"):
+            run()

@@ -25,6 +25,7 @@ from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
 from ..motion.orientation import record_of
 from . import verdicts as v
+from .difference import round_drums
 from .hunt import next_levels
 from .ida_curves import Ida
 
@@ -75,11 +76,12 @@ def ida(
     im : IntensityMeasure or str
         That the records are scaled to, such as ``pgv`` or ``sa:1.0s``.
     levels : sequence of float, optional
-        Stripes: every record is run at each of these, in the unit of the measure, and nothing is hunted.
+        Stripes: every record is run at each of these, in the unit of the measure (pga and sa in g, pgv in m/s), and
+        nothing is hunted.
     runs : int
         Of each record, with each column.
     largest_factor : float
-        By which a record is multiplied at most.
+        By which a record is multiplied at most [-]; larger levels are not hunted, and refused where they are given.
     about : mapping, optional
         By name of a record, or of a motion that is made of one, ``magnitude`` and ``distance_km``.
     campaign : Campaign, optional
@@ -133,6 +135,9 @@ def ida(
         start = value * (1.0 / peak) ** measure.power
         traces += [Trace(motion, one, k, value, start, [], []) for k, one in enumerate(columns)]
     stripes = None if levels is None else sorted({float(one) for one in levels})
+    if stripes is not None:
+        for one in traces:
+            _check_factor(one, stripes[-1], measure, largest_factor)
     done, total = 0, (runs if stripes is None else len(stripes)) * len(traces)
 
     def wanted(one: Trace) -> list[float]:
@@ -160,12 +165,25 @@ def ida(
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
     table["hunted"] = stripes is None
-    return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn)
+    table.attrs["doubt"] = doubt = round_drums([column], model)
+    return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
 
 
 def _asked(one: Trace, runs: int, largest: float, power: int) -> list[float]:
     verdicts = [v.verdict(row) for row in one.rows]
     return next_levels(one.levels, verdicts, one.first, one.value * largest**power, runs - len(one.levels))
+
+
+def _check_factor(one: Trace, level: float, measure: IntensityMeasure, largest: float) -> None:
+    """Refuse a level to which a record would have to be multiplied by more than is allowed."""
+    times = (level / one.value) ** (1.0 / measure.power)
+    if times > largest * (1.0 + 1e-9):
+        unit = "" if measure.unit == "-" else f" {measure.unit}"
+        raise InputError(
+            f"the level {measure.name} = {level:g}{unit} multiplies {one.motion.name!r}, of {one.value:.3g}{unit}, by "
+            f"{times:.4g}; allowed is up to {largest:g} (`largest_factor`): give smaller levels, or leave the record out.",
+            "levels",
+        )
 
 
 def _scaled(one: Trace, level: float, power: int) -> Motion:

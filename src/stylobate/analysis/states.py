@@ -20,9 +20,10 @@ from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
-from .difference import Difference, doubt, reference
+from .difference import Difference, doubt, reference, round_drums
 from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, bootstrap, fragility
+from .fragility_checks import check_bootstrap
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
 from .lognormal import falls, fit
 from .paired import levels_of, median_ends, share_limits, unseen
@@ -100,7 +101,13 @@ class StateComparison:
         return pandas.DataFrame(rows)
 
     def summary(self) -> dict[str, Any]:
-        """Under the names of the JSON object of ``stylobate states``."""
+        """Under the names of the JSON object of ``stylobate states``.
+
+        ``share_low`` and ``share_high`` of ``states`` are what undecided runs could make of the share of a state, of which
+        ``interval_low`` and ``interval_high`` are the interval over records. In ``differences``, ``share`` is that of a
+        state less that of the other, negative where fewer exceed it, and ``share_low`` and ``share_high`` are its interval
+        over records; what undecided runs could make of it are ``share_best`` and ``share_worst``.
+        """
         links: Any = self.links
         table: Any = self.table
         return {
@@ -134,7 +141,7 @@ def compare_states(
     motions: Sequence[Motion],
     model: Model,
     levels: Sequence[float] = (1.0,),
-    im: IntensityMeasure | None = None,
+    im: IntensityMeasure | str | None = None,
     *,
     state: str = "collapse",
     samples: int = SAMPLES,
@@ -154,9 +161,9 @@ def compare_states(
         At least ten records for curves; fewer give shares only.
     model : Model
     levels : sequence of float
-        Of the intensity measure, or factors without one.
-    im : IntensityMeasure, optional
-        That motions are scaled to.
+        Of the intensity measure, in its unit (pga and sa in g, pgv in m/s), or factors without one.
+    im : IntensityMeasure or str, optional
+        That motions are scaled to, such as ``pga`` or ``sa:1.0s``.
     state : str
         Limit state, as of ``stylobate fragility``.
     samples, confidence
@@ -171,6 +178,7 @@ def compare_states(
     InputError
         Fewer than two states, or input that the model refuses.
     """
+    check_bootstrap(samples, campaign.seed, confidence)
     check_kind("states", states, Mapping, allowed="a mapping of columns by their labels, such as {'as built': column}")
     labels = tuple(states)
     for label, column in states.items():
@@ -184,7 +192,8 @@ def compare_states(
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
-    told = [evidence(one, im, state, label) for one, label in zip(parts, labels, strict=True)]
+    before = round_drums(named, model)
+    told = [evidence(one, study.im, state, label, doubt=before) for one, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
     differences = tuple(

@@ -19,7 +19,7 @@ from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
-from ..motion.intensity_specs import IntensityMeasure, told, told_powers
+from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
 from ..motion.orientation import record_of
 from ..simulate import run_options
 from ..version import __version__
@@ -52,9 +52,10 @@ class Study:
         Already turned and reversed as they are to act (:meth:`stylobate.MotionRequest.expand`).
     models : sequence of Model
     levels : sequence of float
-        Of ``im`` in its unit, to each of which every motion is scaled; factors of the motions without ``im``.
-    im : IntensityMeasure, optional
-        See :func:`stylobate.motion.intensity_specs.parse_measure`.
+        Of ``im`` in its unit (pga and sa in g, pgv in m/s), to each of which every motion is scaled; factors of the
+        motions without ``im``.
+    im : IntensityMeasure or str, optional
+        Such as ``pga``; see :func:`stylobate.motion.intensity_specs.parse_measure`.
     keep : {"rows", "histories"}
         ``histories`` keeps a file of histories per case, not only of the worst and the median one.
     campaign : Campaign, optional
@@ -86,12 +87,13 @@ class Study:
         motions: Sequence[Motion],
         models: Sequence[Model],
         levels: Sequence[float] = (1.0,),
-        im: IntensityMeasure | None = None,
+        im: IntensityMeasure | str | None = None,
         *,
         keep: str = "rows",
         campaign: Campaign = USUAL,
         **fields: Unpack[Fields],
     ) -> None:
+        im = parse_measure(im) if isinstance(im, str) else im
         given = {"columns": columns, "motions": motions, "models": models, "levels": levels}
         for name, value in (given | {"im": im, "campaign": campaign, "keep": keep}).items():
             object.__setattr__(self, name, value)

@@ -37,7 +37,6 @@ def ida(
 
     Levels are hunted and filled, all records at a time; with the table of which intensity measure tells most.
     """
-    from ..analysis.difference import round_drums
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
@@ -63,7 +62,6 @@ def ida(
         best = which_tells_most(found.runs, edp=edp)
         result = found.summary() | {
             "edp": edp,
-            "doubt": round_drums([stone], how),
             "measures": best.astype(object).where(best.notna(), None).to_dict("records"),
             "refused": records.refused,
         }

@@ -214,7 +214,10 @@ def parse_measure(text: str) -> IntensityMeasure:
         raise InputError(f"intensity measure {text!r} is of no component known; allowed is {', '.join(COMPONENTS)}.")
     if component.startswith("rotd") and kind not in ("pga", "pgv", "sa", "avgsa"):
         raise InputError(f"{text!r} is not defined over directions; use {kind}@geomean or {kind}@larger.")
-    periods = tuple(parse_time(one) for one in (found["periods"] or "").split("-") if one)
+    typed = found["periods"].split("-") if found["periods"] else []
+    if not all(typed):
+        raise InputError(f"a period of intensity measure {text!r} is negative, or missing; write it as sa:1.0s.")
+    periods = tuple(map(parse_time, typed))
     if kind == "avgsa" and not periods:
         periods = AVERAGED
     wanted = {"sa": 1, "avgsa": 2}.get(kind, 0)
