@@ -11,7 +11,6 @@ import hashlib
 import os
 import sqlite3
 import threading
-import warnings
 import weakref
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
@@ -21,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ..atomic import replacing, set_aside
-from ..errors import DamagedFileWarning, InputError, StylobateError
+from ..errors import DamagedFileWarning, InputError, StylobateError, warn
 from . import salvage
 from .holding import Holding
 
@@ -193,7 +192,7 @@ class Ledger:
                     f"{len(taken)} of its finished runs are whole and are used" if taken else "no run in it is of use"
                 )
                 said = f"{self.path} is damaged or no ledger ({damage}); it is kept as {aside.name}, and {kept}."
-                warnings.warn(said, DamagedFileWarning, stacklevel=2)
+                warn(said, DamagedFileWarning)
         try:
             with replacing(self.path) as partial:
                 create(partial, taken)
