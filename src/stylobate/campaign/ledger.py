@@ -93,7 +93,7 @@ class Ledger:
         self.path = Path(path)
         if self.path.is_dir() or not self.path.parent.is_dir():
             raise InputError(
-                f"{self.path} cannot keep the progress: it is a folder, or has none; choose another `out`."
+                f"{self.path} cannot keep the progress: it is a folder, or has none; choose another folder."
             )
         refuse_foreign(self.path)
         refuse_former(*self.path.parent.glob(FORMER_FILES))
@@ -269,7 +269,7 @@ def create(path: Path, lines: list[tuple[int, str]]) -> None:
 
 
 def _cannot(path: Path, why: str) -> StylobateError:
-    return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another `out`.")
+    return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another folder.")
 
 
 def refuse_foreign(path: Path) -> None:

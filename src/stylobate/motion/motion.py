@@ -16,6 +16,9 @@ from ..errors import InputError, check_range
 
 MAX_SAMPLES = 20_000_000
 
+#: What a motion may be multiplied by [-].
+FACTORS = (-1e6, 1e6)
+
 
 @dataclass(frozen=True, eq=False, init=False)
 class Motion:
@@ -172,7 +175,7 @@ class Motion:
 
     def scaled(self, factor: float) -> Motion:
         """A copy with every component multiplied by ``factor``, which its name says; the samples are shared."""
-        times = check_range("factor", factor, -1e6, 1e6)
+        times = check_range("factor", factor, *FACTORS)
         return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}")
 
     def scaled_to_pga(self, pga: float) -> Motion:

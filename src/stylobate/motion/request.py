@@ -15,7 +15,7 @@ from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
 from .condition_specs import conditioned
 from .conditioning import warn_of_scaling
-from .motion import Motion
+from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
 from .ranges import azimuth_range
 from .readers import Suite, read_motion, read_suite
@@ -110,7 +110,9 @@ class MotionRequest:
         for name in ("harmonic", "across", "pulse", "synthetic", "unit"):
             check_kind(name, getattr(self, name), str, optional=True)
         check_kind("component", self.component, (str, int), optional=True)
-        for name in ("dt", "scale", "pga"):
+        if self.scale is not None:
+            check_range("`scale`", self.scale, *FACTORS)
+        for name in ("dt", "pga"):
             check_kind(name, getattr(self, name), Real, optional=True)
         given = [f"`{one}`" for one in SOURCES if getattr(self, one) not in (None, ())]
         if len(given) != 1:
