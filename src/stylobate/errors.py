@@ -2,6 +2,8 @@
 
 import math
 import re
+import sys
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -105,6 +107,18 @@ class LeftOutWarning(OutOfRangeWarning):
 
 class PlaneOnlyWarning(LeftOutWarning):
     """A round column is computed in a plane, and the motion shakes it across as well: verdicts can be too favourable."""
+
+
+#: Whose frames stand between a warning and the line that caused it: our own, and those that call for them.
+_BETWEEN = (__package__, "functools", "contextlib")
+
+
+def warn(message: str, category: type[Warning] = OutOfRangeWarning) -> None:
+    """Warn at the line that called this package, however deep inside it the doubt arose."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in _BETWEEN:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, category, stacklevel=level)
 
 
 def as_typed(value: Any) -> str:

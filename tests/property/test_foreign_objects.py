@@ -82,7 +82,7 @@ WRONG = {
     "saved": lambda: store.save(None, "domain", None),
     "column file": lambda: st.read_column(None),
     "azimuths": lambda: st.MotionRequest(synthetic="greece,6Mw,10km", azimuths="all"),
-    "scale": lambda: st.MotionRequest(synthetic="greece,6Mw,10km", scale="a"),
+    "scale": lambda: st.MotionRequest(synthetic="greece,6Mw,10km", scale=None, pga="a"),
 }  # fmt: skip
 
 
@@ -109,6 +109,10 @@ def test_wrong_objects_are_refused_in_one_sentence(call):
         (lambda: st.read_suite([]), "source is an empty list; give a folder of records, or a list of files."),
         (lambda: st.ida(COLUMN, [MOTION], M, levels=[-1.0]),
          "one of the levels is -1; allowed is (0, 1e+06]."),
+        (lambda: st.MotionRequest(synthetic="greece,6Mw,10km", scale="a"),
+         "`scale` is 'a', not a number; allowed is [-1e+06, 1e+06]."),
+        (lambda: st.suite_table(COLUMN, MOTION, st.HousnerBlock(), ledger="no folder/x"),
+         "no folder/x cannot keep the progress: it is a folder, or has none; choose another folder."),
         (lambda: MOTION.scaled("a"), "factor is 'a', not a number; allowed is [-1e+06, 1e+06]."),
         (lambda: st.ida(COLUMN, [MOTION], M, runs=0), "runs is 0; allowed is [4, 1000]."),
     ],

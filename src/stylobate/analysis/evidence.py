@@ -180,9 +180,8 @@ def evidence(
     if measure is not None and im is not None:
         raise InputError("the intensity is given twice, as measure and as im; give it once.")
     measure = im if measure is None else measure
-    check_kind(
-        "table", table, (pandas.DataFrame, Ida), allowed="a table of runs, such as that of read_table or suite_table, or an Ida"
-    )
+    what = "a table of runs, such as that of read_table or suite_table, or an Ida"
+    check_kind("table", table, (pandas.DataFrame, Ida), allowed=what)
     if isinstance(table, Ida):
         measure, table = measure or table.measure, table.runs
     if not len(table):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import time
-import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -18,7 +17,7 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import the_twins
 from ..column import Column
-from ..errors import InputError, OutOfRangeWarning, check_all, check_kind, check_range
+from ..errors import InputError, OutOfRangeWarning, check_all, check_kind, check_range, warn
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
 from ..motion import Motion
@@ -201,11 +200,10 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
     beyond = {name: factor for name, factor in factors.items() if factor > WARNED}
     if beyond:
         name = max(beyond, key=beyond.__getitem__)
-        warnings.warn(
+        warn(
             f"{len(beyond)} of {len(factors)} records are multiplied by more than {WARNED:g}, {name!r} by "
             f"{beyond[name]:.3g}: scaled so far, they are no longer those of earthquakes; leave out the weak ones.",
             OutOfRangeWarning,
-            stacklevel=4,
         )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, within
+from ..errors import InputError, warn, within
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
@@ -160,7 +159,7 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
         joint = _law(table.joint, stone, "[joint]")
     links += links_between(table.link or [])
     for doubt in _doubts(blocks[len(standing) :], joint, [law for _, _, law in overrides], table.gravity):
-        warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
+        warn(doubt)
     return Assembly(
         tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
     )

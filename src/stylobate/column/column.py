@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +14,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, check_all, check_kind, check_range, check_whole, no_field
+from ..errors import InputError, check_all, check_kind, check_range, check_whole, no_field, warn
 from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
@@ -92,7 +91,7 @@ class Column(DrumStack):
 
     def _say_doubts(self) -> None:
         for doubt in shape_doubts(self, self.name):
-            warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
+            warn(doubt)
 
     def _check(self) -> None:
         for name, kind in (("drums", Drum), ("joints", Joint), ("links", Link)):

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, check_kind, within
+from ..errors import InputError, check_kind, warn, within
 from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
@@ -164,7 +163,7 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     column = _as_built(kind, table, default_name)
     typed = [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
     for doubt in unit_doubts(column, typed):
-        warnings.warn(f"{column.name!r}: {doubt}", OutOfRangeWarning, stacklevel=5)
+        warn(f"{column.name!r}: {doubt}")
     changes: dict[str, Any] = {}
     if table.as_found is not None:
         some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())

@@ -16,6 +16,9 @@ from ..errors import InputError, check_range
 
 MAX_SAMPLES = 20_000_000
 
+#: What a motion may be multiplied by [-].
+FACTORS = (-1e6, 1e6)
+
 
 @dataclass(frozen=True, eq=False, init=False)
 class Motion:
@@ -181,7 +184,7 @@ class Motion:
 
         It stays the same record: copies of one record are no independent evidence, however they are named.
         """
-        times = check_range("factor", factor, -1e6, 1e6)
+        times = check_range("factor", factor, *FACTORS)
         kept = {**self.metadata, "record": self.record}
         return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}", metadata=kept)
 

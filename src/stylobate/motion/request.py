@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
@@ -13,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range
+from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
 from .condition_specs import conditioned
 from .conditioning import warn_of_scaling
-from .motion import Motion
+from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
 from .ranges import azimuth_range
 from .readers import Suite, read_motion, read_suite
@@ -111,7 +110,9 @@ class MotionRequest:
         for name in ("harmonic", "across", "pulse", "synthetic", "unit"):
             check_kind(name, getattr(self, name), str, optional=True)
         check_kind("component", self.component, (str, int), optional=True)
-        for name in ("dt", "scale", "pga"):
+        if self.scale is not None:
+            check_range("`scale`", self.scale, *FACTORS)
+        for name in ("dt", "pga"):
             check_kind(name, getattr(self, name), Real, optional=True)
         given = [f"`{one}`" for one in SOURCES if getattr(self, one) not in (None, ())]
         if len(given) != 1:
@@ -138,12 +139,11 @@ class MotionRequest:
             None,
         )
         if self.signs == "both" and opposite is not None:
-            warnings.warn(
+            warn(
                 f"the azimuths hold {opposite[0]:g}° and {opposite[1]:g}°, each of which is the other one reversed, and "
                 "both signs are asked for as well, so that directions are computed twice: a full circle holds both signs; "
                 "leave `signs='both'` out, or give half of the circle, such as 0:150:6.",
                 OutOfRangeWarning,
-                stacklevel=3,
             )
 
     @classmethod

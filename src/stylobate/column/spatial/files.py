@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ...errors import InputError, OutOfRangeWarning
+from ...errors import InputError, warn
 from ..joint import Joint
 from ..materials import material
 from ..plausible import COLUMN, DENSITY, first, joint_doubts
@@ -83,7 +82,7 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
     # without [joint], as between the drums of the columns
     joint = axes[0].law if table.joint is None and stone is None else law(table.joint, "[joint]")
     for doubt in _doubts(blocks, [joint, *(each for *_, each in overrides)]):
-        warnings.warn(doubt, OutOfRangeWarning, stacklevel=5)
+        warn(doubt)
     stones = (*standing, *beams, *blocks)
     name = table.name or default_name
     return SpatialAssembly(stones, joint, name, table.gravity, ground, tuple(overrides), table.settle)
