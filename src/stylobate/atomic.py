@@ -15,7 +15,7 @@ from pathlib import Path
 from .errors import InputError, StylobateError, check_kind
 from .own_files import guard_of, own_files
 
-#: What a system says where a disk, or what somebody may use of it, is full.
+#: Errors of a system where a disk, or somebody's share of it, is full.
 _NO_ROOM = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
 
 #: Temporary files of this process, which an end without clean-up removes.

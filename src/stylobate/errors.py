@@ -1,4 +1,4 @@
-"""What can go wrong, as types: bad input, a failure of ours, a model beyond its declared limits."""
+"""Errors, as types: bad input, a failure of ours, a model beyond its declared limits."""
 
 import math
 import re

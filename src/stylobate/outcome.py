@@ -1,4 +1,4 @@
-"""How a run can end: integer codes shared with the kernels, each with its name and its sentence.
+"""Ends of a run: integer codes shared with the kernels, each with its name and its sentence.
 
 The definitions hold for every model:
 

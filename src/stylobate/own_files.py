@@ -1,4 +1,4 @@
-"""What this package wrote into a folder: the list that says which files it may replace or remove.
+"""Files of this package in a folder: the list of those that it may replace or remove.
 
 A folder of results holds a list, ``.stylobate-files``: a line per file, its SHA-256 and its name. A file that is not on
 the list, or has changed since, belongs to somebody else: it is never replaced and never removed.

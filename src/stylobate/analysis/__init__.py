@@ -1,1 +1,1 @@
-"""What it means: analyses that rest on many runs, or on the statics of a column."""
+"""Analyses that rest on many runs, or on the statics of a column."""

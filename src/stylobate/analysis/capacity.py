@@ -1,4 +1,4 @@
-"""What is known of the level at which something first falls: two levels between which it lies, or only a bound."""
+"""Capacity: two levels between which something first falls, or only a bound."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How sure the verdict of one run is: the same motion for columns that could as well stand there."""
+"""Certainty of the verdict of one run: the same motion for columns that could as well stand there."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Population:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many twins have each verdict."""
+        """Number of twins of each verdict."""
         return v.count(self.verdicts)
 
     @property
@@ -107,7 +107,7 @@ class Population:
 
     @property
     def sentence(self) -> str:
-        """How sure the verdict is, in a sentence."""
+        """Certainty of the verdict, in a sentence."""
         counts, number = self.counts, len(self.rows)
         trials = number - counts[v.FAILED]
         if trials == 0:
@@ -128,7 +128,7 @@ class Population:
 
     @property
     def columns(self) -> dict[str, Any]:
-        """How sure the verdict is, as columns of a table; displacements that a share of the twins does not exceed."""
+        """Certainty of the verdict, as columns of a table; displacements that a share of the twins does not exceed."""
         low, high = self.interval
         found: dict[str, Any] = {
             "collapse_probability": self.probability,
@@ -143,7 +143,7 @@ class Population:
         return found
 
     def beside(self, run: Mapping[str, Any]) -> str:
-        """What must be said of a run that is no example of its twins; empty where it is one.
+        """Caveat on a run that is no example of its twins; empty where it is one.
 
         Parameters
         ----------
@@ -250,7 +250,7 @@ def chance_words(row: Mapping[str, Any]) -> str:
 
 
 def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: float = 0.95) -> str:
-    """What must be said where most columns like one end otherwise than it did, the run counted in; empty where they do not.
+    """Caveat where most columns like one end otherwise than it did, the run counted in; empty where they do not.
 
     The column as surveyed is one of its population: its collapse is never set aside because others stand.
 
@@ -282,7 +282,7 @@ def set_against(run: Mapping[str, Any], counts: Mapping[str, Any], confidence: f
 
 
 def _not_fallen(counts: Mapping[str, int]) -> str:
-    """How many columns stand, and how many are undecided."""
+    """Numbers of columns that stand and that are undecided."""
     stood, open_ = counts[v.STANDS], counts[v.UNDECIDED]
     words = [f"{stood} stand{'s' if stood == 1 else ''}"]
     words += [f"{open_} {'is' if open_ == 1 else 'are'} undecided"] if open_ else []

@@ -21,7 +21,7 @@ KNOWLEDGE = {
 #: q of a mechanism that is checked by its acceleration alone.
 BEHAVIOUR = 2.0
 
-#: What a person types, by code: names, and how they are written in an example.
+#: Notation, by code: names, and how they are written in an example.
 _KEYS = {
     "ec8": ("ag", "soil", "type", "knowledge"),
     "ntc2018": ("ag", "F0", "Tc*", "soil", "topography", "knowledge"),
@@ -67,7 +67,7 @@ class CodeCheck:
 
     @property
     def sentence(self) -> str:
-        """What it comes to, in a sentence."""
+        """Result, in a sentence."""
         d = self.displacement
         return (
             f"By {self.code} the mechanism {'passes' if self.passed else 'does not pass'}: acceleration "

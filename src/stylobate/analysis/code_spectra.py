@@ -104,7 +104,7 @@ class EurocodeSpectrum:
 
     @property
     def coefficients(self) -> tuple[Coefficient, ...]:
-        """What was taken from the code."""
+        """Values taken from the code."""
         table = f"EN 1998-1:2004, Table 3.{self.kind + 1}"
         names = ("S", "T_B [s]", "T_C [s]", "T_D [s]")
         found = [Coefficient(*one, table) for one in zip(names, GROUND_TYPES[self.kind][self.ground_type], strict=True)]
@@ -173,7 +173,7 @@ class NtcSpectrum:
 
     @property
     def coefficients(self) -> tuple[Coefficient, ...]:
-        """What was taken from the code."""
+        """Values taken from the code."""
         tb, tc, td = self.corners
         return (
             Coefficient("S_S", self.soil_factor / TOPOGRAPHY[self.topography], "NTC 2018, Table 3.2.IV"),

@@ -13,7 +13,7 @@ from ..column.found_in_space import Edges
 
 @dataclass(frozen=True, eq=False)
 class Holder:
-    """What holds two bodies with a bounded force: a link, or the cohesion of a joint.
+    """Holder of two bodies with a bounded force: a link, or the cohesion of a joint.
 
     Bodies are those of the programme by number, −1 what moves with the ground. Points are places in space of the upper and
     the lower end, ``axes`` the directions of the force on the upper body as columns: two of them for every direction

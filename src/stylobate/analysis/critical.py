@@ -147,7 +147,7 @@ class CriticalAmplitude:
 
     @property
     def as_recorded(self) -> dict[str, Any] | None:
-        """What the record does as it is: amplitude, verdict, share of the twins with its interval and their verdicts.
+        """Effect of the record as it is: amplitude, verdict, share of the twins with its interval and their verdicts.
 
         None for a formula, or beyond the grid.
         """
@@ -179,7 +179,7 @@ class CriticalAmplitude:
 
     @property
     def alternation(self) -> pandas.DataFrame:
-        """How the verdicts alternate with growing amplitude: one row per stretch of equal verdict."""
+        """Alternation of verdicts with growing amplitude: one row per stretch of equal verdict."""
         import pandas
 
         return pandas.DataFrame(

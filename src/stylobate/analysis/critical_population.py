@@ -48,7 +48,7 @@ class CriticalPopulation:
 
     @property
     def counts(self) -> dict[str, np.ndarray]:
-        """How many twins have each verdict at each amplitude, under the names of tables."""
+        """Number of twins of each verdict at each amplitude, under the names of tables."""
         return {f"twins_{one}": (self.verdicts == one).sum(axis=0) for one in v.MADE}
 
     @property

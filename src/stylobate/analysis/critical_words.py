@@ -1,4 +1,4 @@
-"""What amplitudes that were looked at say of a column, in words: the lowest collapse, and no factor that is none.
+"""Words on the amplitudes of a column: the lowest collapse, and no factor that is none.
 
 From the JSON object of ``stylobate critical``, so that the command and the report of its folder say the same.
 """
@@ -23,7 +23,7 @@ ONE_ALONE = (
 
 
 def sentence(s: Mapping[str, Any], kind: str = "column") -> str:
-    """What one motion does over its amplitudes.
+    """Results of one motion over its amplitudes.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def sentence(s: Mapping[str, Any], kind: str = "column") -> str:
 
 
 def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
-    """What several motions do over one grid of peaks; ``s`` as of :func:`sentence`, for several motions."""
+    """Results of several motions over one grid of peaks; ``s`` as of :func:`sentence`, for several motions."""
     rows, worst, twins = s["records"], s["worst"], s["certainty"]
     records, like = len({one["record"] for one in rows}), " or one like it" if twins else ""
     what, of = ("record", "") if records == len(rows) else ("motion", f" of {records} record{'s' * (records > 1)}")
@@ -61,7 +61,7 @@ def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
 
 
 def as_recorded(own: Mapping[str, Any]) -> str:
-    """What the record does as it is, to the structure and to those like it.
+    """Effect of the record as it is, on the structure and on those like it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a state of a column differs by from another under the same motions, and the advice that follows, in words."""
+"""Difference of a state of a column from another under the same motions, and the advice that follows, in words."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from ..percent import whole
 from ..response.words import ROUND_IN_THE_PLANE, round_in_the_plane
 from .fragility_checks import FEWEST
 
-#: What a difference comes to.
+#: Kinds of difference.
 STRONGER, WEAKER, NOT_TOLD = "stronger", "weaker", "not told"
 
-#: What is said where there is nothing to compare.
+#: Sentence where there is nothing to compare.
 NO_PAIR = "no pair of runs could be computed"
 
 #: States that are no measure: nobody can adopt them.
@@ -32,14 +32,14 @@ NO_MEASURE_YET = (
 
 
 def round_drums(columns: Sequence[Structure], model: Model) -> str:
-    """What stands before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
+    """Caveat before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
     if not model.is_plane(model.parameters()):
         return ""
     return next((round_in_the_plane(one) for one in columns if one.stack is not None and one.stack.n > 1), "")
 
 
 def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
-    """What stands before any advice on these states, because of the model; empty where nothing does."""
+    """Caveat before any advice on these states, because of the model; empty where nothing does."""
     if not model.is_plane(model.parameters()) or all(one.section != "circular" for one in columns):
         return ""
     return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(one not in NO_MEASURE for one in labels) + "."
@@ -56,7 +56,7 @@ def reference(labels: Sequence[str], label: str) -> str:
 
 @dataclass(frozen=True)
 class Difference:
-    """What a state differs by from another one, the same records, levels and twins against one another.
+    """Difference of a state from another one, the same records, levels and twins against one another.
 
     Intervals hold what is undecided: their one end is that of the case in which every undecided run ends in favour of this
     state and against the other, their other end that of the opposite.
@@ -131,12 +131,12 @@ class Difference:
 
     @property
     def basis(self) -> str:
-        """What the advice rests on: median, pairs and share, with their intervals."""
+        """Basis of the advice: median, pairs and share, with their intervals."""
         return " ".join(one for one in (self._median(), self._pairs(), self._share()) if one)
 
     @property
     def advice(self) -> str:
-        """What to do, in one sentence that can be read in one way only."""
+        """Advice, in one sentence that can be read in one way only."""
         against = f"than “{self.against}” against {self.limit_state}"
         measure = self.state not in NO_MEASURE
         if self.conclusion == STRONGER:
@@ -158,7 +158,7 @@ class Difference:
 
     @property
     def _number(self) -> str:
-        """How many pairs of runs, and of how many records: the runs of one record are no independent evidence."""
+        """Number of pairs of runs, and of their records: the runs of one record are no independent evidence."""
         pairs, records = (
             f"{count} {word}{'' if count == 1 else 's'}"
             for count, word in ((self.pairs + self.undecided, "pair"), (self.records, "record"))

@@ -25,14 +25,14 @@ def direction_of(motion: Motion) -> dict[str, Any]:
 
 
 def bearing(row: Mapping[str, Any]) -> float | None:
-    """Where the shaking along x points to [degrees]: the azimuth of x, or opposite to it where it is reversed."""
+    """Direction of the shaking along x [degrees]: the azimuth of x, or opposite to it where it is reversed."""
     if row.get("azimuth_deg") is None:
         return None
     return (float(row["azimuth_deg"]) + 180.0 * bool(row.get("reversed"))) % 360.0
 
 
 def harm(row: Mapping[str, Any]) -> tuple[float, float, float]:
-    """What rows are ordered by: probability of collapse, collapse of the column itself and how soon, peak displacement.
+    """Order of rows: probability of collapse, collapse of the column itself and how soon, peak displacement.
 
     Runs that failed come first, because they say nothing.
     """

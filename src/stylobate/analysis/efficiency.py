@@ -18,7 +18,7 @@ from .limit_states import LimitState, parse_state
 if TYPE_CHECKING:
     import pandas
 
-#: What else may matter about a record: column of the table, and whether it counts by its logarithm.
+#: Further properties of a record: column of the table, and whether it counts by its logarithm.
 OTHERS = {"magnitude": False, "distance_km": True, "pgv_over_pga_s": True, "d5_95_s": True}
 
 #: Fewest records from which a straight line says something.
@@ -31,7 +31,7 @@ ROCKS = 0.01
 def which_tells_most(
     runs: pandas.DataFrame, state: LimitState | str = "collapse", edp: str = "peak_top_displacement_m", seed: int = 0
 ) -> pandas.DataFrame:
-    """How well each intensity measure of a table of runs predicts a state.
+    """Prediction of a state by each intensity measure of a table of runs.
 
     Parameters
     ----------

@@ -301,7 +301,7 @@ class EquilibriumPath:
         return found
 
     def result(self, complete: bool, stop: str) -> PushoverResult:
-        """What was found so far."""
+        """Findings so far."""
         report = np.array([item[3] for item in self.kept])
         return PushoverResult(
             displacement=np.array([item[0] for item in self.kept]) - self.kept[0][0],

@@ -1,4 +1,4 @@
-"""What runs tell about a limit state: the table of a suite, a study or an IDA, or anybody's CSV, as one value."""
+"""Evidence of runs about a limit state: the table of a suite, a study or an IDA, or anybody's CSV, as one value."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def read_table(source: str | Path) -> pandas.DataFrame:
 
 
 def names_in(table: pandas.DataFrame) -> list[str] | None:
-    """What stood in each run, as the table calls it, with the model where there are several; None if it does not say."""
+    """Structure of each run, as the table calls it, with the model where there are several; None if it does not say."""
     who = [one for one in STOOD if one in table][:1]
     who += [one for one in ("model",) if one in table and len(set(table[one])) > 1]
     return [", ".join(map(str, row)) for row in table[who].to_numpy()] if who else None
@@ -153,7 +153,7 @@ def evidence(
     *,
     im: IntensityMeasure | str | None = None,
 ) -> Evidence:
-    """What a table of runs tells about a state.
+    """Evidence of a table of runs about a state.
 
     Parameters
     ----------
@@ -256,7 +256,7 @@ def _rivals(table: pandas.DataFrame, measure: IntensityMeasure) -> list[str]:
 
 
 def _remedy(table: pandas.DataFrame, measure: IntensityMeasure | None) -> str:
-    """What can be done where a table has not the intensity that is asked for."""
+    """Remedies where a table has not the intensity that is asked for."""
     unnamed = [str(one) for one in table.columns if one in UNNAMED]
     if unnamed:
         alike = measure is not None and ENDS[measure.unit] == unnamed[0].removeprefix("im")

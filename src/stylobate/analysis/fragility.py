@@ -84,12 +84,12 @@ class Fragility:
 
     @property
     def counted(self) -> str:
-        """What counts as independent of one another, and the interval is over, in words."""
+        """Samples that count as independent of one another, over which the interval is, in words."""
         return "runs" if self.records_are_one else "records"
 
     @property
     def warnings(self) -> list[str]:
-        """What must be said beside anything that rests on this curve."""
+        """Caveats beside anything that rests on this curve."""
         alone = (
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
@@ -115,7 +115,7 @@ class Fragility:
 
     @property
     def outside(self) -> str:
-        """What must be said of a median beyond all intensities that were computed; empty where it is among them."""
+        """Caveat on a median beyond all intensities that were computed; empty where it is among them."""
         e, (low, high) = self.evidence, self.levels
         unit = "" if e.unit == "-" else f" {e.unit}"
         if low * (1.0 - CLOSE) <= self.median <= high * (1.0 + CLOSE):
@@ -226,7 +226,7 @@ class Fragility:
 
     @property
     def sentence(self) -> str:
-        """What the runs say of the median, in a sentence."""
+        """Words of the runs on the median, in a sentence."""
         e = self.evidence
         where = f"{e.state} at {e.measure}"
         unit = "" if e.unit == "-" else f" {e.unit}"
@@ -355,7 +355,7 @@ def fragility(
 def _known(
     low: np.ndarray, high: np.ndarray, owner: np.ndarray, samples: int, rng: np.random.Generator, confidence: float
 ) -> tuple[np.ndarray, np.ndarray, tuple[float, float], tuple[float, float] | None]:
-    """What is known about the curve through intervals of ln capacity: samples, region, dispersions and bracket."""
+    """Curve through intervals of ln capacity: samples, region, dispersions and bracket."""
     below, above, number = float(low.max()), float(high.min()), len(np.unique(owner))
     return (
         bootstrap(low, high, owner, samples, rng),

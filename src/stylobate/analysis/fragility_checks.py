@@ -1,4 +1,4 @@
-"""What is no fragility: runs of too few records, or runs through which no curve goes."""
+"""Runs that make no fragility: of too few records, or without a curve through them."""
 
 from __future__ import annotations
 

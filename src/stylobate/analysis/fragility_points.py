@@ -1,4 +1,4 @@
-"""What runs say without a curve: shares of the records over the intensity; and how good a curve through them is."""
+"""Evidence of runs without a curve: shares of the records over the intensity; and how good a curve through them is."""
 
 from __future__ import annotations
 

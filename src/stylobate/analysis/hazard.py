@@ -87,7 +87,7 @@ class Hazard:
         object.__setattr__(self, "rate", rate)
 
     def doubt(self) -> str:
-        """What no site on Earth has, in a clause; empty where the rates are plausible. For PGA, PGV and spectra in g.
+        """Rates that no site on Earth has, in a clause; empty where they are plausible. For PGA, PGV and spectra in g.
 
         Raises
         ------

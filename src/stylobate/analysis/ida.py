@@ -40,7 +40,7 @@ RUNS = 14
 
 @dataclass
 class Trace:
-    """What has been found under one record with one column."""
+    """Runs of one record with one column."""
 
     motion: Motion
     column: Column

@@ -1,4 +1,4 @@
-"""What links must hold at the collapse multiplier: the forces of a linear programme are not unique, the least ones are."""
+"""Demand on links at the collapse multiplier: the forces of a linear programme are not unique, the least ones are."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ STEPS = 40
 
 
 class Borne(NamedTuple):
-    """What a programme bears with links of given capacities.
+    """Load of a programme with links of given capacities.
 
     ``multiplier`` [g]; ``worth``, by how much a larger capacity of each link would raise it [g/N], and ``held``, what each
     holds in this answer [N], shapes (links,); ``forces``, all of this answer.
@@ -31,7 +31,7 @@ class Borne(NamedTuple):
 
 
 class Needed(NamedTuple):
-    """What links hold in every answer of a programme.
+    """Links in every answer of a programme.
 
     ``least`` [N], the least that each holds, with the sign of that answer; ``yields``, whether that is its capacity;
     ``idle``, whether it need not act: all that are idle may be so at once. ``forces`` of an answer in which they are.
@@ -44,7 +44,7 @@ class Needed(NamedTuple):
 
 
 def needed_forces(solve: Callable[[np.ndarray, float], Borne], capacity: np.ndarray, whole: Borne) -> Needed:
-    """What links must hold at the multiplier that they reach together.
+    """Demand on links at the multiplier that they reach together.
 
     Parameters
     ----------

@@ -11,7 +11,7 @@ from .lognormal import BETAS, log_interval
 #: Dispersions between which the region is looked for [-]: beyond them β counts as 0 and as without end.
 NARROWEST, WIDEST = BETAS[0], 1000.0
 
-#: How much farther than for known capacities ln L may lie below: what is known by yes and no only leaves more open. With it
+#: Distance below that of known capacities at which ln L may lie: what is known by yes and no only leaves more open. With it
 #: the intervals hold what they promise in the simulations of the page on fragility.
 LARGER = 1.3
 

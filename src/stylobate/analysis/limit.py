@@ -40,7 +40,7 @@ class ActiveJoint:
 
 @dataclass(frozen=True)
 class LinkForce:
-    """What a link must hold at collapse: forces at the collapse multiplier need not be unique.
+    """Demand on a link at collapse: forces at the collapse multiplier need not be unique.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def limit_analysis(
 
 
 def link_forces(links: Sequence[Any], needed: Needed) -> tuple[LinkForce, ...]:
-    """What the links of a programme, which have a name, an action and a capacity, must hold."""
+    """Demand on the links of a programme, which have a name, an action and a capacity."""
     return tuple(
         LinkForce(
             one.name, one.action, float(needed.least[k]), one.capacity, bool(needed.yields[k]), bool(needed.idle[k])

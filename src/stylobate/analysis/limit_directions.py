@@ -33,7 +33,7 @@ class LimitByDirection:
 
     @property
     def azimuths(self) -> np.ndarray:
-        """Where the forces push to [degrees]."""
+        """Direction of the forces [degrees]."""
         return np.array([one.azimuth for one in self.limits])
 
     @property
@@ -130,7 +130,7 @@ def limit_in_space(column: Column, azimuth: float = 0.0) -> DirectionLimit:
 
 
 def _gives_way(column: Column, at: SpaceGeometry, joint: int, multiplier: float, push: np.ndarray) -> str:
-    """How a joint gives way under a multiplier; empty where it does not."""
+    """Mechanism of a joint under a multiplier; empty where it holds."""
     load = space_load(column, at, joint, column.gravity * (upward(column) - multiplier * push))
     law = column.joints[joint]
     if load.normal <= 0.0:

@@ -13,7 +13,7 @@ from ..column.structure import Structure
 from ..errors import InputError
 from . import verdicts as v
 
-#: What a run says about a state.
+#: Answers of a run about a state.
 EXCEEDED, NOT_EXCEEDED, OPEN, FAILED = 1, 0, -1, -2
 
 #: Short names of what a level is of. ``top`` and ``drums`` are those of Psycharis, Fragiadakis and Stefanou (2013).
@@ -63,7 +63,7 @@ class LimitState:
         return f"{what} over {self.level:g} {unit}"
 
     def of(self, row: Mapping[str, Any]) -> int:
-        """What a run says: exceeded, not exceeded, open (undecided) or failed.
+        """Answer of a run: exceeded, not exceeded, open (undecided) or failed.
 
         A collapse exceeds every state. A peak that is passed stays passed, whatever the end; what an undecided run has not
         passed yet is open.

@@ -72,7 +72,7 @@ class PathLinks:
         return max(force, 0.0), one.stiffness if force > 0.0 else 0.0, stays
 
     def _turning(self, position: np.ndarray, forces: np.ndarray) -> np.ndarray:
-        """What the forces add to the tangent because the links turn: central differences of their directions."""
+        """Share of the forces in the tangent because the links turn: central differences of their directions."""
         out, step = np.zeros((position.size, position.size)), 1e-6
         centroid, angle, tried = self.stack.centroid, self.stack.angle, position.copy()
         for one, force in zip(self.links, forces, strict=True):

@@ -1,4 +1,4 @@
-"""What a pushover analysis found: the equilibrium path, its peak, where it falls to zero, and the mechanism behind it."""
+"""Result of a pushover analysis: the equilibrium path, its peak, where it falls to zero, and the mechanism behind it."""
 
 from __future__ import annotations
 

@@ -71,7 +71,7 @@ class Risk:
 
     @property
     def warnings(self) -> list[str]:
-        """What is to be doubted, and what the hazard curve does not cover, in sentences."""
+        """Doubts about the result, and limits of the hazard curve, in sentences."""
         found = [*self.fragility.warnings, *([f"{self.doubt}."] if self.doubt else [])]
         found += [self._without_verdict] if self._without_verdict else []
         if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
@@ -104,7 +104,7 @@ class Risk:
 
     @property
     def _without_verdict(self) -> str:
-        """What the rate could be with the runs that the curve leaves out; empty where there are none."""
+        """Rate with the runs that the curve leaves out; empty where there are none."""
         told = self.fragility.summary()
         counts = [f"{told[one]} {one}" for one in ("undecided", "failed") if told[one]]
         if not counts:
@@ -146,7 +146,7 @@ class Risk:
 
 @dataclass(frozen=True, eq=False)
 class Survival:
-    """What the age of a column that still stands says about hazard curves.
+    """Evidence of the age of a column that still stands on hazard curves.
 
     Parameters
     ----------
@@ -255,7 +255,7 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
 
 
 def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Survival:
-    """What an age says about hazard curves.
+    """Evidence of an age about hazard curves.
 
     Parameters
     ----------

@@ -16,13 +16,13 @@ from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 #: Intensities that differ by less are one [-].
 CLOSE = 1e-6
 
-#: What a verdict says about collapse.
+#: Answer of a verdict on collapse.
 CODES = {v.COLLAPSED: EXCEEDED, v.STANDS: NOT_EXCEEDED, v.UNDECIDED: OPEN, v.FAILED: FAILED, v.NOT_RUN: FAILED}
 
 
 @dataclass(frozen=True)
 class Share:
-    """How many of the runs that could be computed for all exceed a limit state.
+    """Number of the runs, computed for all, that exceed a limit state.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class Share:
 
     @property
     def collapses(self) -> str:
-        """How many of the runs collapse, with the share and its interval, in a sentence."""
+        """Number of runs that collapse, with the share and its interval, in a sentence."""
         several = "" if self.runs == 1 else "s"
         if not self.runs:
             return f"{self.label}: no run could be computed."
@@ -135,7 +135,7 @@ def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
 
 
 def codes_of(verdicts: np.ndarray) -> np.ndarray:
-    """What verdicts say about collapse, shape of ``verdicts``."""
+    """Collapse by verdicts, shape of ``verdicts``."""
     return np.select([verdicts == name for name in CODES], list(CODES.values()), FAILED).astype(np.int8)
 
 
@@ -157,7 +157,7 @@ def median_words(curve: Mapping[str, Any]) -> str:
 
 
 def median_name(*curves: Mapping[str, Any] | None) -> str:
-    """What :func:`median_words` of any of these curves are: never an interval of confidence.
+    """Kind of median of these curves: never an interval of confidence.
 
     Parameters
     ----------

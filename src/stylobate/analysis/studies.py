@@ -1,4 +1,4 @@
-"""What a study came to: its table, its counts, and the runs that are worth their histories."""
+"""Results of a study: its table, its counts, and the runs that are worth their histories."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class StudyResult:
 
     @classmethod
     def in_folder(cls, folder: str | Path) -> StudyResult:
-        """What the folder of a study holds now; a study may be at work there.
+        """Present state of a study's folder; a study may be at work there.
 
         Raises
         ------

@@ -10,7 +10,7 @@ from pathlib import Path
 from ..errors import InputError
 from ..reading import read_bytes, shown
 
-#: What may separate columns.
+#: Separators of columns.
 DELIMITERS = (",", ";", "\t")
 
 #: Longest part of a strange line that a message shows [characters].

@@ -27,7 +27,7 @@ VERDICTS = (STANDS, COLLAPSED, UNDECIDED, FAILED, NOT_RUN)
 #: Verdicts of runs that were made.
 MADE = (COLLAPSED, STANDS, UNDECIDED, FAILED)
 
-#: What a labelled array says of itself that holds verdicts as their places in VERDICTS.
+#: Attribute of a labelled array that holds verdicts as their places in VERDICTS.
 FLAGS = {
     "long_name": "verdict of the run",
     "flag_values": np.arange(len(VERDICTS), dtype=np.int8),
@@ -59,13 +59,13 @@ def verdicts_of(rows: Rows) -> np.ndarray:
 
 
 def count(verdicts: Sequence[str] | np.ndarray) -> dict[str, int]:
-    """How many runs have each verdict."""
+    """Number of runs of each verdict."""
     values = np.asarray(verdicts).ravel()
     return {one: int(np.count_nonzero(values == one)) for one in VERDICTS}
 
 
 def open_runs(counts: Mapping[str, Any], so: str = "not counted as collapse") -> str:
-    """How many runs have no verdict, as a sentence behind another one; empty where all have."""
+    """Number of runs without a verdict, as a sentence behind another one; empty where all have one."""
     words = {UNDECIDED: ("is undecided", "are undecided"), FAILED: ("failed", "failed")}
     found = [
         f"{counts[one]} run{'' if counts[one] == 1 else 's'} {alone if counts[one] == 1 else several}"
@@ -75,7 +75,7 @@ def open_runs(counts: Mapping[str, Any], so: str = "not counted as collapse") ->
 
 
 def tally(verdicts: np.ndarray, axis: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """How many runs collapsed, stand and are undecided along an axis of an array of verdicts."""
+    """Numbers of runs that collapsed, stand and are undecided along an axis of an array of verdicts."""
     collapsed, stands, undecided = ((verdicts == one).sum(axis=axis) for one in (COLLAPSED, STANDS, UNDECIDED))
     return collapsed, stands, undecided
 

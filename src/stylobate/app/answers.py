@@ -62,7 +62,7 @@ def found_wrong(error: InputError) -> Response:
 
 
 class Missing(Exception):
-    """What was asked for by its name is not here."""
+    """Nothing of the name that was asked for is here."""
 
 
 def missing(what: str) -> Response:
@@ -109,7 +109,7 @@ async def _on_gone(request: Request, error: Exception) -> Response:
     return _about("the request broke off; send it again.", 400)  # nobody hears it
 
 
-#: What is answered where something goes wrong.
+#: Answers where something goes wrong.
 HANDLERS: dict[Any, Any] = {
     TooLarge: _on_too_large,
     TooSlow: _on_too_slow,

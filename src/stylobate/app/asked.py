@@ -1,4 +1,4 @@
-"""What the page asks for, checked, and the command lines that do it."""
+"""Requests of the page, checked, and the command lines that do them."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class MotionAsked(Table):
 
 
 class JobAsked(Table):
-    """What is to be computed, and of what: all but kind, column and model as on the command line.
+    """Computation that is asked for: all but kind, column and model as on the command line.
 
     ``column`` is what a column file holds, ``assembly`` the text of an assembly file; of ``critical`` the amplitudes go from
     ``first`` to ``last`` by ``step``. ``page`` is what the page's fields hold, for it to fill them again.

@@ -18,7 +18,7 @@ from .words import doubted, warned
 #: Largest assembly file: the address in the browser holds it [characters].
 LARGEST = 100_000
 
-#: What messages call it.
+#: Name in messages.
 FILE = "your-assembly.toml"
 
 
@@ -59,7 +59,7 @@ def _only_presets(tables: Any) -> None:
 
 
 def describe(text: str) -> dict[str, Any]:
-    """What the page shows of an assembly: what it is, warnings, and outlines [m].
+    """Assembly on the page: what it is, warnings, and outlines [m].
 
     Raises
     ------

@@ -21,7 +21,7 @@ from ..response.bodies import bodies_of
 from ..response.poses import PlanePoses
 from .words import doubted, warned
 
-#: What messages about a column call it at first; on the page that goes without saying.
+#: Name of a column in messages, at first; on the page that goes without saying.
 SOURCE = "the column"
 
 
@@ -50,12 +50,12 @@ def presets() -> dict[str, dict[str, Any]]:
 
 
 def tables_in(path: Path) -> dict[str, Any]:
-    """What a column file holds, drum by drum, whichever way it is written."""
+    """Contents of a column file, drum by drum, whichever way it is written."""
     return tables_of(Column.from_toml(path))
 
 
 def describe(table: Mapping[str, Any]) -> dict[str, Any]:
-    """What the page shows of a column: properties, warnings and outlines.
+    """Column on the page: properties, warnings and outlines.
 
     Raises
     ------
@@ -98,7 +98,7 @@ def _in_plane(column: Column) -> list[np.ndarray]:
 
 
 def _placed(column: Column) -> np.ndarray:
-    """Where the drums of a column found in the plane are: x and z of their centroids [m], and their angles [rad]."""
+    """Places of the drums of a column found in the plane: x and z of their centroids [m], and their angles [rad]."""
     still = np.zeros((1, column.n))
     return bodies_of(column).reference.plane(PlanePoses(still, still, still))[0]
 

@@ -20,7 +20,7 @@ SHARES = {"16": "edp_16", "50": "edp_50", "84": "edp_84"}
 
 
 def curves(folder: Path) -> dict[str, Any]:
-    """What can be drawn of a job; what it has not computed is left out.
+    """Pictures of a job, without those of what it has not computed.
 
     Parameters
     ----------

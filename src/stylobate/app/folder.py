@@ -18,7 +18,7 @@ FOLDER, FILE = 0o700, 0o600
 #: Folders of the page in it.
 RECORDS, JOBS = "records", "jobs"
 
-#: What is held while a page is served; an empty file of that name and ``-lock`` lies in the folder meanwhile.
+#: Lock while a page is served; an empty file of that name and ``-lock`` lies in the folder meanwhile.
 HELD = "page"
 
 

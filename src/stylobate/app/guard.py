@@ -1,4 +1,4 @@
-"""What may come in and what goes out: keys, names of hosts, origins, sizes of bodies, and the headers of every answer."""
+"""Guard of the page: keys, names of hosts, origins, sizes of bodies, and the headers of every answer."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ BODY = 1_000_000
 #: Longest silence in the middle of a body [s].
 SILENCE = 30.0
 
-#: What a browser may do with a page of ours: nothing from elsewhere, no code but our files, in no frame of others.
+#: Rights of a browser with a page of ours: nothing from elsewhere, no code but our files, in no frame of others.
 POLICY = "; ".join(
     (
         *("default-src 'none'", "script-src 'self'", "style-src 'self'", "img-src 'self' data:", "connect-src 'self'"),

@@ -23,7 +23,7 @@ JOB = "job.json"
 
 @dataclass
 class Job:
-    """What is known of a job.
+    """Facts of a job.
 
     Parameters
     ----------

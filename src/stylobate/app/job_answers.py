@@ -1,4 +1,4 @@
-"""What the page asks of jobs, and the answers: new ones, their news, films, cells and files."""
+"""Jobs of the page, and the answers: new ones, their news, films, cells and files."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ PICTURES = {"png": "image/png", "svg": "image/svg+xml", "html": "text/html"}
 #: most that listen.
 LOOK, PACE, SILENCE, LISTENERS = 0.15, 0.02, 10.0, 24
 
-#: What a job is repeated with, as a file of its own.
+#: Recipe of a job, as a file of its own.
 LINES = "commands.txt"
 
 #: A file with all others of a job: kept in memory up to this size, and sent in such pieces [bytes].
@@ -156,7 +156,7 @@ class JobAnswers:
         return Answer({"cells": await run_in_threadpool(new_cells, job.folder, set())})
 
     async def curves(self, request: Request) -> Response:
-        """What can be drawn of an analysis."""
+        """Pictures of an analysis."""
         job = self._job(request)
         return Answer(await run_in_threadpool(curves, job.folder))
 
@@ -179,7 +179,7 @@ class JobAnswers:
         )
 
     async def lines(self, request: Request) -> Response:
-        """What to type to do a job again without the page."""
+        """Command line that repeats a job without the page."""
         job = self._job(request)
         headers = {"content-disposition": f'attachment; filename="{LINES}"'}
         return Response(job.lines(), media_type="text/plain; charset=utf-8", headers=headers)
@@ -248,7 +248,7 @@ class JobAnswers:
 
 
 def _structure(asked: JobAsked) -> Structure:
-    """What stands: a column, or an assembly, of which runs alone are made here."""
+    """Structure: a column, or an assembly, of which runs alone are made here."""
     if asked.assembly is not None:
         if asked.kind != "run":
             raise InputError(f"a {asked.kind} takes a column here; go back to one.")

@@ -12,7 +12,7 @@ from starlette.requests import cookie_parser
 #: Names in an address: of the token, which lets in until the page ends, and of a ticket, which lets in once.
 TOKEN, TICKET = "token", "ticket"
 
-#: What is said to everybody else.
+#: Answer to everybody else.
 CLOSED = (
     "the page opens by the address that was printed when it was started; open that one: every start makes a new one."
 )

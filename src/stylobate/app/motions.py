@@ -20,7 +20,7 @@ POINTS, PATH = 2400, 1500
 
 
 def describe(asked: MotionAsked, files: Sequence[str], column: Column | None) -> dict[str, Any]:
-    """What the page shows of a motion.
+    """Motion on the page.
 
     Parameters
     ----------

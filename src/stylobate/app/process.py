@@ -59,7 +59,7 @@ class Process:
             self._process.stdin.write(json.dumps(job) + "\n")
 
     def says(self) -> Iterator[dict[str, Any]]:
-        """What it says, until it ends or is told to."""
+        """Words of the process, until it ends or is told to."""
         while (what := self._said.get()) is not None:
             yield what
 

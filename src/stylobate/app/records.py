@@ -26,7 +26,7 @@ PARTS, COMING = 12, 16
 #: The end of the name of a file that is kept here, with its token; and the name of the note about a record.
 _KEPT, _NOTE = re.compile(r"-([0-9a-f]{8})(?:\.[a-z0-9]{1,6})?"), re.compile(r"\.([0-9a-f]{8})\.json")
 
-#: What begins the name of a file that is still coming in.
+#: Beginning of the name of a file that is still coming in.
 _COMING = ".coming-"
 
 
@@ -142,7 +142,7 @@ class Records:
             (self.folder / found.place).rmdir()
 
     def paths(self, record: str) -> list[str]:
-        """Where the files of a record lie.
+        """Place of the files of a record.
 
         Raises
         ------

@@ -63,7 +63,7 @@ def serve(host: str, port: int, folder: Path | None, worker: Sequence[str], brow
 
 
 def server_of(app: Any) -> uvicorn.Server:
-    """What answers for an application."""
+    """Server of an application."""
     return uvicorn.Server(
         uvicorn.Config(
             app,

@@ -74,7 +74,7 @@ class Site:
         return FileResponse(found, media_type=KINDS[found.suffix], headers={"cache-control": "no-cache"})
 
     async def about(self, request: Request) -> Response:
-        """What there is to choose from."""
+        """Choices."""
         listed = [{"name": one.name, "about": one.about} for one in samples().values()]
         return Answer({"version": __version__, "presets": columns.presets(), "samples": listed, "labels": LABELS})
 
@@ -98,7 +98,7 @@ class Site:
             return PlainTextResponse(path.read_text(encoding="utf-8"))
 
     async def column_file(self, request: Request) -> Response:
-        """What an uploaded file holds: a column, or an assembly."""
+        """Contents of an uploaded file: a column, or an assembly."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "your-column.toml"
             path.write_bytes(await request.body())
@@ -113,7 +113,7 @@ class Site:
                 raise
 
     async def assembly(self, request: Request) -> Response:
-        """What is shown of an assembly."""
+        """Summary of an assembly."""
         text = (await json_object(request)).get("assembly")
         try:
             return Answer(await run_in_threadpool(assemblies.describe, str(text)))

@@ -12,7 +12,7 @@ from typing import Any
 from ..column import tables
 from ..errors import told
 
-#: What a field of the page is called, by the option of the command line that it stands for; the scripts of the page take
+#: Label of a field of the page, by the option of the command line that it stands for; the scripts of the page take
 #: them from here.
 LABELS = {
     "harmonic": "Harmonic",
@@ -76,7 +76,7 @@ _LISTENING = threading.Lock()
 
 @contextmanager
 def doubted() -> Iterator[list[warnings.WarningMessage]]:
-    """What is warned of in this thread, for :func:`warned`."""
+    """Warnings of this thread, for :func:`warned`."""
     with _LISTENING, warnings.catch_warnings(record=True) as doubts:
         warnings.simplefilter("always")
         yield doubts

@@ -1,4 +1,4 @@
-"""Where jobs are done: one process, one job at a time, the others in a visible queue."""
+"""Workshop of jobs: one process, one job at a time, the others in a visible queue."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .process import PATIENCE, Process
 #: Most jobs that wait, and that are kept.
 WAIT, KEEP = 50, 300
 
-#: What the process says beside its jobs, beside their folder.
+#: Words of the process beside its jobs, beside their folder.
 LOG = "worker.log"
 
 #: Kinds of jobs that can be stopped and go on later where they were.
@@ -160,7 +160,7 @@ class Workshop:
         shutil.rmtree(job.folder, ignore_errors=True)
 
     def place(self, job: Job) -> int:
-        """How many jobs are done before this one."""
+        """Number of jobs that are done before this one."""
         with self._lock:
             waiting = list(self._queue)
             return waiting.index(job.id) + (self._current is not None) if job.id in waiting else 0
@@ -175,7 +175,7 @@ class Workshop:
             self._wake.notify()
 
     def _turn(self, job: Job) -> int:
-        """Where a job comes in the queue: after all others, but before the long ones where it is none of them."""
+        """Place of a job in the queue: after all others, but before the long ones where it is none of them."""
         return len(self._queue) if job.kind in LONG else self._before_long()
 
     def _before_long(self) -> int:

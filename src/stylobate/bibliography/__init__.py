@@ -1,4 +1,4 @@
-"""What it rests on: the bibliography, and what to cite for a run or a model."""
+"""Sources: the bibliography, and citations for a run or a model."""
 
 from .citation import Citation, cite, cite_run
 from .references import Reference, bibliography

@@ -1,4 +1,4 @@
-"""What to cite: the package, the sources of a model, and where a motion comes from."""
+"""Citations: the package, the sources of a model, and where a motion comes from."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ PACKAGE = Reference(
     ),
 )
 
-#: What a motion's metadata say of its source, in the order of a citation.
+#: Facts on the source in a motion's metadata, in the order of a citation.
 _SOURCE = ("station", "station_name", "network", "event", "start_time", "reference", "comments", "terms", "file")
 
 
 @dataclass(frozen=True)
 class Citation:
-    """What to cite.
+    """Citations.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class Citation:
 
 
 def cite(keys: Iterable[str] = (), about: str = "") -> Citation:
-    """What to cite for sources given by their keys."""
+    """Citations for sources given by their keys."""
     known, wanted = bibliography(), list(dict.fromkeys(keys))
     return Citation(
         about,
@@ -92,7 +92,7 @@ def cite(keys: Iterable[str] = (), about: str = "") -> Citation:
 
 
 def cite_run(provenance: Mapping[str, Any]) -> Citation:
-    """What to cite for a result, from its provenance.
+    """Citations for a result, from its provenance.
 
     Parameters
     ----------

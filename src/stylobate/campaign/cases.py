@@ -36,7 +36,7 @@ MAX_CASES = 20_000_000
 #: Measures of a motion that relate it to the slenderness of a column.
 RELATIVE = ("pga_over_g_tan_alpha", "omega_g_over_p", "uniform_duration_s", "pgv_p_over_g_tan_alpha")
 
-#: What is kept besides the table, the worst and the median run.
+#: Runs that are kept besides the table, the worst and the median run.
 KEEP = ("rows", "histories")
 
 
@@ -153,7 +153,7 @@ class Study:
         return np.array([share_of([motion], self.campaign.whole) for motion in self.motions])
 
     def plan(self) -> Plan:
-        """What is run, as plain data with the digest of every case."""
+        """Runs, as plain data with the digest of every case."""
         sizes = self.factors * np.array([[motion.factor] for motion in self.motions])
         each = list(zip(self.motions, sizes.tolist(), self.quiet.tolist(), strict=True))
         digests = np.empty((self.size, LENGTH), dtype=np.uint8)

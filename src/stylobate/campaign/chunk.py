@@ -25,7 +25,7 @@ SEND_INTERVAL, LOOK = 0.5, 0.05
 
 
 def law() -> tuple[str, str]:
-    """What must be the same wherever cases of one campaign are computed: version, and source of the kernels."""
+    """Identity of a campaign's computations wherever they are made: version, and source of the kernels."""
     return __version__, source_digest()
 
 

@@ -1,4 +1,4 @@
-"""What a model of somebody's own does, as plain values that are the same in every process: its loaded code and its files."""
+"""Behaviour of a model of somebody's own, as plain values that are the same in every process: its loaded code and its files."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PACKAGE = Path(__file__).parents[1]
 #: First words of the names of modules that are this package's or Python's own.
 _KNOWN = {"stylobate", *sys.stdlib_module_names}
 
-#: What is held by values that stand for functions.
+#: Types of values that stand for functions.
 _HELD = {
     property: ("fget", "fset"),
     staticmethod: ("__func__",),
@@ -35,7 +35,7 @@ _HELD = {
 
 
 class Code:
-    """What a class says and does: the code of its functions, and the functions and values beside it that they name.
+    """Behaviour of a class: the code of its functions, and the functions and values beside it that they name.
 
     Files are told as well, with all that they hold: but a file may have been edited since it was loaded.
     """

@@ -1,4 +1,4 @@
-"""What decides a case, as a digest: what stands, samples and factor of the motion, model, tail, quiet, laws.
+"""Digest of a case: what stands, samples and factor of the motion, model, tail, quiet, laws.
 
 Names decide nothing, and neither do the components of a motion that the model leaves out.
 """
@@ -93,7 +93,7 @@ def digest_of_samples(motion: Motion) -> str:
 
 
 def samples_of(motion: Motion) -> tuple:
-    """What scaled copies of a motion share, as long as one of them lives."""
+    """Common part of scaled copies of a motion, as long as one of them lives."""
     return id(motion.samples), id(motion.y_samples), id(motion.z_samples), motion.dt
 
 

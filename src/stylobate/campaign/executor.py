@@ -1,4 +1,4 @@
-"""Where runs are computed: by threads of this process, or by whatever has taken their place (a Dask cluster)."""
+"""Executors of runs: the threads of this process, or whatever has taken their place (a Dask cluster)."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Finished = Generator[tuple[int, Measures], None, None]
 
 
 class Executor(Protocol):
-    """What computes runs; the same cases give the same measures, to the bit, with any."""
+    """Executors of runs; the same cases give the same measures, to the bit, with any."""
 
     def __call__(self, cases: Sequence[Case], model: Model, options: RunOptions, threads: int | None) -> Finished:
         """Run all cases, which were checked; closing what is returned stops it."""

@@ -196,7 +196,7 @@ class HandOut:
             self._asking.append(worker)
 
     def _new(self, name: str, some: bytes) -> Iterator[tuple[int, Measures]]:
-        """What has not come in before: a chunk that is computed again sends everything again."""
+        """Values that are new: a chunk that is computed again sends everything again."""
         left = self._running[name][1] if name in self._running else set()
         for number, measures in unpack(some):
             if number in left:
@@ -241,12 +241,12 @@ class HandOut:
             raise StylobateError(GONE)
 
 
-#: What is said when there is no scheduler any more.
+#: Sentence when there is no scheduler any more.
 GONE = "the Dask scheduler is gone; with `out=DIR` what has finished is kept, and the same command goes on from there."
 
 
 def _said(error: BaseException) -> BaseException:
-    """What a worker has raised, in a sentence where it is not about the work itself."""
+    """Error of a worker, in a sentence where it is not about the work itself."""
     if isinstance(error, ImportError):
         return InputError(f"a worker cannot load what it needs ({error}); install the same version of stylobate there.")
     return error

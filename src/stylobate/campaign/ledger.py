@@ -30,7 +30,7 @@ RUNS_FILE = "runs.sqlite"
 #: Files in which versions before this one kept the unfinished runs of a command, by their place in that command.
 FORMER_FILES = "progress*.sqlite"
 
-#: What is written in a ledger about how its runs are told apart, and the seal that it gives to their checksums.
+#: Note in a ledger on how its runs are told apart, and the seal that it gives to their checksums.
 KEY = '{"keyed by": "digest of the case"}'
 SEAL = hashlib.sha256(KEY.encode()).hexdigest()
 
@@ -43,10 +43,10 @@ BATCH = 5_000
 #: Runs that may wait to be written; whoever has more waits as well.
 MOST_WAITING = 20_000
 
-#: What tells a ledger from other SQLite files, and its layout from others ("Styl", 2).
+#: Marks of a ledger among other SQLite files, and of its layout among others ("Styl", 2).
 APPLICATION, LAYOUT = 0x5374796C, 2
 
-#: What SQLite says where it is not the file that is at fault.
+#: Words of SQLite where it is not the file that is at fault.
 _SOUND_FILE = (
     sqlite3.SQLITE_BUSY,
     sqlite3.SQLITE_LOCKED,
@@ -58,7 +58,7 @@ _SOUND_FILE = (
     sqlite3.SQLITE_NOMEM,
 )
 
-#: How SQLite tells that a file is damaged; its own words need not be text then.
+#: Words of SQLite for a damaged file; its own words need not be text then.
 _DAMAGE = sqlite3.Error, ValueError
 
 #: Rows that are no line of text, or not at the number that their line tells behind its checksum.
@@ -337,7 +337,7 @@ def rows_in(path: str | Path, wanted: Callable[[int], object]) -> Iterator[tuple
 
 
 def finished_runs_in(path: str | Path, wanted: np.ndarray | None = None) -> int:
-    """How many runs a ledger holds, or of how many numbers that are wanted it holds the run; 0 where there is none."""
+    """Number of runs in a ledger, or of those wanted that it holds; 0 where there is none."""
     with closing(_opened(path)) as file, suppress(*_DAMAGE):
         held = np.fromiter((number for (number,) in file.execute("SELECT number FROM runs")), np.int64)
         return len(held) if wanted is None else int(np.isin(wanted, held).sum())

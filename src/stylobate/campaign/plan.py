@@ -25,7 +25,7 @@ PLAN_FILE = "plan.npz"
 
 @dataclass(frozen=True, eq=False)
 class Plan:
-    """What a study runs.
+    """Runs of a study.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Plan:
         return found
 
     def labels(self) -> pandas.DataFrame:
-        """What each case is: column, record, direction, level, factor, intensities as scaled, model and realisation."""
+        """Identity of each case: column, record, direction, level, factor, intensities as scaled, model and realisation."""
         import pandas
 
         axes = self.axes

@@ -261,7 +261,7 @@ def run_all(request: Request, campaign: Campaign = USUAL) -> Rows:
 def its_turn(
     ledger: Path, digests: Digests, progress: Progress | None, waiting: Callable[[], None] | None
 ) -> Callable[[], None]:
-    """What is done while another process is at work on the ledger: it is told once, and followed."""
+    """Notice while another process is at work on the ledger: told once, and followed."""
     told: list[bool] = []
 
     def look() -> None:

@@ -29,17 +29,17 @@ class Twins(NamedTuple):
 
     @property
     def told(self) -> dict[str, Any]:
-        """How they differ, under the names of the JSON objects of commands."""
+        """Differences, under the names of the JSON objects of commands."""
         return {"scatter": dataclasses.asdict(self.scatter), "left_out": list(self.left_out), "seed": self.seed}
 
 
 def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str]) -> str:
-    """How many twins there are and how they differ, in words."""
+    """Number of twins and their differences, in words."""
     return f"{number} that vary by {scatter.describe()}; seed {seed}{without(left_out)}"
 
 
 def without(left_out: Sequence[str]) -> str:
-    """What of a scatter a model leaves out, in words behind what it does not."""
+    """Parts of a scatter that a model leaves out, in words."""
     return f", without {', '.join(left_out).replace('_', ' ')}, which the model does not take" if left_out else ""
 
 

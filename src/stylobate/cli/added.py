@@ -33,7 +33,7 @@ def added_commands(taken: Collection[str]) -> dict[str, Callable[..., None]]:
 
 
 def missing_command(name: str) -> str:
-    """Where a command of the studies is, which are not installed."""
+    """Place of a command of the studies, which are not installed."""
     return (
         f"{name} is a command of stylobate-studies, which is not installed here; it is the folder studies of stylobate's "
         "source tree, and 'make install' there installs both."

@@ -20,7 +20,7 @@ def cite(
     *,
     execution: o.Plain,
 ) -> None:
-    """What to cite: the package, the sources of the model, and where the motion comes from.
+    """Citations: the package, the sources of the model, and where the motion comes from.
 
     With --out, writes citation.txt and citation.bib.
     """

@@ -123,7 +123,7 @@ def properties(column: Column) -> dict:
 
 
 def _link(link: PlacedLink) -> dict:
-    """What a link is and holds; None for what it does not limit."""
+    """Kind and capacities of a link; None for what it does not limit."""
     limits = {"shear_capacity_n": link.shear_capacity, "axial_capacity_n": link.axial_capacity}
     return {
         "name": link.name,
@@ -149,7 +149,7 @@ def _facts(column: Column) -> dict[str, str]:
 
 
 def _held(link: dict) -> str:
-    """What a link holds, in words."""
+    """Resistance of a link, in words."""
     kinds = (("shear", link["shear_capacity_n"]), ("tension", link["axial_capacity_n"]))
     held = [f"{value / 1e3:.4g} kN in {kind}" for kind, value in kinds if value]
     limit = f"holds {' and '.join(held)}" if held else "without a limit"
@@ -163,7 +163,7 @@ def _azimuth(one: FoundDrum, name: str) -> str:
 
 
 def _as_found(column: Column) -> dict[str, str]:
-    """What is not as built, one line for the base and one for each drum."""
+    """State as found, one line for the base and one for each drum."""
     facts = {}
     if column.as_found.base_tilt != 0.0:
         azimuth = column.as_found.base_azimuth

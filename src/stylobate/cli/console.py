@@ -1,4 +1,4 @@
-"""What a command prints and writes: one JSON object or a few lines for people, progress, and result files."""
+"""Output of a command: one JSON object or a few lines for people, progress, and result files."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ FIRST_LINE = 10.0
 #: Least time in which runs must have ended before their pace says anything [s].
 STEADY = 5.0
 
-#: What is finished faster was kept from an earlier call: so fast it is read, and no model computes [1/s].
+#: Speed above which a run was kept from an earlier call: so fast it is read, and no model computes [1/s].
 FASTEST = 5000.0
 
 #: Widest line of a table [characters], and what stands where there is no value.
@@ -174,7 +174,7 @@ def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None
 
 
 def ledger(folder: Path | None) -> Path | None:
-    """Where commands keep the finished runs of a folder."""
+    """Place where commands keep the finished runs of a folder."""
     from ..campaign.ledger import RUNS_FILE
     from . import signals
 
@@ -218,7 +218,7 @@ def tell() -> None:
 
 
 class Pace:
-    """How long what is left will take, from what has been finished at a steady pace; nothing as long as none is known.
+    """Time that the rest will take, from what has been finished at a steady pace; nothing as long as none is known.
 
     What was finished before a pause that is longer than all the time before it does not count: the pause is that in which
     code is compiled, or the first runs are under way. Nor does what was finished too fast to have been computed: it was

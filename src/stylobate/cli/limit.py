@@ -108,7 +108,7 @@ def limit(
 
 
 def around_summary(found: LimitByDirection) -> dict:
-    """What the JSON object says of several directions."""
+    """Several directions in the JSON object."""
     weak = found.weakest
     return {
         "collapse_multiplier_g": weak.multiplier,
@@ -158,7 +158,7 @@ def summarize(found: LimitResult) -> dict:
 
 
 def link_words(row: dict) -> str:
-    """What a link must hold, for people."""
+    """Demand on a link, for people."""
     capacity = f"{row['capacity_n']:.4g} N" if math.isfinite(row["capacity_n"]) else "no limit"
     if row["need_not_act"]:
         return f"need not act (capacity {capacity})"
@@ -169,7 +169,7 @@ def link_words(row: dict) -> str:
 
 
 def link_rows(links: Sequence[LinkForce]) -> list[dict]:
-    """What links must hold, in the JSON object."""
+    """Demand on links, in the JSON object."""
     return [
         {
             "link": one.name,

@@ -18,7 +18,7 @@ def motion(
     motions: Annotated[o.Motions, o.But(*o.FILES_NAMED, *o.SEVERAL, "vertical")],
     execution: o.Plain,
 ) -> None:
-    """What the record of a ground motion holds, and which records come with the package.
+    """Contents of records of ground motion, and the records that come with the package.
 
     Format, unit as found, step, duration, and the peaks of each component; with --out, pictures, and the motion as
     columns of text.

@@ -258,7 +258,7 @@ def the_model(name: str, settings: list[str] | None) -> Model:
 
 
 def input_facts(motion: Motion) -> dict[str, Any]:
-    """What was shaken with, under the names of the JSON object."""
+    """Motion, under the names of the JSON object."""
     azimuths = motion.metadata.get("azimuths") or {}
     unused = [f"component {label!r} of the file" for label in motion.metadata.get("components_left_out", ())]
     return {

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 class Drawn(NamedTuple):
-    """What is drawn of a run: its figures, and the strip of the median column like it."""
+    """Pictures of a run: its figures, and the strip of the median column like it."""
 
     all: bool = True
     median: bool = False
@@ -269,7 +269,7 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
 
 
 def quiet_facts(response: Response) -> dict[str, str]:
-    """How much of a record was stepped, where its quiet was left out."""
+    """Stepped share of a record, where its quiet was left out."""
     stepped = response.measures.stepped
     if stepped is None:
         return {}
@@ -278,7 +278,7 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 
 def population_facts(population: Population) -> dict[str, str]:
-    """What columns like this one are, and how much they moved."""
+    """Columns like this one, and their displacements."""
     from . import console
 
     facts = {"columns like this": population.drawn.words}

@@ -1,4 +1,4 @@
-"""What a command does when it is told to stop: SIGTERM and SIGHUP as Ctrl-C, and an answer within a second.
+"""End of a command by a signal: SIGTERM and SIGHUP as Ctrl-C, and an answer within a second.
 
 Python hands a signal to the main thread between two of its instructions, as an exception. Two things can keep that from
 stopping anything. A compiled loop is one instruction: so a thread of its own hears of each signal as well; where the main
@@ -67,7 +67,7 @@ def listen(interrupted: int = INTERRUPTED) -> None:
 
 @contextmanager
 def keeping(sentence: str) -> Iterator[None]:
-    """What is said inside the block if the command is stopped there."""
+    """Sentence inside the block if the command is stopped there."""
     KEPT.append(sentence)
     try:
         yield
@@ -81,7 +81,7 @@ def said() -> None:
 
 
 def sentence() -> str:
-    """What is said of an interrupt that brings no words of its own."""
+    """Sentence for an interrupt that brings no words of its own."""
     return KEPT[-1] if KEPT else "interrupted; nothing is kept."
 
 

@@ -59,7 +59,7 @@ def run(
 
 
 def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But("threads", "dask", "out")]) -> None:
-    """How far a study is; it may be running."""
+    """State of a study, which may be running."""
     from ..analysis.studies import StudyResult
     from ..campaign.ledger import RUNS_FILE
     from ..campaign.plan import PLAN_FILE
@@ -97,7 +97,7 @@ def export(
 
 
 def sentence(result: StudyResult) -> str:
-    """How far a study is and what it came to."""
+    """State and results of a study."""
     found = result.summary()
     said = f"{found['finished']} of {found['cases']} cases are finished: "
     said += f"{found['collapsed']} collapse, {found['stands']} stand"

@@ -1,4 +1,4 @@
-"""What stands: drums, joints, columns, presets and column files."""
+"""Structures: drums, joints, columns, presets and column files."""
 
 from .as_found import AsFound, FoundDrum
 from .column import MAX_DRUMS, Column

@@ -15,7 +15,7 @@ SIDES = ("left", "right", "front", "back")
 
 @dataclass(frozen=True)
 class FoundDrum:
-    """What is not as built at one drum.
+    """State as found of one drum.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def _into_plane(one: Any, value: str, azimuth: str) -> None:
 
 @dataclass(frozen=True)
 class AsFound:
-    """What is not as built; positions are described along and normal to the base.
+    """State as found; positions are described along and normal to the base.
 
     Parameters
     ----------
@@ -168,7 +168,7 @@ class AsFound:
         return plain | ({"base_azimuth": self.base_azimuth} if self.base_azimuth else {})
 
     def of(self, drum: int) -> FoundDrum:
-        """What is found at a drum, numbered from 1."""
+        """State as found of a drum, numbered from 1."""
         return next((one for one in self.drums if one.drum == drum), None) or _as_built(drum)
 
 
@@ -178,7 +178,7 @@ def _as_built(drum: int) -> FoundDrum:
     return FoundDrum(drum)
 
 
-#: What of a drum a plane model cannot take.
+#: Parts of a drum that a plane model cannot take.
 _IN_SPACE = ("offset_azimuth", "tilt_azimuth", "turn", "chip_front", "chip_back", "chip_azimuth")
 
 #: A column exactly as it was built: no offset, tilt, chip or slope.

@@ -129,7 +129,7 @@ class Assembly(Structure):
 
     @cached_property
     def _beds(self) -> dict[frozenset[str], list[Numbers]]:
-        """What the links between two bodies by name make of their contacts."""
+        """Links between two bodies by name, as contacts."""
         found: dict[frozenset[str], list[Numbers]] = {}
         for link in self.links:
             assert link.between is not None

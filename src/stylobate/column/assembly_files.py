@@ -171,7 +171,7 @@ def _law(table: Table | None, stone: Material | None, where: str) -> Joint:
 
 
 def _doubts(blocks: Sequence[Block], joint: Joint, others: Sequence[Joint], gravity: float) -> list[str]:
-    """What of the blocks that come from no column looks like a slip of units, each kind once."""
+    """Parts of the blocks that come from no column that look like a slip of units, each kind once."""
     free = [one for one in blocks if not one.fixed]
     doubts = first(COLUMN.doubt(f"the size of block {one.name!r}", one.size, "stones have") for one in free)
     doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in free)

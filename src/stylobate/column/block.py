@@ -137,7 +137,7 @@ class Block(Outlined):
 
     @property
     def place(self) -> tuple[float, float]:
-        """Where its origin stands [m]."""
+        """Place of its origin [m]."""
         return self.origin
 
     @property

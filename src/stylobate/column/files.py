@@ -59,7 +59,7 @@ def write_column(column: Column, path: str | Path) -> Path:
 
 
 def tables_of(column: Column) -> dict[str, Any]:
-    """What a column file of this column holds, drum by drum, as TOML gives it."""
+    """Contents of a column file of this column, drum by drum, as TOML gives it."""
     first = column.drums[0]
     common = Counter(column.joints).most_common(1)[0][0]
     sizes = ("height", "bottom_width", "top_width", "density")
@@ -97,7 +97,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
 
 
 def _joint_fields(joint: Joint) -> dict[str, float]:
-    """What a file says of a joint: the form of its friction from which the other follows to the last bit."""
+    """Joint of a file: the form of its friction from which the other follows to the last bit."""
     fields = given(joint)
     without = {key: value for key, value in fields.items() if key != "friction_coefficient"}
     drop = "friction_coefficient" if Joint(**without) == joint else "friction_angle"

@@ -1,4 +1,4 @@
-"""Where the drums and contacts of a column as found are, how its weight goes down, and what opens its joints."""
+"""Drums and contacts of a column as found, the way of its weight down, and what opens its joints."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Geometry(NamedTuple):
 
 
 def geometry(column: DrumStack) -> Geometry:
-    """Where a column's drums and contacts are.
+    """Places of a column's drums and contacts.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ def gravity_vector(structure: Structure) -> np.ndarray:
 
 
 class JointLoad(NamedTuple):
-    """What the weight above a joint exerts on it: compression and downhill shear [N], and where, along the joint [m]."""
+    """Action of the weight above a joint: compression and downhill shear [N], and where, along the joint [m]."""
 
     normal: float
     shear: float

@@ -44,7 +44,7 @@ def rotation(axis: np.ndarray, angle: float) -> np.ndarray:
 
 
 def space_geometry(column: DrumStack, closing: np.ndarray | None = None) -> SpaceGeometry:
-    """Where a column's drums and joints are.
+    """Places of a column's drums and joints.
 
     Parameters
     ----------
@@ -114,7 +114,7 @@ def upward(column: DrumStack) -> np.ndarray:
 
 
 class SpaceLoad(NamedTuple):
-    """What the weight above a joint exerts on it: compression and shear [N], and where along the joint [m]."""
+    """Action of the weight above a joint: compression and shear [N], and where along the joint [m]."""
 
     normal: float
     shear: np.ndarray
@@ -139,7 +139,7 @@ def space_load(column: DrumStack, at: SpaceGeometry, joint: int, acceleration: n
 
 
 class Edges(NamedTuple):
-    """What bounds the overlap of the two faces of a joint, in the axes of the joint: discs, and sides of straight edges.
+    """Boundary of the overlap of the two faces of a joint, in the axes of the joint: discs, and sides of straight edges.
 
     A place p is inside a disc by radius − |p − middle|, and inside a side by bound − normal · p [m].
     """
@@ -178,12 +178,12 @@ def overlap_edges(column: DrumStack, at: SpaceGeometry, joint: int) -> Edges:
 
 
 def inside_overlap(column: DrumStack, at: SpaceGeometry, joint: int, place: np.ndarray) -> float:
-    """How far a place along a joint is inside both faces; negative outside [m]."""
+    """Depth of a place along a joint within both faces; negative outside [m]."""
     return inside(overlap_edges(column, at, joint), place)
 
 
 def inside(edges: Edges, place: np.ndarray) -> float:
-    """How far a place along a joint is inside the edges of an overlap; negative outside [m]."""
+    """Depth of a place along a joint within the edges of an overlap; negative outside [m]."""
     discs, sides = edges
     within = [radius - math.hypot(*(place - middle)) for middle, radius in discs]
     return min(within + [bound - float(normal @ place) for normal, bound in sides])

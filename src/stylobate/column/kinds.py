@@ -13,7 +13,7 @@ from .spatial.assembly import SpatialAssembly
 from .specimen import Specimen
 from .structure import Structure
 
-#: What makes a structure of what its ``to_dict`` gives, by its kind.
+#: Makers of a structure from what its ``to_dict`` gives, by its kind.
 FROM_DICT: dict[str, Callable[[Any], Structure]] = {
     Column.kind: column_from_dict,
     Assembly.kind: assembly_from_dict,

@@ -55,7 +55,7 @@ class Quantity:
         return f"{named} {entry.year}" if entry.year else named
 
 
-#: What of a joint a material may know.
+#: Parts of a joint that a material may know.
 JOINT_VALUES = ("friction_coefficient", "normal_stiffness", "shear_stiffness", "cohesion")
 
 
@@ -91,7 +91,7 @@ class Material:
 
     @property
     def quantities(self) -> dict[str, Quantity]:
-        """What is known, by name."""
+        """Known values, by name."""
         found = {name: getattr(self, name) for name in ("density", *JOINT_VALUES)}
         return {name: one for name, one in found.items() if one is not None}
 
@@ -154,7 +154,7 @@ def material(name: str) -> Material:
     return found
 
 
-#: How alike two words are of which one is taken for a misspelling of the other [-].
+#: Likeness of two words of which one is taken for a misspelling of the other [-].
 ALIKE = 0.75
 
 

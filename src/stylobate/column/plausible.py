@@ -1,4 +1,4 @@
-"""What no stone column is like: sizes, densities and joints that a slip of units makes, and widths that seem swapped."""
+"""Implausible values: sizes, densities and joints that a slip of units makes, and widths that seem swapped."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .stack import Stack
 
 
 class Measure(NamedTuple):
-    """What a quantity of stone columns is: its unit, from where to where, a usual value, and other units in that unit."""
+    """Plausible values of a quantity of stone columns: its unit, from where to where, a usual value, and other units in that unit."""
 
     unit: str
     low: float
@@ -47,13 +47,13 @@ DRUM = Measure("m", 0.005, 30.0, 1.0, _LENGTHS)
 WIDTH = Measure("m", 0.005, 10.0, 1.2, _LENGTHS)
 DENSITY = Measure("kg/m³", 500.0, 5000.0, 2500.0, {"g/cm³": 1e3, "kN/m³": 101.97, "lb/ft³": 16.018})
 
-#: What nobody has measured less or more of on joints of stone.
+#: Range of values outside which nobody has measured joints of stone.
 STIFFNESS = Measure("N/m³", 1e7, 1e13, 2e10, {"kN/m³": 1e3, "MPa/m": 1e6, "N/mm³": 1e9})
 
 #: Largest friction coefficient that was measured on stone [-]; an angle below the least [degrees] looks like a coefficient.
 ROUGHEST, SLIPPERIEST = 2.0, 3.0
 
-#: How often columns go over their width at most, and drums where there are so many of them: half as much again as the most
+#: Share of columns that go over their width at most, and of drums where there are so many of them: half as much again as the most
 #: slender columns of stone that stand, and as the tallest drums of such columns [-].
 SLENDEREST, DRUMS, TALLEST = 15.0, 5, 2.2
 
@@ -62,7 +62,7 @@ CLOSES = 5e-4
 
 
 def unit_doubts(column: Stack, friction_angles: Iterable[float | None] = ()) -> list[str]:
-    """What of a column looks like a slip of units, each kind once.
+    """Parts of a column that look like a slip of units, each kind once.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def _slenderness_doubt(column: Stack) -> list[str]:
 
 
 def joint_doubts(joint: Joint) -> list[str]:
-    """What of a joint is beyond all that was measured on stone, in words."""
+    """Values of a joint beyond all that was measured on stone, in words."""
     found = []
     if joint.tan_phi > ROUGHEST:
         found.append(
@@ -138,7 +138,7 @@ def _sinking(column: Stack) -> list[str]:
 
 
 def shape_doubts(column: Stack, name: str) -> list[str]:
-    """What of the widths of a column looks as if they were swapped or turned over; capitals widen upward, and are none.
+    """Widths of a column that look as if they were swapped or turned over; capitals widen upward, and are none.
 
     A drum that widens upward is doubted where it would fit the faces that it touches better with its widths swapped, or
     where nothing stands on it or under it. Drums that all fit are doubted where the column is narrowest at the base.

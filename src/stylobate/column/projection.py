@@ -162,7 +162,7 @@ def _in_plan(place: tuple[float, ...] | None) -> tuple[float, float]:
 
 
 def section(edges: Edges, place: np.ndarray, way: np.ndarray) -> tuple[float, float]:
-    """How far a contact reaches from a place within it against a direction and along it [m]."""
+    """Reach of a contact from a place within it against a direction and along it [m]."""
     out = []
     for toward in (-way, way):
         reach = math.inf
@@ -179,7 +179,7 @@ def section(edges: Edges, place: np.ndarray, way: np.ndarray) -> tuple[float, fl
 
 
 def _chips(column: Column, plane: Column, joint: int, way: np.ndarray) -> tuple[float, float]:
-    """What the drum on a joint lacks in the plane to the left and the right, so that its contact is the section in space."""
+    """Lack of the drum on a joint in the plane to the left and the right, so that its contact is the section in space."""
     at = space_geometry(column)
     load = space_load(column, at, joint)
     behind, ahead = section(overlap_edges(column, at, joint), load.place, way)

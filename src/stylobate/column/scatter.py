@@ -64,7 +64,7 @@ class Scatter:
 
     @property
     def given(self) -> dict[str, float]:
-        """What scatters, by name."""
+        """Scattered parts, by name."""
         return {name: value for name, value in dataclasses.asdict(self).items() if value}
 
     def describe(self) -> str:
@@ -74,7 +74,7 @@ class Scatter:
 
 
 def usual_scatter(column: Column) -> Scatter:
-    """How columns like this one scatter where nobody says: as its material does, else by the defaults.
+    """Scatter of columns like this one where nobody states it: that of its material, else the defaults.
 
     The friction and density of a column that differ from its material's were given by hand: they scatter by the defaults.
     """

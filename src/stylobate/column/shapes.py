@@ -25,7 +25,7 @@ SAME = 10
 
 
 class Outlined:
-    """What has an outline as it stands."""
+    """Bodies that have an outline as they stand."""
 
     @property
     def outline(self) -> np.ndarray:
@@ -168,7 +168,7 @@ class Chipped:
 
 
 def _cut(polygon: np.ndarray, normal: np.ndarray, distance: float) -> np.ndarray:
-    """What of a convex polygon lies within a plane [m], shape (k, 3)."""
+    """Part of a convex polygon within a plane [m], shape (k, 3)."""
     inside = distance - polygon @ normal
     after, beyond = np.roll(inside, -1), np.roll(polygon, -1, axis=0)
     crosses = inside * after < 0.0
@@ -318,7 +318,7 @@ class Glued:
         return Mesh(np.concatenate([one.vertices for one in meshes]), tuple(faces))
 
 
-#: What every shape gives: ``outline``, seen along y, ``depth`` along it, and ``mesh()``, its surface.
+#: Interface of shapes: ``outline``, seen along y, ``depth`` along it, and ``mesh()``, its surface.
 Shape = CircularFrustum | RectangularFrustum | Chipped | Prism | ConvexSolid | Glued
 
 #: Shapes of drums.

@@ -107,7 +107,7 @@ class Specimen(Structure):
 
     @cached_property
     def resting(self) -> Resting:
-        """How the body lies on the base."""
+        """Pose of the body on the base."""
         return _resting(self.vertices)
 
     def to_dict(self) -> dict:
@@ -133,7 +133,7 @@ class Specimen(Structure):
 
 @dataclass(frozen=True, eq=False)
 class Resting:
-    """How a body lies on the base.
+    """Pose of a body on the base.
 
     Parameters
     ----------

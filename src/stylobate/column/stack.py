@@ -1,4 +1,4 @@
-"""What a stack of drums measures: widths, masses and weights at its joints, and the whole of it as one rigid body."""
+"""Measures of a stack of drums: widths, masses and weights at its joints, and the whole of it as one rigid body."""
 
 from __future__ import annotations
 

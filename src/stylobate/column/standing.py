@@ -182,7 +182,7 @@ def _under(table: BeamTable, name: str, columns: Sequence[Standing]) -> list[Sta
 
 
 def _ends(table: BeamTable, name: str, places: Sequence[float]) -> tuple[float, float]:
-    """Where a beam begins and ends [m]."""
+    """Ends of a beam [m]."""
     first, last = min(places), max(places)
     if table.length is not None:
         if table.overhang is not None:

@@ -1,4 +1,4 @@
-"""What can stand and be shaken: bodies on a ground, the faces at which they are joined, and links between them.
+"""Structures that can be shaken: bodies on a ground, the faces at which they are joined, and links between them.
 
 Columns, assemblies and specimens are ways to write one down; whoever computes, draws or keeps one asks the structure.
 """
@@ -211,7 +211,7 @@ class Structure:
 
     @property
     def described(self) -> str:
-        """What it is in a sentence, such as ``an assembly``."""
+        """Name in a sentence, such as ``an assembly``."""
         return f"{'an' if self.kind[0] in 'aeiou' else 'a'} {self.kind}"
 
     # -- what it measures; None where it has no such thing -------------------------------------------------------------

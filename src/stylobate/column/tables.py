@@ -1,4 +1,4 @@
-"""What a column file (TOML) holds: its tables, and the column that they make."""
+"""Contents of a column file (TOML): its tables, and the column that they make."""
 
 from __future__ import annotations
 

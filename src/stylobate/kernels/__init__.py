@@ -1,1 +1,1 @@
-"""How it moves: compiled loops over arrays and floats, no Python objects."""
+"""Engines: compiled loops over arrays and floats, no Python objects."""

@@ -1,6 +1,6 @@
 """Numbers that loops over lanes and the models around them share: states of a run, size of a block, lengths of chunks."""
 
-#: What a lane does: its run goes on, has ended, has collapsed, has failed; or there is none.
+#: State of a lane: its run goes on, has ended, has collapsed, has failed; or there is none.
 RUNNING, ENDED, COLLAPSED, FAILED, FREE = range(5)
 
 #: Lanes of a block. The same for a single run, so that it has the bits of the batch.

@@ -1,1 +1,1 @@
-"""What we believe: the models, each a frozen set of parameters with its assumptions, limits and references."""
+"""Models, each a frozen set of parameters with its assumptions, limits and references."""

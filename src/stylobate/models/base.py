@@ -1,4 +1,4 @@
-"""What every model is: a frozen set of parameters that can run one case or many."""
+"""Base of models: a frozen set of parameters that can run one case or many."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Cases(Sequence[Any]):
 
 @dataclass(frozen=True)
 class RunOptions:
-    """How long and how closely a run is followed; the same for every model.
+    """Length and closeness of a run; the same for every model.
 
     Parameters
     ----------
@@ -159,7 +159,7 @@ class Model:
         return keep_axes(motion, self.axes)
 
     def carried(self, column: Any) -> int:
-        """How many of its kind are taken along in a run of what stands."""
+        """Number of twins along a run of what stands."""
         del column
         return self.carries
 

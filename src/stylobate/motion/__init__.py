@@ -1,4 +1,4 @@
-"""What shakes: ground motions, harmonic and pulse-like, recorded and simulated, and what is measured on them."""
+"""Motions, harmonic and pulse-like, recorded and simulated, and measures of them."""
 
 from .condition_specs import conditioned
 from .conditioning import (

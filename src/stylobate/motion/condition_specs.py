@@ -1,4 +1,4 @@
-"""What a person types for a step of conditioning: ``detrend``, ``bandpass=0.1Hz,25Hz``, ``taper=2s``."""
+"""Notation of a step of conditioning: ``detrend``, ``bandpass=0.1Hz,25Hz``, ``taper=2s``."""
 
 from __future__ import annotations
 

@@ -86,7 +86,7 @@ def significant_duration(motion: Motion, low: float = 0.05, high: float = 0.95, 
 
 
 def rocking_measures(motion: Motion, tangent: float, frequency_parameter: float, component: str = "x") -> dict:
-    """What a motion is for a block of given slenderness and size.
+    """Measures of a motion for a block of given slenderness and size.
 
     Parameters
     ----------
@@ -118,7 +118,7 @@ def rocking_measures(motion: Motion, tangent: float, frequency_parameter: float,
 
 
 def motion_summary(motion: Motion, *, spectrum: bool = True) -> dict[str, Any]:
-    """What a motion holds, as plain values for JSON.
+    """Contents of a motion, as plain values for JSON.
 
     Parameters
     ----------

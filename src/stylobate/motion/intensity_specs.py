@@ -88,7 +88,7 @@ TOLD_OF_TWO = ("pga@geomean", "pgv@geomean")
 #: Ends of the columns of tables, by unit.
 ENDS = {"g": "_g", "m/s": "_m_s", "s": "_s", "-": ""}
 
-#: What is made of the two horizontal components.
+#: Uses of the two horizontal components.
 COMPONENTS = ("x", "y", "z", "geomean", "larger", "rotd50", "rotd100")
 
 _SPEC = re.compile(r"(?P<kind>[a-z0-9_]+)(?::(?P<periods>[^@]+))?(?:@(?P<component>[a-z0-9]+))?")

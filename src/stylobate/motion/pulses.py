@@ -23,7 +23,7 @@ DEFAULT_QUIET_TIME = 10.0
 #: Half length of a Ricker pulse in periods: the acceleration there is below 1e-7 of the peak.
 RICKER_HALF_LENGTH = 1.5
 
-#: Where the shape of a kind of pulse comes from, as keys of the bibliography.
+#: Sources of the shape of a kind of pulse, as keys of the bibliography.
 SOURCES = {
     "ricker": ("ricker1943", "vassiliou2011"),
     "antisymmetric ricker": ("ricker1943", "vassiliou2011"),

@@ -1,4 +1,4 @@
-"""What a person types for several values of a quantity: ``0.33:4:24`` (first, last, number) or ``0.1g,0.2g``."""
+"""Notation of several values of a quantity: ``0.33:4:24`` (first, last, number) or ``0.1g,0.2g``."""
 
 from __future__ import annotations
 

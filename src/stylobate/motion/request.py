@@ -32,7 +32,7 @@ from .specs import (
 #: Of which a motion comes, by the parameters of a request.
 SOURCES = ("harmonic", "pulse", "synthetic", "files")
 
-#: What may be asked for of the horizontal components of a record besides one of them by name.
+#: Choices for the horizontal components of a record besides one of them by name.
 COMPONENTS = ("all", "strongest")
 
 #: Time that follows a pulse whose length is left open, times p of the column [-]: free rocking from close to overturning
@@ -46,7 +46,7 @@ SAME_DIRECTION = 1e-6
 
 @dataclass(frozen=True)
 class MotionRequest:
-    """What to shake with: asked for once, the same for the command line, study files and pages.
+    """Requests for motions: the same for the command line, study files and pages.
 
     Exactly one of ``harmonic``, ``pulse``, ``synthetic`` and ``files`` is given. The steps are taken in the order of the
     parameters below.
@@ -354,7 +354,7 @@ def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:
 
 
 def _direction(motion: Motion, record: str) -> dict[str, Any]:
-    """What is known of where a motion has been turned to, and of which record it is."""
+    """Direction to which a motion has been turned, and the record that it is made of."""
     return {"record": record, "reversed": False, **motion.metadata.get("direction", {})}
 
 

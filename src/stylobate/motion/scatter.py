@@ -50,7 +50,7 @@ class MotionScatter:
 
     @property
     def given(self) -> dict[str, float]:
-        """What scatters, by name."""
+        """Scattered parts, by name."""
         return {name: value for name, value in dataclasses.asdict(self).items() if value}
 
     def describe(self) -> str:

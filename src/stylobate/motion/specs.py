@@ -1,4 +1,4 @@
-"""What a person types for a motion or a quantity: ``1.0Hz,0.3g,10s``, ``ricker,1.0Hz,0.3g``, ``0.05g``, ``5s``."""
+"""Notation of a motion or a quantity: ``1.0Hz,0.3g,10s``, ``ricker,1.0Hz,0.3g``, ``0.05g``, ``5s``."""
 
 from __future__ import annotations
 

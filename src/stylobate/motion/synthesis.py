@@ -16,7 +16,7 @@ RADIATION, PARTITION, FREE_SURFACE = 0.55, math.sqrt(0.5), 2.0
 
 @dataclass(frozen=True)
 class Region:
-    """What the crust does to the waves between source and site; hard rock, no amplification by softer ground.
+    """Effect of the crust on the waves between source and site; hard rock, no amplification by softer ground.
 
     Parameters
     ----------

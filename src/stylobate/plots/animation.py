@@ -132,7 +132,7 @@ def _words(scene: Scene, index: int) -> str:
 
 
 def film_of(response: Response, seen_from: View) -> Scene:
-    """What a film shows: bodies in space from somewhere, others along y."""
+    """Scene of a film: bodies in space from somewhere, others along y."""
     return Scene(response, seen_from if response.dims == "xyz" else None)
 
 

@@ -34,7 +34,7 @@ WORDS = 7.5
 
 @styled
 def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes | None = None) -> Figure:
-    """What stands, before the motion, seen along y, in true proportion, with its dimensions in m.
+    """Structure before the motion, seen along y, in true proportion, with its dimensions in m.
 
     Of a column: heights of drums and of all, widths (diameters, with ⌀) of both faces of each drum, numbers of drums and
     joints, joints whose friction differs, links in blue. What is as found is red: the drums that are not where they were
@@ -226,7 +226,7 @@ def _ends(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def _said(one: FoundDrum) -> str:
-    """What is not as built at a drum, in words."""
+    """State as found of a drum, in words."""
     towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
     parts = []
     if one.offset:

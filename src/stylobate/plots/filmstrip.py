@@ -34,7 +34,7 @@ def draw_filmstrip(
     title: str | None = None,
     figure: Figure | SubFigure | None = None,
 ) -> Figure:
-    """What stood at chosen instants, with the time and how far it has moved.
+    """States at chosen instants, with the time and how far the structure has moved.
 
     That is the displacement of a column's top relative to the ground, and the largest one of an assembly's blocks. What
     moved in space is drawn twice: as seen along y, with x to the right, and against x, with y to the right.

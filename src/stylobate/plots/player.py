@@ -61,7 +61,7 @@ def write_player(
 
 
 def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE, least: float = SHAPE) -> dict[str, Any]:
-    """What the scripts of a page play: bodies, poses, the ground and what is seen of them at first, as plain values.
+    """Scene of a page's player: bodies, poses, the ground and what is seen of them at first, as plain values.
 
     Parameters
     ----------
@@ -130,7 +130,7 @@ def _vertices(scene: Scene) -> list[np.ndarray]:
 
 
 def _in_space(scene: Scene, view: View) -> dict:
-    """What the page needs to turn bodies: their faces with tones, the ground, view and light."""
+    """Scene that the page turns: faces with tones, the ground, view and light."""
     return {
         "faces": [[(tone, *face) for tone, face in zip(one.tones, one.faces, strict=True)] for one in scene.surfaces],
         "plate": scene.plate.round(4).tolist(),

@@ -69,7 +69,7 @@ def draw_probability(
 
 
 def message(result: CollapseProbability) -> str:
-    """What the picture says, in one or two lines."""
+    """Words on the picture, in one or two lines."""
     facts = result.summary()
     open_cells = facts["no_verdict"]
     if open_cells:
@@ -81,7 +81,7 @@ def message(result: CollapseProbability) -> str:
 
 
 def _about_the_others(result: CollapseProbability, facts: dict) -> str:
-    """What cells with a verdict say."""
+    """Words of cells with a verdict."""
     if not facts["collapsed"]:
         return "no variation collapses here"
     width, cells = facts["band_width_median_g"], facts["some_collapse"]

@@ -1,4 +1,4 @@
-"""What films and film strips show of a response: bodies from their shapes and poses, the ground, and the words."""
+"""Scene of films and film strips: bodies from their shapes and poses, the ground, and the words."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class Scene:
 
     @property
     def sentence(self) -> str:
-        """What happened."""
+        """Outcome."""
         return self.response.sentence
 
     @property
@@ -87,7 +87,7 @@ class Scene:
 
     @property
     def upright(self) -> np.ndarray:
-        """What turns poses, in space those in the base's axes, into a picture's whose z is upward [-], shape (3, 3)."""
+        """Rotation of poses, in space of those in the base's axes, into a picture's whose z is upward [-], shape (3, 3)."""
         return self.base if self.response.dims == "xyz" else np.eye(3)
 
     @property
@@ -121,7 +121,7 @@ class Scene:
 
     @cached_property
     def way(self) -> np.ndarray:
-        """How far things have moved [m], shape (T,); of a top in space, to the right."""
+        """Displacement [m], shape (T,); of a top in space, to the right."""
         top = self.response.histories.top
         if self.seen_from is None or top is None:
             return way_of(self.response)

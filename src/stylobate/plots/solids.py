@@ -23,7 +23,7 @@ STONE, FLUTE, MARK, FIXED = range(4)
 #: Colours of the tones in full light [-].
 COLOURS = np.array([[0.97, 0.93, 0.84], [0.80, 0.72, 0.56], [0.13, 0.40, 0.67], [0.86, 0.86, 0.86]])
 
-#: Where light comes from, to the right, upward and towards the viewer [-]; and the share that comes from everywhere.
+#: Direction of light, to the right, upward and towards the viewer [-]; and the share that comes from everywhere.
 LIGHT, DIFFUSE = np.array([-0.45, 0.55, 0.70]), 0.6
 
 
@@ -126,7 +126,7 @@ class Solid:
 
 
 def reached(solid: Solid, point: np.ndarray, view: View) -> float:
-    """How near to the viewer a body reaches, along the line of sight through a point of the picture [m]."""
+    """Nearness of a body to the viewer, along the line of sight through a point of the picture [m]."""
     slope, eye = solid.normals @ view.toward, point[0] * view.right + point[1] * view.up
     front = slope > 1e-9
     return float(((solid.levels - solid.normals @ eye)[front] / slope[front]).min())
@@ -174,7 +174,7 @@ def _ordered(solids: list[Solid], outlines: list[np.ndarray], view: View) -> lis
 
 
 def painted(solids: list[Solid], view: View) -> tuple[list[np.ndarray], np.ndarray, list[bool]]:
-    """What is painted, one after the other: of each body its outline, then the faces that are turned to the viewer.
+    """Polygons in the order of painting: of each body its outline, then the faces that are turned to the viewer.
 
     Returns
     -------

@@ -23,7 +23,7 @@ SMALLEST = 1e-4
 #: More records than this are not numbered in the picture.
 MOST_NUMBERS = 40
 
-#: What is drawn, by the column of the table: of columns, of assemblies.
+#: Quantities in pictures, by the column of the table: of columns, of assemblies.
 PEAKS = {
     "peak_top_over_base_width": "peak top displacement\n/ base width [-]",
     "peak_displacement_m": "peak displacement\nof a block [m]",

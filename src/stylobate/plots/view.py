@@ -28,12 +28,12 @@ class View:
 
     @property
     def right(self) -> np.ndarray:
-        """What is to the right of the picture [-], shape (3,)."""
+        """Direction to the right of the picture [-], shape (3,)."""
         return np.array([-math.sin(self.azimuth), math.cos(self.azimuth), 0.0])
 
     @property
     def up(self) -> np.ndarray:
-        """What is upward in the picture [-], shape (3,)."""
+        """Direction that is upward in the picture [-], shape (3,)."""
         s, c = math.sin(self.elevation), math.cos(self.elevation)
         return np.array([-math.cos(self.azimuth) * s, -math.sin(self.azimuth) * s, c])
 

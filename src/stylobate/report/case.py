@@ -19,7 +19,7 @@ from .runs import run_sections, several_sections
 
 TEMPLATE = Path(__file__).with_name("case.html")
 
-#: What each kind of result is called.
+#: Names of the kinds of results.
 TITLES = {
     "run": "run in time",
     "runs": "runs in time",
@@ -111,7 +111,7 @@ def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, A
 
 
 def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
-    """What the reader must know before relying on any of the results, each once, with the results that it holds for."""
+    """Caveats for the reader before relying on any of the results, each once, with the results that it holds for."""
     told: dict[str, list[int]] = {}
     for number, texts in enumerate(notes, start=1):
         for text in dict.fromkeys(texts):

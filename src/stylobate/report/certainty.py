@@ -1,4 +1,4 @@
-"""How sure a verdict is, in words and in a table."""
+"""Certainty of a verdict, in words and in a table."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..percent import percent, percents
 from . import numbers as n
 from .page import Facts, Item, Section
 
-#: What scatters, in words.
+#: Scattered parts, in words.
 PARTS = {
     "friction": "friction of each joint",
     "joint_stiffness": "stiffness of each joint",
@@ -20,18 +20,18 @@ PARTS = {
     "offset": "place of each drum on the one below, over the width",
 }
 
-#: What a cell with the columns like one says.
+#: Text of a cell with the columns like one.
 OF_TWINS = (
     "Columns like it that collapse: their share, of how many, and in brackets its 95 % interval; from which to which where "
     "some are undecided."
 )
 
-#: How a spread is told.
+#: Words for a spread.
 PERCENTILES = "16th / 50th / 84th percentile"
 
 
 def certainty_sentence(summary: Mapping[str, Any]) -> str:
-    """How sure the verdict of a run is, in one or two sentences."""
+    """Certainty of the verdict of a run, in one or two sentences."""
     known = summary.get("certainty")
     if not isinstance(known, Mapping):
         return (
@@ -60,7 +60,7 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
 
 
 def beside_them(summary: Mapping[str, Any]) -> str:
-    """What must be said of a run that is no example of the columns like it; empty where it is one."""
+    """Caveat on a run that is no example of the columns like it; empty where it is one."""
     known = summary.get("certainty")
     if not isinstance(known, Mapping):
         return ""
@@ -68,7 +68,7 @@ def beside_them(summary: Mapping[str, Any]) -> str:
 
 
 def certainty_section(summary: Mapping[str, Any]) -> Section | None:
-    """What columns like this one are, and what became of them; None where none were computed."""
+    """Columns like this one, and their verdicts; None where none were computed."""
     known = summary.get("certainty")
     if not isinstance(known, Mapping):
         return None

@@ -16,7 +16,7 @@ from .pictures import kept
 #: Most rows of a table; the CSV files in the folder hold them all.
 MOST = 40
 
-#: What is told of each motion; what only columns like it add is left out where there are none.
+#: Facts of each motion; those that only columns like it add are left out where there are none.
 BY_RECORD = (
     *("motion", "pga_g", "pgv_m_s", "as_recorded", "critical_g", "critical_factor", "all_collapse_above_g"),
     *("lowest_collapse_g", "lowest_collapse_factor", "critical_16_g", "critical_50_g", "critical_84_g"),
@@ -25,7 +25,7 @@ BY_RECORD = (
 
 
 def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    """What amplitudes brought down the column, and columns like it; under one motion or several."""
+    """Amplitudes that brought down the column, and columns like it; under one motion or several."""
     s = result.summary
     records = s.get("records") or []
     pairs = [

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..constants import g
 
-#: What stands where there is no value.
+#: Text where there is no value.
 NONE = "–"
 
 

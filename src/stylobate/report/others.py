@@ -110,7 +110,7 @@ def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[S
 
 
 def _doubts(result: Result) -> list[str]:
-    """What about a result is to be doubted: because of its model, or of the runs of others that it rests on."""
+    """Doubts about a result: because of its model, or of the runs of others that it rests on."""
     if result.kind not in FROM_RUNS:
         return [str(result.summary["doubt"])] if result.summary.get("doubt") else []
     curves = result.summary.get("curves") or [result.summary]
@@ -118,7 +118,7 @@ def _doubts(result: Result) -> list[str]:
 
 
 def _scope(kind: Kind) -> str:
-    """What a result is not."""
+    """Limits of a result."""
     if kind in (Kind.PUSHOVER, Kind.LIMIT):
         return (
             "Forces at rest tell when rocking begins and how far the column can lean; whether it stands an earthquake, only "

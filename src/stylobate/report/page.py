@@ -109,12 +109,12 @@ class Note:
 
 @dataclass(frozen=True)
 class Code:
-    """What is typed."""
+    """Typed text."""
 
     text: str
 
 
-#: What a page is made of; a text is a paragraph.
+#: Parts of a page; a text is a paragraph.
 Item = str | Picture | Rows | Points | Facts | Note | Code
 
 
@@ -126,7 +126,7 @@ class Section:
     items: Sequence[Item]
 
 
-#: How a marked cell looks, and the sign before its text.
+#: Style of a marked cell, and the sign before its text.
 _SIGNS = {"good": "✓ ", "fair": "≈ ", "bad": "✗ ", "": ""}
 
 _KINDS = {

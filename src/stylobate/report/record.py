@@ -14,7 +14,7 @@ from ..version import __version__
 from . import numbers as n
 from .page import Code, Facts, Item, Note, Points, Rows, Section
 
-#: What begins a text that the reader must know before relying on a result.
+#: Beginning of a text that the reader must know before relying on a result.
 NOTE = "Note: "
 
 #: Options that are results, told elsewhere.
@@ -22,7 +22,7 @@ FOUND = ("limit_analysis_g",)
 
 
 def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Section:
-    """What was asked: the command as typed, and what else was chosen."""
+    """Request: the command as typed, and what else was chosen."""
     items: list[Item] = []
     asked = result.asked
     if asked is not None and asked.command:
@@ -72,13 +72,13 @@ def basis_section(result: Result) -> Section:
     return Section(title, items)
 
 
-#: What is not known of a table of runs beside which no file tells what the command was asked.
+#: Doubt about a table of runs beside which no file tells what the command was asked.
 NOT_TOLD = (
     "Not known: {why} Which column stood, in which model with which parameters, and "
     "the motions with their digests and scale factors are not told; whoever signs this has to know them from elsewhere."
 )
 
-#: What is not known of a table that somebody has changed.
+#: Doubt about a table that somebody has changed.
 CHANGED = (
     "{table} is not as stylobate wrote it: whether its runs are those of the columns, models and motions below is not "
     "known."
@@ -94,7 +94,7 @@ def typed(command: Sequence[str]) -> str:
 
 
 def model_section(names: Iterable[str]) -> Section:
-    """What models assume, and where they end."""
+    """Assumptions and limits of models."""
     items: list[Item] = []
     for name in dict.fromkeys(names):
         kind = known_model(name)
@@ -148,7 +148,7 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
 
 
 def sources_section(citation: Citation) -> Section:
-    """What to cite."""
+    """Citations."""
     package, *_ = [one for one in citation.text.splitlines() if one.startswith("  ")]
     items: list[Item] = [Points([package.strip(), *(one.text for one in citation.references)])]
     if citation.motion:

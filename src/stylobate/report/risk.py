@@ -1,4 +1,4 @@
-"""What follows from the runs of other commands: fragility, risk under a hazard, survival over the years."""
+"""Consequences of the runs of other commands: fragility, risk under a hazard, survival over the years."""
 
 from __future__ import annotations
 
@@ -45,17 +45,17 @@ def fragility_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     return (sentence + open_runs(one, "left out of the curve, and counted both ways in its interval"), ""), items
 
 
-#: What no interval of a fragility holds.
+#: Limits of the intervals of a fragility.
 _HOLDS = "The interval is over {}: it does not hold what the model or the survey may be wrong about."
 
 
 def _over(curve: Mapping[str, Any]) -> str:
-    """What the interval of a curve is over."""
+    """Population of the interval of a curve."""
     return "runs" if curve.get("records_are_one") else "records"
 
 
 def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
-    """How often a year, and what that rests on."""
+    """Rate per year, and its basis."""
     s = result.summary
     period = s.get("return_period_y")
     sentence = f"{s.get('name', 'The column')}: {s.get('state', 'collapse')} " + (

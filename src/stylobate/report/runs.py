@@ -32,7 +32,7 @@ from .structure import structure_section
 #: An imbalance of the ledger beyond which a report warns [-].
 IMBALANCE = 0.05
 
-#: How outcomes are marked.
+#: Marks of outcomes.
 LOOKS = {"at_rest": "good", "rocked": "good", "displaced": "fair", "collapsed": "bad", "failed": "bad"}
 
 
@@ -74,7 +74,7 @@ def once(section: Section, key: str, told: set[str]) -> Section:
 
 
 def verdict_look(response: Response, doubted: bool = False) -> str:
-    """How a verdict stands out; one that most columns like it do not share is no good one."""
+    """Words that set a verdict apart; one that most columns like it do not share is no good one."""
     if response.outcome in (Outcome.COLLAPSED, Outcome.FAILED):
         return "verdict bad"
     return "verdict" if response.decided and not doubted else "verdict fair"

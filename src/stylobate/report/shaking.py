@@ -22,7 +22,7 @@ from .pictures import picture
 #: Most motions of a table, and the digits of a digest in it.
 MOST, DIGITS = 40, 12
 
-#: What a record says of itself, in words.
+#: Facts of a record, in words.
 SAID = ("station", "station_name", "network", "event", "start_time", "stage", "terms")
 
 

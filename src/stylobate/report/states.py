@@ -16,7 +16,7 @@ from . import numbers as n
 from .page import Item, Note, Points, Rows
 from .pictures import kept
 
-#: How the notes on conclusions stand out.
+#: Style of the notes on conclusions.
 LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
 
 
@@ -124,7 +124,7 @@ def _links(links: list[dict[str, Any]]) -> Rows:
     return Rows(header, body, BORE + left_out, numbers=True)
 
 
-#: What the table of links shows, and what it does not.
+#: Caption of the table of links.
 BORE = (
     "What the links bore; 1: at its capacity, it yields or breaks. Links are computed with the stiffness and the capacity "
     "given: pull-out, cracks in the stone around them and their anchorage are to be judged apart."

@@ -20,12 +20,12 @@ from .page import Facts, Item, Note, Points, Rows, Section
 from .pictures import kept
 from .structure import what_opens
 
-#: What is told of a link in a limit analysis.
+#: Facts of a link in a limit analysis.
 _LINK = ("link", "action", "force_n", "capacity_n", "yields")
 
 
 def statics_section(column: Column, run: RunResult | None) -> Section:
-    """What horizontal forces at rest would do: uplift and limit analysis."""
+    """Statics under horizontal forces: uplift and limit analysis."""
     opens, said = what_opens(column, run is not None and run.response.dims == "xyz")
     pairs = [("opens the first joint", said)]
     try:
@@ -137,7 +137,7 @@ def code_check(column: Column, result: Result, run: RunResult | None) -> Section
 
 
 def _beside_run(check: CapacityCheck, result: Result, run: RunResult) -> list[Item]:
-    """What the run in time says to the displacement that the check expects."""
+    """Words of the run in time on the displacement that the check expects."""
     r = run.response
     if r.collapsed:
         return [Note(["The run in time under the same motion collapsed: rely on the run, not on this check."], "bad")]
@@ -232,7 +232,7 @@ def _who_moves(s: dict[str, Any]) -> list[tuple[str, str]]:
 
 
 def static_model() -> Section:
-    """What statics assume, and where they end."""
+    """Assumptions and limits of statics."""
     items: list[Item] = [
         "Pushover and limit analysis assume:",
         Points(

@@ -1,4 +1,4 @@
-"""What stands, in a report: elevation, drums and joints in tables, properties, and what is as found."""
+"""Structure in a report: elevation, drums and joints in tables, properties, and what is as found."""
 
 from __future__ import annotations
 
@@ -152,7 +152,7 @@ def _links(column: Column) -> Rows:
 
 
 def _chips(one: FoundDrum, deep: bool) -> str:
-    """What its lower face has lost [mm], and where the right of a round one is."""
+    """Loss of the lower face [mm], and where the right of a round one is."""
     if not one.chipped:
         return n.NONE
     said = " / ".join(f"{1000.0 * chip:.0f}" for chip in one.chips[: 4 if deep else 2])
@@ -193,7 +193,7 @@ def _as_found(column: Column) -> Rows:
     return Rows(header, body, caption, numbers=True)
 
 
-#: What a row on a link between blocks tells in cells of their own.
+#: Facts of a row on a link between blocks in cells of their own.
 _TOLD = ("kind", "between", "at", "to", "name")
 
 

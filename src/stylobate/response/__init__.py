@@ -1,4 +1,4 @@
-"""What happened: bodies in space, joints, energy, verdict, measures and files of one run."""
+"""Responses: bodies in space, joints, energy, verdict, measures and files of one run."""
 
 from pathlib import Path
 

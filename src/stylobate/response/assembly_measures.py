@@ -1,4 +1,4 @@
-"""What a run of an assembly comes down to: opening and slip of its joints, what fell and when, and the outcome."""
+"""Measures of a run of an assembly: opening and slip of its joints, what fell and when, and the outcome."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def have_fallen(lowest: np.ndarray, z: np.ndarray, turned: np.ndarray) -> np.nda
 def first_touch(
     structure: Structure, time: np.ndarray, x: np.ndarray, z: np.ndarray, rotation: np.ndarray, when: float
 ) -> Touch:
-    """What touched first of what is not joined: the closest two bodies in the first recorded state after it.
+    """First touch of bodies that are not joined: the closest two bodies in the first recorded state after it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""How something came down, as values: which part was lost, how, to which side, when, and what it struck first."""
+"""Course of a fall, as values: the part that was lost, the way, the side, the time, and what it struck first."""
 
 from __future__ import annotations
 

@@ -11,12 +11,12 @@ import numpy as np
 if TYPE_CHECKING:
     from .recorded import Recorded
 
-#: What has gone farther than this many times the size of what stood is out of every picture.
+#: Distance, in sizes of the structure, beyond which a body is out of every picture.
 ASIDE = 3.0
 
 
 def way_of(response: Recorded) -> np.ndarray:
-    """How far things have moved [m], shape (T,): the top along x with its sign, or the body that has moved farthest."""
+    """Displacement [m], shape (T,): the top along x with its sign, or the body that has moved farthest."""
     top = response.histories.top
     if top is None:
         return response.displacement.max(axis=1)

@@ -1,4 +1,4 @@
-"""What the links of a column have done: their forces, slips and elongations over time, and when which of them broke."""
+"""Action of the links of a column: their forces, slips and elongations over time, and when which of them broke."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ NAMES = ("shear", "tension", "slip", "elongation")
 #: A link that bears this share of its capacity bears all of it, but for rounding.
 AT_CAPACITY = 1.0 - 1e-9
 
-#: What that means.
+#: Meaning of the seal.
 YIELDS = "A link at its capacity yields or slips, and stays so."
 
 
@@ -43,7 +43,7 @@ class LinkHistories:
 
 @dataclass(frozen=True)
 class LinkMeasures:
-    """What a run has come to for one link.
+    """Results of a run for one link.
 
     Parameters
     ----------
@@ -111,7 +111,7 @@ class LinkMeasures:
 
 
 def row_of(links: Sequence[LinkMeasures]) -> dict[str, Any]:
-    """What a row of a run holds of its links: how many broke, the first one when, and each in their order."""
+    """Links in a row of a run: the number that broke, the time of the first, and each in their order."""
     times = [one.broken_at for one in links if one.broken]
     return {
         "links_broken": len(times),
@@ -122,7 +122,7 @@ def row_of(links: Sequence[LinkMeasures]) -> dict[str, Any]:
 
 
 def sentence_of(links: Sequence[LinkMeasures]) -> str:
-    """How many links broke, and the first of them, and how many others came to their capacity; empty without links."""
+    """Number of links that broke, the first of them, and the number that came to their capacity; empty without links."""
     kinds = {one.kind for one in links if one.kind != "layer" or one.broken}
     if not kinds:
         return ""

@@ -12,7 +12,7 @@ from .links import LinkMeasures, row_of
 
 @dataclass(frozen=True)
 class SpaceMeasures:
-    """What a model in space measures besides.
+    """Measures that only models in space have.
 
     Parameters
     ----------
@@ -48,7 +48,7 @@ class SpaceMeasures:
 
 
 def blank_row(*, space: bool = False, links: bool = False) -> dict:
-    """What a row of a run of a column holds, before there is one: all measures missing.
+    """Row of a run of a column before there is one: all measures missing.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def blank_row(*, space: bool = False, links: bool = False) -> dict:
 
 @dataclass(frozen=True)
 class BlockMeasures:
-    """What a run of an assembly comes down to besides; there is no top.
+    """Measures that only runs of assemblies have; there is no top.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class BlockMeasures:
 
 @dataclass(frozen=True, eq=False)
 class Measures:
-    """What a run comes down to.
+    """Measures of a run.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What happened to a column, in plain words: what fell, about which joint, to which side, when, and what still stands."""
+"""Course of a column's fall, in plain words: what fell, about which joint, to which side, when, and what still stands."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ AS_ONE = 0.1
 
 @dataclass(frozen=True)
 class Mechanism:
-    """How a column came down, or how it stands.
+    """Course of a column's fall, or its state where it stands.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Where bodies are and how they are turned: as a model records it, and in space."""
+"""Places and rotations of bodies: as a model records it, and in space."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ class SpacePoses:
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """What the poses of a plane model refer to, body by body.
+    """References of the poses of a plane model, body by body.
 
     Parameters
     ----------

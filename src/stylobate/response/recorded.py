@@ -1,4 +1,4 @@
-"""What is known of one run, as data: what stood, histories, measures and provenance, and its bodies in space.
+"""Data of one run: what stood, histories, measures and provenance, and its bodies in space.
 
 Words, tables, pages and files are made from it; :class:`stylobate.Response` is the same with all of these at hand.
 """

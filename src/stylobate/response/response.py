@@ -1,4 +1,4 @@
-"""What happened in one run of a column or an assembly: its data, with words, tables, pages and files at hand."""
+"""Response of a column or an assembly in one run: its data, with words, tables, pages and files at hand."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Response(Recorded):
 
     @property
     def sentence(self) -> str:
-        """What happened, in one or two sentences."""
+        """Outcome, in one or two sentences."""
         return sentence_of(self)
 
     def describe(self) -> str:
@@ -70,7 +70,7 @@ class Response(Recorded):
         return summary_of(self)
 
     def citation(self) -> str:
-        """What to cite for this run: the package, the sources of its model, and where its motion comes from."""
+        """Citations for this run: the package, the sources of its model, and where its motion comes from."""
         return cite_run(self.provenance).text
 
     def animate(

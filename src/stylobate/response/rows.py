@@ -10,10 +10,10 @@ import numpy as np
 if TYPE_CHECKING:
     import pandas
 
-#: What a row has under a name: nothing, None, or a value.
+#: Value of a row under a name: nothing, None, or a value.
 _NOTHING, _NONE, _VALUE = 0, 1, 2
 
-#: How values of a type are kept; texts as their place in a list of all texts.
+#: Stored form of values of a type; texts as their place in a list of all texts.
 _TYPES = {bool: np.int8, int: np.int64, float: np.float64, str: np.int32}
 
 
@@ -56,7 +56,7 @@ class Rows(Sequence[Any]):
         return np.full(len(self), np.nan) if column is None else column.floats()
 
     def are(self, name: str, text: str) -> np.ndarray:
-        """Where the value under a name is this text, shape (count,)."""
+        """Rows whose value under a name is this text, shape (count,)."""
         column = self._columns.get(name)
         return np.zeros(len(self), dtype=bool) if column is None else column.are(text)
 
@@ -153,7 +153,7 @@ class _Column:
         return np.full(len(there), np.nan) if self.values is None else np.where(there, self.values, np.nan)
 
     def are(self, text: str) -> np.ndarray:
-        """Where the value is this text."""
+        """Rows whose value is this text."""
         if self.kind == (str,):
             return (self.state == _VALUE) & (self.values == self.codes.get(text, -1))
         return np.array([self.get(number) == text for number in range(len(self.state))], dtype=bool)

@@ -1,4 +1,4 @@
-"""What is read off a response directly: its histories, its measures, and its bodies in space."""
+"""Values read off a response directly: its histories, its measures, and its bodies in space."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ class Views:
 
     @property
     def outcome(self) -> Outcome:
-        """How the run ended."""
+        """End of the run."""
         return self.measures.outcome
 
     @property

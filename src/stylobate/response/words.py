@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def title_of(response: Recorded) -> str:
-    """What stood, motion, model and outcome in one line."""
+    """Structure, motion, model and outcome in one line."""
     undecided = "" if response.decided else ", undecided"
     motion = response.provenance.get("motion", "motion")
     outcome = response.outcome.label.replace("_", " ")
@@ -22,7 +22,7 @@ def title_of(response: Recorded) -> str:
 
 
 def sentence_of(response: Recorded) -> str:
-    """What happened, in one to three sentences."""
+    """Outcome, in one to three sentences."""
     m = response.measures
     links = sentence_of_links(m.links)
     if m.blocks is not None:
@@ -37,7 +37,7 @@ def sentence_of(response: Recorded) -> str:
     return " ".join(words)
 
 
-#: What damps a run in space, by the names of the parameters, and the value with which it does not.
+#: Damping of a run in space, by the names of the parameters, and the value with which there is none.
 UNDAMPED = {"stiffness_damping": 0.0, "mass_damping": 0.0, "restitution": 1.0, "rolling_resistance": 0.0}
 
 #: Tilt beyond which a column wobbles, as a share of its slenderness [-].

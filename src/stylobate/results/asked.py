@@ -1,4 +1,4 @@
-"""What a command was asked, kept beside its results: the command line, what stood, models, motions and warnings."""
+"""Request of a command, kept beside its results: the command line, what stood, models, motions and warnings."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def asked_file(command: str) -> str:
 
 @dataclass(frozen=True)
 class Asked:
-    """What a command was asked.
+    """Request of a command.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ class Asked:
         warnings: Sequence[str] = (),
         **options: Any,
     ) -> Asked:
-        """What is asked now, with the objects that it is asked for, or what another command has kept of them.
+        """Present request, with the objects that it is asked for, or what another command has kept of them.
 
         Motions are given as the models take them; ``runs`` is the table that tells by how much each was multiplied.
         """
@@ -141,7 +141,7 @@ class Asked:
 
     @property
     def stood(self) -> list[Structure]:
-        """What stood, made again."""
+        """Structure, made again."""
         return [make(one[kind]) for one in self.structures for kind, make in FROM_DICT.items() if kind in one]
 
 

@@ -1,4 +1,4 @@
-"""What a folder of results can hold, as types: each kind with what its report and its readers need."""
+"""Kinds of results of a folder, as types: each with what its report and its readers need."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class Result:
 
     @property
     def structures(self) -> Sequence[Structure]:
-        """What it is about, as far as the folder tells."""
+        """Subject, as far as the folder tells."""
         return [] if self.asked is None else self.asked.stood
 
     @property
@@ -118,7 +118,7 @@ class RunResult(Result):
 
     @property
     def structures(self) -> Sequence[Structure]:
-        """What stood."""
+        """Structure."""
         return [self.response.structure]
 
 
@@ -130,7 +130,7 @@ class SeveralRuns(Result):
 
     @property
     def structures(self) -> Sequence[Structure]:
-        """What stood."""
+        """Structure."""
         return [self.runs[0].response.structure]
 
 
@@ -142,7 +142,7 @@ class Grid(Result):
 
     @property
     def structures(self) -> Sequence[Column]:
-        """What stood."""
+        """Structure."""
         return [self.data.column]
 
 

@@ -28,7 +28,7 @@ MOST = 500_000_000
 #: Most folders in a folder of runs.
 MOST_RUNS = 10_000
 
-#: What a JSON object of each kind must hold; a folder with such an object of other keys was not written by stylobate.
+#: Keys that a JSON object of each kind must hold; a folder with such an object of other keys was not written by stylobate.
 KEYS = {
     Kind.RUN: ("outcome", "collapsed", "decided", "energy_imbalance"),
     Kind.CRITICAL: ("runs", "lowest_collapse_g", "sentence"),

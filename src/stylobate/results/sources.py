@@ -1,4 +1,4 @@
-"""What a result was computed from: the table of runs of another command, with what that one was asked, or of anybody."""
+"""Origin of a result: the table of runs of another command, with that command's request, or of anybody."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Source:
 
     @cached_property
     def kept(self) -> Asked | str:
-        """What the command that wrote the table was asked, or why that is not known."""
+        """Request of the command that wrote the table, or why that is not known."""
         command = COMMANDS.get(self.table.stem)
         file = self.table.parent / asked_file(command or "")
         if command is None or not file.is_file() or not OwnFiles(self.table.parent).lists(self.table):
@@ -53,7 +53,7 @@ class Source:
 
     @property
     def asked(self) -> Asked | None:
-        """What the command that wrote the table was asked; None where that is not known."""
+        """Request of the command that wrote the table; None where that is not known."""
         return self.kept if isinstance(self.kept, Asked) else None
 
     def names(self, column: str) -> list[str]:
@@ -62,12 +62,12 @@ class Source:
 
     @property
     def stood(self) -> list[str]:
-        """What stood in these runs, as the table calls it: columns, or states of one."""
+        """Structures of these runs, as the table calls them: columns, or states of one."""
         return next((found for one in STOOD if (found := self.names(one))), [])
 
     @property
     def structures(self) -> list[dict[str, Any]]:
-        """What stood in these runs, as kept by the command."""
+        """Structures of these runs, as kept by the command."""
         asked, names = self.asked, self.stood
         kept = asked.structures if asked is not None else ()
         labels = asked.options.get("states") if asked is not None else None
@@ -83,7 +83,7 @@ class Source:
 
     @property
     def doubt(self) -> str:
-        """What stands before all that rests on these runs: that round columns were computed in a plane, where they were."""
+        """Caveat before all that rests on these runs: that round columns were computed in a plane, where they were."""
         round_ = any(
             drum.get("section") == "circular"
             for one in self.structures
@@ -105,7 +105,7 @@ class Source:
 
     @property
     def facts(self) -> dict[str, Any]:
-        """What is kept of it beside the result that rests on it."""
+        """Facts that are kept beside the result that rests on it."""
         asked, records = self.asked, self.names("record")
         listed = (self.table.parent / LIST).is_file() and OwnFiles(self.table.parent).lists(self.table)
         return {
@@ -125,7 +125,7 @@ class Source:
 
 
 def kept_of(sources: Sequence[Source]) -> dict[str, Any]:
-    """What results that rest on these runs keep of them, as arguments of :meth:`Asked.of`; each structure once."""
+    """Part of these runs that results resting on them keep, as arguments of :meth:`Asked.of`; each structure once."""
     found: dict[str, dict[str, Any]] = {"structures": {}, "models": {}, "motions": {}}
     warnings: dict[str, None] = {}
     for one in sources:

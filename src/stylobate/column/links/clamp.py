@@ -59,7 +59,7 @@ class Clamp(Pin):
             )
 
     def held(self, site: Site) -> Numbers:
-        """What a clamp of a length between its legs holds.
+        """Numbers of a clamp of a length between its legs.
 
         Notes
         -----

@@ -10,7 +10,7 @@ from ...errors import InputError, check_choice
 from .link import LONGEST, STIFFEST, Link, Numbers, Site
 from .materials import MATERIALS
 
-#: What becomes of a dowel at its capacity: it yields, snaps, or crushes the stone so that its hole grows.
+#: Behaviour of a dowel at its capacity: it yields, snaps, or crushes the stone so that its hole grows.
 FAILURES = ("ductile", "brittle", "crushing")
 
 #: Poisson's ratio of stone [-].
@@ -25,7 +25,7 @@ ROUNDED = 0.25
 
 @dataclass(frozen=True, kw_only=True)
 class Pin(Link):
-    """What dowels, bars and clamps have in common; parameters as for :class:`Dowel`."""
+    """Common parts of dowels, bars and clamps; parameters as for :class:`Dowel`."""
 
     diameter: float | None = None
     embedment: float | None = None
@@ -81,7 +81,7 @@ class Pin(Link):
             )
 
     def across(self, embedment: float | None) -> dict[str, Any]:
-        """What it holds in shear, embedded by so much on either side [m], as fields of :class:`Numbers`."""
+        """Resistance in shear, embedded by so much on either side [m], as fields of :class:`Numbers`."""
         stiffness, capacity, failure, governs = self._shear(embedment)
         d, lost = self.diameter, math.inf
         if self.material is not None and d is not None:
@@ -178,7 +178,7 @@ def shear_stiffness(material: str, diameter: float, embedment: float, stone_modu
 
 
 def shear_limits(material: str, diameter: float, embedment: float, stone_strength: float) -> dict[str, float]:
-    """What can limit a dowel across a joint [N], by name.
+    """Limits of a dowel across a joint [N], by name.
 
     Notes
     -----

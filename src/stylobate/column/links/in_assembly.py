@@ -13,7 +13,7 @@ from ..block import Block, FaceJoint
 from .link import Link, in_space, told
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all
 
-#: How far a bracket may hold the end of a tie from its body; how far from its joint a place may be given [m].
+#: Largest distance at which a bracket may hold the end of a tie from its body; how far from its joint a place may be given [m].
 BRACKET, BESIDE = 1.0, 1e-3
 
 #: Points along a straight link at which it is looked at whether it passes through stone.
@@ -193,7 +193,7 @@ def _check_legs(link: Any, *blocks: Block) -> None:
 
 
 def _depth(block: Block, place: tuple[float, float]) -> float:
-    """How deep a place is in a block [m]; negative outside, as far as its nearest side's line or corner is."""
+    """Depth of a place in a block [m]; negative outside, as far as its nearest side's line or corner is."""
     corners = block.corners
     side = np.roll(corners, -1, axis=0) - corners
     length = np.hypot(side[:, 0], side[:, 1])

@@ -39,7 +39,7 @@ def place_in_column(stack: Stack, links: Sequence[Link], name: str) -> tuple[Pla
 
 
 def _in_joint(link: Any, stack: Stack) -> PlacedLink:
-    """What lies in a joint: at its place in the section, from the drum below to the drum above."""
+    """Sheets in a joint: at a place in the section, from the drum below to the drum above."""
     if link.joint > stack.n:
         raise InputError(
             f"there is no joint {link.joint} for a {link.kind}; the joints are 1 (with the base) to {stack.n}.", "joint"
@@ -78,7 +78,7 @@ def _in_joint(link: Any, stack: Stack) -> PlacedLink:
 
 
 def _line(link: Line, stack: Stack) -> PlacedLink:
-    """What is straight between a drum, or the base, and a drum above it."""
+    """Straight links between a drum, or the base, and a drum above it."""
     upper = stack.n if link.to_drum is None else link.to_drum
     if upper > stack.n or link.from_drum >= upper:
         raise InputError(
@@ -156,7 +156,7 @@ def _check_hole(link: Line, stack: Stack, low: Point, high: Point, diameter: flo
 
 
 def _inside(drum: Drum, side: str, place: tuple[float, ...]) -> float:
-    """How far a place is inside a face [m]; negative outside."""
+    """Depth of a place within a face [m]; negative outside."""
     width, depth = (drum.bottom_width, drum.depth) if side == "bottom" else (drum.top_width, drum.upper_depth)
     return _within(drum, width, depth, place)
 

@@ -1,4 +1,4 @@
-"""What is straight between two points: where its ends are."""
+"""Straight links between two points, and their ends."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Line(Link):
 
     lies: ClassVar[Lies] = "line"
     mark: ClassVar[Mark] = "line"
-    #: Where its ends are on a drum of which no height is given, as a share of the height: at the far end of all, and here.
+    #: Ends of a tie on a drum of which no height is given, as a share of the height: at the far end of all, and here.
     holds_at: ClassVar[tuple[float, float]] = (0.5, 0.5)
     #: Whether it runs in a hole through the stone, rather than beside it.
     through_stone: ClassVar[bool] = False

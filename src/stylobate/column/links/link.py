@@ -1,4 +1,4 @@
-"""What every link is: its data, checked where made, where it may be, and what it holds in numbers."""
+"""Base of links: their data, checked where made, where they may be, and what they hold in numbers."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from .materials import MATERIALS
 #: Largest length [m], stiffness [N/m], force [N] and dashpot [N s/m] of a link.
 LONGEST, STIFFEST, STRONGEST, THICKEST = 100.0, 1e13, 1e10, 1e10
 
-#: Where a link may lie: in a joint, straight between two points, or in two blocks side by side, which no column has.
+#: Places of a link: in a joint, straight between two points, or in two blocks side by side, which no column has.
 Lies = Literal["joint", "line", "side"]
 
 #: Of each law of links where those lie that act by it, as engines compute it.
 _LIES: dict[str, Lies] = {}
 
-#: How it is drawn: a short stroke through its joint, one that is anchored at its ends, a line, or a sheet along its joint.
+#: Picture of a link: a short stroke through its joint, one that is anchored at its ends, a line, or a sheet along its joint.
 Mark = Literal["stroke", "anchor", "line", "sheet"]
 
-#: What says where a link is, rather than what it is; the first five in a column alone.
+#: Keys of the place of a link; the first five in a column alone.
 PLACES = ("joint", "from_drum", "to_drum", "from_height", "to_height", "at", "to", "name", "between", "numbers")
 
 
 class Site(NamedTuple):
-    """What a link finds where it lies: the length between its ends [m], or area [m²] and edge [m] of its joint's faces."""
+    """Geometry of a link at its place: the length between its ends [m], or area [m²] and edge [m] of its joint's faces."""
 
     length: float = math.nan
     area: float = math.nan
@@ -37,7 +37,7 @@ class Site(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class Numbers:
-    """What a link holds, for every kernel and every analysis alike.
+    """Resistance of a link, for every kernel and every analysis alike.
 
     Parameters
     ----------
@@ -153,7 +153,7 @@ class Link:
         """Refuse data that cannot be; a kind adds its own."""
 
     def held(self, site: Site) -> Numbers:
-        """What it holds at a site; each kind by its own formulas."""
+        """Resistance at a site; each kind by its own formulas."""
         raise NotImplementedError
 
     def check_joint(self, joint: Joint) -> None:
@@ -170,7 +170,7 @@ class Link:
 
     @classmethod
     def known(cls) -> set[str]:
-        """What may be said of a link of this kind, besides where it is."""
+        """Entries of a link of this kind, besides where it is."""
         return {one.name for one in dataclasses.fields(cls)} - {*PLACES}
 
     @property

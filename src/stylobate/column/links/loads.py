@@ -1,4 +1,4 @@
-"""What pretensioned links exert on the part of a column above a joint, as it stands."""
+"""Force of pretensioned links on the part of a column above a joint, as it stands."""
 
 from __future__ import annotations
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class LinkMaterial:
-    """What a dowel, bar or tie is made of, and set in.
+    """Materials of a dowel, bar or tie, and of its setting.
 
     Parameters
     ----------

@@ -13,7 +13,7 @@ from .link import Link, Mark, Numbers, Site
 
 
 class PadMaterial(NamedTuple):
-    """What a pad is made of: moduli [Pa], how much its shape stiffens it [-], bulk modulus that bounds it [Pa], source."""
+    """Material of a pad: moduli [Pa], how much its shape stiffens it [-], bulk modulus that bounds it [Pa], source."""
 
     modulus: float
     shear_modulus: float

@@ -89,12 +89,12 @@ class PlacedLink(Numbers):
 
     @property
     def place(self) -> tuple[float, float]:
-        """Where what crosses a joint acts, as drawn: halfway between its ends [m]."""
+        """Point of action across a joint, as drawn: halfway between its ends [m]."""
         return 0.5 * (self.low[0] + self.high[0]), 0.5 * (self.low[2] + self.high[2])
 
     @property
     def arms(self) -> tuple[np.ndarray, np.ndarray]:
-        """Where it acts on its two bodies: from their origins, in their own axes [m], each of shape (3,)."""
+        """Points of action on the two bodies: from their origins, in their own axes [m], each of shape (3,)."""
         middle = self.place[0], self.low[1], self.place[1]
         ends = (self.low, self.high) if self.straight else (middle, middle)
         return np.subtract(ends[0], self.origins[0]), np.subtract(ends[1], self.origins[1])
@@ -138,7 +138,7 @@ def strokes(links: Sequence[PlacedLink]) -> list[Stroke]:
 
 
 def for_each(links: Sequence[Any], owner: str, do: Callable[[Link], Result]) -> list[Result]:
-    """What is made of each link of a column or an assembly of this name.
+    """Facts of each link of a column or an assembly of this name.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What ``[[link]]`` of a file holds, of columns and of assemblies, and the links that it makes."""
+"""Entries ``[[link]]`` of files, of columns and of assemblies, and the links that they make."""
 
 from __future__ import annotations
 

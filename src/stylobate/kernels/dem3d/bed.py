@@ -26,7 +26,7 @@ STRIPS = (
 
 @law
 def support(along, cos_g, sin_g, ra, rl, q_u, cos_l, sin_l):
-    """How far the overlap of two discs reaches in a direction; cos_g and sin_g (≥ 0) tell that of the upper one's middle."""
+    """Reach of the overlap of two discs in a direction; cos_g and sin_g (≥ 0) are that of the upper one's middle."""
     corner = (cos_g > q_u) & (cos_g < cos_l)
     return rl * (cos_g * cos_l + sin_g * sin_l) if corner else min(along + ra, rl)
 

@@ -41,7 +41,7 @@ def earlier(a, b):
 
 @law
 def left_of(x, y, half, ex, ey, lost):
-    """What a chip towards (ex, ey), of so much half an angle, leaves of an arc about the direction (x, y).
+    """Part of an arc about the direction (x, y) that a chip towards (ex, ey), of so much half an angle, leaves.
 
     Returns the ends of two intervals, either of which may be empty, and the side of the arc's middle on which the chip lies.
     """

@@ -15,7 +15,7 @@ from .records import BETA
 
 @law
 def meet(e, u, v, l):
-    """Where the drum above is, and how it moves, in the axes of the one below."""
+    """Place and motion of the drum above, in the axes of the one below."""
     w = e.w
     w[0, l], w[1, l], w[2, l] = in_body(v, l, u.ix[l], u.iy[l], u.iz[l])
     w[3, l], w[4, l], w[5, l] = in_body(v, l, u.jx[l], u.jy[l], u.jz[l])

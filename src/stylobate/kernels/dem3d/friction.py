@@ -27,7 +27,7 @@ NO_LIMIT = 1e-12
 
 @law
 def beyond(x, y):
-    """How far a shear force and a torsion moment lie beyond the limit surface; 1 inside it.
+    """Distance of a shear force and a torsion moment from the origin, over that of the limit surface; 1 on it.
 
     √(X + Y + 0.57 X Y / (X + Y)) with X and Y the squares of their shares of the two limits: pure sliding and pure
     spinning are exact.

@@ -13,7 +13,7 @@ from .pose import cross, in_body, in_space
 
 @law
 def at_place(u, v, k, l):
-    """Where the place of a link on the upper body is over the face below, in that drum's axes; from both centroids in space
+    """Place of a link on the upper body over the face below, in that drum's axes; from both centroids in space
     [m]."""
     bx, by, bz = in_space(u, l, k.bx[l], k.by[l], k.bz[l])
     x, y, z = u.x[l] + bx - v.x[l], u.y[l] + by - v.y[l], u.z[l] + bz - v.z[l]

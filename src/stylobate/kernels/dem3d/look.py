@@ -1,4 +1,4 @@
-"""What is looked at between chunks of steps: peaks, collapses, ends of runs; axes are renormalised."""
+"""Looks between chunks of steps: peaks, collapses, ends of runs; axes are renormalised."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Where two drums stand to each other at a joint, and how fast that changes. Laws of numbers, in space axes."""
+"""Places of two drums to each other at a joint, and their rates. Laws of numbers, in space axes."""
 
 import math
 
@@ -85,7 +85,7 @@ def passing(u, v, l, rx, ry, rz, cx, cy, cz):
 
 @law
 def middles(cx, cy, cz, hx, hy, hz, tx, ty, tz):
-    """Where the upper face's middle c lies from the lower one's: distance along the lower face, cosine and sine (≥ 0) of its
+    """Place of the upper face's middle c from the lower one's: distance along the lower face, cosine and sine (≥ 0) of its
     angle to the direction of lean h, and on which side of h it is (±1)."""
     along = cx * hx + cy * hy + cz * hz
     across = cx * tx + cy * ty + cz * tz

@@ -68,7 +68,7 @@ def whole_lower(d, along, across, left):
 
 @law
 def chipped_remains(e, u, l, steepest, tangent, way, ru, rl, cosine):
-    """What a chip of the upper face leaves of both arcs, and its chord.  # Eqs. (E2), (E26)"""
+    """Parts of both arcs, and the chord, that a chip of the upper face leaves.  # Eqs. (E2), (E26)"""
     s, cos_g, sin_g, side = way
     sin_g *= side
     dx, dy, dz = steepest

@@ -34,7 +34,7 @@ def turned_by(x, y, c, s):
 
 @kernel
 def inside_by(x, y, corners):
-    """How far a point is inside a convex polygon given counter-clockwise, shape (k, 2); negative outside [m].
+    """Depth of a point within a convex polygon given counter-clockwise, shape (k, 2); negative outside [m].
 
     Sides without length do not count.
     """
@@ -53,7 +53,7 @@ def inside_by(x, y, corners):
 
 @law
 def inside_discs(d, x, y, own_x, own_y):
-    """How far a point is inside both of two discs, from the middle of the lower one; the upper one's is ``own`` [m]."""
+    """Depth of a point within both of two discs, from the middle of the lower one; the upper one's is ``own`` [m]."""
     return min(d.along - math.hypot(x - own_x, y - own_y), d.under - math.hypot(x, y))
 
 
@@ -113,7 +113,7 @@ def lowest_barrier(stand, slip, turns, cornered, gravity, walks):
 
 @law
 def within(x, y, z, g, l, cx, cy, cz, nx, ny, nz, radius):
-    """Where a point is over a face along gravity, from the middle of that face, and whether within a radius."""
+    """Place of a point over a face along gravity, from the middle of that face, and whether within a radius."""
     drop = ((x - cx) * nx + (y - cy) * ny + (z - cz) * nz) / (g[0, l] * nx + g[1, l] * ny + g[2, l] * nz)
     x, y, z = x - drop * g[0, l] - cx, y - drop * g[1, l] - cy, z - drop * g[2, l] - cz
     return x, y, z, x * x + y * y + z * z < radius * radius

@@ -73,7 +73,7 @@ def put_down_found(found, slip, turns, frame, origin, centroid, offset):
 
 @law
 def inside_chipped(d, x, y, turn):
-    """How far a place from the middle of a round face is inside what chips leave of it; negative outside [m]."""
+    """Depth of a place, from the middle of a round face, within what chips leave of it; negative outside [m]."""
     a, _ = turned_by(x, y, math.cos(turn + d.towards), -math.sin(turn + d.towards))
     return min(d.right - a, d.left + a)
 

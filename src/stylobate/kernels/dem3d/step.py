@@ -185,7 +185,7 @@ def fill_ground(ground, feed, watch):
 
 @long_law
 def look_ahead(state):
-    """What is looked for before a chunk of steps."""
+    """Search before a chunk of steps."""
     may_hold(state[BODY], state[JOINT], state[LOAD], state[LINK], state[BOND], state[LANE], state[WATCH], state[PAIR])
 
 
@@ -211,7 +211,7 @@ def move(state, k):
 
 @long_law
 def look(state):
-    """What is looked at between chunks of steps."""
+    """Looks between chunks of steps."""
     check_finite(state[BODY], state[WATCH])
     look_at_links(
         state[JOINT], state[LINK], state[BOND], state[LANE], state[FEED], state[WATCH], state[HOLD], state[PAIR]

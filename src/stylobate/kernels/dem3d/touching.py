@@ -1,4 +1,4 @@
-"""How far a joint in space has slipped: read where its faces are closest, so that a drum that only leans has not slipped.
+"""Slip of a joint in space: read where its faces are closest, so that a drum that only leans has not slipped.
 
 The middle of a face that leans about its rim moves sideways by R (1 - cos θ), and nothing has slipped: what counts is where
 the upper drum's stone is that was pressed there, on a chip the end of its chord. A closed joint has the offset of its
@@ -15,7 +15,7 @@ from .support import corner_of
 
 @long_law
 def closest_of_discs(u, v, e, l, n, c):
-    """Where two discs are closest, in the axes of the lower drum from the middle of its face [m].
+    """Closest points of two discs, in the axes of the lower drum from the middle of its face [m].
 
     Of the ends of two discs the one that lies over the other disc touches: it is the less deep of the two. ``n`` is the
     normal of the upper face and ``c`` its middle.

@@ -1,4 +1,4 @@
-"""Where two convex polygons overlap, and the force of an elastic bed between them, without cases of corners and edges.
+"""Overlap of two convex polygons, and the force of an elastic bed between them, without cases of corners and edges.
 
 Both outlines are clipped against each other. The part of A's outline inside B, walked counter-clockwise, adds up to a
 chord g: the vector between the points where the outlines cross. Its length is the width of the contact, its right-hand

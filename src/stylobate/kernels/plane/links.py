@@ -13,7 +13,7 @@ from .point_joint import face
 
 @law
 def at_place(u, v, k, l):
-    """Where the place of the upper body is: along the slip and across it, from the lower centroid; that direction; and from
+    """Place of the upper body: along the slip and across it, from the lower centroid; that direction; and from
     the lower and the upper centroid in the plane [m].
     """
     tc, ts = face(v, l, k.tc[l], k.ts[l])

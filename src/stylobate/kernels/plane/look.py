@@ -1,4 +1,4 @@
-"""What is looked at between chunks of steps in the plane: the ground ahead, states that are not finite, peaks and collapses.
+"""Looks between chunks of steps in the plane: the ground ahead, states that are not finite, peaks and collapses.
 
 Records: ``records.py``.
 """

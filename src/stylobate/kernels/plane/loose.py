@@ -1,4 +1,4 @@
-"""What has come loose: one lane of bodies of which any two may touch, with the search for what does.
+"""Loose bodies: one lane of bodies of which any two may touch, with the search for what does.
 
 A joint hands over to the bed (``bed.py``) by a weight that is a function of the relative rotation and of the overlap alone,
 so that no force jumps; once the weight has reached zero the joint is gone. Where the step changes, velocities in the middle

@@ -241,7 +241,7 @@ def fill(out, rows, addresses, lasts, starts, factors, offset):
 
 @kernel
 def drop(a, g, row, whole, j):
-    """Where a motion ends with the step before j, step j starts without it: the row has served both."""
+    """End of a motion with the step before j: step j starts without it, and the row has served both."""
     for l in range(LANES):
         if whole[DONE, l] + 2 * j == whole[LAST, l] - 1:
             a[row + l], g[row + l] = 0.0, 1.0

@@ -1,1 +1,1 @@
-"""What engines in the plane and in space share: lists of contacts, laws and records of links, the frame of every run."""
+"""Common parts of the engines in the plane and in space: lists of contacts, laws and records of links, the frame of every run."""

@@ -36,7 +36,7 @@ joint j of a column [N m]; no such rows without links.
 
 import numpy as np
 
-#: What all lanes share, whole numbers and others, and what each lane has of its own.
+#: Values that all lanes share, whole numbers and others, and what each lane has of its own.
 NUMBERS = "line ten both near"
 SHARED = "ks y cr br deep reach us c ya cra bra"
 OWN = (

@@ -10,7 +10,7 @@ Records and legend: ``link_records.py``.
 from ..jit import apart, kernel, law, strict
 from ..run_codes import RUNNING
 
-#: How far what moves is looked ahead: at so many times the present speed, and at so much acceleration [m/s²].
+#: Look ahead at what moves: at so many times the present speed, and at so much acceleration [m/s²].
 SPEEDS, HASTE = 3.0, 100.0
 
 
@@ -60,7 +60,7 @@ def pulled(k, l, length):
 
 @law
 def held(size, gap, yields, stiffness, lift, deepest, reach, whole, out, brittle, crush, far, lost, old):
-    """What a link holds against a way of a size from where it is free: force; how far that place and the slack go on; heat;
+    """Resistance of a link to a way of a size from where it is free: force; how far that place and the slack go on; heat;
     whole, out; and the largest force.  # Eq. (K1)
 
     ``old`` is the square of its force a step ago.
@@ -131,7 +131,7 @@ def look_at_links(link, bond, lane, feed, watch):
 
 @kernel
 def look_at_hold(link, hold, pair, joints):
-    """What whole links hold about every joint of a column that they cross; link m is contact ``joints + m``."""
+    """Resistance of whole links about every joint of a column that they cross; link m is contact ``joints + m``."""
     for j in range(hold.shape[0]):
         hold[j].moment[:] = 0.0
     for m in range(link.shape[0]):

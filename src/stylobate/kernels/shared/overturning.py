@@ -1,4 +1,4 @@
-"""What overturns a part of a stack: when it is lost for good, and what energy lifts it over its edge.
+"""Overturning of a part of a stack: when it is lost for good, and what energy lifts it over its edge.
 
 Legend: ``stand[i]`` holds of every joint at least ``weight`` above it [N], ``moment``, the largest that it can carry [N m],
 ``over``, the height of the centroid above over it [m], and ``toe``, what it gives with its load on its edge [J].
@@ -21,7 +21,7 @@ def going_and_lost(out, outward, turning, holding):
 
 @kernel
 def given_by_toes(stand, j, half, height):
-    """What all joints give, at most, while the part above joint j stands on an edge ``half`` from under its centroid [J].
+    """Energy of all joints, at most, while the part above joint j stands on an edge ``half`` from under its centroid [J].
 
     A joint gives more than in proportion to the square of the moment that it carries: with the moment's share of the
     largest one squared, the toe's energy bounds it.

@@ -1,4 +1,4 @@
-"""What engines in the plane and in space share: the order of their records, and contacts as a list.
+"""Common parts of the engines in the plane and in space: the order of their records, and contacts as a list.
 
 A contact of any kind leaves what it does in a record of loads; a body gathers its loads in the order of its own list, so
 that sums do not depend on what is computed at the same time. Indices are unsigned: the compiler then adds no wrap-around.

@@ -188,7 +188,7 @@ class DistinctElement2D(SteppedDrums):
             super().check_length(column, motion, options)
 
     def carried(self, column: Any) -> int:
-        """How many are taken along: of columns only, what may come loose is alone in its lane."""
+        """Number of twins along a run: of columns only; what may come loose is alone in its lane."""
         return 0 if column.stack is None else self.carries
 
     def contacts_of_blocks(self) -> Contacts:

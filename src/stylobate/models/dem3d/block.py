@@ -92,11 +92,11 @@ class Stack:
         return bool(stands_as_found(*numbers, *of_lane))
 
     def lost(self, collapse: Collapse, structure: Column) -> str:
-        """What has come down, in words."""
+        """Fallen bodies, in words."""
         return what_is_lost(collapse, structure.n)
 
 
-#: What stacked drums and a single body do each in their own way.
+#: Methods that stacked drums and a single body have each in their own way.
 Bodies = Stack | FreeBody
 
 
@@ -257,6 +257,6 @@ class SpaceBlock(LaneRuns):
         )
 
     def lost(self, collapse: Collapse, column: Any) -> str:
-        """What has come down, and where to, in words."""
+        """Fallen bodies, and their places, in words."""
         azimuth = math.degrees(collapse.azimuth or 0.0)
         return f"{self.bodies.lost(collapse, column)}, towards azimuth {round(azimuth) % 360}° (from x towards y)"

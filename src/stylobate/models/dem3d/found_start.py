@@ -16,7 +16,7 @@ from ..drums.bodies import Topology
 from .arrays import Records
 from .packing import CORNERS
 
-#: What may be left of a joint's force and moment over its load and its load's lever; from where on Newton's steps are
+#: Rest of a joint's force and moment over its load and its load's lever; from where on Newton's steps are
 #: taken whole; rounds to get there.
 ALLOWED, NEAR, ROUNDS = 1e-6, 1e-3, 60
 
@@ -109,7 +109,7 @@ def found_start(
 
 @dataclass
 class _Friction:
-    """What friction holds in every joint: shear in space [N], shape (n, 3), torsion moment [N m], each corner's share."""
+    """Friction in every joint: shear in space [N], shape (n, 3), torsion moment [N m], each corner's share."""
 
     shear: np.ndarray
     turning: np.ndarray
@@ -175,7 +175,7 @@ class _Contact:
         self.pivots = not self.cornered and float(lane["pivot"][0, 0]) > 0.0
 
     def ask(self, poses: list[SpaceGeometry], friction: _Friction) -> tuple[np.ndarray, np.ndarray]:
-        """What the joints hold in their own frames at every pose: normal force, moments and shear, shape (poses, n, 6); and
+        """Forces in the joints in their own frames at every pose: normal force, moments and shear, shape (poses, n, 6); and
         the shear as the kernel stores it. Notes what each corner bears."""
         column, at, n = self.column, poses[0], self.column.n
         for k, pose in enumerate(poses + [at] * (len(CORNERS) if self.cornered else 0)):

@@ -1,4 +1,4 @@
-"""Where a body on springs comes to lie: the lowest place near its resting face, whichever vertices carry it there."""
+"""Resting place of a body on springs: the lowest place near its resting face, whichever vertices carry it there."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ from .verdict import numbers_for
 LAWS = {"rim": 1.0, "bed": 0.0}
 ON_CORNERS = 2.0
 
-#: What a joint of each law gives with its load on its edge.
+#: Energy of a joint of each law with its load on its edge.
 TOES = {"rim": rim_toes, "bed": bed_toes, "corners": lambda column, kn: point_toes(column, kn, 0.25)}
 
 #: In place of a section: one body that stands on its vertices; round drums on rings, or with chips.
@@ -54,7 +54,7 @@ ALONE = Topology(2, ((0, 1),), stack=1)
 
 
 class Kind(NamedTuple):
-    """What shares blocks of lanes.
+    """Common block of lanes.
 
     Parameters
     ----------

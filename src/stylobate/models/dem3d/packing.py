@@ -1,4 +1,4 @@
-"""What stands as the kernels in space want it: one lane of their records; a column's fields of drums, joints and lane."""
+"""Structure as the kernels in space want it: one lane of their records; a column's fields of drums, joints and lane."""
 
 from __future__ import annotations
 
@@ -122,7 +122,7 @@ def chip_directions(column: Column) -> np.ndarray:
 
 
 def _lost(column: Column) -> np.ndarray:
-    """What chips have taken of the upper face of every joint (legend of kernels), (n, 6)."""
+    """Loss by chips of the upper face of every joint (legend of kernels), (n, 6)."""
     lost = np.zeros((column.n, CHIPS))
     lost[:, :3] = chip_directions(column)
     for i, drum in enumerate(column.drums):

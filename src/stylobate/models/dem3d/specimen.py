@@ -204,7 +204,7 @@ class FreeBody:
             body["l" + name][1, lane] = momentum[c]
 
     def foot(self, records: Records, lane: int, structure: Specimen) -> np.ndarray:
-        """Where the point of the body is that was under the centroid at rest [m], shape (3,)."""
+        """Place of the point of the body that was under the centroid at rest [m], shape (3,)."""
         axes, up = records.axes(lane)[0], records.vectors(lane, "nx ny nz")[0]
         return records.places(lane)[0] - structure.resting.height * axes @ up
 
@@ -223,7 +223,7 @@ class FreeBody:
         return len(beyond) > 0 and energy < float(rise.max())
 
     def lost(self, collapse: Collapse, structure: Specimen) -> str:
-        """What has come down, in words."""
+        """Fallen bodies, in words."""
         return f"toppled, its tilt is beyond {math.degrees(TOPPLED):.0f}°"
 
 

@@ -1,4 +1,4 @@
-"""What stands, for the engines in the plane and in space: which contacts there are, and where its bodies are at rest."""
+"""Structure for the engines in the plane and in space: which contacts there are, and where its bodies are at rest."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run of drums comes to: its histories, and how well its ledger closes."""
+"""Results of a run of drums: its histories, and the closure of its ledger."""
 
 from __future__ import annotations
 

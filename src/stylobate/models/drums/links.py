@@ -56,7 +56,7 @@ def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
 
 
 def bonds(structure: Structure) -> np.ndarray:
-    """What the links of a structure are in all lanes."""
+    """Constants of the links of a structure in all lanes."""
     links = acting(structure)
     records = np.zeros(len(links), BOND_TYPE)
     if links:
@@ -108,7 +108,7 @@ class LinkStiffness(NamedTuple):
 
 
 def link_stiffness(column: Column) -> LinkStiffness:
-    """How stiff the links are against the drums' masses: an upper bound of what they add to any state of the joints."""
+    """Stiffness of the links against the drums' masses: an upper bound of what they add to any state of the joints."""
     links, n = acting(column), column.n
     if not links:
         return LinkStiffness(0.0, 0.0)
@@ -131,7 +131,7 @@ def link_stiffness(column: Column) -> LinkStiffness:
 
 
 def _square(column: Column, link: PlacedLink, way: np.ndarray) -> np.ndarray:
-    """What a unit of stiffness along a direction adds to the stiffness of the drums."""
+    """Share of a unit of stiffness along a direction in the stiffness of the drums."""
     row = np.zeros(6 * column.n)
     low, high = link.arms
     for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):
@@ -155,7 +155,7 @@ def link_snapshot(records: np.ndarray, lane: int) -> np.ndarray:
 
 
 def link_measures(links: Sequence[PlacedLink], records: Any, lane: int, step: float) -> tuple[LinkMeasures, ...]:
-    """What a run has come to for each of the links, whose records these are; ``step`` is that of time [s]."""
+    """Results of a run for each of the links, whose records these are; ``step`` is that of time [s]."""
     found = []
     for m, link in enumerate(links):
         when = int(records["when"][m, lane])

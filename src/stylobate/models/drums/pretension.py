@@ -1,4 +1,4 @@
-"""What pretension holds at the start, in links and in the joints that they press, and what of it a run has set free."""
+"""Pretension at the start, in links and in the joints that they press, and what of it a run has set free."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ from .bodies import Topology
 #: Records of which every lane has its own numbers from the start.
 OF_A_LANE = ("body", "joint", "lane", "link", "feed", "watch")
 
-#: What a lane is looked at with from the start: nothing has happened.
+#: State of a lane at the start: nothing has happened.
 UNSEEN = {"status": RUNNING, "when": -1, "which": -1, "wide": -1}
 
 

@@ -89,7 +89,7 @@ class LaneRuns:
         raise NotImplementedError
 
     def lost(self, collapse: Collapse, column: Any) -> str:
-        """What has come down, and where to, in words."""
+        """Fallen bodies, and their places, in words."""
         return f"{what_is_lost(collapse, column.n)}, to the {collapse.side}"
 
     def stays(self, lane: int, energy: float) -> bool:
@@ -223,11 +223,11 @@ class LaneRuns:
         return float(self.feed["step"][0, lane]) * self.dt[lane]
 
     def links_now(self, lane: int) -> dict[str, Any]:
-        """What a snapshot keeps of the links, where there are some."""
+        """Links in a snapshot, where there are some."""
         return {"links": link_snapshot(self.link, lane)} if self.tied else {}
 
     def links_done(self, lane: int) -> tuple[LinkMeasures, ...]:
-        """What a lane's run has come to for each link."""
+        """Results of a lane's run for each link."""
         links = acting(self.column(lane)) if self.tied else ()
         return link_measures(links, self.link, lane, float(self.dt[lane]))
 
@@ -240,7 +240,7 @@ class LaneRuns:
         return float(change[1] + change[2] + change[3] + self.rest[lane]) + self.held_by_links(lane)
 
     def begun(self, lane: int, change: np.ndarray) -> float:
-        """What a run started with, for its imbalance: its elastic energy, or what the pose and the velocity hold [J]."""
+        """Energy at the start of a run, for its imbalance: the elastic one, or that of the pose and the velocity [J]."""
         begun = float(self.start[lane, 3])
         if self.options.start is not None:
             begun = max(begun, float(self.start[lane, 1]), abs(float(change[1])))

@@ -1,4 +1,4 @@
-"""What models of stacked drums share that step them explicitly in blocks of lanes: options, time step, runs."""
+"""Common parts of models of stacked drums that step them explicitly in blocks of lanes: options, time step, runs."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class SteppedDrums(Model):
     # -- shared --------------------------------------------------------------------------------------------------
 
     def kind(self, column: Any) -> Any:
-        """What tells which columns can share a block of lanes: which contacts there are."""
+        """Mark of columns that can share a block of lanes: which contacts there are."""
         return Topology.of(column)
 
     def check(self, column: Column, motion: Motion) -> None:

@@ -1,4 +1,4 @@
-"""What bodies in the plane are besides their joints: outlines, the bed between any two, how joints hand over to it."""
+"""Bodies in the plane besides their joints: outlines, the bed between any two, how joints hand over to it."""
 
 from __future__ import annotations
 

@@ -64,7 +64,7 @@ class Records(LaneRecords):
         return float(np.abs(np.concatenate((ax, az, turn))).max())
 
     def edges(self, lane: int) -> np.ndarray:
-        """How far the ends of every joint's upper face are from the centroid's foot on it, at most [m], shape (joints,)."""
+        """Distance of the ends of every joint's upper face from the centroid's foot on it, at most [m], shape (joints,)."""
         return np.maximum(self.joint["bl"][:, lane], self.joint["br"][:, lane])
 
 

@@ -127,7 +127,7 @@ class _ColumnRun:
             watch["amax"][0] = watch["vmax"][0] = 0.0
 
     def look_ahead(self) -> None:
-        """How many chunks the lanes can go on alone; none: the engine takes over."""
+        """Number of chunks that the lanes can go on alone; none: the engine takes over."""
         self.take_over()
         self.ahead = self.engine.chunks_ahead()
         self.loose = self.ahead == 0

@@ -132,7 +132,7 @@ class ColumnLanes(LaneRuns):
         return self.measures(lane, np.abs(self.slips(lane)), residual, self.peak(lane, "turn"))
 
     def slips(self, lane: int) -> np.ndarray:
-        """How far every joint has slipped since the start [m], shape (n,)."""
+        """Slip of every joint since the start [m], shape (n,)."""
         return self.records.joint_state(lane)[1] - self.slip[lane]
 
     def stays(self, lane: int, energy: float) -> bool:

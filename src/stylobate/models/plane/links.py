@@ -46,7 +46,7 @@ def links_at_rest(structure: Structure, body: Any) -> np.ndarray:
 
 
 def stiffness_between(structure: Structure, inverse: np.ndarray) -> LinkStiffness:
-    """How stiff the links are against the bodies' masses.
+    """Stiffness of the links against the bodies' masses.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def stiffness_between(structure: Structure, inverse: np.ndarray) -> LinkStiffnes
 
 
 def _square(link: PlacedLink, way: np.ndarray, count: int) -> np.ndarray:
-    """What a unit of stiffness along a direction adds to the stiffness of the bodies."""
+    """Share of a unit of stiffness along a direction in the stiffness of the bodies."""
     row = np.zeros(count)
     low, high = link.arms
     for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):

@@ -1,4 +1,4 @@
-"""What may come loose, in one lane, until all lies still: an assembly, or a column that is followed to the ground."""
+"""Loose bodies in one lane, until all lies still: an assembly, or a column that is followed to the ground."""
 
 from __future__ import annotations
 
@@ -358,11 +358,11 @@ class Loose:
         return depth
 
     def pose(self) -> dict[str, Any]:
-        """What measures need of the present state; of its ledger the input alone, the first of its terms."""
+        """State for measures; of the ledger the input alone, the first of its terms."""
         b = {name: self.records.body[key][:, 0].copy() for name, key in (("x", "x"), ("z", "z"), ("rotation", "th"))}
         return b | {"time": self.time, "energy": np.array([float(self.records.lane["work"][0, 0]), *[math.nan] * 5])}
 
     def state(self) -> dict[str, Any]:
-        """What a history keeps of the present state."""
+        """Part of the present state in a history."""
         held = {"links": link_snapshot(self.records.link, 0)} if len(self.records.link) else {}
         return self.pose() | held | {"energy": self.energies()}

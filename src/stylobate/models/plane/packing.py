@@ -1,4 +1,4 @@
-"""What stands in the numbers of the engine in the plane: the fields of its records at rest."""
+"""Structure in the numbers of the engine in the plane: the fields of its records at rest."""
 
 from __future__ import annotations
 

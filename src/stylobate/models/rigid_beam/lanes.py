@@ -31,7 +31,7 @@ COST = 2e-7
 
 
 class Loop(NamedTuple):
-    """What the compiled loop is made for: runs that share it share blocks."""
+    """Kind of a compiled loop: runs that share it share blocks."""
 
     drums: int
     steps: int

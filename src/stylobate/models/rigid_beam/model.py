@@ -205,7 +205,7 @@ class RigidBeam(Model):
         return np.array([stiffness, self.xi * ultimate, rise, ultimate, none])
 
     def bed(self, column: Column) -> tuple[float, ...] | bool | None:
-        """What the law of lines or of the bed is chosen by, see ``kernels/rigid_beam/moment_law.py``."""
+        """Choice of the law of lines or of the bed, see ``kernels/rigid_beam/moment_law.py``."""
         if self.moment_law != "winkler":
             return None
         from ...kernels.rigid_beam import moment_law

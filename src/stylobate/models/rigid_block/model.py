@@ -144,7 +144,7 @@ def _pack(column: Column, model: RigidBlock) -> Packed:
 
 
 def _toes(column: Column, strength: float | None) -> np.ndarray:
-    """What joints give with their load on their edge [J], shape (n,); a joint that crushes carries it further in."""
+    """Energy of joints with their load on their edge [J], shape (n,); a joint that crushes carries it further in."""
     kn, km, _ = joint_stiffness(column)
     half = 0.5 * column.joint_widths
     toes = point_toes(column, kn / column.joint_areas, 1.0 / (1.0 + half**2 * kn / km))

@@ -13,7 +13,7 @@ from ...column import Column
 from ...column.links.placed import PlacedLink, stands_at
 from ...errors import InputError
 
-#: What a link does: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
+#: Action of a link: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
 SHEAR, CLOSING, LINE = "shear", "closing", "line"
 
 
@@ -111,7 +111,7 @@ def holds(links: Sequence[PlacedLink]) -> list[Hold]:
 
 
 def stack_links(column: Column) -> tuple[Hold, ...]:
-    """What the links of a column do in the plane of x and z, where its drums are found."""
+    """Links of a column in the plane of x and z, where its drums are found."""
     if not column.links:
         return ()
 
@@ -190,7 +190,7 @@ def _axes(angle: float) -> tuple[np.ndarray, np.ndarray]:
 def _point(
     block: int, place: tuple[float, float], centroid: np.ndarray, moved: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Where a point of a block is [m], and its derivative by the block's coordinates, shape (2, 3)."""
+    """Place of a point of a block [m], and its derivative by the block's coordinates, shape (2, 3)."""
     if block < 0:
         return np.array(place), np.zeros((2, 3))
     x, z, turn = moved[block]

@@ -1,1 +1,1 @@
-"""What all models share: ground motion, energy ledger, stable step, settling, warnings, blocks of lanes."""
+"""Rooms that all models share: ground motion, energy ledger, stable step, settling, warnings, blocks of lanes."""

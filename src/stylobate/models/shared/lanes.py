@@ -259,7 +259,7 @@ class Riders:
         self._riding[lane] = False
 
 
-#: What ends one run of a batch and not the batch.
+#: Ends of one run of a batch and not of the batch.
 NOT_COMPUTED = (InputError, ArithmeticError, np.linalg.LinAlgError)
 
 

@@ -1,4 +1,4 @@
-"""What of a record need not be stepped: the quiet before the shaking, and between and after shocks once all lies at rest.
+"""Quiet of a record: before the shaking, and between and after shocks once all lies at rest.
 
 A joint opens, or slides, at the earliest where the horizontal acceleration a reaches what a static one needs, less what the
 vertical one takes off the weight. The *level* of a motion is its share of that,

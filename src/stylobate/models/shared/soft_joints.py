@@ -1,4 +1,4 @@
-"""What joints may be softest, and steps longest: a column stands on its joints, and a step resolves the motion too."""
+"""Limits of soft joints and long steps: a column stands on its joints, and a step resolves the motion too."""
 
 from __future__ import annotations
 

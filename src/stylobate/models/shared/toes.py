@@ -1,4 +1,4 @@
-"""What joints give when their load stands on their edge: soft joints overturn with less energy than rigid ones."""
+"""Energy of joints when their load stands on their edge: soft joints overturn with less energy than rigid ones."""
 
 from __future__ import annotations
 

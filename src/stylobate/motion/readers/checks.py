@@ -1,4 +1,4 @@
-"""What a header states twice is compared with what was read: counts, steps, lengths, peaks, end marks."""
+"""Values that a header states twice are compared with what was read: counts, steps, lengths, peaks, end marks."""
 
 from __future__ import annotations
 

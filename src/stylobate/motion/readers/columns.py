@@ -152,7 +152,7 @@ def _comment_number(comments: dict[str, str], key: str, file: str) -> float:
 
 
 def _names(table: np.ndarray, header: Header | None, units: list[str] | None, place: str) -> tuple[Name, ...]:
-    """What every column is: as the line above says, else time (known by its growth), then x, y, z."""
+    """Kinds of the columns: as the line above states, else time (known by its growth), then x, y, z."""
     grows = [bool((np.diff(one) >= 0.0).all() and one[-1] > one[0]) for one in table.T]
     columns = len(grows)
     grows = grows if columns > 1 else [False]

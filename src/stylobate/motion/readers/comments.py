@@ -1,4 +1,4 @@
-"""What the lines above columns of numbers say of the record: unit, counts, step; and which line names the columns."""
+"""Facts of the record in the lines above columns of numbers: unit, counts, step; and the line that names the columns."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _PEAK = re.compile(
 )
 _KEYED = re.compile(r"(?P<key>[^\W\d][\w .()/-]*?)\s*[:=]\s*(?P<value>.*)")
 _FORMAT = re.compile(r"\W*\d*\s*[feg]\d+(?:\.\d+)?\W*", re.IGNORECASE)
-#: What the words before a colon tell of a record as a whole, so that its value names no column.
+#: Marks, in the words before a colon, of a record as a whole, so that its value names no column.
 _FACTS = re.compile(
     r"(?:processing\d*|name|title|file(?:name)?|event\w*|earthquake\w*|station\w*|site\w*|network\w*|location|place|"
     r"region|country|instrument\w*|recorder\w*|sensor\w*|serial\w*|source|reference|author|licen[cs]e|terms|stage|filter\w*|"
@@ -52,7 +52,7 @@ _FACTS = re.compile(
 
 @dataclass(frozen=True)
 class Stated:
-    """What the lines above the numbers state, None where they state nothing.
+    """Facts in the lines above the numbers, None where they state nothing.
 
     Parameters
     ----------

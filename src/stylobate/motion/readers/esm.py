@@ -18,7 +18,7 @@ from .numbers import number_in, read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
 
-#: How the keys begin, after ``_`` has become a blank.
+#: Beginnings of the keys, after ``_`` has become a blank.
 _KEYS = {
     "count": re.compile(r"n ?data\b|npts\b|(total )?(number|no\.?|num\.?) of (data|samples|points)\b"),
     "step": re.compile(r"(sampling|sample|time) (interval|period|step)\b|delta t\b|dt\b"),

@@ -34,7 +34,7 @@ _PAIRS = {
 }
 _POINTS = ("NORTH", "SOUTH", "EAST", "WEST")
 _UP = ("Z", "V", "U", "UP", "UD", "VERTICAL")
-#: What is said of a column at most once.
+#: Warnings that a column gets at most once.
 _ONCE = ("time", "quantity", "sign", "unit")
 
 
@@ -52,7 +52,7 @@ class Header:
 
     @property
     def _key(self) -> tuple[str, str]:
-        """What stands before a colon, and the rest."""
+        """Text before a colon, and the rest."""
         key, _, rest = self.line.strip().lstrip(MARKS).strip().replace("=", ":").rpartition(":")
         return key.strip(), rest.strip()
 
@@ -83,7 +83,7 @@ class Header:
 
     @cached_property
     def _meanings(self) -> list[list[tuple[Meaning, ...]]]:
-        """What each word may mean."""
+        """Meanings of each word."""
         parts = [part for word, *_ in self.words for part in re.split(r"[_\-–/.:+]", word)]
         spoken = set().union(*(languages(part) for part in parts if len(part) > 2)) - {"en"}
         return [_meanings_of(word, spoken, inside) for word, _, inside in self.words]
@@ -270,7 +270,7 @@ def _together(labels: list[str]) -> str | None:
 
 
 def _meanings_of(word: str, spoken: set[str], inside: bool) -> list[tuple[Meaning, ...]]:
-    """What a word may mean; its parts too, where signs or strokes join them."""
+    """Meanings of a word; of its parts too, where signs or strokes join them."""
     if inside and word == "t":
         return [(("filler", ""),)]  # a(t)
     if inside and len(folded(word)) == 1 and folded(word) in _NOT_IN_BRACKETS:

@@ -166,7 +166,7 @@ def _beside(source: Source) -> list[Source]:
 
 @contextlib.contextmanager
 def _complaints_raised() -> Iterator[None]:
-    """What ObsPy warns of (records that are cut or skipped, samples that disagree with their checks) is an error.
+    """Warnings of ObsPy (records that are cut or skipped, samples that disagree with their checks) are errors.
 
     The traces that its callbacks print on a damaged header are kept quiet; the error itself comes through.
     """

@@ -1,4 +1,4 @@
-"""What columns of numbers are by their names, and whether these make sense of one place's record together."""
+"""Columns of numbers by their names, and whether these make sense of one place's record together."""
 
 from __future__ import annotations
 
@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 from .record import direction
 from .vocabulary import unit_kind
 
-#: How to name columns, for messages.
+#: Names of columns, for messages.
 EXAMPLE = "name the columns as in time_s,ax_g,ay_g,az_g (z is vertical)"
 
 
 @dataclass(frozen=True)
 class Name:
-    """What a header says of one column.
+    """Header of one column.
 
     Parameters
     ----------

@@ -40,7 +40,7 @@ def number_in(text: str) -> float | None:
 
 
 def count_numbers(line: str) -> int:
-    """How many numbers a line holds that is known to hold nothing else, also where they touch."""
+    """Number of numbers in a line that is known to hold nothing else, also where they touch."""
     return len(_GLUED.sub(" ", line).split())
 
 

@@ -1,4 +1,4 @@
-"""What a file holds before it becomes a motion: components with their direction, and what the header says."""
+"""Contents of a file before it becomes a motion: components with their direction, and the facts of the header."""
 
 from __future__ import annotations
 

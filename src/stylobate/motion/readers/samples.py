@@ -16,7 +16,7 @@ from ...errors import InputError, suggest
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-#: What the path of a sample begins with.
+#: Beginning of the path of a sample.
 PREFIX = "sample:"
 
 
@@ -62,7 +62,7 @@ class Sample:
 
     @property
     def facts(self) -> dict[str, str]:
-        """What is known of the record beside its file."""
+        """Facts of the record beside its file."""
         known = {"event": self.event, "station": self.station, "network": self.network, "terms": self.terms}
         return {key: value for key, value in known.items() if value is not None}
 

@@ -127,7 +127,7 @@ _PREFIXES = {
 _CODE = re.compile(r"[bhec][nlg][nez12]")
 _AZIMUTH = re.compile(r"[ns]\d{1,3}(?:°|deg)?[ew]|\d{3}(?:°|deg)?|\d{1,2}(?:°|deg)")
 
-#: What a word may mean: its kind (``time``, ``quantity``, ``direction``, ``unit``, ``filler``) and which one.
+#: Meaning of a word: its kind (``time``, ``quantity``, ``direction``, ``unit``, ``filler``) and which one.
 Meaning = tuple[str, str]
 
 
@@ -163,7 +163,7 @@ def languages(word: str) -> set[str]:
 
 
 def meanings(word: str, spoken: set[str]) -> list[tuple[Meaning, ...]]:
-    """What a word without separators may mean, each time one or more meanings together; empty where it is unknown.
+    """Meanings of a word without separators, each time one or more together; empty where it is unknown.
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def meanings(word: str, spoken: set[str]) -> list[tuple[Meaning, ...]]:
 
 
 def unit_kind(text: str) -> str:
-    """What a unit measures: ``acceleration``, ``time``, ``velocity``, ``displacement``, or nothing where it is none."""
+    """Dimension of a unit: ``acceleration``, ``time``, ``velocity``, ``displacement``, or nothing where it is none."""
     key = time_unit(text)
     if key is not None:
         return "time"

@@ -1,4 +1,4 @@
-"""What the descendants of Caltech's volume 1 share: blocks of text, integers and reals, then times and accelerations."""
+"""Common form of the descendants of Caltech's volume 1: blocks of text, integers and reals, then times and accelerations."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was fixed by argument, when, and why; read by the computations, the page and the command."""
+"""Choices fixed by argument, when, and why; read by the computations, the page and the command."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ HARD = 0.1
 #: Friction and restitution of the cube as published [-]; stiffness of its face [N/m³].
 CUBE_FRICTION, CUBE_RESTITUTION, CUBE_STIFFNESS = 0.18, 0.125, 4e9
 
-#: What a calibration may choose from.
+#: Choices of a calibration.
 FRICTION_GRID, RESTITUTION_GRID = (0.5, 0.65, 0.8), (0.2, 0.5, 0.8)
 CUBE_FRICTION_GRID, CUBE_RESTITUTION_GRID = (0.12, 0.18, 0.24), (0.05, 0.125, 0.3)
 

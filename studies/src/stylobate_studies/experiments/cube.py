@@ -117,7 +117,7 @@ def compare(toss: Recorded, friction: float, restitution: float) -> dict[str, An
 
 
 def facts(toss: Recorded) -> list[Any]:
-    """What a recorded toss is told from others by, as plain values."""
+    """Marks of a recorded toss among others, as plain values."""
     states = hashlib.sha256(toss.position.tobytes() + toss.orientation.tobytes()).hexdigest()
     return [toss.name, toss.dt, len(toss.position), states]
 
@@ -187,6 +187,6 @@ def scores(table: Any) -> dict[str, Any]:
 
 
 def badness(table: Any) -> float:
-    """What a calibration makes small: the mean over tosses of the position errors after impacts and at rest [widths]."""
+    """Aim of a calibration: the mean over tosses of the position errors after impacts and at rest [widths]."""
     columns = [f"{when}: position [widths]" for when in WHEN if f"{when}: position [widths]" in table]
     return float(np.nanmean(table[columns].to_numpy(dtype=float)))

@@ -34,7 +34,7 @@ class Recorded:
 
 @dataclass
 class Tosses:
-    """What can be used of a file, and what cannot."""
+    """Usable and refused parts of a file."""
 
     tosses: list[Recorded] = field(default_factory=list)
     refused: list[str] = field(default_factory=list)

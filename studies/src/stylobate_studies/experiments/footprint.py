@@ -45,7 +45,7 @@ def directions() -> np.ndarray:
 
 
 def support(vertices: np.ndarray, along: np.ndarray) -> np.ndarray:
-    """How far a body reaches in some directions [m]."""
+    """Reach of a body in some directions [m]."""
     return (along @ vertices.T).max(axis=1)
 
 

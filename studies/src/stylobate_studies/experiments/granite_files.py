@@ -66,7 +66,7 @@ class Test:
 
 @dataclass
 class Granite:
-    """What can be used of a folder, and what cannot."""
+    """Usable and refused parts of a folder."""
 
     scans: dict[str, Scan] = field(default_factory=dict)
     tests: list[Test] = field(default_factory=list)

@@ -1,4 +1,4 @@
-"""How good predictions of toppled or not are: shares, Matthews coefficient, Brier score, fragility, reliability."""
+"""Quality of predictions of toppled or not: shares, Matthews coefficient, Brier score, fragility, reliability."""
 
 from __future__ import annotations
 

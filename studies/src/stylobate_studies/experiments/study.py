@@ -18,7 +18,7 @@ from . import cube, granite
 from .cube_files import Tosses, read_tosses
 from .granite_files import Granite, read_granite
 
-#: What a folder of each experiment must hold.
+#: Contents of a folder of each experiment.
 MARKS = {"granite": "specimens.json", "cube": "tosses.npz"}
 
 #: Called with a title; gives what reports progress.

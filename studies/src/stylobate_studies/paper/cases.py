@@ -1,4 +1,4 @@
-"""What the study computes: columns, models, motions, grids, and the parameters that the paper leaves open."""
+"""Computations of the study: columns, models, motions, grids, and the parameters that the paper leaves open."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ SLOW_VARIANTS = ("DEM, five points", "DEM, β = 0.1 ms", "beam, β = 0.1 ms", "D
 
 @dataclass(frozen=True)
 class Grids:
-    """How fine the study is.
+    """Fineness of the study.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What the paper concludes (its section 4 and its abstract)."""
+"""Conclusions of the paper (its section 4 and its abstract)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How sure a verdict is: the same question asked with half of the time step, and of slightly different columns."""
+"""Certainty of a verdict: the same question asked with half of the time step, and of slightly different columns."""
 
 from __future__ import annotations
 

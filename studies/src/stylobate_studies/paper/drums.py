@@ -1,4 +1,4 @@
-"""What the paper says of the column of drums under harmonic motion (its section 3.2)."""
+"""Sentences of the paper on the column of drums under harmonic motion (its section 3.2)."""
 
 from __future__ import annotations
 

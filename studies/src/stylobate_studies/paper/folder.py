@@ -21,7 +21,7 @@ from stylobate.version import __version__
 
 from . import cases as c
 
-#: What the list of own files says that the folder is for.
+#: Line of the list of own files that tells the folder's purpose.
 KIND = "study of the paper"
 
 #: Folders in it.

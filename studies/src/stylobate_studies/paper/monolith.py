@@ -1,4 +1,4 @@
-"""What the paper says of the monolithic column under harmonic motion (its section 3.1, and 2.2)."""
+"""Sentences of the paper on the monolithic column under harmonic motion (its section 3.1, and 2.2)."""
 
 from __future__ import annotations
 

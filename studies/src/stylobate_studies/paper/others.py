@@ -1,4 +1,4 @@
-"""What others found of columns in space, beside what this package computes: four sentences."""
+"""Findings of others of columns in space, beside what this package computes: four sentences."""
 
 from __future__ import annotations
 

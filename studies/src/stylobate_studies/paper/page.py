@@ -130,7 +130,7 @@ FILES = Points(
 
 
 def in_short(results: PaperResults, rows: Sequence[Statement]) -> list[str]:
-    """What a reader in a hurry should know."""
+    """Summary for a reader in a hurry."""
     count = Counter(row.verdict for row in rows)
     failed = "; ".join(row.sentence.rstrip(".") for row in rows if row.verdict == FAILS)
     shares = {
@@ -153,7 +153,7 @@ def in_short(results: PaperResults, rows: Sequence[Statement]) -> list[str]:
 
 
 def chosen(grids: Grids) -> Rows:
-    """What the paper leaves open, and what was chosen here."""
+    """Points that the paper leaves open, and the choices made here."""
     f = ", ".join(f"{one:g}" for one in FREQUENCIES)
     a = ", ".join(f"{one / g:g}" for one in AMPLITUDES)
     fine = (
@@ -176,7 +176,7 @@ def chosen(grids: Grids) -> Rows:
 
 
 def doubt_rows(results: PaperResults) -> Rows:
-    """How far verdicts can be relied on, in numbers."""
+    """Reliability of verdicts, in numbers."""
     columns = [_doubt_column(doubt) for doubt in results.doubts.values()]
     body = [(what, *(column[what] for column in columns)) for what in columns[0]]
     return Rows(("distinct elements", *(NAMES[name] for name in results.doubts)), body, numbers=True)
@@ -204,7 +204,7 @@ def _doubt_column(doubt: Doubt) -> dict[str, str]:
 
 
 def space_table(results: PaperResults) -> Rows:
-    """What the plane says of round columns, against space."""
+    """Round columns in the plane, against space."""
     header, body = space_rows(results)
     note = "A cell counts as standing or falling in the plane where all variations agree."
     return Rows(header, [(NAMES[name], *rest) for name, *rest in body], note, numbers=True)

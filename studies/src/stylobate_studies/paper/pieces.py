@@ -142,7 +142,7 @@ def histories_piece(
 
 
 def cost_piece(data: Path) -> dict[str, float]:
-    """What two seconds of a shaken column of drums cost each model in a batch on one core [s]."""
+    """Time of each model for two seconds of a shaken column of drums in a batch on one core [s]."""
     place = data / "cost.json"
     if not is_ready(place):
         shaking = [harmonic(1.5, amplitude, 2.0) for amplitude in np.linspace(0.25, 0.3, 16) * g]

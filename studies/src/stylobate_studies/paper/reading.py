@@ -17,7 +17,7 @@ from .study import PaperResults
 
 HOLDS, CHOICES, FAILS = "holds", "holds under stated choices", "does not hold"
 
-#: What the verdicts mean, for the page and the documentation.
+#: Meanings of the verdicts, for the page and the documentation.
 MEANINGS = {
     HOLDS: "our value meets the criterion that the row states, with the choices of this study where the paper is silent",
     CHOICES: "it does so for some value of a parameter that the paper leaves open, for one of the two columns, or by one "

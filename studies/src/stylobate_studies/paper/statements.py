@@ -1,4 +1,4 @@
-"""What the paper says, sentence by sentence, beside what this package computes."""
+"""Sentences of the paper, one by one, beside what this package computes."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def statements(results: PaperResults) -> list[Statement]:
 
 
 def place(section: str) -> str:
-    """Where the paper says it, for a reader."""
+    """Place in the paper, for a reader."""
     return f"§{section}" if section[0].isdigit() else section
 
 

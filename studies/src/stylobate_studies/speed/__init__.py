@@ -1,1 +1,1 @@
-"""How fast the engines are on this machine."""
+"""Speed of the engines on this machine."""

@@ -1,4 +1,4 @@
-"""How fast the distinct elements are on this machine, beside the same step in native code, in one run."""
+"""Speed of the distinct elements on this machine, beside the same step in native code, in one run."""
 
 from __future__ import annotations
 
