@@ -41,8 +41,8 @@ def of_levels(levels: Sequence[float] | np.ndarray, verdicts: Sequence[str]) -> 
     """Capacity on rising levels; what is undecided or failed below the first collapse may be one, and widens it."""
     high = v.first_collapse(np.asarray(levels), verdicts)
     low = 0.0
-    for level, one in zip(levels, verdicts):
-        if one != v.STANDS:
+    for level, verdict in zip(levels, verdicts):
+        if verdict != v.STANDS:
             break
         low = float(level)
     return Capacity(low, math.inf if high is None else high)

@@ -92,7 +92,7 @@ class Population:
             fell = bool(row["collapsed"])
             return fell, -row["collapse_time_s"] if fell else abs(row["peak_top_displacement_m"])
 
-        sound = [i for i, one in enumerate(self.verdicts) if one != v.FAILED]
+        sound = [i for i, verdict in enumerate(self.verdicts) if verdict != v.FAILED]
         return sorted(sound, key=harm)
 
     @property
@@ -130,17 +130,17 @@ class Population:
     def columns(self) -> dict[str, Any]:
         """Certainty of the verdict, as columns of a table; displacements that a share of the twins does not exceed."""
         low, high = self.interval
-        found: dict[str, Any] = {
+        columns: dict[str, Any] = {
             "collapse_probability": self.probability,
             "collapse_interval_low": low,
             "collapse_interval_high": high,
             "replicates": len(self.rows),
         }
-        found |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
+        columns |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
         spread = self.spread["peak_top_displacement_m"]
         for i, share in enumerate((16, 50, 84)):
-            found[f"peak_top_displacement_{share}_m"] = None if spread is None else spread[i]
-        return found
+            columns[f"peak_top_displacement_{share}_m"] = None if spread is None else spread[i]
+        return columns
 
     def beside(self, run: Mapping[str, Any]) -> str:
         """Caveat on a run that is no example of its twins; empty where it is one.
@@ -152,7 +152,9 @@ class Population:
         """
         if said := set_against(run, self.counts, self.confidence):
             return said
-        stood = [abs(row["peak_top_displacement_m"]) for row, one in zip(self.rows, self.verdicts) if one == v.STANDS]
+        stood = [
+            abs(row["peak_top_displacement_m"]) for row, verdict in zip(self.rows, self.verdicts) if verdict == v.STANDS
+        ]
         own = run.get("peak_top_displacement_m")
         if run["collapsed"] or own is None or len(stood) < ENOUGH or min(stood) <= abs(own) <= max(stood):
             return ""
@@ -191,7 +193,7 @@ class Population:
         return counts[v.COLLAPSED], counts[v.STANDS], counts[v.UNDECIDED]
 
     def _percentiles(self, name: str) -> list[float] | None:
-        sound = [row for row, one in zip(self.rows, self.verdicts, strict=True) if one != v.FAILED]
+        sound = [row for row, verdict in zip(self.rows, self.verdicts, strict=True) if verdict != v.FAILED]
         values = np.array([np.inf if row["collapsed"] else abs(row[name]) for row in sound])
         if not len(values):
             return None
@@ -222,7 +224,7 @@ class Certainty:
         """What happened, how sure that is, and why it may be otherwise in space."""
         beside = self.population.beside(self.response.summary())
         parts = (self.response.sentence, self.population.sentence, beside, doubt_of(self.response))
-        return " ".join(one for one in parts if one)
+        return " ".join(part for part in parts if part)
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate run``."""
@@ -329,8 +331,8 @@ def certainty(
         column, motion, model, tail=tail, output_interval=output_interval, until_end=until_end, until_rest=until_rest,
         twins=riding, quiet=quiet, progress=campaign.progress,
     )  # fmt: skip
-    rows = [one.row() for one in response.twins]
-    rows += batch([Case(one, motion) for one in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
+    rows = [twin.row() for twin in response.twins]
+    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail))
     return Certainty(response, population, time.perf_counter() - began)
 

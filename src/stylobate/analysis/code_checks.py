@@ -88,7 +88,7 @@ class CodeCheck:
             "displacement_factor": d.factor,
             "secant_period_s": d.period,
             "participation": d.participation,
-            "coefficients": [one._asdict() for one in self.coefficients],
+            "coefficients": [coefficient._asdict() for coefficient in self.coefficients],
             "left_out": list(self.left_out),
             "sentence": self.sentence,
         }

@@ -43,8 +43,8 @@ class Comparison:
         import pandas
 
         rows = [
-            {"model": label, **one.measures.row(), "wall_s": one.wall_time}
-            for label, one in zip(self.labels, self.responses, strict=True)
+            {"model": label, **response.measures.row(), "wall_s": response.wall_time}
+            for label, response in zip(self.labels, self.responses, strict=True)
         ]
         return pandas.DataFrame(rows)
 
@@ -136,7 +136,7 @@ def compare_models(
     what |= {"quiet": quiet} if quiet else {}
     hashers = [Hasher(model, campaign.tail) for model in models]
     same = [hasher.of_product(what, __file__) for hasher in hashers]
-    places = [one.name for one in files] or [""] * len(models)
+    places = [file.name for file in files] or [""] * len(models)
     each = [hasher.of_product([what, place], __file__) for hasher, place in zip(hashers, places, strict=True)]
     options = run_options(campaign.tail, output_interval, quiet=quiet)
     groups = [(np.array([number]), model, options) for number, model in enumerate(models)]

@@ -137,11 +137,11 @@ class ContactProgramme:
             for place in corners:
                 for way in ways if rim.friction > 0.0 else ways[:1]:
                     self.press(rim, place, way)
-        for k, one in enumerate(self.holders):
-            if one.axes.shape[1] == 1:
+        for k, holder in enumerate(self.holders):
+            if holder.axes.shape[1] == 1:
                 self.hold(k, np.ones(1))
                 continue
-            first = math.atan2(*(one.axes.T @ push)[::-1])
+            first = math.atan2(*(holder.axes.T @ push)[::-1])
             for i in range(WAYS):
                 self.hold(k, _way(first + 2.0 * math.pi * i / WAYS))
 
@@ -150,7 +150,7 @@ class ContactProgramme:
     @property
     def capacities(self) -> np.ndarray:
         """Of the holders [N]."""
-        return np.array([one.capacity for one in self.holders])
+        return np.array([holder.capacity for holder in self.holders])
 
     def converged(self, dead: np.ndarray, live: np.ndarray, capacity: np.ndarray, enough: float = math.inf) -> Solved:
         """The answer of the programme for capacities of the holders [N]: it grows until its bounds have met.
@@ -211,7 +211,7 @@ class ContactProgramme:
             if found.status in (0, 3):
                 break
         if found.status == 3:
-            endless = [one.name for one in self.holders if one.capacity == math.inf]
+            endless = [holder.name for holder in self.holders if holder.capacity == math.inf]
             if not endless:
                 raise InputError(f"{self.name} bears any push in this direction: fixed bodies hold it.")
             raise InputError(
@@ -233,7 +233,7 @@ class ContactProgramme:
         """All that can act as columns, shape (6 n, columns)."""
         from scipy.sparse import csc_array
 
-        pointer = np.cumsum([0, *(len(one) for one in self.rows)])
+        pointer = np.cumsum([0, *(len(row) for row in self.rows)])
         entries = np.concatenate(self.columns), np.concatenate(self.rows)
         return csc_array((*entries, pointer), (6 * self.n, len(self.rows)))
 
@@ -288,23 +288,25 @@ class ContactProgramme:
                 out[3 * j + 2, 6 * body + 3 : 6 * body + 6] = sign * rim.half / self.length * rim.frame[:, 2]
         return csr_array(out)
 
-    def _strain_rate(self, one: Holder, rates: np.ndarray) -> np.ndarray:
+    def _strain_rate(self, holder: Holder, rates: np.ndarray) -> np.ndarray:
         """Velocity of the upper end of a holder from its lower one, along its axes."""
-        return one.axes.T @ (self.velocity(one.upper, one.high, rates) - self.velocity(one.lower, one.low, rates))
+        return holder.axes.T @ (
+            self.velocity(holder.upper, holder.high, rates) - self.velocity(holder.lower, holder.low, rates)
+        )
 
-    def _grow(self, found: Solved, capacity: np.ndarray) -> float:
+    def _grow(self, solved: Solved, capacity: np.ndarray) -> float:
         """Add what the mechanism works against; how far the multiplier may be below the largest one, at most [g]."""
         most = 1.0 + float(capacity[np.isfinite(capacity)].sum()) / self.weight
-        gap, rates, prices = 0.0, found.rates, found.prices
+        gap, rates, prices = 0.0, solved.rates, solved.prices
         for rim in self.rims:
             power, places, ways = self._worst(rim, rates)
             gap += most * max(-float(power.min()), 0.0)
             for i in np.flatnonzero(power < 0.0):
                 self.press(rim, places[i], ways[i])
-        for k, one in enumerate(self.holders):
-            if one.axes.shape[1] == 1:
+        for k, holder in enumerate(self.holders):
+            if holder.axes.shape[1] == 1:
                 continue
-            speed = self._strain_rate(one, rates)
+            speed = self._strain_rate(holder, rates)
             size = float(np.hypot(*speed))
             short = size - prices[k]
             if short > 0.0 and size > 0.0:
@@ -315,7 +317,7 @@ class ContactProgramme:
     def _worst(self, rim: Rim, rates: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Least powers of a unit of pressure on a rim, where they are, and the directions of its friction."""
         ends = np.array([(0.0, 0.0), (1.0, 0.0), (0.0, 1.0)])
-        speeds = np.array([rim.frame.T @ self._apart(rim, rim.in_space(one), rates) for one in ends])
+        speeds = np.array([rim.frame.T @ self._apart(rim, rim.in_space(end), rates) for end in ends])
 
         def at(places: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
             speed = speeds[0] + places @ (speeds[1:] - speeds[0])

@@ -331,9 +331,9 @@ def sweep(
     return results, time.perf_counter() - started
 
 
-def _with_own(grid: np.ndarray, one: Shaken) -> np.ndarray:
+def _with_own(grid: np.ndarray, shaken: Shaken) -> np.ndarray:
     """The grid with the amplitude that a record has as it is, unless that is beyond the grid's end."""
-    return np.union1d(grid, [one.as_is]) if one.recorded and one.as_is <= grid[-1] else grid
+    return np.union1d(grid, [shaken.as_is]) if shaken.recorded and shaken.as_is <= grid[-1] else grid
 
 
 def amplitude_grid(start: float, stop: float, step: float) -> np.ndarray:

@@ -71,12 +71,12 @@ class CriticalPopulation:
     @property
     def capacities(self) -> list[Capacity]:
         """Between which amplitudes the first collapse of each twin lies [m/s²]."""
-        return [of_levels(self.amplitudes, list(one)) for one in self.verdicts]
+        return [of_levels(self.amplitudes, list(verdict)) for verdict in self.verdicts]
 
     @property
     def critical(self) -> np.ndarray:
         """Smallest amplitude that collapses each twin [m/s²], shape (twins,); infinite where none of the grid does."""
-        return np.array([one.high for one in self.capacities])
+        return np.array([capacity.high for capacity in self.capacities])
 
     @property
     def factors(self) -> np.ndarray | None:

@@ -44,47 +44,50 @@ class CriticalSuite:
     def amplitudes(self) -> np.ndarray:
         """Peak accelerations along x of every record [m/s²], shape (A,): the grid."""
         common = self.results[0].amplitudes
-        for one in self.results[1:]:
-            common = np.intersect1d(common, one.amplitudes)
+        for result in self.results[1:]:
+            common = np.intersect1d(common, result.amplitudes)
         return common
 
     @property
     def verdicts(self) -> np.ndarray:
         """Verdicts by record on that grid, shape (records, A)."""
         return np.array(
-            [np.array(one.verdicts)[np.isin(one.amplitudes, self.amplitudes)] for one in self.results], dtype=object
+            [np.array(result.verdicts)[np.isin(result.amplitudes, self.amplitudes)] for result in self.results],
+            dtype=object,
         )
 
     @property
     def critical(self) -> float | None:
         """Smallest amplitude at which some record collapses the column [m/s²]; None when none does."""
-        return min((one.critical for one in self.results if one.critical is not None), default=None)
+        return min((result.critical for result in self.results if result.critical is not None), default=None)
 
     @property
     def critical_factor(self) -> float | None:
         """Smallest factor by which some motion collapses the column [-]; None when none does."""
-        return min((one.critical_factor for one in self.results if one.critical_factor is not None), default=None)
+        return min(
+            (result.critical_factor for result in self.results if result.critical_factor is not None), default=None
+        )
 
     @property
     def worst(self) -> CriticalAmplitude | None:
         """The motion that collapses the column, or one of its twins, at the smallest factor; None when none does."""
-        fell = [one for one in self.results if one.lowest_factor is not None]
+        fell = [result for result in self.results if result.lowest_factor is not None]
         return min(fell, key=lambda one: one.lowest_factor or math.inf, default=None)
 
     @property
     def open_below(self) -> int:
         """Number of runs under all motions without a verdict at smaller factors than that; any may be a collapse."""
         factor = math.inf if self.worst is None else self.worst.lowest_factor or math.inf
-        return sum(one.without_verdict(factor * (one.nominal or math.inf)) for one in self.results)
+        return sum(result.without_verdict(factor * (result.nominal or math.inf)) for result in self.results)
 
     @property
     def compass(self) -> Compass:
         """Factor at which the column, or one of its twins, first collapses, by direction; the smallest of all records."""
         found: dict[float, float] = {}
-        for one in self.results:
-            at = bearing(direction_of(one.motion))
+        for result in self.results:
+            at = bearing(direction_of(result.motion))
             if at is not None:
-                factor = math.inf if one.lowest_factor is None else one.lowest_factor
+                factor = math.inf if result.lowest_factor is None else result.lowest_factor
                 found[at] = min(factor, found.get(at, math.inf))
         bearings = sorted(found)
         like = "" if self.results[0].population is None else " or one like it"
@@ -95,7 +98,7 @@ class CriticalSuite:
     @property
     def all_collapse_above(self) -> float | None:
         """Smallest amplitude from which on every record collapses the column [m/s²], or None."""
-        found = [one.all_collapse_above for one in self.results]
+        found = [result.all_collapse_above for result in self.results]
         return None if None in found else max(one for one in found if one is not None)
 
     @property
@@ -111,7 +114,7 @@ class CriticalSuite:
         """One row per motion: its own peak, the critical amplitude, and how many runs came to which verdict."""
         import pandas
 
-        rows = [_row(one) for one in self.results]
+        rows = [_row(result) for result in self.results]
         for row in rows:
             row["bounds"] = "; ".join(f"{name} {one}" for name, one in row["bounds"].items())
         return pandas.DataFrame(rows)
@@ -123,27 +126,27 @@ class CriticalSuite:
 
         return pandas.DataFrame(
             [
-                {**_named(one), "amplitude_g": a / g, "verdict": verdict, **row}
-                for one in self.results
-                for a, verdict, row in zip(one.amplitudes, one.verdicts, one.rows)
+                {**_named(result), "amplitude_g": a / g, "verdict": verdict, **row}
+                for result in self.results
+                for a, verdict, row in zip(result.amplitudes, result.verdicts, result.rows)
             ]
         )
 
     def summary(self) -> dict:
         """The JSON object of ``stylobate critical`` for a folder of records."""
-        counts = v.count([verdict for one in self.results for verdict in one.verdicts])
-        twins = [one.population.verdicts.ravel() for one in self.results if one.population is not None]
+        counts = v.count([verdict for result in self.results for verdict in result.verdicts])
+        twins = [result.population.verdicts.ravel() for result in self.results if result.population is not None]
         critical, above, worst = (
             self.critical,
             self.all_collapse_above,
             None if self.worst is None else _row(self.worst),
         )
-        lowest = min((one.lowest for one in self.results if one.lowest is not None), default=None)
+        lowest = min((result.lowest for result in self.results if result.lowest is not None), default=None)
         found = {
             "critical_g": None if critical is None else critical / g,
             "first_collapse_g": None if critical is None else critical / g,
             "all_collapse_above_g": None if above is None else above / g,
-            "runs": sum(len(one.rows) for one in self.results),
+            "runs": sum(len(result.rows) for result in self.results),
             **{one: counts[one] for one in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
             "critical_factor": self.critical_factor,
             "lowest_collapse_g": None if lowest is None else lowest / g,
@@ -152,7 +155,7 @@ class CriticalSuite:
             "certainty": v.count(np.concatenate(twins)) if twins else None,
             "amplitudes_g": (self.amplitudes / g).tolist(),
             "share_collapsed": self.share_collapsed.tolist(),
-            "records": [_row(one) for one in self.results],
+            "records": [_row(result) for result in self.results],
             "worst": worst,
             "wall_s": self.wall_time,
             "model": self.results[0].model,
@@ -202,26 +205,26 @@ def critical_suite(
     return CriticalSuite(tuple(results), wall)
 
 
-def _named(one: CriticalAmplitude) -> dict[str, str]:
+def _named(amplitude: CriticalAmplitude) -> dict[str, str]:
     """The record, the same for all its directions and signs, and the motion that is made of it."""
-    return {"record": record_of(one.motion), "motion": one.motion.name}
+    return {"record": record_of(amplitude.motion), "motion": amplitude.motion.name}
 
 
-def _row(one: CriticalAmplitude) -> dict[str, Any]:
-    critical, above, counts = one.critical, one.all_collapse_above, one.counts
+def _row(amplitude: CriticalAmplitude) -> dict[str, Any]:
+    critical, above, counts = amplitude.critical, amplitude.all_collapse_above, amplitude.counts
     return {
-        **_named(one),
-        "pga_g": one.motion.pga / g,
-        "pgv_m_s": one.motion.pgv,
+        **_named(amplitude),
+        "pga_g": amplitude.motion.pga / g,
+        "pgv_m_s": amplitude.motion.pgv,
         "critical_g": None if critical is None else critical / g,
-        "critical_factor": one.critical_factor,
+        "critical_factor": amplitude.critical_factor,
         "all_collapse_above_g": None if above is None else above / g,
-        "as_recorded": (one.as_recorded or {}).get("verdict"),
-        **direction_of(one.motion),
+        "as_recorded": (amplitude.as_recorded or {}).get("verdict"),
+        **direction_of(amplitude.motion),
         **{name: counts[name] for name in (v.COLLAPSED, v.STANDS, v.UNDECIDED, v.FAILED)},
-        **({} if one.population is None else one.population.percentiles),
-        "lowest_collapse_g": None if one.lowest is None else one.lowest / g,
-        "lowest_collapse_factor": one.lowest_factor,
-        "open_below": one.open_below,
-        "bounds": one.bounds | ({} if one.population is None else one.population.bounds),
+        **({} if amplitude.population is None else amplitude.population.percentiles),
+        "lowest_collapse_g": None if amplitude.lowest is None else amplitude.lowest / g,
+        "lowest_collapse_factor": amplitude.lowest_factor,
+        "open_below": amplitude.open_below,
+        "bounds": amplitude.bounds | ({} if amplitude.population is None else amplitude.population.bounds),
     }

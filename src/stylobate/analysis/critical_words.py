@@ -41,14 +41,14 @@ def sentence(s: Mapping[str, Any], kind: str = "column") -> str:
 def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
     """Results of several motions over one grid of peaks; ``s`` as of :func:`sentence`, for several motions."""
     rows, worst, twins = s["records"], s["worst"], s["certainty"]
-    records, like = len({one["record"] for one in rows}), " or one like it" if twins else ""
+    records, like = len({row["record"] for row in rows}), " or one like it" if twins else ""
     what, of = ("record", "") if records == len(rows) else ("motion", f" of {records} record{'s' * (records > 1)}")
     grid = f"{s['amplitudes_g'][0]:g} to {s['amplitudes_g'][-1]:g} g"
     if worst is None:
         surely = "surely " * bool(s["open_below"])
         words = f"No {what}{of} {surely}collapses the {kind}{like} at a peak looked at, {grid}."
     else:
-        fell = [sum(one[name] is not None for one in rows) for name in ("critical_g", "lowest_collapse_g")]
+        fell = [sum(row[name] is not None for row in rows) for name in ("critical_g", "lowest_collapse_g")]
         already = "already " * ("lowest_collapse_g" in worst["bounds"])
         words = (
             f"{fell[0]} of {len(rows)} {what}s{of} collapse the {kind} at some peak looked at, {grid}"
@@ -99,13 +99,13 @@ def _by(twins: Mapping[str, Any], name: str) -> str:
 def _alone(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any] | None) -> str:
     """At which amplitudes the column itself falls, and at which larger ones it stands again."""
     first, stretches = s["critical_g"], s["alternation"]
-    without = [one for one in stretches if one["verdict"] not in (v.STANDS, v.COLLAPSED)]
+    without = [stretch for stretch in stretches if stretch["verdict"] not in (v.STANDS, v.COLLAPSED)]
     before = sum(one["runs"] for one in without if first is None or one["to_g"] < first)
     if first is None:
         if not twins:
             return _none(s, f"the {kind}", before)
         return "" if s["lowest_collapse_g"] is None else _none(s, "this one", before)
-    after = [one for one in stretches if one["from_g"] > first and one["verdict"] != v.COLLAPSED]
+    after = [stretch for stretch in stretches if stretch["from_g"] > first and stretch["verdict"] != v.COLLAPSED]
     there = twins and first == s["lowest_collapse_g"]
     words = "This one falls there" if there else f"{'This one' if twins else f'The {kind}'} collapses {_at(s, first)}"
     if again := [one for one in after if one["verdict"] == v.STANDS]:

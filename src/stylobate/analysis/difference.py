@@ -35,14 +35,16 @@ def round_drums(columns: Sequence[Structure], model: Model) -> str:
     """Caveat before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
     if not model.is_plane(model.parameters()):
         return ""
-    return next((round_in_the_plane(one) for one in columns if one.stack is not None and one.stack.n > 1), "")
+    return next(
+        (round_in_the_plane(column) for column in columns if column.stack is not None and column.stack.n > 1), ""
+    )
 
 
 def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
     """Caveat before any advice on these states, because of the model; empty where nothing does."""
-    if not model.is_plane(model.parameters()) or all(one.section != "circular" for one in columns):
+    if not model.is_plane(model.parameters()) or all(column.section != "circular" for column in columns):
         return ""
-    return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(one not in NO_MEASURE for one in labels) + "."
+    return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(label not in NO_MEASURE for label in labels) + "."
 
 
 def reference(labels: Sequence[str], label: str) -> str:

@@ -66,7 +66,7 @@ def table_of_runs(rows: Sequence[Mapping[str, Any]]) -> pandas.DataFrame:
     """A row per run, of what a person compares; columns that are empty are left out."""
     import pandas
 
-    table = pandas.DataFrame([{**one, "undecided": "undecided" * (v.verdict(one) == v.UNDECIDED)} for one in rows])
+    table = pandas.DataFrame([{**row, "undecided": "undecided" * (v.verdict(row) == v.UNDECIDED)} for row in rows])
     return table.filter(list(SHOWN)).replace("", None).dropna(axis="columns", how="all")
 
 

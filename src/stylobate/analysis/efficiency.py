@@ -128,7 +128,7 @@ def _p_value(runs: pandas.DataFrame, other: str, logarithm: bool, names: np.ndar
     if other not in runs:
         return math.nan
     of_record = dict(zip(runs["record"].astype(str), runs[other].to_numpy(dtype=float)))
-    x = np.array([of_record.get(str(one), math.nan) for one in names])
+    x = np.array([of_record.get(str(name), math.nan) for name in names])
     x = np.log(np.where(x > 0.0, x, math.nan)) if logarithm else x
     known = np.isfinite(x)
     if np.count_nonzero(known) < FEWEST or np.ptp(x[known]) == 0.0:

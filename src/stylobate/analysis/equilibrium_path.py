@@ -319,7 +319,7 @@ class EquilibriumPath:
             stop=stop,
             geometric=self.geometric,
             arms=self.height - self.stack.joint[:, 1],
-            links=tuple((one.name, one.action) for one in self.stack.links),
+            links=tuple((link.name, link.action) for link in self.stack.links),
             link_force=np.array(self.link_forces).reshape(len(self.kept), len(self.stack.links)),
         )
 

@@ -97,7 +97,7 @@ def table_of(source: str | Path) -> Path:
     place = Path(source)
     if not place.is_dir():
         return place
-    found = next((place / one for one in TABLES if (place / one).is_file()), None)
+    found = next((place / table for table in TABLES if (place / table).is_file()), None)
     if found is None:
         raise InputError(
             f"{shown(place)} holds no table of runs ({', '.join(TABLES)}); give the folder of a study, an IDA, a "
@@ -251,13 +251,13 @@ def evidence(
 def _rivals(table: pandas.DataFrame, measure: IntensityMeasure) -> list[str]:
     """Columns besides ``im`` that may be the measure as well: of its kind in no unit that is known, or of none."""
     stem = measure.name.replace(":", "_").replace("@", "_")
-    names = [str(one) for one in table.columns]
-    return [one for one in names if one in UNNAMED or one == stem or one.startswith(f"{stem}_")]
+    names = [str(column) for column in table.columns]
+    return [name for name in names if name in UNNAMED or name == stem or name.startswith(f"{stem}_")]
 
 
 def _remedy(table: pandas.DataFrame, measure: IntensityMeasure | None) -> str:
     """Remedies where a table has not the intensity that is asked for."""
-    unnamed = [str(one) for one in table.columns if one in UNNAMED]
+    unnamed = [str(column) for column in table.columns if column in UNNAMED]
     if unnamed:
         alike = measure is not None and ENDS[measure.unit] == unnamed[0].removeprefix("im")
         key = measure.key if measure is not None and alike else UNNAMED[unnamed[0]]
@@ -311,11 +311,11 @@ def _plain_codes(table: pandas.DataFrame, state: LimitState, name: str) -> np.nd
     words = {"1": EXCEEDED, "0": NOT_EXCEEDED, "1.0": EXCEEDED, "0.0": NOT_EXCEEDED, "true": EXCEEDED,
              "false": NOT_EXCEEDED, "": OPEN, "failed": FAILED}  # fmt: skip
     values, missing = table["collapsed"].tolist(), table["collapsed"].isna().tolist()
-    texts = ["" if gone else str(one).strip().lower() for one, gone in zip(values, missing)]
-    strange = [one for one in texts if one not in words]
+    texts = ["" if gone else str(value).strip().lower() for value, gone in zip(values, missing)]
+    strange = [text for text in texts if text not in words]
     if strange:
         raise InputError(f"'collapsed' of {name} is {strange[0]!r}; allowed is 0, 1, or nothing where it is undecided.")
-    return np.array([words[one] for one in texts], dtype=np.int8)
+    return np.array([words[text] for text in texts], dtype=np.int8)
 
 
 def intervals(evidence: Evidence, codes: np.ndarray, method: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -188,7 +188,7 @@ class Fragility:
             low, high = plausible.min(), max(high, plausible.max())
         else:
             low, high = self.limits(math.log(self.beta), samples, plausible)
-        ends = [(0.0, math.inf) if one is None else one.beta_interval for one in self.ends]
+        ends = [(0.0, math.inf) if end is None else end.beta_interval for end in self.ends]
         return min([math.exp(low), *(one for one, _ in ends)]), max([math.exp(high), *(one for _, one in ends)])
 
     def limits(self, best: float, samples: np.ndarray, plausible: np.ndarray) -> tuple[float, float]:
@@ -277,7 +277,7 @@ class Fragility:
             "sentence": self.sentence,
             "points": [
                 {"im": x, "share": s, "low": a, "high": b, "records": n}
-                for x, s, a, b, n in zip(*(one.tolist() for one in vars(self.points).values()), strict=True)
+                for x, s, a, b, n in zip(*(var.tolist() for var in vars(self.points).values()), strict=True)
             ],
         }
 

@@ -134,14 +134,14 @@ def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Ha
     lines = [line.strip() for line in text.replace("\r", "").split("\n") if line.strip()]
     comments = [line for line in lines if line.startswith("#")]
     lines = [line for line in lines if not line.startswith("#")]
-    head = [one.strip().strip('"') for one in lines[0].split(",")] if lines else []
+    head = [part.strip().strip('"') for part in lines[0].split(",")] if lines else []
     if any(_POE.fullmatch(one) for one in head):
         return _openquake(shown(Path(path).name), " ".join(comments), head, lines[1:], site)
     table = tables.read(
         path, MOST, "annual_rate", "im_g or im_m_s, and annual_rate, or to be a hazard curve of OpenQuake"
     )
     name = shown(Path(path).name)
-    measures = {one: measure_of_column(one) for one in table.columns}
+    measures = {column: measure_of_column(column) for column in table.columns}
     keys = [one for one, measure in measures.items() if one in COLUMNS or measure is not None]
     if len(keys) != 1:
         raise InputError(
@@ -167,7 +167,7 @@ def _openquake(name: str, said: str, head: list[str], rows: list[str], site: tup
         if site is None or "lon" not in head or "lat" not in head:
             raise InputError(f"{name} holds {len(cells)} sites; choose one with `site=LON,LAT`.", "site")
         places = [[_number(name, k, row, head.index(one)) for one in ("lon", "lat")] for k, row in enumerate(cells, 2)]
-        chosen = int(np.argmin([math.dist(one, site) for one in places]))
+        chosen = int(np.argmin([math.dist(place, site) for place in places]))
     poe = np.array([_number(name, chosen + 2, cells[chosen], k) for k in at])
     if ((poe < 0.0) | (poe > 1.0)).any():
         raise InputError(f"{name} has a probability of exceedance outside 0 to 1; mend the file.")

@@ -147,7 +147,7 @@ def ida(
     quiet, hasher = share_of(motions, campaign.whole), Hasher(model, campaign.tail)
     try:
         with closing(Runs(campaign)) as kept:
-            while asked := [(one, new) for one in traces for new in wanted(one)]:
+            while asked := [(trace, new) for trace in traces for new in wanted(trace)]:
                 cases = [Case(one.column, _scaled(one, new, measure.power)) for one, new in asked]
                 rows: list[dict] = [{}] * len(cases)
                 with closing(kept.run(Request.of(cases, hasher, quiet))) as finished:
@@ -168,25 +168,25 @@ def ida(
     return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
 
 
-def _asked(one: Trace, runs: int, largest: float, power: int) -> list[float]:
-    verdicts = [v.verdict(row) for row in one.rows]
-    return next_levels(one.levels, verdicts, one.first, one.value * largest**power, runs - len(one.levels))
+def _asked(trace: Trace, runs: int, largest: float, power: int) -> list[float]:
+    verdicts = [v.verdict(row) for row in trace.rows]
+    return next_levels(trace.levels, verdicts, trace.first, trace.value * largest**power, runs - len(trace.levels))
 
 
-def _check_factor(one: Trace, level: float, measure: IntensityMeasure, largest: float) -> None:
+def _check_factor(trace: Trace, level: float, measure: IntensityMeasure, largest: float) -> None:
     """Refuse a level to which a record would have to be multiplied by more than is allowed."""
-    times = (level / one.value) ** (1.0 / measure.power)
+    times = (level / trace.value) ** (1.0 / measure.power)
     if times > largest * (1.0 + 1e-9):
         unit = "" if measure.unit == "-" else f" {measure.unit}"
         raise InputError(
-            f"the level {measure.name} = {level:g}{unit} multiplies {one.motion.name!r}, of {one.value:.3g}{unit}, by "
+            f"the level {measure.name} = {level:g}{unit} multiplies {trace.motion.name!r}, of {trace.value:.3g}{unit}, by "
             f"{times:.4g}; allowed is up to {largest:g} (`largest_factor`): give smaller levels, or leave the record out.",
             "levels",
         )
 
 
-def _scaled(one: Trace, level: float, power: int) -> Motion:
-    return one.motion.scaled((level / one.value) ** (1.0 / power))
+def _scaled(trace: Trace, level: float, power: int) -> Motion:
+    return trace.motion.scaled((level / trace.value) ** (1.0 / power))
 
 
 def _facts(
@@ -196,7 +196,7 @@ def _facts(
 
 
 def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
-    factors = {one.motion.name: (max(one.levels) / one.value) ** (1.0 / power) for one in traces}
+    factors = {trace.motion.name: (max(trace.levels) / trace.value) ** (1.0 / power) for trace in traces}
     beyond = {name: factor for name, factor in factors.items() if factor > WARNED}
     if beyond:
         name = max(beyond, key=beyond.__getitem__)
@@ -218,16 +218,24 @@ def _table(
 
     powers = told_powers() | {measure.key: measure.power}
     rows = []
-    for one in traces:
-        fact = facts[one.motion.name]
-        for k in np.argsort(one.levels, kind="stable"):
-            factor = (one.levels[k] / one.value) ** (1.0 / measure.power)
+    for trace in traces:
+        fact = facts[trace.motion.name]
+        for k in np.argsort(trace.levels, kind="stable"):
+            factor = (trace.levels[k] / trace.value) ** (1.0 / measure.power)
             scaled = {key: value * factor ** powers.get(key, 0) for key, value in fact.items()}
-            who = {"record": record_of(one.motion), "motion": one.motion.name, "realisation": one.number}
+            who = {"record": record_of(trace.motion), "motion": trace.motion.name, "realisation": trace.number}
             who |= {"column": column.name, "model": model.name}
             widths = column.widths
-            found: dict[str, Any] = {"verdict": v.verdict(one.rows[k]), **one.rows[k]}
+            found: dict[str, Any] = {"verdict": v.verdict(trace.rows[k]), **trace.rows[k]}
             rows.append(
-                {**who, "im_name": measure.name, "level": one.levels[k], "factor": factor, **widths, **scaled, **found}
+                {
+                    **who,
+                    "im_name": measure.name,
+                    "level": trace.levels[k],
+                    "factor": factor,
+                    **widths,
+                    **scaled,
+                    **found,
+                }
             )
     return pandas.DataFrame(rows)

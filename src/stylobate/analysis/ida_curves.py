@@ -36,7 +36,7 @@ def check_response(edp: str, column: Column, model: Model) -> None:
 
 def unknown_response(edp: str, names: Iterable[str]) -> InputError:
     """The sentence that runs have no such measure."""
-    known = [one for one in names if one.startswith(("peak_", "residual_"))]
+    known = [name for name in names if name.startswith(("peak_", "residual_"))]
     return InputError(f"the runs have no measure {edp!r}; measures are {', '.join(known)}.")
 
 
@@ -126,13 +126,13 @@ class Ida:
         """
         if edp not in self.runs:
             raise unknown_response(edp, self.runs.columns)
-        found = []
+        curves = []
         groups: Any = self.runs.groupby(["record", "motion", "realisation"], sort=False)
         for (record, motion, realisation), rows in groups:
             x = rows["level"].to_numpy(dtype=float)
             verdict = rows["verdict"].to_numpy(dtype=object)
             stands, (low, first) = verdict == v.STANDS, of_levels(x, verdict)
-            found.append(
+            curves.append(
                 Curve(
                     str(record),
                     str(motion),
@@ -145,7 +145,7 @@ class Ida:
                     int(np.count_nonzero((verdict == v.UNDECIDED) | (verdict == v.FAILED))),
                 )
             )
-        return found
+        return curves
 
     def fractiles(self, edp: str = "peak_top_displacement_m", points: int = 100) -> pandas.DataFrame:
         """Response that 16, 50 and 84 % of the curves do not exceed, over the intensity.
@@ -157,7 +157,7 @@ class Ida:
 
         curves = self.curves(edp)
         im = np.geomspace(self.runs["level"].min(), self.runs["level"].max(), points)
-        values = np.array([one.at(im) for one in curves])
+        values = np.array([curve.at(im) for curve in curves])
         table = {"im": im, "curves": np.count_nonzero(~np.isnan(values), axis=0)}
         for share in SHARES:
             column = []
@@ -177,16 +177,16 @@ class Ida:
         return pandas.DataFrame(
             [
                 {
-                    "record": one.record,
-                    "motion": one.motion,
-                    "realisation": one.realisation,
-                    "stands_until": one.stands,
-                    "collapses_from": None if math.isinf(one.collapses) else one.collapses,
-                    "resurrections": len(one.resurrections),
+                    "record": curve.record,
+                    "motion": curve.motion,
+                    "realisation": curve.realisation,
+                    "stands_until": curve.stands,
+                    "collapses_from": None if math.isinf(curve.collapses) else curve.collapses,
+                    "resurrections": len(curve.resurrections),
                     "runs": count,
-                    "open": one.open_runs,
+                    "open": curve.open_runs,
                 }
-                for one, count in zip(self.curves(), runs)
+                for curve, count in zip(self.curves(), runs)
             ]
         )
 

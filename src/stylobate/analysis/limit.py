@@ -198,7 +198,7 @@ def limit_analysis(
     whole = bear(facets)
     lower, forces, links = whole.multiplier, whole.forces, ()
     if stack.links:
-        capacity = np.array([one.capacity for one in stack.links])
+        capacity = np.array([link.capacity for link in stack.links])
         needed = needed_forces(lambda some, _: bear(Facets(stack.with_capacities(some))), capacity, whole)
         forces, links = needed.forces, link_forces(stack.links, needed)
     upper, rates, multipliers = kinematic_bound(equilibrium, dead, live, facets)
@@ -214,9 +214,9 @@ def link_forces(links: Sequence[Any], needed: Needed) -> tuple[LinkForce, ...]:
     """Demand on the links of a programme, which have a name, an action and a capacity."""
     return tuple(
         LinkForce(
-            one.name, one.action, float(needed.least[k]), one.capacity, bool(needed.yields[k]), bool(needed.idle[k])
+            link.name, link.action, float(needed.least[k]), link.capacity, bool(needed.yields[k]), bool(needed.idle[k])
         )
-        for k, one in enumerate(links)
+        for k, link in enumerate(links)
     )
 
 

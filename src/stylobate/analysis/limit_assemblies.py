@@ -61,15 +61,15 @@ class AssemblyProgramme:
         stones = [bodies[i] for i in self.moving]
         rims = [
             Rim(
-                number.get(one.upper, -1), number.get(one.lower, -1), one.frame, one.origin, one.edges, np.zeros(2),
-                0.5 * one.width, one.law.tan_phi, one.law.cohesion * one.area,
+                number.get(joint.upper, -1), number.get(joint.lower, -1), joint.frame, joint.origin, joint.edges,
+                np.zeros(2), 0.5 * joint.width, joint.law.tan_phi, joint.law.cohesion * joint.area,
             )
-            for one in joints
+            for joint in joints
         ]  # fmt: skip
-        self.points = [one.vertices for one in stones]  # pyright: ignore[reportAttributeAccessIssue]
+        self.points = [stone.vertices for stone in stones]  # pyright: ignore[reportAttributeAccessIssue]
         every = np.concatenate(self.points)
-        centroids = np.array([one.position for one in stones])  # pyright: ignore[reportAttributeAccessIssue]
-        masses = np.array([one.mass for one in stones])
+        centroids = np.array([stone.position for stone in stones])  # pyright: ignore[reportAttributeAccessIssue]
+        masses = np.array([stone.mass for stone in stones])
         length = float(np.ptp(every, axis=0).max())
         self.programme = ContactProgramme(
             masses, centroids, structure.gravity, rims, (), length, repr(structure.name), cut=True
@@ -79,7 +79,7 @@ class AssemblyProgramme:
         self._must_stand()
 
     def _must_stand(self) -> None:
-        resting = {body for one in self.structure.space_joints or () for body in (one.lower, one.upper)}
+        resting = {body for joint in self.structure.space_joints or () for body in (joint.lower, joint.upper)}
         loose = next((i for i in self.moving if i not in resting), None)
         if loose is not None:
             raise InputError(

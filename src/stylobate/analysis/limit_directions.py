@@ -34,18 +34,18 @@ class LimitByDirection:
     @property
     def azimuths(self) -> np.ndarray:
         """Direction of the forces [degrees]."""
-        return np.array([one.azimuth for one in self.limits])
+        return np.array([limit.azimuth for limit in self.limits])
 
     @property
     def multipliers(self) -> np.ndarray:
         """λ [g], shape of :attr:`azimuths`."""
-        return np.array([one.multiplier for one in self.limits])
+        return np.array([limit.multiplier for limit in self.limits])
 
     @property
     def weakest(self) -> DirectionLimit:
         """The direction in which least is borne; the first of equal ones."""
         least = self.multipliers.min() * (1.0 + 1e-9)
-        return next(one for one in self.limits if one.multiplier <= least)
+        return next(limit for limit in self.limits if limit.multiplier <= least)
 
 
 def limit_directions(structure: Structure, azimuths: Sequence[float] | None = None, **loads: Any) -> LimitByDirection:
@@ -68,7 +68,7 @@ def limit_directions(structure: Structure, azimuths: Sequence[float] | None = No
     column = check_kind("structure", structure, Structure).stack
     if azimuths is None and column is not None and column.as_found and column.as_found.in_plane:
         return LimitByDirection(tuple(_in_plane(column, one, loads) for one in (0.0, 180.0)), "xz")
-    asked = ALL_ROUND if azimuths is None else tuple(float(one) for one in azimuths)
+    asked = ALL_ROUND if azimuths is None else tuple(float(azimuth) for azimuth in azimuths)
     if not asked or not np.isfinite(asked).all():
         raise InputError("the directions are empty or not finite; give azimuths in degrees, such as 0:345:24.")
     if column is None:

@@ -50,9 +50,9 @@ class Facets:
             # |V| ≤ c A + N tan φ; V acts on the part above: towards −x when that slides to the right.
             self.add(i, [-mu, -1.0, 0.0], cohesion, "sliding right")
             self.add(i, [-mu, 1.0, 0.0], cohesion, "sliding left")
-        for k, one in enumerate(stack.links):
-            place, most = stack.n + k, one.capacity if one.strength else 0.0
-            if one.action == SHEAR:
+        for k, link in enumerate(stack.links):
+            place, most = stack.n + k, link.capacity if link.strength else 0.0
+            if link.action == SHEAR:
                 self.add(place, [-1.0], most, "yields to the right")
                 self.add(place, [1.0], most, "yields to the left")
             else:  # it pulls, so that what it pushes with lies between −capacity and 0
@@ -130,7 +130,7 @@ def static_bound(
         options=_TIGHT,
     )
     if found.status == 3:
-        endless = [one.name for one in facets.stack.links if one.capacity == np.inf and one.strength]
+        endless = [link.name for link in facets.stack.links if link.capacity == np.inf and link.strength]
         raise InputError(
             f"the column bears any push, because {' and '.join(endless[:2]) or 'a link'} has no capacity; give it one [N]."
         )

@@ -63,17 +63,17 @@ class SpaceProgramme:
         friction = float(self.column.friction[joint])
         return Rim(joint, joint - 1, frame, origin, edges, load.place, half, friction, cohesion)
 
-    def _holder(self, one: Hold) -> Holder:
-        link, at, (low, high) = one.link, self.at, one.link.arms
+    def _holder(self, hold: Hold) -> Holder:
+        link, at, (low, high) = hold.link, self.at, hold.link.arms
         bodies = link.upper - 1, link.lower - 1
         upper = at.centroid[bodies[0]] + at.axes[bodies[0]] @ high
-        if one.action == LINE:
+        if hold.action == LINE:
             lower = low if link.lower == 0 else at.centroid[bodies[1]] + at.axes[bodies[1]] @ low
             axes = ((lower - upper) / np.linalg.norm(lower - upper))[:, None]
-            return Holder(one.name, one.action, *bodies, upper, lower, axes, one.capacity)
+            return Holder(hold.name, hold.action, *bodies, upper, lower, axes, hold.capacity)
         frame = at.frame[link.joint - 1]
-        axes = frame[:, :2] if one.action == SHEAR else -frame[:, 2:]
-        return Holder(one.name, one.action, *bodies, upper, upper, axes, one.capacity)
+        axes = frame[:, :2] if hold.action == SHEAR else -frame[:, 2:]
+        return Holder(hold.name, hold.action, *bodies, upper, upper, axes, hold.capacity)
 
     def solve(self, azimuth: float) -> SpaceLimit:
         """The multiplier of horizontal forces in proportion to mass towards an azimuth [degrees]."""
@@ -81,7 +81,7 @@ class SpaceProgramme:
         push = base_axes(self.column).T @ (math.cos(angle), math.sin(angle), 0.0)
         live = programme.body_force(push)
         programme.begin(push)
-        links = [k for k, one in enumerate(programme.holders) if one.name]
+        links = [k for k, holder in enumerate(programme.holders) if holder.name]
         every = programme.capacities
 
         def borne(found: Solved) -> Borne:

@@ -26,8 +26,8 @@ class PathLinks:
         """Forces on the blocks [N, N, N m], shape (3 n,), and −∂forces/∂position, shape (3 n, 3 n)."""
         strain, slope, opening = self._strains(position)
         forces, stiffness = np.zeros(len(self.links)), np.zeros(len(self.links))
-        for k, one in enumerate(self.links):
-            forces[k], stiffness[k], _ = self._law(k, one, strain[k], opening[k])
+        for k, link in enumerate(self.links):
+            forces[k], stiffness[k], _ = self._law(k, link, strain[k], opening[k])
         tangent = slope.T @ (stiffness[:, None] * slope)
         if self.geometric and forces.any():
             tangent += self._turning(position, forces)
@@ -38,13 +38,13 @@ class PathLinks:
         """Keep what yields and what is lost in a state of equilibrium; names of those that are lost now."""
         strain, _, opening = self._strains(position)
         gone = []
-        for k, one in enumerate(self.links):
-            force, _, plastic = self._law(k, one, strain[k], opening[k])
+        for k, link in enumerate(self.links):
+            force, _, plastic = self._law(k, link, strain[k], opening[k])
             self.plastic[k] = plastic
-            snapped = one.brittle and abs(force) >= one.capacity * (1.0 - 1e-9)
-            if not self.lost[k] and (snapped or abs(strain[k]) > one.ultimate):
+            snapped = link.brittle and abs(force) >= link.capacity * (1.0 - 1e-9)
+            if not self.lost[k] and (snapped or abs(strain[k]) > link.ultimate):
                 self.lost[k] = True
-                gone.append(one.name)
+                gone.append(link.name)
         return gone
 
     def _strains(self, position: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -53,39 +53,39 @@ class PathLinks:
         _, slope, _ = link_strains(self.links, self.stack.centroid, self.stack.angle)
         return slope @ position.ravel(), slope, np.zeros(len(self.links))
 
-    def _law(self, k: int, one: Hold, strain: float, opening: float) -> tuple[float, float, float]:
+    def _law(self, k: int, hold: Hold, strain: float, opening: float) -> tuple[float, float, float]:
         """Force [N], its derivative [N/m], and the slip or elongation that stays [m]."""
         stays = float(self.plastic[k])
-        if self.lost[k] or opening > one.lift:
+        if self.lost[k] or opening > hold.lift:
             return 0.0, 0.0, stays
-        if one.action == SHEAR:
+        if hold.action == SHEAR:
             beyond = strain - stays
-            act = np.sign(beyond) * max(abs(beyond) - one.slack, 0.0)
-            force = one.stiffness * act
-            if abs(force) >= one.capacity * GOES_ON:
-                stays += float(np.sign(force)) * max(abs(force) - one.capacity, 0.0) / one.stiffness
-                return float(np.sign(force)) * min(abs(force), one.capacity), 0.0, stays
-            return float(force), one.stiffness if act else 0.0, stays
-        force = one.link.pretension + one.stiffness * (strain - stays)
-        if force >= one.capacity * GOES_ON:
-            return min(force, one.capacity), 0.0, stays + max(force - one.capacity, 0.0) / one.stiffness
-        return max(force, 0.0), one.stiffness if force > 0.0 else 0.0, stays
+            act = np.sign(beyond) * max(abs(beyond) - hold.slack, 0.0)
+            force = hold.stiffness * act
+            if abs(force) >= hold.capacity * GOES_ON:
+                stays += float(np.sign(force)) * max(abs(force) - hold.capacity, 0.0) / hold.stiffness
+                return float(np.sign(force)) * min(abs(force), hold.capacity), 0.0, stays
+            return float(force), hold.stiffness if act else 0.0, stays
+        force = hold.link.pretension + hold.stiffness * (strain - stays)
+        if force >= hold.capacity * GOES_ON:
+            return min(force, hold.capacity), 0.0, stays + max(force - hold.capacity, 0.0) / hold.stiffness
+        return max(force, 0.0), hold.stiffness if force > 0.0 else 0.0, stays
 
     def _turning(self, position: np.ndarray, forces: np.ndarray) -> np.ndarray:
         """Share of the forces in the tangent because the links turn: central differences of their directions."""
         out, step = np.zeros((position.size, position.size)), 1e-6
         centroid, angle, tried = self.stack.centroid, self.stack.angle, position.copy()
-        for one, force in zip(self.links, forces, strict=True):
+        for link, force in zip(self.links, forces, strict=True):
             if force == 0.0:
                 continue
-            own = [3 * block + a for block in one.blocks if block >= 0 for a in range(3)]
+            own = [3 * block + a for block in link.blocks if block >= 0 for a in range(3)]
             for i in own:
                 tried.flat[i] = position.flat[i] + step
-                ahead = link_strain(one, centroid, angle, tried)[2:]
+                ahead = link_strain(link, centroid, angle, tried)[2:]
                 tried.flat[i] = position.flat[i] - step
-                behind = link_strain(one, centroid, angle, tried)[2:]
+                behind = link_strain(link, centroid, angle, tried)[2:]
                 tried.flat[i] = position.flat[i]
-                for block, after, before in zip(one.blocks, ahead, behind, strict=True):
+                for block, after, before in zip(link.blocks, ahead, behind, strict=True):
                     if block >= 0:
                         out[3 * block : 3 * block + 3, i] += force * (after - before) / (2.0 * step)
         return out

@@ -170,7 +170,7 @@ class CollapseProbability:
         low, high = self.interval
         f, a = np.meshgrid(self.frequencies, self.amplitudes / g, indexing="ij")
         data = {"frequency_hz": f, "amplitude_g": a}
-        data |= {one.replace(" ", "_"): self.count(one) for one in v.VERDICTS}
+        data |= {verdict.replace(" ", "_"): self.count(verdict) for verdict in v.VERDICTS}
         data |= {"collapse_frequency": self.frequency, "confidence_low": low, "confidence_high": high}
         return pandas.DataFrame({name: values.ravel() for name, values in data.items()})
 

@@ -72,35 +72,35 @@ class Risk:
     @property
     def warnings(self) -> list[str]:
         """Doubts about the result, and limits of the hazard curve, in sentences."""
-        found = [*self.fragility.warnings, *([f"{self.doubt}."] if self.doubt else [])]
-        found += [self._without_verdict] if self._without_verdict else []
+        warnings = [*self.fragility.warnings, *([f"{self.doubt}."] if self.doubt else [])]
+        warnings += [self._without_verdict] if self._without_verdict else []
         if self.fragility.evidence.measure == "im" and self.hazard.unit != "-":
-            found.append(
+            warnings.append(
                 f"the runs do not say what their intensity is; it is taken for that of {self.hazard.name}, in "
                 f"{self.hazard.unit}: state the intensity of the runs."
             )
         elif self.fragility.evidence.measure != "im" and not self.hazard.imt:
             measure, end = parse_measure(self.fragility.evidence.measure), ENDS[self.hazard.unit]
-            found.append(
+            warnings.append(
                 f"{self.hazard.name} does not say of which intensity its column im{end} is; it is taken for {measure.name}: "
                 f"name the column {measure.key} if it is."
             )
         if self.rate > OFTEN:
-            found.append(
+            warnings.append(
                 f"{self.fragility.evidence.state} {self.rate:.3g} times a year leaves no such column to ask about: check "
                 f"the intensities of the runs and {self.hazard.name}."
             )
         if self.beyond > BEYOND * self.rate:
-            found.append(
+            warnings.append(
                 f"{self.hazard.name} ends at {self.hazard.im[-1]:g} {self.hazard.unit}; stronger shaking could add up to "
                 f"{percent(self.beyond / max(self.rate, 1e-300))} to the rate."
             )
         if self.below > BEYOND:
-            found.append(
+            warnings.append(
                 f"{self.hazard.name} begins at {self.hazard.im[0]:g} {self.hazard.unit}, where the probability is "
                 f"{self.below:.2g} already; weaker shaking is not counted."
             )
-        return found
+        return warnings
 
     @property
     def _without_verdict(self) -> str:
@@ -109,7 +109,7 @@ class Risk:
         counts = [f"{told[one]} {one}" for one in ("undecided", "failed") if told[one]]
         if not counts:
             return ""
-        most, least = (f"{one:.3g}" if math.isfinite(one) else "not known" for one in self.extremes)
+        most, least = (f"{extreme:.3g}" if math.isfinite(extreme) else "not known" for extreme in self.extremes)
         return (
             f"{' and '.join(counts)} of {told['runs']} runs: counted as {self.fragility.evidence.state} the annual rate by "
             f"{self.hazard.name} is {most}, counted as none {least}; the curve leaves them out, its interval holds both."
@@ -249,7 +249,7 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
         float(curve(hazard.im[:1], fragility.log_median, fragility.beta)[0]),
         edges,
         parts,
-        tuple(_rate(hazard, *one, split=False)[0] for one in fragility.extremes),  # type: ignore[arg-type]
+        tuple(_rate(hazard, *extreme, split=False)[0] for extreme in fragility.extremes),  # type: ignore[arg-type]
         doubt,
     )
 
@@ -269,7 +269,7 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
     years = check_range("age", age, 0.0, 1e6, unit="years", open_low=True)
     if not hazards:
         raise InputError("no hazard curve is given; give at least one of them.")
-    return Survival(tuple(risk(fragility, one) for one in hazards), years)
+    return Survival(tuple(risk(fragility, hazard) for hazard in hazards), years)
 
 
 def years(value: float) -> str:

@@ -109,7 +109,7 @@ def shares(codes: Mapping[Any, np.ndarray], records: Sequence[Any] | np.ndarray 
     records : array, optional
         Of which record each run is, in the same order; each of its own by default.
     """
-    same = np.all([one != FAILED for one in codes.values()], axis=0)
+    same = np.all([code != FAILED for code in codes.values()], axis=0)
     names = (
         np.arange(len(same)) if records is None else np.unique(np.asarray(records, dtype=str), return_inverse=True)[1]
     )
@@ -129,7 +129,7 @@ def _interval(codes: np.ndarray, owner: np.ndarray) -> tuple[float, float]:
     runs = np.bincount(owner)
     there = runs > 0
     hits = [codes == EXCEEDED, np.isin(codes, (EXCEEDED, OPEN))]
-    passed = [float((np.bincount(owner, one, len(runs))[there] / runs[there]).sum()) for one in hits]
+    passed = [float((np.bincount(owner, hit, len(runs))[there] / runs[there]).sum()) for hit in hits]
     low, high = (float(v.wilson_interval(one, there.sum())[k]) for k, one in enumerate(passed))
     return (min(low, float(hits[0].mean())), max(high, float(hits[1].mean()))) if len(codes) else (low, high)
 
@@ -153,7 +153,7 @@ def median_words(curve: Mapping[str, Any]) -> str:
     ends = [curve["median"], curve["median"]]
     if curve["undecided"] + curve["failed"]:
         ends = sorted(known_end(curve, key) for key in ("if_open_exceed", "if_open_do_not"))
-    return " to ".join(dict.fromkeys(within(one, curve["levels"]) for one in ends)) + unit
+    return " to ".join(dict.fromkeys(within(end, curve["levels"]) for end in ends)) + unit
 
 
 def median_name(*curves: Mapping[str, Any] | None) -> str:
@@ -164,7 +164,7 @@ def median_name(*curves: Mapping[str, Any] | None) -> str:
     *curves : mapping
         As there; None where there is no curve.
     """
-    open_ = any(one["undecided"] + one["failed"] for one in curves if one is not None)
+    open_ = any(curve["undecided"] + curve["failed"] for curve in curves if curve is not None)
     return "median (undecided both ways)" if open_ else "median"
 
 

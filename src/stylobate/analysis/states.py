@@ -82,7 +82,7 @@ class StateComparison:
             mine: Any = self.table[self.table["state"] == label]
             if "link_broken_s" not in mine:
                 continue
-            names = [one.name for one in column.placed_links if one.acts]
+            names = [link.name for link in column.placed_links if link.acts]
             told = [(b, u) for b, u in zip(mine["link_broken_s"], mine["link_utilisation"]) if isinstance(b, list)]
             for k, name in enumerate(names):
                 broke = [b[k] for b, _ in told if b[k] is not None]
@@ -127,9 +127,9 @@ class StateComparison:
                 for label, column, curve, share in zip(self.labels, self.columns, self.curves, self.shares, strict=True)
             ],
             "differences": [
-                dataclasses.asdict(one)
-                | {key: getattr(one, key) for key in ("conclusion", "advice", "basis", "sentence")}
-                for one in self.differences
+                dataclasses.asdict(difference)
+                | {key: getattr(difference, key) for key in ("conclusion", "advice", "basis", "sentence")}
+                for difference in self.differences
             ],
             "links": links.astype(object).where(links.notna(), None).to_dict("records"),
         }
@@ -193,7 +193,7 @@ def compare_states(
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
     before = round_drums(named, model)
-    told = [evidence(one, study.im, state, label, doubt=before) for one, label in zip(parts, labels, strict=True)]
+    told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
     differences = tuple(

@@ -61,7 +61,7 @@ def must_be_told(against: str, columns: Sequence[Structure]) -> None:
     InputError
         The message names those that there are.
     """
-    related = all(one.slenderness is not None for one in columns)
+    related = all(column.slenderness is not None for column in columns)
     known = [name for name in INTENSITIES if related or name not in RELATIVE]
     check_choice("`against`", against, known)
 

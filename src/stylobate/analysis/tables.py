@@ -54,16 +54,16 @@ class Table:
         InputError
             One is none.
         """
-        found = []
+        numbers = []
         for line, text in zip(self.lines, self.texts(column), strict=True):
             try:
-                found.append(missing if missing is not None and not text else float(text.replace("_", "?")))
+                numbers.append(missing if missing is not None and not text else float(text.replace("_", "?")))
             except ValueError:
                 raise InputError(
                     f"line {line} of {self.name} has {shown(text)[:LONGEST]!r} as {column}, where a number is "
                     f"needed{points(text)}; mend the file."
                 ) from None
-        return found
+        return numbers
 
     def refuse_halves(self, column: str, known: tuple[str, ...]) -> None:
         """Refuse numbers that may have been cut in two at decimal commas, as many fields as the header may name.

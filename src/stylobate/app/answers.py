@@ -40,13 +40,13 @@ async def json_object(request: Request) -> dict[str, Any]:
         It holds none, or what no file can hold.
     """
     try:
-        found = json.loads(await request.body(), parse_constant=_finite, parse_float=_finite)
+        json_object = json.loads(await request.body(), parse_constant=_finite, parse_float=_finite)
     except (ValueError, RecursionError):
-        found = None
-    if not isinstance(found, dict):
+        json_object = None
+    if not isinstance(json_object, dict):
         raise InputError("the request holds no JSON object of finite numbers; reload the page.")
-    check_values(found, "the request")
-    return found
+    check_values(json_object, "the request")
+    return json_object
 
 
 def _finite(text: str) -> float:

@@ -120,9 +120,9 @@ def commands(asked: JobAsked, records: Mapping[str, Sequence[str]]) -> list[list
 
     if not asked.records:
         raise InputError("no record is chosen; a fragility takes several: upload them, or choose samples.")
-    if any(len(records.get(one, ())) > 1 for one in asked.records):
+    if any(len(records.get(record, ())) > 1 for record in asked.records):
         raise InputError("a record of several files is no record of a fragility here; upload one file for each record.")
-    files = [path for one in asked.records for path in _files(one, records)]
+    files = [path for record in asked.records for path in _files(record, records)]
     analysis = ["ida", *common, *files, *_options(unit=asked.unit, im=asked.im, runs=asked.runs), *end]
     if len(asked.records) < FEWEST:
         return [analysis]

@@ -49,8 +49,8 @@ def assembly_of(text: str) -> Assembly:
 
 
 def _only_presets(tables: Any) -> None:
-    for one in tables if isinstance(tables, list) else []:
-        file = one.get("file") if isinstance(one, dict) else None
+    for table in tables if isinstance(tables, list) else []:
+        file = table.get("file") if isinstance(table, dict) else None
         if file not in PRESETS:
             raise InputError(
                 f"a column of the assembly comes from {str(file)[:100]!r}; the page has only presets at hand "
@@ -68,7 +68,7 @@ def describe(text: str) -> dict[str, Any]:
     """
     with doubted() as doubts:
         assembly = assembly_of(text)
-    moving = [one for one in assembly.blocks if not one.fixed]
+    moving = [block for block in assembly.blocks if not block.fixed]
     return {
         "facts": {
             "name": assembly.name,
@@ -77,7 +77,7 @@ def describe(text: str) -> dict[str, Any]:
             "joints": len(assembly.joints),
             "links": len(assembly.links),
             "mass": sum(one.properties[0] for one in moving),
-            "height": max(z for one in assembly.blocks for _, z in one.vertices),
+            "height": max(z for block in assembly.blocks for _, z in block.vertices),
             "digest": assembly.digest,
         },
         "links": {
@@ -86,8 +86,8 @@ def describe(text: str) -> dict[str, Any]:
                 for _, (*_, low), (*_, high) in strokes(assembly.placed_links)
             ]
         },
-        "outlines": {"xz": [one.corners.round(4).tolist() for one in assembly.blocks]},
-        "held": [one.fixed for one in assembly.blocks],
+        "outlines": {"xz": [block.corners.round(4).tolist() for block in assembly.blocks]},
+        "held": [block.fixed for block in assembly.blocks],
         "ground": assembly.ground,
         "warnings": warned(doubts),
     }

@@ -118,7 +118,7 @@ def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
         def plane(body: int, place: np.ndarray) -> list[float]:
             return _turned(place[None, [0, 2]], at[body])[0].round(4).tolist()
 
-        return {"xz": [[plane(*one.lower[:2]), plane(*one.upper[:2])] for one in strokes(column.placed_links)]}
+        return {"xz": [[plane(*stroke.lower[:2]), plane(*stroke.upper[:2])] for stroke in strokes(column.placed_links)]}
     space, upright = space_geometry(column), base_axes(column)
 
     def seen(body: int, place: np.ndarray, axis: int) -> list[float]:
@@ -127,7 +127,7 @@ def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
 
     lines = strokes(column.placed_links)
     return {
-        name: [[seen(*one.lower[:2], axis), seen(*one.upper[:2], axis)] for one in lines]
+        name: [[seen(*line.lower[:2], axis), seen(*line.upper[:2], axis)] for line in lines]
         for name, axis in (("xz", 0), ("yz", 1))
     }
 
@@ -135,11 +135,11 @@ def _links(column: Column, in_space: bool) -> dict[str, list[Any]]:
 def _outlines(column: Column, axis: int) -> list[np.ndarray]:
     """The same of a column that is found out of the plane, over x or over y."""
     at, upright = space_geometry(column), base_axes(column)
-    found = []
+    outlines = []
     for i, shape in enumerate(bodies_of(column).shapes):
         points = (at.centroid[i] + shape.mesh().vertices @ at.axes[i].T) @ upright.T
-        found.append(hull(points[:, [axis, 2]]))
-    return found
+        outlines.append(hull(points[:, [axis, 2]]))
+    return outlines
 
 
 def refuse_large(table: Mapping[str, Any]) -> None:

@@ -62,7 +62,11 @@ class Connection(H11Protocol):
         elif self._end is None:
             self._since = self.loop.time()
             self._end = self.loop.call_later(PATIENCE, self.transport.close)
-            silent = [one for one in self.connections if isinstance(one, Connection) and one._end is not None]
+            silent = [
+                connection
+                for connection in self.connections
+                if isinstance(connection, Connection) and connection._end is not None
+            ]
             if len(silent) > SILENT:
                 longest = min(silent, key=lambda one: one._since)
                 longest._cease()  # it is lost a moment later: until then the next one is not to find it again

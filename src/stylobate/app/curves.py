@@ -87,14 +87,14 @@ def _fragility(said: Mapping[str, Any]) -> dict[str, Any]:
     points = [[_number(one[key]) for key in ("im", "share", "low", "high")] for one in said.get("points", ())]
     points = [one for one in points if one[0] is not None]
     interval = [_number(said["median_low"]), _number(said["median_high"])]
-    found = {"x": [], "y": [], "points": points, "median": interval, "state": said["state"], "words": _words(said)}
+    fragility = {"x": [], "y": [], "points": points, "median": interval, "state": said["state"], "words": _words(said)}
     if median is None or not beta:
-        return found
+        return fragility
     ends = [one for one in (*(point[0] for point in points), *interval) if one is not None]
     high = 1.1 * max(*ends, median * math.exp(2.5 * beta))
     x = [high * (k + 1) / POINTS for k in range(POINTS)]
     y = [0.5 * math.erfc(-math.log(one / median) / (beta * math.sqrt(2.0))) for one in x]
-    return found | {"x": _plain(x), "y": _plain(y)}
+    return fragility | {"x": _plain(x), "y": _plain(y)}
 
 
 def _words(said: Mapping[str, Any]) -> str:
@@ -121,4 +121,4 @@ def _number(value: Any) -> float | None:
 
 
 def _plain(values: list[float]) -> list[float]:
-    return [float(f"{one:.6g}") for one in values]
+    return [float(f"{value:.6g}") for value in values]

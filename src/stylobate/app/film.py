@@ -48,17 +48,17 @@ def film(response: Response) -> dict[str, Any]:
 def _histories(response: Response, indices: np.ndarray) -> dict[str, Any]:
     h = response.histories
     slip = np.linalg.norm(h.slip, axis=-1)
-    found: dict[str, Any] = {
+    histories: dict[str, Any] = {
         "opening": _plain(1e3 * h.opening[indices].T),
         "slip": _plain(1e3 * slip[indices].T),
         "energy": {term: _plain(1e-3 * h.energy[term][indices]) for term in ENERGY_TERMS if term in h.energy},
     }
     if h.top is not None:
         top = h.top[:, None] if h.top.ndim == 1 else h.top
-        found["top"] = {axis: _plain(1e3 * top[indices, k]) for k, axis in zip(range(top.shape[1]), "xy")}
+        histories["top"] = {axis: _plain(1e3 * top[indices, k]) for k, axis in zip(range(top.shape[1]), "xy")}
     if response.dims == "xyz":
-        found["twist"] = _plain(h.twist[indices].T)
-    return found
+        histories["twist"] = _plain(h.twist[indices].T)
+    return histories
 
 
 def _plain(values: np.ndarray) -> list[Any]:

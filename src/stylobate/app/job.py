@@ -69,7 +69,7 @@ class Job:
         """Files that can be taken away: what stood, what was asked and what has come of it; not what is kept half-way."""
         if self._files is not None:
             return self._files
-        found = [one for one in self.folder.rglob("*") if one.is_file() and not one.is_symlink()]
+        found = [path for path in self.folder.rglob("*") if path.is_file() and not path.is_symlink()]
         names = [one.relative_to(self.folder).as_posix() for one in found if one.name[0] != "." and one.name != LIST]
         self._files = sorted(name for name in names if name not in (JOB, "film.json") and ".sqlite" not in name)
         return self._files
@@ -81,16 +81,16 @@ class Job:
     def to_dict(self, whole: bool = True) -> dict[str, Any]:
         """For the page; less what was asked and what came of it, unless all of it is wanted."""
         left_out = ("folder", "_files") if whole else ("folder", "_files", "asked", "results")
-        plain = {one.name: getattr(self, one.name) for one in fields(self) if one.name not in left_out}
+        plain = {field.name: getattr(self, field.name) for field in fields(self) if field.name not in left_out}
         plain |= {key: in_page_words(plain[key]) for key in ("sentence", "warnings", "results") if key in plain}
-        plain["commands"] = [shown(one) for one in self.commands]
+        plain["commands"] = [shown(command) for command in self.commands]
         plain["files"] = [] if self.open else self.files()
         plain["film"] = (self.filmed or not self.open) and (self.folder / "film.json").is_file()
         return plain
 
     def lines(self) -> bytes:
         """Its command lines as a text file."""
-        return "".join(f"{shown(one)}\n" for one in self.commands).encode("utf-8", "backslashreplace")
+        return "".join(f"{shown(command)}\n" for command in self.commands).encode("utf-8", "backslashreplace")
 
     def save(self) -> None:
         """Keep it in its folder."""

@@ -79,8 +79,8 @@ class JobAnswers:
         self._ring()
 
     def _ring(self) -> None:
-        for one in self.listeners:
-            one.set()
+        for listener in self.listeners:
+            listener.set()
 
     async def listed(self, request: Request) -> Response:
         """All jobs."""
@@ -92,7 +92,7 @@ class JobAnswers:
         asked = checked(body, JobAsked, "the job")
         stone = _structure(asked)
         tables = study(asked) if asked.kind == "domain" else None
-        wanted = [one for one in asked.records if not one.startswith("sample:")]
+        wanted = [record for record in asked.records if not record.startswith("sample:")]
         if asked.motion is not None and asked.motion.kind == "record":
             wanted.append(asked.motion.text)
         names = {one: self.records.names(one) for one in wanted}

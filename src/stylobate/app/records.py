@@ -157,7 +157,7 @@ class Records:
 
     def copy(self, records: Sequence[str], folder: Path) -> None:
         """Copy the files of records into a folder, with the descriptions of stations that came together with them."""
-        wanted = [self._record(one) for one in records]
+        wanted = [self._record(record) for record in records]
         places = {one.place for one in wanted}
         beside = [one for one in self.kept.values() if one.place in places and one.describes]
         for name in dict.fromkeys(name for one in (*wanted, *beside) for name in one.names):
@@ -226,7 +226,7 @@ class Records:
             token = _token(file.name) or secrets.token_hex(4)
             (self.folder / token).mkdir(mode=FOLDER, exist_ok=True)
             file.rename(self.folder / token / file.name)
-        for place in sorted(one for one in self.folder.iterdir() if one.is_dir() and not one.is_symlink()):
+        for place in sorted(path for path in self.folder.iterdir() if path.is_dir() and not path.is_symlink()):
             files = {one.name: one.stat().st_size for one in _plain(place)}
             for token, name, parts in _notes(place):
                 if all(part in files for part in parts):
@@ -238,7 +238,7 @@ class Records:
 
 def _plain(folder: Path) -> list[Path]:
     """Files in a folder, without hidden ones and links."""
-    found = (one for one in folder.iterdir() if one.name[0] != "." and one.is_file() and not one.is_symlink())
+    found = (path for path in folder.iterdir() if path.name[0] != "." and path.is_file() and not path.is_symlink())
     return sorted(found)
 
 

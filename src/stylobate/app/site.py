@@ -38,7 +38,7 @@ PLAYER = Path(__file__).parents[1] / "plots"
 
 #: Files of the page by the end of their address: nothing else of the disk has one.
 KINDS = {".html": "text/html", ".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml"}
-PAGES = {f"/static/{one.name}": one for one in STATIC.iterdir() if one.suffix in KINDS} | {
+PAGES = {f"/static/{path.name}": path for path in STATIC.iterdir() if path.suffix in KINDS} | {
     f"/static/{name}": PLAYER / name for name in ("player.js", "player_space.js")
 }
 
@@ -75,7 +75,7 @@ class Site:
 
     async def about(self, request: Request) -> Response:
         """Choices."""
-        listed = [{"name": one.name, "about": one.about} for one in samples().values()]
+        listed = [{"name": sample.name, "about": sample.about} for sample in samples().values()]
         return Answer({"version": __version__, "presets": columns.presets(), "samples": listed, "labels": LABELS})
 
     # -- columns and motions -------------------------------------------------------------------------------------

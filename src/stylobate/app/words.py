@@ -42,8 +42,8 @@ LABELS = {
 _OPTIONS = {"files": "motion", "azimuths": "azimuth"}
 
 #: Keys of a column file of several words, which are so many words on the page.
-_TABLES = [one for one in vars(tables).values() if isinstance(one, type) and issubclass(one, tables.Table)]
-_KEYS = re.compile(rf"\b(?:{'|'.join({key for one in _TABLES for key in one.model_fields if '_' in key})})\b")
+_TABLES = [var for var in vars(tables).values() if isinstance(var, type) and issubclass(var, tables.Table)]
+_KEYS = re.compile(rf"\b(?:{'|'.join({key for table in _TABLES for key in table.model_fields if '_' in key})})\b")
 
 _OPTION = re.compile(r"(?<![\w-])--([a-z](?:[a-z-]*[a-z])?)(?: [A-Z]{2,}(?:\.\w+)?\b)?")
 _ASIDE = re.compile(r"\s*\(([^()]*(?<![\w-])--[a-z][^()]*)\)")
@@ -84,7 +84,7 @@ def doubted() -> Iterator[list[warnings.WarningMessage]]:
 
 def warned(doubts: Sequence[warnings.WarningMessage]) -> list[str]:
     """Warnings for the page, each once."""
-    return list(dict.fromkeys(in_page_words(str(one.message)) for one in doubts))
+    return list(dict.fromkeys(in_page_words(str(doubt.message)) for doubt in doubts))
 
 
 def _kept(aside: re.Match[str]) -> str:

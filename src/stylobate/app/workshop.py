@@ -53,7 +53,7 @@ class Workshop:
         self.folder, self.worker, self.told = private(folder), list(worker), told
         self._log = self.folder.parent / LOG
         self._log.unlink(missing_ok=True)
-        loaded = [Job.load(one) for one in self.folder.iterdir() if one.is_dir()]
+        loaded = [Job.load(path) for path in self.folder.iterdir() if path.is_dir()]
         self.jobs = {one.id: one for one in sorted((job for job in loaded if job), key=lambda job: job.created)}
         self.version = 0
         self._queue: deque[str] = deque()
@@ -302,7 +302,9 @@ class Workshop:
             self._end(job, DONE, "")
             return True
         complaints = [str(one) for one in what["complained"]]
-        job.warnings += [one.removeprefix("warning: ") for one in complaints if one.startswith("warning: ")]
+        job.warnings += [
+            complaint.removeprefix("warning: ") for complaint in complaints if complaint.startswith("warning: ")
+        ]
         with suppress(ValueError):
             job.results.append(json.loads(what["said"]))
         if what["code"] == 0:
@@ -313,7 +315,9 @@ class Workshop:
         if what["code"] == INTERRUPTED or job.state == CANCELLED:
             self._end(job, CANCELLED, "Cancelled; what is finished is kept, and it can go on from there.")
             return True
-        sentence = next((one for one in reversed(complaints) if not one.startswith("warning: ")), "It failed.")
+        sentence = next(
+            (complaint for complaint in reversed(complaints) if not complaint.startswith("warning: ")), "It failed."
+        )
         for file in (COLUMN, ASSEMBLY, STUDY):  # the job's own, of which the page knows nothing
             sentence = sentence.removeprefix(f"{file}: ")
         job.field = what.get("field")

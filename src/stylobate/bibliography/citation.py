@@ -55,7 +55,7 @@ class Citation:
         lines = ["Please cite the package:", "", f"  {PACKAGE.text}"]
         if self.references:
             lines += ["", f"and what it rests on ({self.about}):", ""]
-            lines += [f"  {one.text}" for one in self.references]
+            lines += [f"  {reference.text}" for reference in self.references]
         if self.motion:
             lines += ["", "and the source of the ground motion:", ""]
             lines += [f"  {name.replace('_', ' ')}: {value}" for name, value in self.motion.items()]

@@ -67,7 +67,7 @@ class Reference:
         year = f" ({self.year})" if self.year else ""
         sentences = [f"{authors}{year}", f["title"], ", ".join(part for part in parts if part), f.get("note", "")]
         doi = f" doi:{f['doi']}" if "doi" in f else ""
-        return " ".join(f"{one.rstrip('.')}." for one in sentences if one).replace("--", "–") + doi
+        return " ".join(f"{sentence.rstrip('.')}." for sentence in sentences if sentence).replace("--", "–") + doi
 
     def summary(self) -> dict:
         """Plain values for JSON."""

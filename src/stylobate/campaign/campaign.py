@@ -151,8 +151,8 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
     **usual
         Fields with another default.
     """
-    taken = [one for one in fields(Campaign) if one.name in keywords.__annotations__ and one.name not in but]
-    others = [one for one in fields(Campaign) if one not in taken]
+    taken = [field for field in fields(Campaign) if field.name in keywords.__annotations__ and field.name not in but]
+    others = [field for field in fields(Campaign) if field not in taken]
     standard = replace(USUAL, **usual)
 
     def of(function: Function) -> Function:
@@ -162,7 +162,9 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
             return function  # type: ignore[return-value]
         named = function.__qualname__.removesuffix(".__init__")
         own = inspect.signature(function)
-        plain = [one for one in own.parameters.values() if one.kind is not inspect.Parameter.VAR_KEYWORD]
+        plain = [
+            parameter for parameter in own.parameters.values() if parameter.kind is not inspect.Parameter.VAR_KEYWORD
+        ]
         given = own.replace(parameters=plain)
 
         @wraps(function)
@@ -174,9 +176,9 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
                     f"campaign is {as_typed(value)}; allowed is a Campaign, such as Campaign(replicates=30)."
                 )
             made = replace(value, **changes)
-            for one in others:
-                if getattr(made, one.name) != one.default:
-                    raise InputError(f"{named} takes no {one.name}; leave it out of the campaign.")
+            for other in others:
+                if getattr(made, other.name) != other.default:
+                    raise InputError(f"{named} takes no {other.name}; leave it out of the campaign.")
             try:
                 given.bind(*args, **kwargs, campaign=made)
             except TypeError as error:

@@ -228,18 +228,18 @@ class Study:
         for motion in self.motions:
             if samples_of(motion) not in seen:
                 seen[samples_of(motion)] = told(motion.replace(factor=1.0), relations)
-        found = {}
+        intensities = {}
         for name, power in told_powers().items():
             if name in RELATIVE and all(angle is None for angle in angles):
                 continue
             sizes = [abs(motion.factor) ** power for motion in self.motions]
             each = [[one.get(name) for one in seen[samples_of(motion)]] for motion in self.motions]
             if any(value is not None for values in each for value in values):
-                found[name] = [
+                intensities[name] = [
                     [None if value is None else value * size for value in values]
                     for values, size in zip(each, sizes, strict=True)
                 ]
-        return found
+        return intensities
 
     def _factors(self, motion: Motion) -> list[float]:
         if self.im is None:
@@ -249,9 +249,9 @@ class Study:
         value = self.im.of(motion)
         if not value > 0.0:
             raise InputError(f"{self.im.name} of {motion.name!r} is {value:g}, and cannot be scaled to a level.")
-        found = [float((level / value) ** (1.0 / self.im.power)) for level in self.levels]
-        warn_of_scaling(motion.scaled(max(found)))
-        return found
+        factors = [float((level / value) ** (1.0 / self.im.power)) for level in self.levels]
+        warn_of_scaling(motion.scaled(max(factors)))
+        return factors
 
 
 def must_be_alike(structures: Sequence[Structure], what: str) -> None:
@@ -261,6 +261,6 @@ def must_be_alike(structures: Sequence[Structure], what: str) -> None:
     ------
     InputError
     """
-    if len({one.slenderness is None for one in structures}) > 1:
-        names = ", ".join(one.name for one in structures)
+    if len({structure.slenderness is None for structure in structures}) > 1:
+        names = ", ".join(structure.name for structure in structures)
         raise InputError(f"the {what} holds columns and assemblies ({names}); give each kind a {what} of its own.")

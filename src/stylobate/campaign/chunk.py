@@ -127,14 +127,14 @@ def results_of(
             f"({chunk.law[0]}); install the same version there."
         )
 
-    whole = [Motion(*one) for one in motions]
+    whole = [Motion(*motion) for motion in motions]
 
     def case(index: int) -> Case:
         shaking = whole[chunk.motion[index]].replace(factor=chunk.factors[index], name=chunk.names[index])
         return Case(chunk.stones[chunk.stone[index]], shaking)
 
     stream = stream or Stream()
-    kind = pickle.dumps((chunk.model, chunk.options, sorted({type(one).__name__ for one in chunk.stones})))
+    kind = pickle.dumps((chunk.model, chunk.options, sorted({type(stone).__name__ for stone in chunk.stones})))
     part = Part(Cases(len(chunk.numbers), case), chunk.model, chunk.options, kind)
     started = sent = time.perf_counter()
     before, asked = stream.finished, False

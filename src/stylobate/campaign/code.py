@@ -1,4 +1,4 @@
-"""Behaviour of a model of somebody's own, as plain values that are the same in every process: its loaded code and its files."""
+"""Behaviour of a model of somebody's own, as plain values, the same in every process: its loaded code and its files."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ class Code:
 
     def of_model(self, model: Any) -> list[Any]:
         """The class of a model, and what the model holds besides its parameters."""
-        kind, told = type(model), {one.name for one in dataclasses.fields(model)}
+        kind, told = type(model), {field.name for field in dataclasses.fields(model)}
         held = {name: value for name, value in vars(model).items() if name not in told}
         kept = {name for name in held if isinstance(getattr(kind, name, None), cached_property)}
         return [self.of_class(kind), self.of({name: held[name] for name in held if name not in kept})]
@@ -71,7 +71,7 @@ class Code:
             return self._of_function(value)
         if isinstance(value, CodeType):
             said = value.co_code, value.co_exceptiontable, value.co_names, value.co_varnames, value.co_freevars
-            return [repr(said), [self.of(one) for one in value.co_consts]]
+            return [repr(said), [self.of(const) for const in value.co_consts]]
         if isinstance(value, type):
             return [value.__qualname__, [] if _is_installed(value.__module__) else self.of_class(value)]
         if isinstance(value, ModuleType):
@@ -125,7 +125,11 @@ class Code:
 
 def _globals(code: CodeType) -> Iterator[str]:
     """Names that code takes from beside its function."""
-    yield from (one.argval for one in dis.get_instructions(code) if one.opname in ("LOAD_GLOBAL", "LOAD_NAME"))
+    yield from (
+        instruction.argval
+        for instruction in dis.get_instructions(code)
+        if instruction.opname in ("LOAD_GLOBAL", "LOAD_NAME")
+    )
     for inner in code.co_consts:
         if isinstance(inner, CodeType):
             yield from _globals(inner)

@@ -80,7 +80,7 @@ class HarmonicGrid:
     def request(self) -> Request:
         """Its cases, frequency by frequency; motions of one frequency share their samples."""
         a = self.amplitudes
-        units = [harmonic(float(one), 1.0, self.duration) for one in self.frequencies]
+        units = [harmonic(float(frequency), 1.0, self.duration) for frequency in self.frequencies]
 
         def case(cell: int) -> Case:
             return Case(self.column, units[cell // len(a)].scaled(float(a[cell % len(a)])))

@@ -122,9 +122,9 @@ def _study(table: StudyFile, folder: Path) -> tuple[Study, dict[str, str]]:
     im, levels = (None, [1.0]) if table.scale is None else levels_of(table.scale.im, table.scale.levels)
     drawn: dict[str, Any] = {} if table.scatter is None else _drawn(table.scatter)
     study = Study(
-        [load_structure(folder / one if (folder / one).is_file() else one) for one in names],
+        [load_structure(folder / name if (folder / name).is_file() else name) for name in names],
         suite.motions,
-        [make_model(one, settings) for one in models],
+        [make_model(model, settings) for model in models],
         levels,
         im,
         keep=table.keep,
@@ -145,19 +145,19 @@ def _of_grid(path: str | Path) -> Study:
 
 def _listed(patterns: Sequence[str], folder: Path) -> list[str | Path]:
     found: list[str | Path] = []
-    for one in patterns:
-        if one.startswith(PREFIX):
-            found.append(one)
+    for pattern in patterns:
+        if pattern.startswith(PREFIX):
+            found.append(pattern)
             continue
-        if any(mark in one for mark in "*?["):
-            matches: list[Path] = sorted(folder.glob(one)) if not Path(one).is_absolute() else [Path(one)]
+        if any(mark in pattern for mark in "*?["):
+            matches: list[Path] = sorted(folder.glob(pattern)) if not Path(pattern).is_absolute() else [Path(pattern)]
             if not matches:
                 raise InputError(
-                    f"no file matches {one!r} in [motions]; paths start from the folder of the study file."
+                    f"no file matches {pattern!r} in [motions]; paths start from the folder of the study file."
                 )
             found += matches
         else:
-            found.append(folder / one)
+            found.append(folder / pattern)
     if not found:
         raise InputError("the study names no record; give files = [...] in [motions].")
     return found

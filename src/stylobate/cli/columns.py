@@ -61,16 +61,16 @@ def parts_of(structure: Structure) -> dict:
     import numpy as np
 
     corners = np.concatenate(
-        [part.mesh(48).vertices for one in structure.bodies if not one.fixed for part in one.placed]
+        [part.mesh(48).vertices for body in structure.bodies if not body.fixed for part in body.placed]
     )
-    moving = [one for one in structure.bodies if not one.fixed]
+    moving = [body for body in structure.bodies if not body.fixed]
     heaviest = max(moving, key=lambda one: one.mass)
     joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
     return {
         "name": structure.name,
         "kind": structure.kind,
         "bodies": [{"name": one.name, "mass_kg": one.mass} for one in moving],
-        "fixed": [one.name for one in structure.bodies if one.fixed],
+        "fixed": [body.name for body in structure.bodies if body.fixed],
         "joints": len(joints),
         "mass_kg": sum(one.mass for one in moving),
         "heaviest": heaviest.name,
@@ -78,7 +78,7 @@ def parts_of(structure: Structure) -> dict:
         "height_m": float(corners[:, 2].max()) - (structure.ground or 0.0),
         "extent_m": np.ptp(corners, axis=0).tolist(),
         "frequency_parameter_rad_s": structure.frequency_parameter,
-        "links": [_link(one) for one in structure.placed_links],
+        "links": [_link(link) for link in structure.placed_links],
     }
 
 
@@ -95,7 +95,7 @@ def _assembled(structure: Structure) -> dict[str, str]:
         "extent": f"{x:.4g} m along x, {y:.4g} m along y, {z:.4g} m along z",
         "mass": f"{p['mass_kg']:.0f} kg",
         "heaviest": f"{p['heaviest']}, {p['heaviest_mass_kg']:.0f} kg",
-        **{one["name"]: _held(one) for one in p["links"]},
+        **{link["name"]: _held(link) for link in p["links"]},
     }
 
 
@@ -118,7 +118,7 @@ def properties(column: Column) -> dict:
         "restitution": column.restitution,
         "uplift_g": column.uplift_acceleration / g,
         "as_found": column.to_dict().get("as_found"),
-        "links": [_link(one) for one in column.placed_links],
+        "links": [_link(link) for link in column.placed_links],
     }
 
 
@@ -144,7 +144,7 @@ def _facts(column: Column) -> dict[str, str]:
         "frequency parameter": f"{p['frequency_parameter_rad_s']:.4f} rad/s",
         "static uplift": f"{p['uplift_g']:.4f} g",
         **_as_found(column),
-        **{one["name"]: _held(one) for one in p["links"]},
+        **{link["name"]: _held(link) for link in p["links"]},
     }
 
 
@@ -157,8 +157,8 @@ def _held(link: dict) -> str:
     return f"{limit}{pulled}" + (f"; {link['governs']}" if link["governs"] else "")
 
 
-def _azimuth(one: FoundDrum, name: str) -> str:
-    angle = getattr(one, f"{name}_azimuth", 0.0)
+def _azimuth(drum: FoundDrum, name: str) -> str:
+    angle = getattr(drum, f"{name}_azimuth", 0.0)
     return f" (azimuth {angle:g}°)" if angle else ""
 
 
@@ -169,9 +169,9 @@ def _as_found(column: Column) -> dict[str, str]:
         azimuth = column.as_found.base_azimuth
         towards = f"towards azimuth {azimuth:g}°" if azimuth else "to the right"
         facts["as found, base"] = f"slopes by {column.as_found.base_tilt:g}°, up {towards}"
-    for one in column.as_found.drums:
+    for drum in column.as_found.drums:
         said = [
-            f"{word} {getattr(one, name):g} {unit}" + _azimuth(one, name.partition("_")[0])
+            f"{word} {getattr(drum, name):g} {unit}" + _azimuth(drum, name.partition("_")[0])
             for name, word, unit in (
                 ("offset", "offset", "m"),
                 ("tilt", "tilted", "degrees"),
@@ -181,8 +181,8 @@ def _as_found(column: Column) -> dict[str, str]:
                 ("chip_back", "chipped at the back by", "m"),
                 ("turn", "turned by", "degrees"),
             )
-            if getattr(one, name) != 0.0
+            if getattr(drum, name) != 0.0
         ]
         if said:
-            facts[f"as found, drum {one.drum}"] = ", ".join(said)
+            facts[f"as found, drum {drum.drum}"] = ", ".join(said)
     return facts

@@ -69,7 +69,7 @@ def compare(
                 _write_domains(domains, files)
                 files.asked(**what, duration_s=grid[2])
         table = domains.table
-        result |= {"domains": [one.summary() for one in domains.domains], "differences": table.to_dict("records")}
+        result |= {"domains": [domain.summary() for domain in domains.domains], "differences": table.to_dict("records")}
     else:
         if execution.dask is not None:
             raise InputError("--dask is for domains, and one motion is run here; leave it out.")
@@ -133,8 +133,8 @@ def _write_domains(comparison: Any, files: Files) -> None:
     from .. import plots
 
     files.table(comparison.table, "comparison.csv")
-    for label, one in zip(comparison.labels, comparison.domains, strict=True):
-        files.append(one.save(files / f"domain-{_stem(label)}.nc"))
-        files.picture(plots.draw_domain(one), f"domain-{_stem(label)}")
-    named = [dataclasses.replace(one, model=label) for label, one in zip(comparison.labels, comparison.domains)]
+    for label, domain in zip(comparison.labels, comparison.domains, strict=True):
+        files.append(domain.save(files / f"domain-{_stem(label)}.nc"))
+        files.picture(plots.draw_domain(domain), f"domain-{_stem(label)}")
+    named = [dataclasses.replace(domain, model=label) for label, domain in zip(comparison.labels, comparison.domains)]
     files.picture(plots.draw_boundaries(named), "comparison")

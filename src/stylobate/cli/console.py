@@ -169,7 +169,7 @@ def folder(out: Path | None, *writes: str) -> AbstractContextManager[Path | None
 
     if out is None:
         return nullcontext()
-    names = [name for one in writes for name in ((one,) if "." in one else (f"{one}.png", f"{one}.svg"))]
+    names = [name for write in writes for name in ((write,) if "." in write else (f"{write}.png", f"{write}.svg"))]
     return output_folder(out, names)
 
 

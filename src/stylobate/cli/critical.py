@@ -64,7 +64,7 @@ def critical(
     how = o.the_model(model, settings)
     campaign, given = execution.campaign(following, population), population.replicates is not None
     suite = request.expand(stone.frequency_parameter, amplitude_open=True)
-    taken = [how.taken(one) for one in suite.motions]
+    taken = [how.taken(motion) for motion in suite.motions]
     if request.several:
         writes, make = ("runs.csv", "directions"), partial(critical_suite, stone, suite.motions, how, *grid)
     else:
@@ -130,8 +130,8 @@ def with_bounds(result: CriticalSuite) -> pandas.DataFrame:
     if table["record"].tolist() == table["motion"].tolist():
         table = table.drop(columns="motion")
     table = table.astype(object).where(table.notna(), math.nan)
-    for place, one in enumerate(result.summary()["records"]):
-        for name, bound in one["bounds"].items():
+    for place, record in enumerate(result.summary()["records"]):
+        for name, bound in record["bounds"].items():
             if name in table:
                 table.loc[place, name] = bound
     return table

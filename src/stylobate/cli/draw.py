@@ -33,7 +33,7 @@ def draw(
     from .. import plots
 
     files = plots.save_as(plots.draw_views(structure, structure.name), out)
-    moving = sum(not one.fixed for one in structure.bodies)
-    if execution.emits({"name": structure.name, "bodies": moving, "files": [str(one) for one in files]}):
+    moving = sum(not body.fixed for body in structure.bodies)
+    if execution.emits({"name": structure.name, "bodies": moving, "files": [str(file) for file in files]}):
         return
     console.say(f"{structure.name}, {moving} {'body' if moving == 1 else 'bodies'} that can move: {files[0]}", {})

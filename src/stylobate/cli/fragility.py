@@ -76,11 +76,11 @@ class Curves(o.Group):
                 raise InputError(
                     f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of."
                 )
-            chosen: Any = table[[one in names for one in labels]]
+            chosen: Any = table[[label in names for label in labels]]
             place = table_of(source)
             used.append(Source(source, place, chosen))
             for name in names:
-                rows: Any = table[[one == name for one in labels]]
+                rows: Any = table[[label == name for label in labels]]
                 shown = f"{name}, {Path(source).stem}" if who and len(sources) > 1 else name
                 told = evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt)
                 found.append(fit(told, method=method, seed=self.seed, records_are_one=self.records_are_one))
@@ -118,7 +118,8 @@ def fragility(
             from .. import plots
 
             rows = [
-                {key: value for key, value in one.items() if not isinstance(value, (list, dict))} for one in summaries
+                {key: value for key, value in summary.items() if not isinstance(value, (list, dict))}
+                for summary in summaries
             ]
             files.table(pandas.DataFrame(rows), "fragility.csv")
             files.picture(plots.draw_fragility(found), "fragility")

@@ -72,8 +72,8 @@ def takes(command: Callable[..., None], within: Callable[[], AbstractContextMana
         elif not (isinstance(kind, type) and issubclass(kind, Group)):
             options.append(parameter.replace(kind=parameter.KEYWORD_ONLY))
         else:
-            every: dict[str, Any] = {one.name: one.default for one in fields(kind)}
-            left_out = {name: every.pop(name).default for one in notes if isinstance(one, But) for name in one.names}
+            every: dict[str, Any] = {field.name: field.default for field in fields(kind)}
+            left_out = {name: every.pop(name).default for note in notes if isinstance(note, But) for name in note.names}
             types = get_type_hints(kind)
             options += [one.parameter(name, types[name]) for name, one in every.items()]
             groups[parameter.name] = kind, list(every), left_out

@@ -30,9 +30,9 @@ class Command(TyperCommand):
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the options: all where they were asked for, else the rare ones by their names."""
-        options = [one for one in self.params if isinstance(one, TyperOption)]
+        options = [param for param in self.params if isinstance(param, TyperOption)]
         few = ctx.meta.get(_ALL) or len(options) <= FEW
-        rare = [] if few else [one for one in options if one.name in RARE]
+        rare = [] if few else [option for option in options if option.name in RARE]
         for one in rare:
             one.hidden = True
         super().format_options(ctx, formatter)

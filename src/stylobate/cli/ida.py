@@ -50,7 +50,7 @@ def ida(
     check_response(edp, stone, how)
     stripes = None if levels is None else parse_levels(levels, measure)
     records = motions.request(motion=sources, separate=True).expand()
-    known = the_facts(about, sources, [name for one in records.motions for name in (one.name, record_of(one))])
+    known = the_facts(about, sources, [name for motion in records.motions for name in (motion.name, record_of(motion))])
     names = "runs.csv", "capacities.csv", "fractiles.csv", "measures.csv", "ida.json", "ida", "measures"
     with execution.files("ida", *names) as files:
         with files.campaign(campaign) as asked:
@@ -75,13 +75,17 @@ def ida(
             if len(best):
                 files.table(best, "measures.csv")
                 files.picture(plots.draw_efficiency(best), "measures")
-            what = {"structures": [stone], "models": [how], "motions": [how.taken(one) for one in records.motions]}
+            what = {
+                "structures": [stone],
+                "models": [how],
+                "motions": [how.taken(motion) for motion in records.motions],
+            }
             files.asked(**what, runs=found.runs, im=measure.name, edp=edp, tail_s=campaign.tail)
             files.summary(result, "ida.json")
     if execution.emits(result):
         return
     console.print_doubt(result)
-    fell = sum(one["collapses_from"] is not None for one in result["capacities"])
+    fell = sum(capacity["collapses_from"] is not None for capacity in result["capacities"])
     facts = {
         "runs": f"{result['runs']} of {_count(result['records'], 'record')}, {result['wall_s']:.1f} s",
         "collapses": f"{fell} of {_count(len(curves), 'curve')} end in collapse",
@@ -112,20 +116,20 @@ def the_facts(about: Path | None, sources: list[Path], names: list[str]) -> dict
 
     from ..analysis import tables
 
-    found: dict[str, dict[str, float]] = {}
-    for folder in (one for one in sources if about is None and (one / "manifest.csv").is_file()):
+    facts: dict[str, dict[str, float]] = {}
+    for folder in (source for source in sources if about is None and (source / "manifest.csv").is_file()):
         table = pandas.read_csv(folder / "manifest.csv", dtype=str).fillna("")
         for row in table.to_dict("records"):
             told = _MAGNITUDE.search(" ".join(str(one) for one in row.values()))
             if told and row.get("file"):
-                found[str(row["file"])] = {"magnitude": float(told[1])}
+                facts[str(row["file"])] = {"magnitude": float(told[1])}
     if about is not None:
         table = tables.read(about, 10_000_000, "record", "the columns record, and magnitude or distance_km")
         known = [one for one in ("magnitude", "distance_km") if one in table.columns]
         if not known:
             raise InputError(f"{about} needs the columns record, and magnitude or distance_km.")
         for name, *values in zip(table.texts("record"), *(table.numbers(one, math.nan) for one in known), strict=True):
-            found[name] = dict(zip(known, values, strict=True))
-        if not set(found) & set(names):
+            facts[name] = dict(zip(known, values, strict=True))
+        if not set(facts) & set(names):
             raise InputError(f"{about} names none of the records; they are {', '.join(names[:5])} …")
-    return found
+    return facts

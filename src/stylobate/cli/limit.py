@@ -83,12 +83,12 @@ def limit(
         where = f" (between {weak.between[0]} and {weak.between[1]})" if weak.between else ""
         facts["weakest direction"] = f"{weak.azimuth:g} degrees from x towards y: joint {weak.joint}{where} {weak.mode}"
         if weak.moving:
-            free = sum(not one.fixed for one in stone.bodies)
+            free = sum(not body.fixed for body in stone.bodies)
             facts["moving"] = f"all {free} bodies" if len(weak.moving) == free > 1 else listed(weak.moving)
         if weak.upper_bound:
             facts["mind"] = UPPER_BOUND
         most = int(all_round.multipliers.argmax())
-        if not plane and stone.section == "circular" and any(any(one.low[:2]) for one in stone.placed_links):
+        if not plane and stone.section == "circular" and any(any(link.low[:2]) for link in stone.placed_links):
             facts["mind"] = (
                 "a link beside the axis asks round joints for torsion, of which one on its edge bears little: such a column "
                 "fell at up to a fifth less"
@@ -101,9 +101,11 @@ def limit(
             + (", seen from behind" if weakest else ""),
             "joints at their strength": ", ".join(map(str, found.at_limit)),
         }
-    names = [one["link"] for one in summary["links"]]
-    for one in summary["links"]:
-        facts[one["link"] if names.count(one["link"]) == 1 else f"{one['link']}, {one['action']}"] = link_words(one)
+    names = [link["link"] for link in summary["links"]]
+    for link in summary["links"]:
+        facts[link["link"] if names.count(link["link"]) == 1 else f"{link['link']}, {link['action']}"] = link_words(
+            link
+        )
     console.say(f"{sentence}.", facts, files)
 
 
@@ -172,12 +174,12 @@ def link_rows(links: Sequence[LinkForce]) -> list[dict]:
     """Demand on links, in the JSON object."""
     return [
         {
-            "link": one.name,
-            "action": one.action,
-            "force_n": one.force,
-            "capacity_n": one.capacity,
-            "yields": one.yields,
-            "need_not_act": one.idle,
+            "link": link.name,
+            "action": link.action,
+            "force_n": link.force,
+            "capacity_n": link.capacity,
+            "yields": link.yields,
+            "need_not_act": link.idle,
         }
-        for one in links
+        for link in links
     ]

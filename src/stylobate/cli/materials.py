@@ -44,14 +44,14 @@ def materials(
         print(f"1 file in {summary['files'][0]}")
 
 
-def _row(one: Material) -> dict[str, str]:
+def _row(material: Material) -> dict[str, str]:
     return {
-        "material": one.name,
-        "density kg/m³": _short(one.density),
-        "friction": _short(one.friction_coefficient),
-        "k_n N/m³": _short(one.normal_stiffness),
-        "k_s N/m³": _short(one.shear_stiffness),
-        "cohesion Pa": _short(one.cohesion),
+        "material": material.name,
+        "density kg/m³": _short(material.density),
+        "friction": _short(material.friction_coefficient),
+        "k_n N/m³": _short(material.normal_stiffness),
+        "k_s N/m³": _short(material.shear_stiffness),
+        "cohesion Pa": _short(material.cohesion),
     }
 
 

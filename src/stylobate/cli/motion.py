@@ -52,9 +52,14 @@ def _list_samples(execution: o.Execution) -> None:
     from . import console
 
     names = "name", "about", "format", "terms"
-    listed = [{name: getattr(one, name) for name in names} | {"name": PREFIX + one.name} for one in samples().values()]
+    listed = [
+        {name: getattr(sample, name) for name in names} | {"name": PREFIX + sample.name}
+        for sample in samples().values()
+    ]
     if not execution.emits({"samples": listed}):
-        facts = {PREFIX + one.name: f"{one.about} ({one.format}); {one.terms}" for one in samples().values()}
+        facts = {
+            PREFIX + sample.name: f"{sample.about} ({sample.format}); {sample.terms}" for sample in samples().values()
+        }
         console.say("Sample motions, for --motion and wherever a record is asked for", facts, [])
 
 
@@ -66,7 +71,7 @@ def _facts(summary: dict) -> dict[str, str]:
     for key, value in summary.items():
         if key in ("name", "files") or value in (None, [], {}):
             continue
-        ending = next((one for one in _UNITS if key.endswith(one)), "")
+        ending = next((unit for unit in _UNITS if key.endswith(unit)), "")
         name = key.removesuffix(ending).replace("_", " ") + _UNITS.get(ending, "")
         facts[name] = _text(value)
     return facts

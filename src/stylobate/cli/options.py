@@ -39,8 +39,12 @@ def _columns(incomplete: str) -> list[str]:
 
     folder, _, start = incomplete.rpartition("/")
     there = Path(folder or ("/" if incomplete.startswith("/") else "."))
-    files = sorted(one for one in there.glob("*") if one.is_dir() or one.suffix == ".toml") if there.is_dir() else []
-    found = [f"{folder}/{one.name}" if "/" in incomplete else one.name for one in files if one.name.startswith(start)]
+    files = (
+        sorted(path for path in there.glob("*") if path.is_dir() or path.suffix == ".toml") if there.is_dir() else []
+    )
+    found = [
+        f"{folder}/{file.name}" if "/" in incomplete else file.name for file in files if file.name.startswith(start)
+    ]
     return [*(name for name in PRESETS if name.startswith(incomplete)), *found]
 
 

@@ -35,7 +35,7 @@ class Loads(o.Group):
 
         shares, strength = self.pattern, self.compressive_strength
         return {
-            "pattern": None if shares is None else [number("--pattern", one) for one in shares.split(",")],
+            "pattern": None if shares is None else [number("--pattern", part) for part in shares.split(",")],
             "base_tilt": number("--tilt", self.tilt),
             "compressive_strength": None if strength is None else parse_pressure(strength),
         }
@@ -112,7 +112,9 @@ def pushover(
     facts["end of the path"] = path.stop
     if checked is not None:
         sentence += f" {checked.sentence}"
-        facts |= {one.name: f"{one.value:.4g} ({one.source})" for one in checked.coefficients}
+        facts |= {
+            coefficient.name: f"{coefficient.value:.4g} ({coefficient.source})" for coefficient in checked.coefficients
+        }
         facts["left out"] = "; ".join(checked.left_out)
     console.say(sentence, facts, files)
 

@@ -30,7 +30,7 @@ def report(
     found = read_results(folders)
     files = write_report(found, out, title=title, pdf=pdf)
     results = [{"kind": one.kind.value, "folder": str(one.folder), "name": one.name} for one in found]
-    if execution.emits({"results": results, "files": [str(one) for one in files]}):
+    if execution.emits({"results": results, "files": [str(file) for file in files]}):
         return
     for one in found:
         print(f"{one.kind.value}: {one.name} ({one.folder})")

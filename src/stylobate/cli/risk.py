@@ -71,7 +71,7 @@ def hazards_of(files: Sequence[Path], site: str | None) -> dict[str, Any]:
     """Hazard curves with their digests, and the site, as they are kept beside what rests on them."""
     from ..own_files import digest
 
-    return {"hazards": [f"{one} (SHA-256 {digest(one)})" for one in files], "site": site}
+    return {"hazards": [f"{file} (SHA-256 {digest(file)})" for file in files], "site": site}
 
 
 def the_site(text: str | None) -> tuple[float, float] | None:
@@ -81,7 +81,7 @@ def the_site(text: str | None) -> tuple[float, float] | None:
     if text is None:
         return None
     try:
-        lon, lat = (float(one) for one in text.split(","))
+        lon, lat = (float(part) for part in text.split(","))
     except ValueError:
         raise InputError(f"--site is {text!r}; write it as longitude,latitude, such as 21.9,37.4.") from None
     return lon, lat

@@ -138,8 +138,8 @@ def each_record(
     from . import console
 
     places: list[Path | None] = []
-    for one in motions:
-        places.append(None if out is None else out / safe_name(one.name, places))
+    for motion in motions:
+        places.append(None if out is None else out / safe_name(motion.name, places))
     campaign = follow.keywords["campaign"]
     following = {name: one for name, one in follow.keywords.items() if name not in ("model", "campaign")}
     hasher = Hasher(model, campaign.tail)
@@ -147,12 +147,12 @@ def each_record(
     made = {"twins": [campaign.replicates, campaign.scatter, campaign.seed], "whole": campaign.whole, **following}
     each = [
         hasher.of_product(
-            {"run": [stone.digest, one.name, one.digest, place and place.name], "drawn": drawn, **made}, __file__
+            {"run": [stone.digest, motion.name, motion.digest, place and place.name], "drawn": drawn, **made}, __file__
         )
-        for one, place in zip(motions, places, strict=True)
+        for motion, place in zip(motions, places, strict=True)
     ]
 
-    cases = [Case(stone, one) for one in motions]
+    cases = [Case(stone, motion) for motion in motions]
     request = Request(cases, Digests.of(each), [(np.arange(len(cases)), model, options)])
 
     def make(number: int) -> dict[str, Any]:

@@ -83,7 +83,7 @@ def states(
             files.table(found.links, "links.csv")
             files.picture(plots.draw_states(found), "states")
             what: dict[str, Any] = {"structures": list(columns.values()), "models": [how], "states": list(columns)}
-            what |= {"motions": [how.taken(one) for one in suite.motions], "runs": found.table}
+            what |= {"motions": [how.taken(motion) for motion in suite.motions], "runs": found.table}
             what |= {"im": im, "levels": levels, "limit_state": state, "tail_s": campaign.tail}
             files.asked(**what, **_twins(columns, campaign) if population.replicates is not None else {})
             files.summary(summary, "states.json")
@@ -114,14 +114,18 @@ def describe(found: StateComparison) -> None:
 
     if found.doubt:
         print(found.doubt)
-    for one in found.differences:
-        print(one.sentence)
+    for difference in found.differences:
+        print(difference.sentence)
     how = "collapse" if found.state == "collapse" else "exceed"
     rows, curves = [], [None if one is None else one.summary() for one in found.curves]
-    for one, curve in zip(found.shares, curves, strict=True):
-        row = {"state": one.label, "same runs": one.runs, how: one.exceeded, "do not": one.not_exceeded}
-        row |= {"undecided": one.undecided, "failed": one.failed, f"share that {how}s": one.words or console.MISSING}
-        row["95 % of the share"] = one.interval_words or console.MISSING
+    for share, curve in zip(found.shares, curves, strict=True):
+        row = {"state": share.label, "same runs": share.runs, how: share.exceeded, "do not": share.not_exceeded}
+        row |= {
+            "undecided": share.undecided,
+            "failed": share.failed,
+            f"share that {how}s": share.words or console.MISSING,
+        }
+        row["95 % of the share"] = share.interval_words or console.MISSING
         row[median_name(*curves)] = console.MISSING if curve is None else median_words(curve)
         rows.append(row)
     console.print_table(pandas.DataFrame(rows), digits=3)

@@ -44,7 +44,7 @@ def run(
         files.append(write_table(result.table, out / f"study{TABLES[0] if has_parquet() else TABLES[1]}"))
         (model, *more), motions = study.models, study.motions
         what = {"structures": study.columns, "models": study.models, "runs": result.table}
-        what |= {"motions": motions if more else [model.taken(one) for one in motions]}
+        what |= {"motions": motions if more else [model.taken(motion) for motion in motions]}
         files.asked(**what, tail_s=study.campaign.tail)
         doubts = (round_drums(study.columns, one) for one in study.models)
         summary = result.summary() | {"refused": refused, "doubt": next(filter(None, doubts), "")}
@@ -55,7 +55,7 @@ def run(
     print(sentence(result))
     console.print_refused(refused)
     tables, histories = files[-3:], len(files) - 3
-    print(f"{len(files)} files in {out}: {', '.join(one.name for one in tables)}, histories of {histories} runs")
+    print(f"{len(files)} files in {out}: {', '.join(table.name for table in tables)}, histories of {histories} runs")
 
 
 def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But("threads", "dask", "out")]) -> None:
@@ -69,8 +69,8 @@ def status(directory: StudyFolder, *, execution: Annotated[o.Execution, o.But("t
     if execution.as_json:
         written = directory / "study.json"
         last = json.loads(written.read_text()).get("wall_s") if written.is_file() else None
-        names = (*(one.name for one in sorted(directory.glob("study.*"))), PLAN_FILE, RUNS_FILE)
-        summary = result.summary() | {"wall_s": last, "files": [str(directory / one) for one in names]}
+        names = (*(path.name for path in sorted(directory.glob("study.*"))), PLAN_FILE, RUNS_FILE)
+        summary = result.summary() | {"wall_s": last, "files": [str(directory / name) for name in names]}
         summary.pop("computed")
         console.emit(summary)
     else:

@@ -122,7 +122,7 @@ def work(job: dict[str, Any], tell: Callable[..., None]) -> None:
         with redirect_stdout(said), redirect_stderr(complained):
             code = call([*command, "--json"])
         console.VIEWER = None
-        lines = [one.removeprefix("stylobate: ") for one in complained.getvalue().splitlines()]
+        lines = [line.removeprefix("stylobate: ") for line in complained.getvalue().splitlines()]
         tell(id=job["id"], number=number, code=code, said=said.getvalue(), complained=lines, field=console.FIELD)
         if code:
             return

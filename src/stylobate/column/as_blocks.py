@@ -39,7 +39,7 @@ def links_of_column(
     prefix : str
         Of the names of the links.
     """
-    found = []
+    links = []
     for link, one in zip(column.links, column.placed_links, strict=True):
         between: Any = tuple(names[f"drum {body}" if body else "ground"] for body in (one.lower, one.upper))
         stand = (column.bodies[one.lower], column.bodies[one.upper])
@@ -52,5 +52,5 @@ def links_of_column(
         # what stone a pin leaves was looked at in the column
         held: dict[str, Any] = {field.name: getattr(one, field.name) for field in dataclasses.fields(Numbers)}
         numbers = Numbers(**{**held, "diameter": 0.0})
-        found.append(type(link)(between=between, name=prefix + one.name, numbers=numbers, **where))
-    return found
+        links.append(type(link)(between=between, name=prefix + one.name, numbers=numbers, **where))
+    return links

@@ -139,8 +139,8 @@ class AsFound:
     base_azimuth: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "drums", tuple(sorted(self.drums, key=lambda one: one.drum)))
-        numbers = [one.drum for one in self.drums]
+        object.__setattr__(self, "drums", tuple(sorted(self.drums, key=lambda drum: drum.drum)))
+        numbers = [drum.drum for drum in self.drums]
         twice = next((number for number in numbers if numbers.count(number) > 1), None)
         if twice is not None:
             raise InputError(f"drum {twice} is given twice as found; give all of it at once.", f"found.{twice}")
@@ -151,18 +151,18 @@ class AsFound:
         _into_plane(self, "base_tilt", "base_azimuth")
 
     def __bool__(self) -> bool:
-        return self.base_tilt != 0.0 or any(one != _as_built(one.drum) for one in self.drums)
+        return self.base_tilt != 0.0 or any(drum != _as_built(drum.drum) for drum in self.drums)
 
     @property
     def in_plane(self) -> bool:
         """Whether all of it lies in the plane of x and z, so that a plane model can take it."""
-        return self.base_azimuth == 0.0 and all(one.in_plane for one in self.drums)
+        return self.base_azimuth == 0.0 and all(drum.in_plane for drum in self.drums)
 
     def to_dict(self) -> dict[str, Any]:
         """All of it as plain values; what takes a model in space only where there is some."""
         drums = [
-            {key: value for key, value in dataclasses.asdict(one).items() if key not in _IN_SPACE or value != 0.0}
-            for one in self.drums
+            {key: value for key, value in dataclasses.asdict(drum).items() if key not in _IN_SPACE or value != 0.0}
+            for drum in self.drums
         ]
         plain: dict[str, Any] = {"drums": drums, "base_tilt": self.base_tilt}
         return plain | ({"base_azimuth": self.base_azimuth} if self.base_azimuth else {})

@@ -130,12 +130,12 @@ class Assembly(Structure):
     @cached_property
     def _beds(self) -> dict[frozenset[str], list[Numbers]]:
         """Links between two bodies by name, as contacts."""
-        found: dict[frozenset[str], list[Numbers]] = {}
+        beds: dict[frozenset[str], list[Numbers]] = {}
         for link in self.links:
             assert link.between is not None
             assert link.numbers is not None
-            found.setdefault(frozenset(link.between), []).append(link.numbers)
-        return found
+            beds.setdefault(frozenset(link.between), []).append(link.numbers)
+        return beds
 
     @cached_property
     def bodies(self) -> tuple[Block, ...]:

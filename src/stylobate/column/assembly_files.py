@@ -172,10 +172,10 @@ def _law(table: Table | None, stone: Material | None, where: str) -> Joint:
 
 def _doubts(blocks: Sequence[Block], joint: Joint, others: Sequence[Joint], gravity: float) -> list[str]:
     """Parts of the blocks that come from no column that look like a slip of units, each kind once."""
-    free = [one for one in blocks if not one.fixed]
+    free = [block for block in blocks if not block.fixed]
     doubts = first(COLUMN.doubt(f"the size of block {one.name!r}", one.size, "stones have") for one in free)
     doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in free)
-    laws = [joint, *(one.surface for one in blocks if one.surface), *others]
+    laws = [joint, *(block.surface for block in blocks if block.surface), *others]
     beyond = first(joint_doubts(law) for law in dict.fromkeys(laws))
     heavy = [(one, one.surface or joint, one.density * gravity * float(np.ptp(one.corners[:, 1]))) for one in free]
     return doubts + (

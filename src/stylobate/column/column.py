@@ -286,7 +286,7 @@ class Column(DrumStack):
 
     def replace(self, **changes) -> Column:
         """A copy with some fields changed, checked as any column; what was warned of is not warned of again."""
-        fields = {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+        fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         if unknown := changes.keys() - fields:
             raise TypeError(no_field("a column", min(unknown), fields))
         copy = object.__new__(type(self))

@@ -90,7 +90,7 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
     joints = tuple(Joint(**fields) for fields in data["joints"])
     found = data.get("as_found", {"drums": (), "base_tilt": 0.0})
     as_found = AsFound(
-        tuple(FoundDrum(**one) for one in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
+        tuple(FoundDrum(**drum) for drum in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
     )
     links = tuple(link_from_dict(fields) for fields in data.get("links", ()))
     return Column(drums, joints, data["name"], data["gravity"], as_found, data.get("material"), links)
@@ -110,8 +110,8 @@ def _as_found_fields(found: AsFound) -> dict[str, Any]:
         table["base_azimuth"] = found.base_azimuth
     if found.drums:
         table["drum"] = [
-            {"index": one.drum}
-            | {key: value for key, value in dataclasses.asdict(one).items() if key != "drum" and value != 0.0}
-            for one in found.drums
+            {"index": drum.drum}
+            | {key: value for key, value in dataclasses.asdict(drum).items() if key != "drum" and value != 0.0}
+            for drum in found.drums
         ]
     return table

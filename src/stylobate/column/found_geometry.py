@@ -161,22 +161,22 @@ def check_as_found(column: DrumStack) -> None:
         and the missing moment or force.
     """
     name = repr(column.name)
-    for one in column.as_found.drums:
-        if one.drum > column.n:
+    for drum in column.as_found.drums:
+        if drum.drum > column.n:
             raise InputError(
-                f"{name} is given drum {one.drum} as found; it has drums 1 to {column.n}.", f"found.{one.drum}"
+                f"{name} is given drum {drum.drum} as found; it has drums 1 to {column.n}.", f"found.{drum.drum}"
             )
-        if column.section == "circular" and (one.chip_front or one.chip_back):
+        if column.section == "circular" and (drum.chip_front or drum.chip_back):
             raise InputError(
-                f"drum {one.drum} of {name} is round, and chip_front = {one.chip_front:g}, chip_back = {one.chip_back:g} m; "
-                "round drums take chip_left and chip_right with a chip_azimuth.",
-                f"found.{one.drum}.{'chip_front' if one.chip_front else 'chip_back'}",
+                f"drum {drum.drum} of {name} is round, and chip_front = {drum.chip_front:g}, chip_back = {drum.chip_back:g} "
+                "m; round drums take chip_left and chip_right with a chip_azimuth.",
+                f"found.{drum.drum}.{'chip_front' if drum.chip_front else 'chip_back'}",
             )
-        if column.section != "circular" and one.chip_azimuth:
+        if column.section != "circular" and drum.chip_azimuth:
             raise InputError(
-                f"drum {one.drum} of {name} is rectangular, and its chip_azimuth is {one.chip_azimuth:g}°; such drums "
+                f"drum {drum.drum} of {name} is rectangular, and its chip_azimuth is {drum.chip_azimuth:g}°; such drums "
                 "take chip_left, chip_right, chip_front and chip_back along their edges: leave chip_azimuth out.",
-                f"found.{one.drum}.chip_azimuth",
+                f"found.{drum.drum}.chip_azimuth",
             )
     if not column.as_found.in_plane:
         _check_in_space(column)

@@ -50,7 +50,7 @@ class Quantity:
         name = entry.fields.get("shorttitle")
         if name is not None:
             return name if str(entry.year) in name else f"{name} {entry.year}"
-        families = [one.split(",")[0] for one in entry.authors]
+        families = [author.split(",")[0] for author in entry.authors]
         named = families[0] + (" et al." if len(families) > 2 else f" and {families[1]}" if len(families) > 1 else "")
         return f"{named} {entry.year}" if entry.year else named
 
@@ -114,17 +114,17 @@ class Material:
         known = {name: one.value for name, one in self.quantities.items() if name in JOINT_VALUES}
         if "friction_angle" in said:
             known.pop("friction_coefficient", None)
-        found = known | said
-        if "friction_angle" not in found and "friction_coefficient" not in found:
+        joint_values = known | said
+        if "friction_angle" not in joint_values and "friction_coefficient" not in joint_values:
             raise InputError(
                 f"no friction of {self.name!r} is published in a source that is known here; add friction_angle to {where}."
             )
         for name in ("normal_stiffness", "shear_stiffness"):
-            if name not in found:
+            if name not in joint_values:
                 raise InputError(
                     f"no {name} of {self.name!r} is published in a source that is known here; add it to {where} [N/m³]."
                 )
-        return found
+        return joint_values
 
     def joint(self, **given: float) -> Joint:
         """The joint of this material; ``given`` overrides, by the names of :class:`Joint`."""

@@ -12,7 +12,7 @@ from .stack import Stack
 
 
 class Measure(NamedTuple):
-    """Plausible values of a quantity of stone columns: its unit, from where to where, a usual value, and other units in that unit."""
+    """Plausible values of a quantity of stone columns: its unit, its range, a usual value, and other units in that unit."""
 
     unit: str
     low: float
@@ -53,7 +53,7 @@ STIFFNESS = Measure("N/m³", 1e7, 1e13, 2e10, {"kN/m³": 1e3, "MPa/m": 1e6, "N/m
 #: Largest friction coefficient that was measured on stone [-]; an angle below the least [degrees] looks like a coefficient.
 ROUGHEST, SLIPPERIEST = 2.0, 3.0
 
-#: Share of columns that go over their width at most, and of drums where there are so many of them: half as much again as the most
+#: Largest height over width of columns, and of drums where there are so many of them: half as much again as the most
 #: slender columns of stone that stand, and as the tallest drums of such columns [-].
 SLENDEREST, DRUMS, TALLEST = 15.0, 5, 2.2
 
@@ -80,7 +80,9 @@ def unit_doubts(column: Stack, friction_angles: Iterable[float | None] = ()) -> 
     )
     doubts = doubts or _slenderness_doubt(column)
     densities = [drum.density for drum in column.drums]
-    doubts += first(DENSITY.doubt(f"the density of drum {i + 1}", one, "stone has") for i, one in enumerate(densities))
+    doubts += first(
+        DENSITY.doubt(f"the density of drum {i + 1}", density, "stone has") for i, density in enumerate(densities)
+    )
     doubts += [
         f"friction_angle is {angle:g} degrees, and a coefficient is friction_coefficient: is the unit right?"
         for angle in friction_angles
@@ -92,7 +94,7 @@ def unit_doubts(column: Stack, friction_angles: Iterable[float | None] = ()) -> 
 
 def _slenderness_doubt(column: Stack) -> list[str]:
     """The doubt about a column far more slender than any that stands, as one becomes whose radii are given for widths."""
-    width = statistics.median(0.5 * (one.bottom_width + one.top_width) for one in column.drums)
+    width = statistics.median(0.5 * (drum.bottom_width + drum.top_width) for drum in column.drums)
     often, of_drums = column.height / width, statistics.median(column.heights) / width
     if often > SLENDEREST:
         what = f"the height of the column, {column.height:g} m, is {often:.3g} times its width of {width:.3g} m"

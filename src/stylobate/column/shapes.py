@@ -311,7 +311,7 @@ class Glued:
 
     def mesh(self, around: int = 32) -> Mesh:
         """The surfaces of all parts, one after another."""
-        meshes, faces, first = [one.mesh(around) for one in self.parts], [], 0
+        meshes, faces, first = [part.mesh(around) for part in self.parts], [], 0
         for one in meshes:
             faces += [tuple(first + i for i in face) for face in one.faces]
             first += len(one.vertices)

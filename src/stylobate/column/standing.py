@@ -97,9 +97,9 @@ def stand(
         for x in _places(table):
             name = f"{table.name or 'column'} {len(found) + 1}"
             stones = of_column(column).blocks
-            drums = [_moved(one, f"{name}, {one.name}", x, float(ground)) for one in stones]
+            drums = [_moved(stone, f"{name}, {stone.name}", x, float(ground)) for stone in stones]
             blocks += drums
-            called = {"ground": "ground"} | {one.name: f"{name}, {one.name}" for one in stones}
+            called = {"ground": "ground"} | {stone.name: f"{name}, {stone.name}" for stone in stones}
             links += links_of_column(column, (x, float(ground)), called, f"{name}, ")
             top = sorted(drums[-1].vertices, key=lambda corner: corner[1])[-2:]
             if abs(top[0][1] - top[1][1]) > TOUCHING * column.height:
@@ -145,8 +145,8 @@ def lay(table: BeamTable, name: str, density: float, columns: Sequence[Standing]
     levels = [one.level for one in under]
     if not max(levels) - min(levels) <= 1e-9 * max(1.0, max(levels)):
         raise InputError(
-            f"beam {name!r} lies on tops at {', '.join(f'{one:g}' for one in levels)} m; give columns of one height that "
-            "stand upright."
+            f"beam {name!r} lies on tops at {', '.join(f'{level:g}' for level in levels)} m; give columns of one height "
+            "that stand upright."
         )
     left, right = _ends(table, name, [one.place for one in under])
     low, near = levels[0], 1e-9 * max(1.0, abs(left), abs(right))
@@ -165,7 +165,7 @@ def _under(table: BeamTable, name: str, columns: Sequence[Standing]) -> list[Sta
     if table.on is not None and table.between is not None:
         raise InputError(f"beam {name!r} has on and between; give one of the two.")
     if table.between is not None:
-        named = {one.name: one for one in columns}
+        named = {column.name: column for column in columns}
         for one in table.between:
             if one not in named:
                 known = f"the columns are {', '.join(named) or 'none'}"
@@ -174,11 +174,11 @@ def _under(table: BeamTable, name: str, columns: Sequence[Standing]) -> list[Sta
             raise InputError(f"beam {name!r} lies between {len(table.between)} columns; name two different ones.")
         return [named[one] for one in table.between]
     numbers = list(range(1, len(columns) + 1)) if table.on is None else table.on
-    wrong = next((one for one in numbers if not 1 <= one <= len(columns)), None)
+    wrong = next((number for number in numbers if not 1 <= number <= len(columns)), None)
     if not numbers or wrong is not None:
         what = "no column" if wrong is None else f"column {wrong}"
         raise InputError(f"beam {name!r} lies on {what}; the file has columns 1 to {len(columns)}.")
-    return [columns[one - 1] for one in numbers]
+    return [columns[number - 1] for number in numbers]
 
 
 def _ends(table: BeamTable, name: str, places: Sequence[float]) -> tuple[float, float]:

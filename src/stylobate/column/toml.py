@@ -130,7 +130,7 @@ def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:
     kind, value, alternatives = item["type"], item["input"], [_EXPECTED.get(item["type"])]
     if isinstance(key, str) and key not in _keys(schema, where) and where and kind != "extra_forbidden":
         # One of several types that the key may have: told of the key, with all of them.
-        alternatives += [_EXPECTED.get(one["type"]) for one in others if one["loc"][:-1] == item["loc"][:-1]]
+        alternatives += [_EXPECTED.get(other["type"]) for other in others if other["loc"][:-1] == item["loc"][:-1]]
         *where, key = where
     position = ""
     while isinstance(key, int):  # an element of a list: name it by the list
@@ -146,7 +146,7 @@ def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:
     if kind == "literal_error":
         expected = item["ctx"]["expected"]
     else:
-        expected = " or ".join(dict.fromkeys(one for one in alternatives if one)) or None
+        expected = " or ".join(dict.fromkeys(alternative for alternative in alternatives if alternative)) or None
     if expected is None:
         return f"{position}{key!r}{place} is {value!r}: {item['msg'].lower()}."
     return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}."

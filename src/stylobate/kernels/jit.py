@@ -92,9 +92,9 @@ class _OwnCode(codegen.JITCodeLibrary):
                 (self._shared_module.functions, llvm.Linkage.external, llvm.Linkage.linkonce_odr),
                 (self._final_module.functions, llvm.Linkage.linkonce_odr, llvm.Linkage.internal),
             ):
-                for one in functions:
-                    if not one.is_declaration and one.linkage == before:
-                        one.linkage = after
+                for function in functions:
+                    if not function.is_declaration and function.linkage == before:
+                        function.linkage = after
         super()._finalize_final_module()
 
 

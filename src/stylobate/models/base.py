@@ -253,5 +253,7 @@ def _parse(key: str, text: str, hint: Any) -> Any:
         return TypeAdapter(hint).validate_python(text)
     except ValidationError as error:
         mistakes = error.errors()
-    expected = next((_EXPECTED[one["type"]] for one in mistakes if one["type"] in _EXPECTED), mistakes[0]["msg"])
+    expected = next(
+        (_EXPECTED[mistake["type"]] for mistake in mistakes if mistake["type"] in _EXPECTED), mistakes[0]["msg"]
+    )
     raise InputError(f"parameter {key} is {text!r}; allowed is {expected}.", key, value=text, allowed=expected)

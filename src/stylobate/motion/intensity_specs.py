@@ -223,7 +223,7 @@ def parse_measure(text: str) -> IntensityMeasure:
     wanted = {"sa": 1, "avgsa": 2}.get(kind, 0)
     if (
         len(periods) != wanted
-        or not all(0.001 <= one <= 1000.0 for one in periods)
+        or not all(0.001 <= period <= 1000.0 for period in periods)
         or sorted(set(periods)) != list(periods)
     ):
         example = {"sa": "sa:1.0s", "avgsa": "avgsa:0.5s-3s"}.get(kind, kind)
@@ -238,11 +238,11 @@ def measure_of_column(name: str) -> IntensityMeasure | None:
         kind = next((one for one in ("sa_", "avgsa_") if name.startswith(one)), "")
         for text in (name.removesuffix(end), f"{stem}@{component}"):
             try:
-                found = parse_measure(f"{kind[:-1]}:{text.removeprefix(kind)}" if kind else text)
+                measure = parse_measure(f"{kind[:-1]}:{text.removeprefix(kind)}" if kind else text)
             except InputError:
                 continue
-            if found.key == name:
-                return found
+            if measure.key == name:
+                return measure
     return None
 
 
@@ -251,12 +251,12 @@ def told(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[st
     names = TOLD if motion.y_samples is None else (*TOLD, *TOLD_OF_TWO)
     measures = [parse_measure(name) for name in names]
     if motion.pga == 0.0:
-        return [dict.fromkeys((one.key for one in measures), math.nan) for _ in columns]
-    own = {one.key: one.of(motion) for one in measures if not KINDS[one.kind].column}
+        return [dict.fromkeys((measure.key for measure in measures), math.nan) for _ in columns]
+    own = {measure.key: measure.of(motion) for measure in measures if not KINDS[measure.kind].column}
     found = []
     for column in columns:
         rocking = rocking_measures(motion, *column)
-        related = {one.key: rocking[one.kind] for one in measures if KINDS[one.kind].column}
+        related = {measure.key: rocking[measure.kind] for measure in measures if KINDS[measure.kind].column}
         found.append(own | {key: math.nan if value is None else float(value) for key, value in related.items()})
     return found
 

@@ -114,7 +114,7 @@ class MotionRequest:
             check_range("`scale`", self.scale, *FACTORS)
         for name in ("dt", "pga"):
             check_kind(name, getattr(self, name), Real, optional=True)
-        given = [f"`{one}`" for one in SOURCES if getattr(self, one) not in (None, ())]
+        given = [f"`{source}`" for source in SOURCES if getattr(self, source) not in (None, ())]
         if len(given) != 1:
             what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
             raise InputError(f"{what}; give one of `harmonic`, `pulse`, `synthetic` and `files`.", "files")
@@ -128,8 +128,8 @@ class MotionRequest:
         check_choice("`signs`", self.signs, ("+", "both"))
         if self.scale is not None and self.pga is not None:
             raise InputError("`scale` and `pga` are both given; give one of the two.", "pga")
-        for one in self.azimuths:
-            check_range("azimuth", one, -360.0, 360.0, unit="degrees")
+        for azimuth in self.azimuths:
+            check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees")
         opposite = next(
             (
                 pair
@@ -225,8 +225,8 @@ class MotionRequest:
             raise InputError(f"{folder} is a folder; give the file or the files of one record here.")
         if self.several:
             raise InputError("several motions are asked for; one motion, one direction and one sign can be given here.")
-        (found,) = self._variants(self._source(frequency_parameter, amplitude_open))
-        return found
+        (motion,) = self._variants(self._source(frequency_parameter, amplitude_open))
+        return motion
 
     def expand(self, frequency_parameter: float | None = None, *, amplitude_open: bool = False) -> Suite:
         """All motions that are asked for, and what could not be used, with the reason; see :meth:`motion`.
@@ -288,7 +288,7 @@ class MotionRequest:
 
     def _variants(self, motion: Motion) -> list[Motion]:
         """The motion in every direction and with every sign asked for, conditioned and scaled."""
-        found = []
+        variants = []
         for first in _as_x(motion, self.component):
             ready = []
             for azimuth in self.azimuths or (None,):
@@ -301,8 +301,8 @@ class MotionRequest:
                 both = [one, _reversed(one, motion.name)] if self.signs == "both" else [one]
                 ready += [self._conditioned(each) for each in both]
             strongest = max(ready, key=lambda one: one.pga)
-            found += [self._sized(one, strongest) for one in ready]
-        return found
+            variants += [self._sized(one, strongest) for one in ready]
+        return variants
 
     def _turned(self, motion: Motion, azimuth: float) -> Motion:
         if motion.y_samples is None and not self.files:  # a computed motion along x has nothing along y

@@ -58,7 +58,7 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     sheet = Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
     slope = _slope(column)
     axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
-    marked = {one.drum for one in column.as_found.drums if _said(one)}
+    marked = {drum.drum for drum in column.as_found.drums if _said(drum)}
     for i, shape in enumerate(outlines):
         red = i + 1 in marked
         axes.fill(*shape.T, facecolor="#f7e3df" if red else SAND, edgecolor=RED if red else BROWN, linewidth=0.9)
@@ -225,17 +225,17 @@ def _ends(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
     return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
 
 
-def _said(one: FoundDrum) -> str:
+def _said(drum: FoundDrum) -> str:
     """State as found of a drum, in words."""
     towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
     parts = []
-    if one.offset:
-        parts.append(f"offset {1000.0 * one.offset:+.0f} mm{towards(one.offset_azimuth)}")
-    if one.tilt:
-        parts.append(f"lean {one.tilt:+g}°{towards(one.tilt_azimuth)}")
-    if one.turn:
-        parts.append(f"turned {one.turn:+g}°")
-    parts += [f"chip {side} {1000.0 * width:.0f} mm" for side, width in zip(SIDES, one.chips, strict=True) if width]
+    if drum.offset:
+        parts.append(f"offset {1000.0 * drum.offset:+.0f} mm{towards(drum.offset_azimuth)}")
+    if drum.tilt:
+        parts.append(f"lean {drum.tilt:+g}°{towards(drum.tilt_azimuth)}")
+    if drum.turn:
+        parts.append(f"turned {drum.turn:+g}°")
+    parts += [f"chip {side} {1000.0 * width:.0f} mm" for side, width in zip(SIDES, drum.chips, strict=True) if width]
     return ", ".join(parts).replace("-", "−")
 
 

@@ -84,7 +84,7 @@ def _strip(
     scenes: list[Scene], outlines: list[list[list[np.ndarray]]], frames: list[int], figure: Figure | SubFigure | None
 ) -> tuple[Figure, list[Axes]]:
     """Panels each as wide as what it shows, all in one scale, in one row if that is not much smaller than in several."""
-    stood = np.concatenate([np.concatenate(one.outlines(0)) for one in scenes])
+    stood = np.concatenate([np.concatenate(scene.outlines(0)) for scene in scenes])
     aside, margin = ASIDE * scenes[0].size, 0.35 * float(np.ptp(stood[:, 0]))
     limits = float(stood[:, 0].min()) - aside, float(stood[:, 0].max()) + aside
     spans = [_span(shape, limits, margin) for strip in outlines for shape in strip]
@@ -152,8 +152,8 @@ def _grid(
 ) -> tuple[Figure, list[Axes]]:
     """Panels with the same view, in as many rows as make them largest."""
     del outlines
-    ends = [one.view(np.array(frames)) for one in scenes]
-    low, high, bottom, top = (pick(one[k] for one in ends) for k, pick in enumerate((min, max, min, max)))
+    ends = [scene.view(np.array(frames)) for scene in scenes]
+    low, high, bottom, top = (pick(end[k] for end in ends) for k, pick in enumerate((min, max, min, max)))
     n, width, height = len(frames), high - low, top - bottom
 
     def scale(across: int) -> float:

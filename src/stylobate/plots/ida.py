@@ -44,20 +44,20 @@ def draw_ida(
     figure, axes = panel(ax, (NARROW[0], 3.9))
     curves, table = result.curves(edp), result.fractiles(edp)
     size = result.column.base_width if edp.endswith("displacement_m") else 1.0
-    largest = max((float(one.edp.max(initial=0.0)) for one in curves), default=0.0) / size
+    largest = max((float(curve.edp.max(initial=0.0)) for curve in curves), default=0.0) / size
     right = ROOM * (largest or 1.0)
     handles = {}
-    for one in curves:
-        below = one.im < one.collapses
-        x, y = np.concatenate(([0.0], one.edp[below] / size)), np.concatenate(([0.0], one.im[below]))
-        if math.isfinite(one.collapses):
-            edge = math.sqrt(one.stands * one.collapses) if one.stands else 0.5 * one.collapses
+    for curve in curves:
+        below = curve.im < curve.collapses
+        x, y = np.concatenate(([0.0], curve.edp[below] / size)), np.concatenate(([0.0], curve.im[below]))
+        if math.isfinite(curve.collapses):
+            edge = math.sqrt(curve.stands * curve.collapses) if curve.stands else 0.5 * curve.collapses
             x, y = np.append(x, [x[-1], right]), np.append(y, [edge, edge])
         (handles["one record"],) = axes.plot(x, y, color=GREY, linewidth=0.6, alpha=0.8)
-        if len(one.resurrections):
+        if len(curve.resurrections):
             again = ~below
             (handles["stands again"],) = axes.plot(
-                one.edp[again] / size, one.im[again], "o", color=BLUE, markersize=3.2, markerfacecolor="white"
+                curve.edp[again] / size, curve.im[again], "o", color=BLUE, markersize=3.2, markerfacecolor="white"
             )
     for share, look in zip(SHARES, ((0, (1.2, 1.2)), "-", (0, (5, 2)))):
         edp_values = table[f"edp_{100 * share:.0f}"].to_numpy() / size
@@ -67,11 +67,11 @@ def draw_ida(
         (handles[f"{percent(share)} of the records"],) = axes.plot(
             x, table["im"].to_numpy()[known], color=RED if share == 0.5 else BLACK, linestyle=look, linewidth=1.6
         )
-    fell = [one.collapses for one in curves if math.isfinite(one.collapses)]
-    high = max((float(one.im.max(initial=0.0)) for one in curves), default=1.0)
+    fell = [curve.collapses for curve in curves if math.isfinite(curve.collapses)]
+    high = max((float(curve.im.max(initial=0.0)) for curve in curves), default=1.0)
     if fell and max(fell) > FAR * float(np.median(fell)):
         high = min(high, FAR * float(np.median(fell)))
-        hidden = sum(one.collapses > high for one in curves)
+        hidden = sum(curve.collapses > high for curve in curves)
         title = title or f"{result.column.name}, {result.model}; {hidden} of {len(curves)} plateaus lie above"
     axes.set(xlim=(0.0, right), ylim=(0.0, 1.05 * max([high, *(one for one in fell if one <= high)])))
     words = edp.removesuffix("_m").removesuffix("_rad").replace("_", " ")

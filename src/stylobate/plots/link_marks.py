@@ -28,7 +28,7 @@ class Mark(NamedTuple):
 def marks_of(scene: Scene) -> list[Mark]:
     """Marks of every link but layers."""
     structure = scene.response.structure
-    broken = {one.name: one.broken_at for one in scene.response.measures.links if one.broken}
+    broken = {link.name: link.broken_at for link in scene.response.measures.links if link.broken}
 
     def body(number: int, place: np.ndarray) -> tuple[int | None, np.ndarray]:
         recorded = number - structure.first
@@ -37,7 +37,7 @@ def marks_of(scene: Scene) -> list[Mark]:
     def mark(one: Stroke) -> Mark:
         return Mark(body(*one.lower[:2]), body(*one.upper[:2]), broken.get(one.link.name, math.inf))
 
-    return [mark(one) for one in strokes(structure.placed_links)]
+    return [mark(stroke) for stroke in strokes(structure.placed_links)]
 
 
 def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.ndarray, bool]]:
@@ -53,7 +53,7 @@ def link_marks(scene: Scene, index: int, factor: float = 1.0) -> list[tuple[np.n
         return point[[0, 2]] if scene.seen_from is None else scene.seen_from.across(point)
 
     now = scene.response.time[index]
-    return [(np.array([seen(*one.lower), seen(*one.upper)]), now >= one.broken) for one in marks]
+    return [(np.array([seen(*mark.lower), seen(*mark.upper)]), now >= mark.broken) for mark in marks]
 
 
 def draw_links(axes: Axes, scene: Scene, index: int, factor: float = 1.0) -> None:

@@ -79,7 +79,7 @@ def film_data(scene: Scene, indices: np.ndarray, seen_from: View = OBLIQUE, leas
     poses = _upright(scene, response.body_position, response.body_orientation)[:, shown]
     data = {
         "time": scene.time[indices].round(4).tolist(),
-        "shapes": [one.round(5).tolist() for one in _vertices(scene)],
+        "shapes": [vertex.round(5).tolist() for vertex in _vertices(scene)],
         "fixed": scene.fixed,
         "poses": np.nan_to_num(poses[indices], nan=1e6).round(5).tolist(),
         "start": poses[0].round(5).tolist(),
@@ -132,7 +132,10 @@ def _vertices(scene: Scene) -> list[np.ndarray]:
 def _in_space(scene: Scene, view: View) -> dict:
     """Scene that the page turns: faces with tones, the ground, view and light."""
     return {
-        "faces": [[(tone, *face) for tone, face in zip(one.tones, one.faces, strict=True)] for one in scene.surfaces],
+        "faces": [
+            [(tone, *face) for tone, face in zip(surface.tones, surface.faces, strict=True)]
+            for surface in scene.surfaces
+        ],
         "plate": scene.plate.round(4).tolist(),
         "directions": scene.directions.round(4).tolist(),
         "view": (view.azimuth, view.elevation),

@@ -50,7 +50,7 @@ def draw_record_verdicts(
             lower.add_collection(PolyCollection(cells, antialiaseds=False, **fill))
             frame = {"edgecolor": "#999999", "linewidth": 0.5}
             handles.append(Patch(label=f"{one} ({len(cells)})", **(fill | frame if "hatch" not in fill else fill)))
-    lower.set_yticks(range(count), [plain(_short(one.motion.name)) for one in suite.results], fontsize=7.5)
+    lower.set_yticks(range(count), [plain(_short(result.motion.name)) for result in suite.results], fontsize=7.5)
     lower.set_ylim(count - 0.5, -0.5)
     lower.set_xlim(edges[0], edges[-1])
     lower.set_xlabel("peak ground acceleration [g]")

@@ -73,8 +73,8 @@ def draw_survival(result: Survival, title: str | None = None, *, ax: Axes | None
     axes.barh(at, result.probability, height=0.36, color=BLUE, alpha=0.6)
     axes.hlines(at, low, high, color=BLACK, linewidth=1.4)
     weight = result.likelihood / result.likelihood.sum()
-    for k, one in enumerate(result.risks):
-        text = f"{one.hazard.name}: {result.probability[k]:.2g}, weight {weight[k]:.2f}"
+    for k, risk in enumerate(result.risks):
+        text = f"{risk.hazard.name}: {result.probability[k]:.2g}, weight {weight[k]:.2f}"
         axes.annotate(text, (0.0, k), xytext=(2, 15), textcoords="offset points", va="center", fontsize=8)
     axes.set_yticks([])
     axes.spines["left"].set_color(GREY)

@@ -35,7 +35,7 @@ def paint(axes: Axes, scene: Scene, index: int) -> None:
     """Paint the bodies as they are at another recorded state."""
     assert scene.seen_from is not None
     polygons, colours, outlines = painted(scene.solids(index), scene.seen_from)
-    faces = next(one for one in axes.collections if isinstance(one, PolyCollection))
+    faces = next(collection for collection in axes.collections if isinstance(collection, PolyCollection))
     faces.set_verts(polygons)
     faces.set_facecolor([tuple(colour) for colour in colours])
     faces.set_edgecolor([BROWN if outline else tuple(colour) for outline, colour in zip(outlines, colours)])

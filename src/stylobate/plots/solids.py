@@ -155,7 +155,7 @@ def painting_order(solids: list[Solid], view: View) -> list[int]:
 
 
 def _ordered(solids: list[Solid], outlines: list[np.ndarray], view: View) -> list[int]:
-    low, high = (np.array([getattr(one, end)(axis=0) for one in outlines]) for end in ("min", "max"))
+    low, high = (np.array([getattr(outline, end)(axis=0) for outline in outlines]) for end in ("min", "max"))
     depth = [float(solid.place @ view.toward) for solid in solids]
     left = sorted(range(len(solids)), key=depth.__getitem__)
     before: dict[int, set[int]] = {i: set() for i in left}

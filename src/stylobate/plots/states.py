@@ -52,26 +52,31 @@ def draw_states(found: StateComparison, title: str = "", *, figure: Figure | Sub
         curves.set_title(title)
     places = np.arange(len(found.differences))[::-1]
     bars.axvline(0.0, color=GREY, linewidth=0.8)
-    for one, place in zip(found.differences, places):
-        _draw_difference(bars, one, float(place))
-    several = len({one.against for one in found.differences}) > 1
-    names = [plain(one.state) + (f"\nagainst {plain(one.against)}" if several else "") for one in found.differences]
+    for difference, place in zip(found.differences, places):
+        _draw_difference(bars, difference, float(place))
+    several = len({difference.against for difference in found.differences}) > 1
+    names = [
+        plain(difference.state) + (f"\nagainst {plain(difference.against)}" if several else "")
+        for difference in found.differences
+    ]
     bars.set_yticks(places, names)
     bars.set_ylim(-0.6, len(places) - 0.4)
     against = "the other one" if several else f"“{plain(found.differences[0].against)}”"
     bars.set_xlabel(f"share of runs with {found.state},\nless that of {against}\n[percentage points], paired")
     _say_which_side(bars, found)
-    if any(one.undecided for one in found.differences):
+    if any(difference.undecided for difference in found.differences):
         bars.plot([], [], color=BLACK, linewidth=4.0, alpha=0.5, label="undecided, both ways")
         bars.legend(loc="lower left", fontsize=7.5)
     bars.grid(True, axis="x")
     return figure
 
 
-def _say_which_side(axes: Axes, found: StateComparison) -> None:
+def _say_which_side(axes: Axes, comparison: StateComparison) -> None:
     """Room on both sides of zero, and what they mean."""
     ends = [
-        end for one in found.differences for end in (one.share_best, one.share_worst, one.share_low, one.share_high)
+        end
+        for difference in comparison.differences
+        for end in (difference.share_best, difference.share_worst, difference.share_low, difference.share_high)
     ]
     known = 100.0 * np.array([end for end in ends if np.isfinite(end)] or [0.0])
     left, right = max(-known.min(), 0.0), max(known.max(), 0.0)
@@ -81,19 +86,19 @@ def _say_which_side(axes: Axes, found: StateComparison) -> None:
         axes.annotate(text, (0.0, 1.02), xycoords=("data", "axes fraction"), ha=side, fontsize=9)
 
 
-def _draw_difference(axes: Axes, one: Difference, place: float) -> None:
+def _draw_difference(axes: Axes, difference: Difference, place: float) -> None:
     """The interval over records, and in it what the runs themselves leave open."""
-    color = {WEAKER: RED, STRONGER: BLACK}.get(one.conclusion, GREY)
-    ends = 100.0 * np.array([one.share_best, one.share_worst])
-    low, high = 100.0 * one.share_low, 100.0 * one.share_high
-    if one.records >= FEWEST:
+    color = {WEAKER: RED, STRONGER: BLACK}.get(difference.conclusion, GREY)
+    ends = 100.0 * np.array([difference.share_best, difference.share_worst])
+    low, high = 100.0 * difference.share_low, 100.0 * difference.share_high
+    if difference.records >= FEWEST:
         axes.errorbar(
             [0.5 * (low + high)], [place], xerr=[[0.5 * (high - low)]] * 2, color=color, linestyle="none", capsize=2.5
         )
-    if one.undecided:
+    if difference.undecided:
         axes.plot(ends, [place, place], color=color, linewidth=4.0, alpha=0.5, solid_capstyle="butt")
     else:
-        hollow = "white" if one.conclusion == NOT_TOLD else None
+        hollow = "white" if difference.conclusion == NOT_TOLD else None
         axes.plot(ends[:1], [place], color=color, marker="o", markersize=4.5, linestyle="none", markerfacecolor=hollow)
 
 

@@ -71,7 +71,7 @@ def draw_suite(
     figure = page(figure, (WIDTH, 1.2 + 2.7 * len(columns)))
     panels = figure.subplots(len(columns), 1, sharex=True, sharey=True, squeeze=False)[:, 0]
     values = table[against].to_numpy(dtype=float)
-    name = next(one for one in PEAKS if one in table)
+    name = next(peak for peak in PEAKS if peak in table)
     peaks = table[name].to_numpy(dtype=float)
     groups = _groups(table)
     finite = peaks[np.isfinite(peaks) & (groups != v.COLLAPSED)]

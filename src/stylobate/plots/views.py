@@ -45,7 +45,7 @@ def draw_views(structure: Structure, title: str | None = None) -> Figure:
         for _, fixed, part in named
     ]
     names = [name for name, *_ in named]
-    points = np.concatenate([one.vertices for one in solids])
+    points = np.concatenate([solid.vertices for solid in solids])
     size = np.ptp(points, axis=0)
     across, up, deep = (max(float(one), 0.05 * float(size.max())) for one in (size[0], size[2], size[1]))
     share = 0.62 * WIDTH / (across + deep)
@@ -78,12 +78,12 @@ def draw_views(structure: Structure, title: str | None = None) -> Figure:
 
 def _plain(surface: Surface) -> Surface:
     """The surface without the mark that shows how a body has turned: nothing has."""
-    return Surface(surface.vertices, surface.faces, tuple(STONE if one == MARK else one for one in surface.tones))
+    return Surface(surface.vertices, surface.faces, tuple(STONE if tone == MARK else tone for tone in surface.tones))
 
 
 def _box(solids: list[Solid], view: View, level: float | None) -> tuple[np.ndarray, np.ndarray]:
     """Corners of the box around what is seen, and around the ground where it is near [m], shape (2,) each."""
-    flat = np.concatenate([view.across(one.vertices) for one in solids])
+    flat = np.concatenate([view.across(solid.vertices) for solid in solids])
     low, high = flat.min(axis=0), flat.max(axis=0)
     if level is not None:
         low[1] = min(low[1], max(level, low[1] - BESIDE))
@@ -98,14 +98,14 @@ def _sheet(axes: Axes, solids: list[Solid], view: View, level: float | None, lea
 def _paint(axes: Axes, solids: list[Solid], view: View) -> None:
     polygons, colours, outlines = painted(solids, view)
     edges = np.where(np.array(outlines)[:, None], 0.35, colours)
-    widths = [0.9 if one else 0.2 for one in outlines]
+    widths = [0.9 if outline else 0.2 for outline in outlines]
     axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors=edges, linewidths=widths, zorder=2))
 
 
 def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view: View) -> None:
     """Names where they fit into what is seen of their body; of "column 1, drum 5" the drum if only that fits."""
     order = painting_order(solids, view)
-    shapes = [hull(view.across(one.vertices)) for one in solids]
+    shapes = [hull(view.across(solid.vertices)) for solid in solids]
     for place, number in enumerate(order):
         shape = shapes[number]
         wide, high = np.ptp(shape, axis=0) / sheet.metres

@@ -86,7 +86,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) 
     names = ", ".join(dict.fromkeys(one.name for one in found))
     kinds = ", ".join(dict.fromkeys(TITLES[one.kind.value] for one in found))
     lead = [f"{kinds[:1].upper()}{kinds[1:]}. Written on {date.today().isoformat()} by stylobate {__version__}."]
-    notes = page.kinds(_notes([one["notes"] for one in cases]) if len(cases) > 1 else [])
+    notes = page.kinds(_notes([case["notes"] for case in cases]) if len(cases) > 1 else [])
     values = {
         "notes": notes,
         "version": __version__,
@@ -103,11 +103,16 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) 
 def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, Any]:
     """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
     sections = _told(result, told, all_)
-    notes = [one for one in sections[0].items if isinstance(one, page.Note) and "verdict" in one.look]
-    verdict = " ".join(text for one in notes for text in one.texts[: one.first])
-    said = [text for part in sections for one in part.items if isinstance(one, page.Note) for text in one.texts]
+    notes = [item for item in sections[0].items if isinstance(item, page.Note) and "verdict" in item.look]
+    verdict = " ".join(text for note in notes for text in note.texts[: note.first])
+    said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
     known = [text.removeprefix(NOTE) for text in said if text.startswith(NOTE)]
-    return {"title": _title(result), "verdict": verdict, "notes": known, "parts": [page.part(one) for one in sections]}
+    return {
+        "title": _title(result),
+        "verdict": verdict,
+        "notes": known,
+        "parts": [page.part(section) for section in sections],
+    }
 
 
 def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
@@ -141,9 +146,9 @@ def _sections(result: Result, told: set[str], all_: Sequence[Result]) -> list[pa
         return run_sections(result, told)
     if isinstance(result, SeveralRuns):
         return several_sections(result, told)
-    mine = {one.digest for one in result.structures}
+    mine = {structure.digest for structure in result.structures}
     runs = [one for one in all_ if isinstance(one, RunResult) and one.response.structure.digest in mine]
-    return sections_of(result, told, next((one for one in runs if one.motion is not None), None))
+    return sections_of(result, told, next((run for run in runs if run.motion is not None), None))
 
 
 def _title(result: Result) -> str:

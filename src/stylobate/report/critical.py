@@ -91,7 +91,7 @@ def _share(fell: int, stood: int, undecided: int) -> str:
 def _by_record(records: Sequence[Mapping[str, Any]]) -> Rows:
     alone = "critical_50_g" not in records[0]
     keys = [key for key in BY_RECORD if key in records[0] and not (alone and key.startswith("lowest"))]
-    rows = [[n.plain(one.get("bounds", {}).get(key, one.get(key))) for key in keys] for one in records[:MOST]]
+    rows = [[n.plain(record.get("bounds", {}).get(key, record.get(key))) for key in keys] for record in records[:MOST]]
     caption = "By motion; ≤ and > mark bounds, where no amplitude on the other side was stood, or brought collapse."
     left_out = f" The first {MOST} of {len(records)}." if len(records) > MOST else ""
     return Rows([n.named(key) for key in keys], rows, caption + left_out, numbers=True)

@@ -34,7 +34,7 @@ UNITS = {"_m_s": "m/s", "_m": "m", "_s": "s", "_g": "g", "_y": "years", "_rad": 
 
 def named(key: str) -> str:
     """A key of a JSON object or a table as a name, its unit behind: ``tail_s`` is ``tail [s]``."""
-    end = next((one for one in UNITS if key.endswith(one) and key != one), "")
+    end = next((unit for unit in UNITS if key.endswith(unit) and key != unit), "")
     return key.removesuffix(end).replace("_", " ") + (f" [{UNITS[end]}]" if end else "")
 
 

@@ -60,7 +60,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         Of the same column in the same report: its motion is the demand in the capacity spectrum check of a pushover.
     """
     asked = result.asked
-    columns = [one.stack for one in result.structures if one.stack is not None]
+    columns = [structure.stack for structure in result.structures if structure.stack is not None]
     if result.kind is Kind.STATES:
         parts = _states(result, columns, told)
     else:
@@ -68,14 +68,14 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
         note = Note([verdict[0], _scope(result.kind)], f"verdict{verdict[1]}")
         parts = [Section("Result", [note, *warnings_of(result, _doubts(result))]), asked_section(result)]
         parts += [basis_section(result)] if result.kind in FROM_RUNS else []
-        parts += [once(structure_section(one), one.digest, told) for one in result.structures[:5]]
+        parts += [once(structure_section(structure), structure.digest, told) for structure in result.structures[:5]]
         parts += [motions_section(result)] if asked is not None and asked.motions else []
         parts.append(Section("What was found", body))
     if result.kind is Kind.PUSHOVER and columns:
         parts.append(code_check(columns[0], result, run))
     if columns and result.kind not in (Kind.LIMIT, Kind.PUSHOVER, Kind.STATES):
         parts.append(once(statics_section(columns[0], None), f"statics {columns[0].digest}", told))
-    models = [str(one["name"]) for one in asked.models] if asked is not None else []
+    models = [str(model["name"]) for model in asked.models] if asked is not None else []
     models = models or [str(result.summary[key]) for key in ("model",) if key in result.summary]
     if result.kind in (Kind.PUSHOVER, Kind.LIMIT):
         parts.append(once(static_model(), "model of statics", told))
@@ -87,7 +87,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
     if isinstance(result, Grid) and result.data.provenance:
         parts.append(sources_section(cite_run(result.data.provenance)))
     else:
-        keys += [key for one in (asked.motions if asked is not None else ()) for key in one.get("references", ())]
+        keys += [key for motion in (asked.motions if asked is not None else ()) for key in motion.get("references", ())]
         keys += ["baraldi"] if result.kind in (Kind.PUSHOVER, Kind.LIMIT) else []
         parts.append(sources_section(cite(keys)))
     return parts
@@ -96,7 +96,7 @@ def sections_of(result: Result, told: set[str], run: RunResult | None = None) ->
 def _states(result: Result, columns: Sequence[Column], told: set[str]) -> list[Section]:
     """Advice and what it rests on; the first state in full, of the others what they differ by."""
     assert isinstance(result, Numbers)
-    labels = [str(one["label"]) for one in result.summary["states"]]
+    labels = [str(state["label"]) for state in result.summary["states"]]
     lead = [*advice_notes(result), _scope(result.kind), *warnings_of(result)]
     parts = [Section("Result", lead), Section("What was found", states_items(result)), asked_section(result)]
     parts += [motions_section(result)] if result.asked is not None and result.asked.motions else []
@@ -114,7 +114,7 @@ def _doubts(result: Result) -> list[str]:
     if result.kind not in FROM_RUNS:
         return [str(result.summary["doubt"])] if result.summary.get("doubt") else []
     curves = result.summary.get("curves") or [result.summary]
-    return list(dict.fromkeys(str(text) for one in curves for text in one.get("warnings") or ()))
+    return list(dict.fromkeys(str(text) for curve in curves for text in curve.get("warnings") or ()))
 
 
 def _scope(kind: Kind) -> str:
@@ -168,7 +168,7 @@ def _grid(result: Grid) -> tuple[tuple[str, str], list[Item]]:
 def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     runs = result.summary["runs"]
     found = suite_shares(runs)
-    rows = [{"motion": one["record"], **one, CHANCE: chance_words(one)} for one in runs]
+    rows = [{"motion": run["record"], **run, CHANCE: chance_words(run)} for run in runs]
     keys = ["column", "motion", "factor", "pga_g", "pgv_m_s", "verdict", CHANCE, "peak_top_displacement_m"]
     if "peak_displacement_m" in (runs or [{}])[0]:
         keys[-1] = "peak_displacement_m"
@@ -177,7 +177,7 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         Rows(["column", *COUNTED], body, f"Of the same motions for every column. {COUNTED_HOW}", numbers=True)
     ]
     caption = "One row per motion; all measures are in suite.csv."
-    if any(one[CHANCE] for one in rows):
+    if any(row[CHANCE] for row in rows):
         caption += f" {OF_TWINS}"
     items.append(table(rows, keys, caption, "verdict"))
     items += kept(result.pictures, "suite", "Peak response against a measure of the records.")
@@ -187,10 +187,10 @@ def _suite(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
 
 def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     s = result.summary
-    fell = sum(one.get("collapses_from") is not None for one in s["capacities"])
+    fell = sum(capacity.get("collapses_from") is not None for capacity in s["capacities"])
     sentence = f"Scaled upwards, {fell} of {len(s['capacities'])} curves end in collapse"
     sentence += f"; {median_of(s)}." if s["capacities"] else "."
-    rows = [{"motion": one["record"], **one} for one in s["capacities"]]
+    rows = [{"motion": capacity["record"], **capacity} for capacity in s["capacities"]]
     keys = ["motion", "realisation", "stands_until", "collapses_from", "resurrections", "runs", "open"]
     items: list[Item] = [table(rows, keys, "Capacity under each motion.")]
     items += kept(result.pictures, "ida", "Response over the intensity, a curve for each record.")
@@ -209,10 +209,10 @@ def _ida(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
 def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
     rows = result.table.astype(object).where(result.table.notna(), None).to_dict("records")
     if result.responses:
-        for one in rows:
-            open_ = "" if one["decided"] or one["outcome"] == "failed" else ", undecided"
-            one["outcome"] = str(one["outcome"]).replace("_", " ") + open_
-        said = "; ".join(f"{one['model']} {one['outcome']}" for one in rows)
+        for row in rows:
+            open_ = "" if row["decided"] or row["outcome"] == "failed" else ", undecided"
+            row["outcome"] = str(row["outcome"]).replace("_", " ") + open_
+        said = "; ".join(f"{row['model']} {row['outcome']}" for row in rows)
         sentence, caption = f"Models under one motion: {said}.", "Top displacement of each model under the same motion."
         keys = [
             "model",
@@ -224,9 +224,9 @@ def _compare(result: Comparison) -> tuple[tuple[str, str], list[Item]]:
         ]
     else:
         said = ", ".join(
-            f"{one.get('first')} and {one.get('second')} differ in {one.get('differing')} of {one.get('comparable')} cells"
-            + (f" and are undecided in {one['undecided']} more" if one.get("undecided") else "")
-            for one in rows
+            f"{row.get('first')} and {row.get('second')} differ in {row.get('differing')} of {row.get('comparable')} cells"
+            + (f" and are undecided in {row['undecided']} more" if row.get("undecided") else "")
+            for row in rows
         )
         sentence, caption = f"Models over one domain: {said}.", "Boundaries of the domains."
         keys = list(rows[0])[:7] if rows else []
@@ -258,13 +258,13 @@ def _study(result: StudyFolder) -> tuple[tuple[str, str], list[Item]]:
 def _shares_of_study(study: StudyResult) -> Rows:
     """Shares by column, model and level: at each level of the cases that are finished for every column and model."""
     axes, codes = study.plan.axes, codes_of(study.verdicts).reshape(study.plan.shape)
-    records = np.repeat([str(one["record"]) for one in axes["motions"]], study.plan.shape[-1])
+    records = np.repeat([str(motion["record"]) for motion in axes["motions"]], study.plan.shape[-1])
     names = [(one["column"], model["model"]) for model in axes["models"] for one in axes["columns"]]
     rows = []
     for place, level in enumerate(axes["levels"]):
         each = codes[:, :, :, place].reshape(len(names), -1)
-        for (column, model), one in zip(names, shares(dict(enumerate(each)), records)):
-            rows.append([column, model, n.plain(level), *counts_of(one)])
+        for (column, model), share in zip(names, shares(dict(enumerate(each)), records)):
+            rows.append([column, model, n.plain(level), *counts_of(share)])
     caption = f"Of the cases that are finished and could be computed for every column and model. {COUNTED_HOW}"
     left_out = f" The first {MOST} of {len(rows)} rows." if len(rows) > MOST else ""
     rows.sort(key=lambda row: row[:2])

@@ -156,7 +156,7 @@ def part(section: Section) -> dict[str, Any]:
 
 def kinds(items: Sequence[Item]) -> list[dict[str, Any]]:
     """Items as the templates take them, each with its kind."""
-    return [{"kind": _KINDS[type(one)], "value": one} for one in items]
+    return [{"kind": _KINDS[type(item)], "value": item} for item in items]
 
 
 def _pages(folder: Path) -> Environment:

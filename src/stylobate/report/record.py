@@ -30,7 +30,7 @@ def asked_section(result: Result, more: Sequence[tuple[str, str]] = ()) -> Secti
     pairs = list(more)
     if asked is not None:
         if asked.models and not any(name == "model" for name, _ in more):
-            pairs.append(("model", ", ".join(titled(one["name"]) for one in asked.models)))
+            pairs.append(("model", ", ".join(titled(model["name"]) for model in asked.models)))
         options = {
             key: value
             for key, value in asked.options.items()
@@ -52,23 +52,27 @@ def basis_section(result: Result) -> Section:
         text = "Not known: the folder does not keep what runs it was computed from. Compute it again to have them told here."
         return Section(title, [Note([text], "fair")])
     items: list[Item] = []
-    for one in sources:
-        records = list(one["records"])
-        state = {True: ", as written", False: ", changed by somebody since it was written", None: ""}[one["unchanged"]]
-        pairs = [
-            ("runs", f"{one['runs']} of {len(records)} record{'' if len(records) == 1 else 's'}"),
-            ("column or state, as the table calls it", ", ".join(one["columns"]) or "not told"),
-            ("model, as the table calls it", ", ".join(one["models"]) or "not told"),
-            ("records", ", ".join(records[:MOST_NAMES]) + (", …" if len(records) > MOST_NAMES else "")),
-            (f"SHA-256 of {one['table']}", f"{one['sha256']}{state}"),
+    for source in sources:
+        records = list(source["records"])
+        state = {True: ", as written", False: ", changed by somebody since it was written", None: ""}[
+            source["unchanged"]
         ]
-        if one["command"] is not None:
-            pairs.append(("computed by", f"{typed(one['command'])}\non {one['day']}, version {one['version']}"))
-        items.append(Facts(pairs, str(one["path"])))
-        if one["command"] is None:
-            items.append(Note([NOT_TOLD.format(why=one["not_told"])], "fair"))
-        elif one["unchanged"] is False:
-            items.append(Note([CHANGED.format(table=one["table"])], "fair"))
+        pairs = [
+            ("runs", f"{source['runs']} of {len(records)} record{'' if len(records) == 1 else 's'}"),
+            ("column or state, as the table calls it", ", ".join(source["columns"]) or "not told"),
+            ("model, as the table calls it", ", ".join(source["models"]) or "not told"),
+            ("records", ", ".join(records[:MOST_NAMES]) + (", …" if len(records) > MOST_NAMES else "")),
+            (f"SHA-256 of {source['table']}", f"{source['sha256']}{state}"),
+        ]
+        if source["command"] is not None:
+            pairs.append(
+                ("computed by", f"{typed(source['command'])}\non {source['day']}, version {source['version']}")
+            )
+        items.append(Facts(pairs, str(source["path"])))
+        if source["command"] is None:
+            items.append(Note([NOT_TOLD.format(why=source["not_told"])], "fair"))
+        elif source["unchanged"] is False:
+            items.append(Note([CHANGED.format(table=source["table"])], "fair"))
     return Section(title, items)
 
 
@@ -121,7 +125,7 @@ def warnings_of(result: Result, more: Sequence[str] = ()) -> list[Item]:
         found += result.asked.warnings
         if result.asked.version != __version__:
             found.append(f"Computed by version {result.asked.version}; this report is written by {__version__}.")
-    changed = [one.name for one in result.files if one.unchanged is False]
+    changed = [file.name for file in result.files if file.unchanged is False]
     if changed:
         found.append(
             f"Changed by somebody since stylobate wrote {'it' if len(changed) == 1 else 'them'}: {', '.join(changed)}."
@@ -142,15 +146,15 @@ def record_section(result: Result, parameters: Mapping[str, Any], versions: Mapp
     known = {key: str(value) for key, value in versions.items() if value not in (None, "")}
     items.append(Facts([*known.items(), ("folder", str(result.folder))], "Versions and inputs"))
     state = {True: "as written", False: "changed since", None: "no list to check by"}
-    body = [[one.name, one.digest, state[one.unchanged]] for one in result.files]
+    body = [[file.name, file.digest, state[file.unchanged]] for file in result.files]
     items.append(Rows(["file", "SHA-256", "state"], body, "Files this report rests on", numbers=True))
     return Section("Parameters, versions and digests", items)
 
 
 def sources_section(citation: Citation) -> Section:
     """Citations."""
-    package, *_ = [one for one in citation.text.splitlines() if one.startswith("  ")]
-    items: list[Item] = [Points([package.strip(), *(one.text for one in citation.references)])]
+    package, *_ = [line for line in citation.text.splitlines() if line.startswith("  ")]
+    items: list[Item] = [Points([package.strip(), *(reference.text for reference in citation.references)])]
     if citation.motion:
         items.append(f"And the source of the ground motion: {'; '.join(citation.motion.values())}.")
     return Section("Sources to cite", items)
@@ -162,7 +166,7 @@ def versions_of(result: Result) -> dict[str, str]:
     if asked is None:
         return {}
     found = {"stylobate": asked.version, "Python": asked.python, "machine": asked.machine}
-    digests = [str(one.get("digest", "")) for one in asked.structures]
+    digests = [str(structure.get("digest", "")) for structure in asked.structures]
     return found | ({"digest of what stood": "\n".join(digests)} if digests else {})
 
 

@@ -72,7 +72,7 @@ def risk_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     ]
     if known:
         median, beta = (between(known[f"{one}_low"], known[f"{one}_high"]) for one in ("median", "beta"))
-        levels = " to ".join(f"{one:.3g}" for one in known["levels"])
+        levels = " to ".join(f"{level:.3g}" for level in known["levels"])
         counted = [*(["records"] * (_over(known) == "records")), "runs", "exceeded", "undecided", "failed"]
         pairs += [
             ("median of the fragility", f"{median_words(known)} (95 %: {median})"),
@@ -97,7 +97,7 @@ def survival_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         "survival_probability_high",
         "weight",
     ]
-    said = ", ".join(f"{one['hazard']}: {float(one['survival_probability']):.2g}" for one in s["hazards"])
+    said = ", ".join(f"{hazard['hazard']}: {float(hazard['survival_probability']):.2g}" for hazard in s["hazards"])
     sentence = (
         f"Probability that the column would still stand after {n.plain(s.get('age_y'))} years, by hazard curve: {said}."
     )

@@ -126,18 +126,18 @@ def _scope(run: RunResult) -> str:
 
 
 def _doubts(run: RunResult) -> list[str]:
-    r, found = run.response, []
+    r, doubts = run.response, []
     if not r.decided and r.outcome is not Outcome.FAILED:
         cure = to_decide(r.structure, r.provenance.get("parameters", {}), float(r.provenance.get("tail_s", 0.0)))
-        found.append(f"the run ended before the verdict was certain; {cure}: do not rely on it before.")
+        doubts.append(f"the run ended before the verdict was certain; {cure}: do not rely on it before.")
     if abs(r.energy_imbalance) > IMBALANCE:
-        found.append(
+        doubts.append(
             f"the energy balance misses {percent(abs(r.energy_imbalance))} of the energy at stake: halve the time step "
             "(a smaller step factor) and compare."
         )
     if left_out := [str(one) for one in r.provenance.get("left_out", ())]:
-        found.append(f"left out of the motion, which the model does not take: {'; '.join(left_out)}.")
-    return found
+        doubts.append(f"left out of the motion, which the model does not take: {'; '.join(left_out)}.")
+    return doubts
 
 
 def _asked(r: Response) -> list[tuple[str, str]]:
@@ -300,15 +300,15 @@ def _record_of(run: RunResult) -> str:
 def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
     """A table of all runs, and the one with the most harm in full."""
     runs = found.runs
-    codes = codes_of(np.array([verdict(one.response.summary()) for one in runs]))
-    (share,) = shares({runs[0].response.structure.name: codes}, [_record_of(one) for one in runs])
+    codes = codes_of(np.array([verdict(run.response.summary()) for run in runs]))
+    (share,) = shares({runs[0].response.structure.name: codes}, [_record_of(run) for run in runs])
     header = ["motion", "PGA [g]", "outcome", CHANCE, "peak displacement", "folder"]
     body = []
-    for one in runs:
-        r, s = one.response, one.summary
+    for run in runs:
+        r, s = run.response, run.summary
         m = r.measures
         moved = m.peak_top_displacement if m.blocks is None else m.blocks.peak_displacement
-        peak = n.NONE if one.motion is None else f"{one.motion.pga / g:.3f}"
+        peak = n.NONE if run.motion is None else f"{run.motion.pga / g:.3f}"
         outcome = r.outcome.label.replace("_", " ") + ("" if r.decided else ", undecided")
         body.append(
             [
@@ -317,7 +317,7 @@ def several_sections(found: SeveralRuns, told: set[str]) -> list[Section]:
                 outcome,
                 chance_words(s) or n.NONE,
                 n.length(moved),
-                one.folder.name,
+                run.folder.name,
             ]
         )
     looks = {name.replace("_", " "): look for name, look in LOOKS.items()}

@@ -91,10 +91,10 @@ def motions_section(result: Result) -> Section:
     left_out = f" The first {MOST} of {len(motions)}." if len(motions) > MOST else ""
     body = [
         [
-            str(one.get("name")), _axes(one), _peaks(one), n.plain(one.get("factor")), _scales(one),
-            f"{float(one['duration_s']):.2f}", f"{float(one['dt_s']):.4g}", str(one.get("digest", ""))[:DIGITS],
+            str(motion.get("name")), _axes(motion), _peaks(motion), n.plain(motion.get("factor")), _scales(motion),
+            f"{float(motion['duration_s']):.2f}", f"{float(motion['dt_s']):.4g}", str(motion.get("digest", ""))[:DIGITS],
         ]
-        for one in motions[:MOST]
+        for motion in motions[:MOST]
     ]  # fmt: skip
     caption = (
         "The motions as the model takes them, as they were given where there are several models: components with their "
@@ -105,7 +105,7 @@ def motions_section(result: Result) -> Section:
     )
     header = ["motion", "components", "peak [g]", "factor", "scale factors", "duration [s]", "step [s]", "digest"]
     items: list[Item] = [Rows(header, body, caption, numbers=True)]
-    facts = [(str(one.get("name")), "\n".join(told)) for one in motions[:MOST] if (told := _done(one))]
+    facts = [(str(motion.get("name")), "\n".join(told)) for motion in motions[:MOST] if (told := _done(motion))]
     if facts:
         items.append(
             Facts(facts, "Where they come from, what was done to them, and what the model leaves out of them.")

@@ -22,7 +22,7 @@ LOOKS = {STRONGER: "", WEAKER: "bad", NOT_TOLD: "fair"}
 
 def advice_notes(result: Numbers) -> list[Item]:
     """The advice on every state, which is read before anything else."""
-    found = [(one["advice"], LOOKS[one["conclusion"]]) for one in result.summary["differences"]]
+    found = [(difference["advice"], LOOKS[difference["conclusion"]]) for difference in result.summary["differences"]]
     if result.summary["doubt"]:
         found.insert(0, (result.summary["doubt"], LOOKS[NOT_TOLD]))
     return [Note([advice], f"verdict {look}".rstrip()) for advice, look in found]
@@ -32,17 +32,22 @@ def states_items(result: Numbers) -> list[Item]:
     """The paired results, the counts over the same runs, the picture, and what the links bore."""
     s = result.summary
     verb = "collapse" if s["state"] == "collapse" else f"exceed {s['state']}"
-    basis = [f"“{one['state']}” against “{one['against']}”. {one['basis']}" for one in s["differences"]]
+    basis = [
+        f"“{difference['state']}” against “{difference['against']}”. {difference['basis']}"
+        for difference in s["differences"]
+    ]
     items: list[Item] = [Points(basis + _at_capacity(s["links"]))]
     shown = verb.replace("collapse", "collapses").replace("exceed ", "exceeds ")
     header = ["state", "same runs", verb, "do not", "undecided", f"share that {shown}", "95 % of the share", "failed"]
-    header.append(median_name(*(one["fragility"] or None for one in s["states"])).replace("median", "median intensity"))
+    header.append(
+        median_name(*(state["fragility"] or None for state in s["states"])).replace("median", "median intensity")
+    )
     body = []
-    for one in s["states"]:
-        row = [one["label"], *(n.plain(one[key]) for key in ("same_runs", "exceeded", "not_exceeded", "undecided"))]
+    for state in s["states"]:
+        row = [state["label"], *(n.plain(state[key]) for key in ("same_runs", "exceeded", "not_exceeded", "undecided"))]
         body.append(
-            [*row, _share(one, "share"), _share(one, "interval"), str(one["failed"]),
-             median_words(one["fragility"]) if one["fragility"] else "no curve"]
+            [*row, _share(state, "share"), _share(state, "interval"), str(state["failed"]),
+             median_words(state["fragility"]) if state["fragility"] else "no curve"]
         )  # fmt: skip
     caption = (
         "The same motions and levels for every state, and the same slightly different columns where these are drawn; runs "
@@ -51,17 +56,17 @@ def states_items(result: Numbers) -> list[Item]:
         "undecided where either of them is. Shares are of all levels together, as many as were asked for: they compare "
         "states, and are no probability of collapse."
     )
-    if not all(one["fragility"] for one in s["states"]):
+    if not all(state["fragility"] for state in s["states"]):
         caption += f" No curve: all runs of a state end alike, or they are of fewer than {FEWEST} records."
     items.append(Rows(header, body, caption, numbers=True))
     items += _by_level(result)
-    banded = next((one["label"] for one in s["states"] if one["fragility"]), None)
+    banded = next((state["label"] for state in s["states"] if state["fragility"]), None)
     band = "" if banded is None else f", the band that of “{banded}”"
     left = f"Left: fragility curves{band}; two thin ones where runs are undecided: if all exceeded, and if none did. "
     right = (
         "Right: difference of the share, pair by pair; left of zero is better. Thick: undecided runs counted both ways"
     )
-    wide = any(one["records"] >= FEWEST for one in s["differences"])
+    wide = any(difference["records"] >= FEWEST for difference in s["differences"])
     items += kept(
         result.pictures,
         "states",
@@ -75,8 +80,8 @@ def states_items(result: Numbers) -> list[Item]:
 def _at_capacity(links: list[dict[str, Any]]) -> list[str]:
     """Of each state the link that bore its whole capacity in most runs, and the one that broke in most."""
     said = []
-    for state in dict.fromkeys(one["state"] for one in links):
-        mine = [one for one in links if one["state"] == state]
+    for state in dict.fromkeys(link["state"] for link in links):
+        mine = [link for link in links if link["state"] == state]
         full, broken = (max(mine, key=lambda one: one.get(key, 0)) for key in ("at_capacity", "broken"))
         if full.get("at_capacity", 0):
             words = f"“{state}”: {full['link']}{', most of all,' * (len(mine) > 1)} was at its capacity in "
@@ -95,7 +100,7 @@ def _by_level(result: Numbers) -> list[Item]:
     table, s = result.tables.get("states"), result.summary
     if table is None:
         return []
-    labels = [one["label"] for one in s["states"]]
+    labels = [state["label"] for state in s["states"]]
     size = len(table) // len(labels)  # the runs of one state after those of the other
     each = [table.iloc[k * size : (k + 1) * size] for k in range(len(labels))]
     told = [evidence(one, None, s["state"], label) for one, label in zip(each, labels, strict=True)]
@@ -119,7 +124,7 @@ def _by_level(result: Numbers) -> list[Item]:
 def _links(links: list[dict[str, Any]]) -> Rows:
     header = ["state", "link", "runs", "broke in", "at capacity in", "largest force over capacity", "median"]
     keys = ("state", "link", "runs", "broken", "at_capacity", "largest_over_capacity", "median_over_capacity")
-    body = [[n.plain(one.get(key)) for key in keys] for one in links[:MOST]]
+    body = [[n.plain(link.get(key)) for key in keys] for link in links[:MOST]]
     left_out = f" The first {MOST} of {len(links)}; links.csv holds all." if len(links) > MOST else ""
     return Rows(header, body, BORE + left_out, numbers=True)
 

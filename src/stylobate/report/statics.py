@@ -193,7 +193,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
         f"Under steady horizontal forces the {'assembly' if s.get('moving') else 'column'} becomes a mechanism at "
         f"{s['collapse_multiplier_g']:.4g} times its weight{to}."
     )
-    modes = "; ".join(f"joint {one['joint']} {one['mode']}" for one in s.get("active_joints", ()))
+    modes = "; ".join(f"joint {joint['joint']} {joint['mode']}" for joint in s.get("active_joints", ()))
     pairs = [
         ("mechanism", modes or n.NONE),
         ("numbers of the joints at their strength", n.plain(s.get("joints_at_strength"))),
@@ -206,7 +206,7 @@ def limit_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items: list[Item] = [Facts([(name, value) for name, value in pairs if value != n.NONE])]
     items += kept(result.pictures, "limit", "Mechanism: velocities drawn as displacements.")
     items += kept(result.pictures, "directions", "The multiplier by the direction in which the forces push.")
-    if held := [one for one in s.get("links", ()) if one.get("force_n")]:
+    if held := [link for link in s.get("links", ()) if link.get("force_n")]:
         body = [[str(one[key]) if key in ("link", "action") else n.plain(one[key]) for key in _LINK] for one in held]
         items.append(
             Rows(

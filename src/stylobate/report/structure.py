@@ -151,28 +151,28 @@ def _links(column: Column) -> Rows:
     return Rows(["link", "where", "at x / y [m]", "properties"], body, caption, numbers=True)
 
 
-def _chips(one: FoundDrum, deep: bool) -> str:
+def _chips(drum: FoundDrum, deep: bool) -> str:
     """Loss of the lower face [mm], and where the right of a round one is."""
-    if not one.chipped:
+    if not drum.chipped:
         return n.NONE
-    said = " / ".join(f"{1000.0 * chip:.0f}" for chip in one.chips[: 4 if deep else 2])
-    return said + (f", right at {one.chip_azimuth:g}°" if one.chip_azimuth else "")
+    said = " / ".join(f"{1000.0 * chip:.0f}" for chip in drum.chips[: 4 if deep else 2])
+    return said + (f", right at {drum.chip_azimuth:g}°" if drum.chip_azimuth else "")
 
 
 def _as_found(column: Column) -> Rows:
     found = column.as_found
-    deep = any(one.chip_front or one.chip_back for one in found.drums)
+    deep = any(drum.chip_front or drum.chip_back for drum in found.drums)
     body = [
         [
-            str(one.drum),
-            f"{1000.0 * one.offset:+.1f}" if one.offset else n.NONE,
-            f"{one.offset_azimuth:g}" if one.offset else n.NONE,
-            f"{one.tilt:+.3g}" if one.tilt else n.NONE,
-            f"{one.tilt_azimuth:g}" if one.tilt else n.NONE,
-            f"{one.turn:+.3g}" if one.turn else n.NONE,
-            _chips(one, deep),
+            str(drum.drum),
+            f"{1000.0 * drum.offset:+.1f}" if drum.offset else n.NONE,
+            f"{drum.offset_azimuth:g}" if drum.offset else n.NONE,
+            f"{drum.tilt:+.3g}" if drum.tilt else n.NONE,
+            f"{drum.tilt_azimuth:g}" if drum.tilt else n.NONE,
+            f"{drum.turn:+.3g}" if drum.turn else n.NONE,
+            _chips(drum, deep),
         ]
-        for one in found.drums
+        for drum in found.drums
     ]
     header = [
         "drum",
@@ -245,7 +245,7 @@ def _links_between_blocks(assembly: Structure) -> Rows:
         given = link.to_dict()
         numbers = [f"{key.replace('_', ' ')} {n.plain(given[key])}" for key in given if key not in _TOLD]
         ends = [placed.low, placed.high] if placed.two_ended else [placed.low]
-        at = " to ".join(f"{one[0]:g} / {one[2]:g}" for one in ends)
+        at = " to ".join(f"{end[0]:g} / {end[2]:g}" for end in ends)
         body.append([placed.name, " – ".join(link.between or ()), at, ", ".join(numbers) or n.NONE])
     caption = "Links between the blocks; lengths in m, forces in N, stiffness in N/m. “governs” names formulas."
     return Rows(["link", "between", "at x / z [m]", "properties"], body, caption, numbers=True)

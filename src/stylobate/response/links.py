@@ -112,21 +112,21 @@ class LinkMeasures:
 
 def row_of(links: Sequence[LinkMeasures]) -> dict[str, Any]:
     """Links in a row of a run: the number that broke, the time of the first, and each in their order."""
-    times = [one.broken_at for one in links if one.broken]
+    times = [link.broken_at for link in links if link.broken]
     return {
         "links_broken": len(times),
         "first_link_broken_s": min(times, default=None),
-        "link_broken_s": [one.broken_at if one.broken else None for one in links],
-        "link_utilisation": [float(one.utilisation) for one in links],
+        "link_broken_s": [link.broken_at if link.broken else None for link in links],
+        "link_utilisation": [float(link.utilisation) for link in links],
     }
 
 
 def sentence_of(links: Sequence[LinkMeasures]) -> str:
     """Number of links that broke, the first of them, and the number that came to their capacity; empty without links."""
-    kinds = {one.kind for one in links if one.kind != "layer" or one.broken}
+    kinds = {link.kind for link in links if link.kind != "layer" or link.broken}
     if not kinds:
         return ""
-    counted = [one for one in links if one.kind in kinds]
+    counted = [link for link in links if link.kind in kinds]
     many = kinds.pop() + "s" if len(kinds) == 1 else "links"
     broken = sorted((one for one in counted if one.broken), key=lambda one: one.broken_at)
     full = [one for one in counted if not one.broken and one.utilisation >= AT_CAPACITY]

@@ -41,13 +41,13 @@ def _strip(response: Recorded) -> str:
     first, far = np.concatenate([panels[0][n] for n in moving]), ASIDE * size_of(response)
     low, high = first.min(axis=0) - far, first.max(axis=0) + far
     corners = [np.concatenate([panel[n] for n in moving]) for panel in panels]
-    corners = [np.clip(np.nan_to_num(one, nan=0.0), low, high) for one in corners]
-    top = max(float(one[:, 1].max()) for one in corners)
-    bottom = min(float(one[:, 1].min()) for one in corners)
+    corners = [np.clip(np.nan_to_num(corner, nan=0.0), low, high) for corner in corners]
+    top = max(float(corner[:, 1].max()) for corner in corners)
+    bottom = min(float(corner[:, 1].min()) for corner in corners)
     gap = 0.15 * (top - bottom)
     parts, place = [], gap
-    for one, panel, k in zip(corners, panels, states, strict=True):
-        left, right = float(one[:, 0].min()), float(one[:, 0].max())
+    for corner, panel, k in zip(corners, panels, states, strict=True):
+        left, right = float(corner[:, 0].min()), float(corner[:, 0].max())
         for shape, i in zip(panel, shown, strict=True):
             if not np.isfinite(shape).all():
                 continue

@@ -107,7 +107,7 @@ def to_decide(structure: Structure, parameters: Mapping[str, Any], given: float)
         How long it went on after the motion [s].
     """
     free = parameters.get("pivot_friction", 1.0) < 1.0 and not parameters.get("planar")
-    moved = any(one.offset or one.tilt or one.chipped for one in structure.as_found.drums)
+    moved = any(drum.offset or drum.tilt or drum.chipped for drum in structure.as_found.drums)
     if free and moved and structure.section == "circular":
         return "no tail decides it, as drums that pivot freely turn with their offsets, slopes and chips at no cost"
     return f"go on with {longer_tail(given)}"

@@ -93,12 +93,19 @@ class Asked:
         return cls(
             tuple(command),
             tuple(
-                one if isinstance(one, dict) else {one.kind: one.to_dict(), "digest": one.digest} for one in structures
+                structure
+                if isinstance(structure, dict)
+                else {structure.kind: structure.to_dict(), "digest": structure.digest}
+                for structure in structures
             ),
             tuple(
-                one if isinstance(one, dict) else {"name": one.name, "parameters": one.parameters()} for one in models
+                model if isinstance(model, dict) else {"name": model.name, "parameters": model.parameters()}
+                for model in models
             ),
-            tuple(one if isinstance(one, dict) else _motion(one) | scales_of(runs, one.name) for one in motions),
+            tuple(
+                motion if isinstance(motion, dict) else _motion(motion) | scales_of(runs, motion.name)
+                for motion in motions
+            ),
             tuple(sources),
             options,
             tuple(warnings),
@@ -142,25 +149,30 @@ class Asked:
     @property
     def stood(self) -> list[Structure]:
         """Structure, made again."""
-        return [make(one[kind]) for one in self.structures for kind, make in FROM_DICT.items() if kind in one]
+        return [
+            make(structure[kind])
+            for structure in self.structures
+            for kind, make in FROM_DICT.items()
+            if kind in structure
+        ]
 
 
-def _motion(one: Motion) -> dict[str, Any]:
-    said = {key: str(value) for key, value in one.metadata.items() if key not in ("references", "left_out")}
+def _motion(motion: Motion) -> dict[str, Any]:
+    said = {key: str(value) for key, value in motion.metadata.items() if key not in ("references", "left_out")}
     return {
-        "name": one.name,
-        "digest": one.digest,
-        "duration_s": one.duration,
-        "dt_s": one.dt,
-        "record": record_of(one),
-        **direction_of(one),
-        "components": list(one.components),
-        "azimuths": dict(one.metadata.get("azimuths") or {}),
-        "factor": one.factor,
-        "peaks_g": {axis: float(np.abs(values).max()) / g for axis, values in one.components.items()},
-        "processing": list(one.processing),
-        "left_out": list(one.metadata.get("left_out", ())),
-        "references": list(one.metadata.get("references", ())),
+        "name": motion.name,
+        "digest": motion.digest,
+        "duration_s": motion.duration,
+        "dt_s": motion.dt,
+        "record": record_of(motion),
+        **direction_of(motion),
+        "components": list(motion.components),
+        "azimuths": dict(motion.metadata.get("azimuths") or {}),
+        "factor": motion.factor,
+        "peaks_g": {axis: float(np.abs(values).max()) / g for axis, values in motion.components.items()},
+        "processing": list(motion.processing),
+        "left_out": list(motion.metadata.get("left_out", ())),
+        "references": list(motion.metadata.get("references", ())),
         "metadata": said,
     }
 

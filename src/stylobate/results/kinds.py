@@ -90,12 +90,12 @@ class Result:
     @property
     def name(self) -> str:
         """Of what stood; the folder's where that is not known."""
-        return ", ".join(dict.fromkeys(one.name for one in self.structures)) or self.folder.name
+        return ", ".join(dict.fromkeys(structure.name for structure in self.structures)) or self.folder.name
 
     @property
     def pictures(self) -> dict[str, Path]:
         """Pictures (PNG) as stylobate wrote them, by their names; one that was changed since is left out."""
-        named = [one for one in self.files if one.name.endswith(".png") and one.unchanged is not False]
+        named = [file for file in self.files if file.name.endswith(".png") and file.unchanged is not False]
         return {Path(one.name).stem: self.folder / one.name for one in named}
 
 

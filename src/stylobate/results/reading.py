@@ -72,10 +72,10 @@ def read_results(folders: Iterable[str | Path]) -> list[Result]:
     InputError
         A folder is missing, empty, or holds no result of this package; or a result that is damaged or of a later version.
     """
-    found = [one for folder in folders for one in read_folder(folder)]
-    if not found:
+    results = [one for folder in folders for one in read_folder(folder)]
+    if not results:
         raise InputError("no folder of results is given; give one in which a command wrote its files.")
-    return found
+    return results
 
 
 def read_folder(folder: str | Path) -> list[Result]:
@@ -91,10 +91,10 @@ def read_folder(folder: str | Path) -> list[Result]:
         raise InputError(f"there is no folder {shown(place)}; give one in which a command wrote its files.")
     if not place.is_dir():
         raise InputError(f"{shown(place)} is a file; give the folder in which a command wrote its files.")
-    markers = [one for one in _READERS if (place / one).is_file()]
+    markers = [reader for reader in _READERS if (place / reader).is_file()]
     if "states.json" in markers and PLAN_FILE in markers:
         markers.remove(PLAN_FILE)  # the runs of the states, which are compared
-    found: list[Result] = [_READERS[one](place) for one in markers]
+    found: list[Result] = [_READERS[marker](place) for marker in markers]
     if not found and (runs := _runs_in(place)):
         found = [_several(place, runs)]
     if not found:
@@ -136,14 +136,14 @@ def _motion(path: Path) -> Motion:
 
 
 def _runs_in(place: Path) -> list[Path]:
-    found = sorted(one for one in place.iterdir() if one.is_dir() and not one.is_symlink())
+    found = sorted(path for path in place.iterdir() if path.is_dir() and not path.is_symlink())
     if len(found) > MOST_RUNS:
         raise InputError(f"{shown(place)} holds {len(found)} folders; allowed is up to {MOST_RUNS} runs.")
     return [one for one in found if (one / "response.nc").is_file()]
 
 
 def _several(place: Path, runs: Sequence[Path]) -> SeveralRuns:
-    read = tuple(_read_run(one) for one in runs)
+    read = tuple(_read_run(run) for run in runs)
     if len({one.response.structure.digest for one in read}) > 1:
         raise InputError(
             f"the runs in {shown(place)} are not all of one column; name their folders one by one to report them together."
@@ -167,7 +167,7 @@ def _read_numbers(kind: Kind) -> Callable[[Path], Numbers]:
         stem = kind.value
         summary = _object(place, f"{stem}.json", kind)
         tables = {one: _table(place / f"{one}.csv") for one in TABLES.get(kind, ()) if (place / f"{one}.csv").is_file()}
-        names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{one}.csv" for one in tables), *FURTHER.get(kind, ())]
+        names = [f"{stem}.json", stem, f"{stem}.csv", *(f"{table}.csv" for table in tables), *FURTHER.get(kind, ())]
         return Numbers(**_common(place, kind, stem, names, summary), tables=tables)
 
     return read
@@ -190,9 +190,9 @@ def _read_study(place: Path) -> StudyFolder:
 
 def _read_comparison(place: Path) -> Comparison:
     table = _table(place / "comparison.csv")
-    files = sorted(one.name for one in place.glob("response-*.nc"))
+    files = sorted(path.name for path in place.glob("response-*.nc"))
     responses = {name.removeprefix("response-").removesuffix(".nc"): load_response(place / name) for name in files}
-    names = ["comparison.csv", "comparison", *files, *(one.name for one in sorted(place.glob("domain-*.nc")))]
+    names = ["comparison.csv", "comparison", *files, *(path.name for path in sorted(place.glob("domain-*.nc")))]
     return Comparison(**_common(place, Kind.COMPARE, "compare", names, {}), table=table, responses=responses)
 
 

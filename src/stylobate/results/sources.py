@@ -79,20 +79,20 @@ class Source:
     def models(self) -> list[dict[str, Any]]:
         """Models of these runs, as kept by the command."""
         asked, names = self.asked, self.names("model")
-        return [one for one in (asked.models if asked is not None else ()) if not names or one["name"] in names]
+        return [model for model in (asked.models if asked is not None else ()) if not names or model["name"] in names]
 
     @property
     def doubt(self) -> str:
         """Caveat before all that rests on these runs: that round columns were computed in a plane, where they were."""
         round_ = any(
             drum.get("section") == "circular"
-            for one in self.structures
-            for drum in (one.get("column") or {}).get("drums", ())
+            for structure in self.structures
+            for drum in (structure.get("column") or {}).get("drums", ())
         )
         plane = any(
-            model_class(one["name"]).is_plane(one.get("parameters") or {})
-            for one in self.models
-            if one["name"] in MODELS
+            model_class(model["name"]).is_plane(model.get("parameters") or {})
+            for model in self.models
+            if model["name"] in MODELS
         )
         return f"{ROUND_IN_THE_PLANE}." if round_ and plane else ""
 
@@ -101,7 +101,9 @@ class Source:
         """Motions of these runs, as kept by the command, each with the factors by which it was multiplied."""
         asked = self.asked
         scaled = None if self.table.stem == "suite" else self.runs  # a suite runs its motions as they are
-        return [] if asked is None else [{**scales_of(scaled, str(one["name"])), **one} for one in asked.motions]
+        return (
+            [] if asked is None else [{**scales_of(scaled, str(motion["name"])), **motion} for motion in asked.motions]
+        )
 
     @property
     def facts(self) -> dict[str, Any]:
@@ -128,13 +130,13 @@ def kept_of(sources: Sequence[Source]) -> dict[str, Any]:
     """Part of these runs that results resting on them keep, as arguments of :meth:`Asked.of`; each structure once."""
     found: dict[str, dict[str, Any]] = {"structures": {}, "models": {}, "motions": {}}
     warnings: dict[str, None] = {}
-    for one in sources:
+    for source in sources:
         for kind, some in found.items():
-            for value in getattr(one, kind):
+            for value in getattr(source, kind):
                 some.setdefault(str(value.get("digest") or sorted(value.items(), key=str)), value)
-        warnings |= dict.fromkeys(one.asked.warnings if one.asked is not None else ())
+        warnings |= dict.fromkeys(source.asked.warnings if source.asked is not None else ())
     kept = {kind: list(some.values()) for kind, some in found.items()}
-    return kept | {"sources": [one.facts for one in sources], "earlier": list(warnings)}
+    return kept | {"sources": [source.facts for source in sources], "earlier": list(warnings)}
 
 
 def _named(structure: dict[str, Any], name: str) -> bool:

@@ -171,7 +171,7 @@ class Link:
     @classmethod
     def known(cls) -> set[str]:
         """Entries of a link of this kind, besides where it is."""
-        return {one.name for one in dataclasses.fields(cls)} - {*PLACES}
+        return {field.name for field in dataclasses.fields(cls)} - {*PLACES}
 
     @property
     def ends(self) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
@@ -206,9 +206,11 @@ class Link:
             count = 1 if isinstance(between, str) else len(between)
             raise InputError(f"a {self.kind} is between {count} bodies; name two, e.g. ['a', 'b'].", "between")
         object.__setattr__(self, "between", tuple(between))
-        for one in dataclasses.fields(self):
-            if one.name in PLACES[:5] and getattr(self, one.name) != one.default:
-                raise InputError(f"a {self.kind} between two bodies has no {one.name}; give its place, at.", one.name)
+        for field in dataclasses.fields(self):
+            if field.name in PLACES[:5] and getattr(self, field.name) != field.default:
+                raise InputError(
+                    f"a {self.kind} between two bodies has no {field.name}; give its place, at.", field.name
+                )
         for name in ("at", "to"):
             place = getattr(self, name, None)
             if place is not None:

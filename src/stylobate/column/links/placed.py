@@ -176,19 +176,19 @@ def place_all(links: Sequence[Link], owner: str, place: Callable[[Link], PlacedL
     )
 
 
-def _check(one: PlacedLink, others: Sequence[PlacedLink]) -> None:
+def _check(link: PlacedLink, others: Sequence[PlacedLink]) -> None:
     """Refuse what no place can mend: pretension that it cannot hold, two laws for one joint."""
-    if one.pretension > one.axial_capacity:
+    if link.pretension > link.axial_capacity:
         raise InputError(
-            f"pretension of a {one.kind} is {one.pretension:g} N, more than its axial capacity of "
-            f"{one.axial_capacity:.4g} N; make it smaller.",
+            f"pretension of a {link.kind} is {link.pretension:g} N, more than its axial capacity of "
+            f"{link.axial_capacity:.4g} N; make it smaller.",
             "pretension",
         )
-    if one.pretension and not one.axial_stiffness:
-        raise InputError(f"a {one.kind} without axial_stiffness cannot be pretensioned; give one.", "axial_stiffness")
-    beside = [other for other in others if (other.lower, other.upper) == (one.lower, one.upper)]
-    where = f"joint {one.joint}" if one.joint else "its joint"
-    if one.friction_coefficient is not None and any(other.friction_coefficient is not None for other in beside):
+    if link.pretension and not link.axial_stiffness:
+        raise InputError(f"a {link.kind} without axial_stiffness cannot be pretensioned; give one.", "axial_stiffness")
+    beside = [other for other in others if (other.lower, other.upper) == (link.lower, link.upper)]
+    where = f"joint {link.joint}" if link.joint else "its joint"
+    if link.friction_coefficient is not None and any(other.friction_coefficient is not None for other in beside):
         raise InputError(f"{where} has two layers with a friction_coefficient; keep one.", "joint")
-    if one.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
-        raise InputError(f"{where} has two {one.kind}s; keep one.", "joint")
+    if link.bed_stiffness < math.inf and any(other.bed_stiffness < math.inf for other in beside):
+        raise InputError(f"{where} has two {link.kind}s; keep one.", "joint")

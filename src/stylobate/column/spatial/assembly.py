@@ -71,27 +71,27 @@ class SpatialAssembly(Structure):
         if self.ground is not None:
             check_range("level of the ground", self.ground, -FAR_AWAY, FAR_AWAY, unit="m")
         refuse_many(len(self.stones))
-        names = [one.name for one in self.stones]
-        double = next((one for one in names if names.count(one) > 1), None)
+        names = [stone.name for stone in self.stones]
+        double = next((name for name in names if names.count(name) > 1), None)
         if double is not None:
             raise InputError(f"two blocks are called {double!r}; give each a name of its own.")
         if "ground" in names and self.ground is not None:
             raise InputError("a block is called 'ground', which is the name of the ground; call it otherwise.")
-        if not any(not one.fixed for one in self.stones):
+        if not any(not stone.fixed for stone in self.stones):
             raise InputError(f"nothing of {self.name!r} can move; give a block that is not fixed.")
-        laws = (self.joint, *(law for *_, law in self.overrides), *(one.surface for one in self.stones))
+        laws = (self.joint, *(law for *_, law in self.overrides), *(stone.surface for stone in self.stones))
         if any(law is not None and law.ring_width is not None for law in laws):
             raise InputError(f"a joint of {self.name!r} has a ring_width, which assemblies do not know; leave it out.")
         self._check_overrides()
-        for one in self.stones:
-            _check_parts(one)
+        for stone in self.stones:
+            _check_parts(stone)
         if self.settle:
             self._refuse_hanging()
         else:
             self._contacts  # noqa: B018  refuses bodies that overlap
 
     def _check_overrides(self) -> None:
-        known, pairs = {one.name for one in self.bodies}, []
+        known, pairs = {body.name for body in self.bodies}, []
         for one, other, _ in self.overrides:
             missing = next((name for name in (one, other) if name not in known), None)
             if missing is not None:
@@ -122,12 +122,12 @@ class SpatialAssembly(Structure):
     @property
     def surfaces(self) -> tuple[Joint, ...]:
         """Of every body, the law of its contacts, other than joints, with those before it."""
-        return tuple(getattr(one, "surface", None) or self.joint for one in self.bodies)
+        return tuple(getattr(body, "surface", None) or self.joint for body in self.bodies)
 
     @property
     def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
         """Overrides, by the numbers of their bodies."""
-        numbers = {one.name: i for i, one in enumerate(self.bodies)}
+        numbers = {body.name: i for i, body in enumerate(self.bodies)}
         pairs = [(numbers[one], numbers[other], law) for one, other, law in self.overrides]
         return tuple((min(i, k), max(i, k), law) for i, k, law in pairs)
 
@@ -142,12 +142,14 @@ class SpatialAssembly(Structure):
     @cached_property
     def solids(self) -> tuple[tuple[Solid, ...], ...]:
         """Of every stone its parts as they stand."""
-        return tuple(tuple(Solid(part) for part in one.placed) for one in self.stones)
+        return tuple(tuple(Solid(part) for part in stone.placed) for stone in self.stones)
 
     @property
     def extent(self) -> tuple[np.ndarray, np.ndarray]:
         """Lowest and highest corner of the box around everything that can move [m], shape (3,) each."""
-        some = [part for one, parts in zip(self.stones, self.solids, strict=True) if not one.fixed for part in parts]
+        some = [
+            part for stone, parts in zip(self.stones, self.solids, strict=True) if not stone.fixed for part in parts
+        ]
         return np.min([one.low for one in some], axis=0), np.max([one.high for one in some], axis=0)
 
     @cached_property
@@ -162,11 +164,11 @@ class SpatialAssembly(Structure):
         low = np.array([np.min([part.low for part in parts], axis=0) for parts in self.solids])
         high = np.array([np.max([part.high for part in parts], axis=0) for parts in self.solids])
         size = (high - low).max(axis=1)
-        for i, one in enumerate(self.stones):
+        for i, stone in enumerate(self.stones):
             near = TOUCHING * np.minimum(size[i], size[i + 1 :])[:, None]
             close = ((low[i] <= high[i + 1 :] + near) & (low[i + 1 :] <= high[i] + near)).all(axis=1)
             for k in (i + 1 + np.flatnonzero(close)).tolist():
-                if one.fixed and self.stones[k].fixed:
+                if stone.fixed and self.stones[k].fixed:
                     continue
                 met = self._between(i, k, float(near[k - i - 1, 0]), joints, first)
                 if met:
@@ -216,7 +218,7 @@ class SpatialAssembly(Structure):
 
     def _refuse_hanging(self) -> None:
         """Refuse bodies that nothing carries down to the ground or to a fixed body."""
-        held = {i for i, one in enumerate(self.bodies) if one.fixed}
+        held = {i for i, body in enumerate(self.bodies) if body.fixed}
         pairs, more = self._contacts[1], True
         while more:
             reached = {b for pair in pairs for b in pair if held & set(pair)} - held
@@ -266,7 +268,7 @@ class SpatialAssembly(Structure):
     def to_dict(self) -> dict:
         """Everything that defines it, as plain values in SI units."""
         return {
-            "stones": [one.to_dict() for one in self.stones],
+            "stones": [stone.to_dict() for stone in self.stones],
             "joint": given(self.joint),
             "name": self.name,
             "gravity": self.gravity,
@@ -279,7 +281,7 @@ class SpatialAssembly(Structure):
     def from_dict(cls, data: dict) -> SpatialAssembly:
         """The assembly that :meth:`to_dict` has written."""
         special = {
-            "stones": tuple(Stone.from_dict(one) for one in data["stones"]),
+            "stones": tuple(Stone.from_dict(stone) for stone in data["stones"]),
             "joint": Joint(**data["joint"]),
             "overrides": tuple((one, other, Joint(**law)) for one, other, law in data["overrides"]),
         }
@@ -306,9 +308,9 @@ def _length(size: float) -> str:
     return f"{size:.3g} m" if size >= 1.0 else f"{1000.0 * size:.3g} mm"
 
 
-def _check_parts(one: Stone) -> None:
+def _check_parts(stone: Stone) -> None:
     """Refuse parts of a body that overlap, which would count twice, or that do not hang together."""
-    solids = [Solid(part) for part in one.pieces]
+    solids = [Solid(part) for part in stone.pieces]
     joined = {0} if solids else set()
     gaps = {}
     for i, k in combinations(range(len(solids)), 2):
@@ -316,7 +318,7 @@ def _check_parts(one: Stone) -> None:
         gap = gaps[i, k] = separation(solids[i], solids[k], TOUCHING * small)[0] / small
         if gap < -OVERLAPPING:
             raise InputError(
-                f"parts {i + 1} and {k + 1} of block {one.name!r} overlap by {_length(-gap * small)}, which would "
+                f"parts {i + 1} and {k + 1} of block {stone.name!r} overlap by {_length(-gap * small)}, which would "
                 "count twice; let them touch."
             )
     while True:
@@ -327,5 +329,5 @@ def _check_parts(one: Stone) -> None:
     apart = next((i for i in range(len(solids)) if i not in joined), None)
     if apart is not None:
         raise InputError(
-            f"part {apart + 1} of block {one.name!r} touches no other part of it; make it a block of its own."
+            f"part {apart + 1} of block {stone.name!r} touches no other part of it; make it a block of its own."
         )

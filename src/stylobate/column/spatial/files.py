@@ -90,8 +90,8 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
 
 def _doubts(blocks: Sequence[Stone], laws: Sequence[Joint]) -> list[str]:
     """What looks like a slip of units, each kind once."""
-    free = [one for one in blocks if not one.fixed]
+    free = [block for block in blocks if not block.fixed]
     doubts = first(COLUMN.doubt(f"the size of block {one.name!r}", one.size, "stones have") for one in free)
     doubts += first(DENSITY.doubt(f"the density of block {one.name!r}", one.density, "stone has") for one in free)
-    every = [*laws, *(one.surface for one in blocks if one.surface)]
+    every = [*laws, *(block.surface for block in blocks if block.surface)]
     return doubts + first(joint_doubts(law) for law in dict.fromkeys(every))

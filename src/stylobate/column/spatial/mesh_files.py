@@ -59,8 +59,8 @@ def _parsed(path: Path, name: str) -> tuple[np.ndarray, list[tuple[int, list[int
                 points.append([x, y, z])
             elif word == "f":
                 corners = [int(one.split("/")[0]) for one in rest]
-                corners = [one - 1 if one > 0 else len(points) + one for one in corners]
-                if len(corners) < 3 or not all(0 <= one < len(points) for one in corners):
+                corners = [corner - 1 if corner > 0 else len(points) + corner for corner in corners]
+                if len(corners) < 3 or not all(0 <= corner < len(points) for corner in corners):
                     raise ValueError
                 faces.append((number, corners))
             elif word in ("o", "g"):

@@ -39,7 +39,9 @@ def mesh_moments(mesh: Mesh, density: float) -> Moments:
     """Of a closed surface of flat faces, by the tetrahedra between its triangles and a point within."""
     middle = mesh.vertices[sorted({i for face in mesh.faces for i in face})].mean(axis=0)
     corners = [mesh.vertices[list(face)] - middle for face in mesh.faces]
-    triangles = np.array([(one[0], one[i], one[i + 1]) for one in corners for i in range(1, len(one) - 1)])
+    triangles = np.array(
+        [(corner[0], corner[i], corner[i + 1]) for corner in corners for i in range(1, len(corner) - 1)]
+    )
     six = np.einsum("ij,ij->i", triangles[:, 0], np.cross(triangles[:, 1], triangles[:, 2]))
     volume = float(six.sum()) / 6.0
     sums = triangles.sum(axis=1)
@@ -53,10 +55,10 @@ def mesh_moments(mesh: Mesh, density: float) -> Moments:
 
 def together(parts: list[Moments]) -> Moments:
     """Of several solids that are one body, all told in its axes."""
-    mass = sum(one.mass for one in parts)
-    centroid = sum((one.mass * one.centroid for one in parts), np.zeros(3)) / mass
+    mass = sum(part.mass for part in parts)
+    centroid = sum((part.mass * part.centroid for part in parts), np.zeros(3)) / mass
     tensor = np.zeros((3, 3))
-    for one in parts:
-        arm = one.centroid - centroid
-        tensor += one.tensor + one.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
+    for part in parts:
+        arm = part.centroid - centroid
+        tensor += part.tensor + part.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm))
     return Moments(mass, centroid, tensor)

@@ -116,7 +116,7 @@ def lay_beam(table: SpaceBeamTable, name: str, density: float, axes: Sequence[Ax
     InputError
         Columns that are not there, tops of two levels, or a beam that ends in the air.
     """
-    named = {one.name: one for one in axes}
+    named = {axis.name: axis for axis in axes}
     for one in table.between:
         if one not in named:
             known = f"the columns are {', '.join(named) or 'none'}"
@@ -166,11 +166,11 @@ def refuse_crossing(beams: Sequence[Stone]) -> None:
     ------
     InputError
     """
-    solids = [Solid(one.placed[0]) for one in beams]
-    for i, one in enumerate(solids):
+    solids = [Solid(beam.placed[0]) for beam in beams]
+    for i, solid in enumerate(solids):
         for k in range(i):
-            gap, _ = separation(solids[k], one, 0.0)
-            if gap < -1e-6 * one.size:
+            gap, _ = separation(solids[k], solid, 0.0)
+            if gap < -1e-6 * solid.size:
                 raise InputError(
                     f"beams {beams[k].name!r} and {beams[i].name!r} reach beyond one another by {-gap:.3g} m; end one of "
                     "them before the other, such as with overhang = [0.0, -0.4]."

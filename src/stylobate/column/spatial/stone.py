@@ -159,7 +159,9 @@ class Stone(Outlined):
         if len(self.parts) == 1 and not any(self.moments.centroid):
             return self.parts
         centre = self.moments.centroid
-        return tuple(Placed(one.shape, _triple(np.array(one.place) - centre), one.orientation) for one in self.parts)
+        return tuple(
+            Placed(part.shape, _triple(np.array(part.place) - centre), part.orientation) for part in self.parts
+        )
 
     @cached_property
     def axes(self) -> np.ndarray:
@@ -170,9 +172,9 @@ class Stone(Outlined):
     def placed(self) -> tuple[Placed, ...]:
         """Its parts where they stand, in the axes of space."""
         found = []
-        for one in self.pieces:
-            place = np.array(self.position) + self.axes @ one.place
-            found.append(Placed(one.shape, _triple(place), product(self.orientation, one.orientation)))
+        for piece in self.pieces:
+            place = np.array(self.position) + self.axes @ piece.place
+            found.append(Placed(piece.shape, _triple(place), product(self.orientation, piece.orientation)))
         return tuple(found)
 
     @cached_property
@@ -230,7 +232,7 @@ class Stone(Outlined):
     def to_dict(self) -> dict:
         """Plain values that make it again."""
         plain: dict[str, Any] = {
-            "parts": [_plain(one) for one in self.parts],
+            "parts": [_plain(part) for part in self.parts],
             "position": list(self.position),
             "density": self.density,
             "name": self.name,
@@ -246,7 +248,7 @@ class Stone(Outlined):
         """The body that :meth:`to_dict` has written."""
         surface, places = data.get("surface"), ("position", "orientation", "velocity", "angular_velocity")
         special: dict[str, Any] = {name: tuple(data[name]) for name in places}
-        special["parts"] = tuple(_part(one) for one in data["parts"])
+        special["parts"] = tuple(_part(part) for part in data["parts"])
         special["surface"] = None if surface is None else Joint(**surface)
         return cls(**(dict(data) | special))
 
@@ -306,7 +308,7 @@ def hull_shape(vertices: Any, who: str) -> tuple[ConvexSolid, np.ndarray]:
 
 def centre_of(parts: Sequence[Placed]) -> np.ndarray:
     """Common centroid of parts, in the axes in which they are told [m], shape (3,)."""
-    found = [Moments(moments_of(one.shape, 1.0).mass, np.array(one.place), np.zeros((3, 3))) for one in parts]
+    found = [Moments(moments_of(part.shape, 1.0).mass, np.array(part.place), np.zeros((3, 3))) for part in parts]
     return together(found).centroid
 
 
@@ -333,7 +335,7 @@ def unit_quaternion(name: str, values: Any) -> Quaternion:
     InputError
     """
     try:
-        found = [float(one) for one in values]
+        found = [float(value) for value in values]
     except (TypeError, ValueError):
         found = []
     length = math.sqrt(sum(one * one for one in found))
@@ -361,7 +363,7 @@ def _who(others: dict[str, Any]) -> str:
 
 
 def _triple(values: Any) -> Triple:
-    x, y, z = (float(one) for one in values)
+    x, y, z = (float(value) for value in values)
     return x, y, z
 
 

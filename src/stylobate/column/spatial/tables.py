@@ -156,4 +156,4 @@ def _long(vertices: Any) -> bool:
 
 
 def _short(vertices: Any) -> bool:
-    return isinstance(vertices, list) and any(isinstance(one, list) and len(one) == 2 for one in vertices)
+    return isinstance(vertices, list) and any(isinstance(vertex, list) and len(vertex) == 2 for vertex in vertices)

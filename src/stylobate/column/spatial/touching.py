@@ -225,7 +225,7 @@ def _candidates(one: Solid, other: Solid) -> np.ndarray:
     return found[length > 1e-9] / length[length > 1e-9, None]
 
 
-def _farther(one: Solid, other: Solid, way: np.ndarray, gap: float) -> tuple[float, np.ndarray]:
+def _farther(solid: Solid, other: Solid, way: np.ndarray, gap: float) -> tuple[float, np.ndarray]:
     """The largest gap that turning a direction by and by leads to."""
     angle = np.arange(8) * (0.25 * math.pi)
     step = 0.2
@@ -233,7 +233,7 @@ def _farther(one: Solid, other: Solid, way: np.ndarray, gap: float) -> tuple[flo
         aside = np.linalg.svd(way[None])[2][1:]
         ways = way + step * (np.cos(angle)[:, None] * aside[0] + np.sin(angle)[:, None] * aside[1])
         ways = ways / np.linalg.norm(ways, axis=1)[:, None]
-        gaps = -one.extent(ways) - other.extent(-ways)
+        gaps = -solid.extent(ways) - other.extent(-ways)
         best = int(gaps.argmax())
         if gaps[best] > gap:
             gap, way = float(gaps[best]), ways[best]
@@ -284,8 +284,8 @@ def overlap_of(below: FlatFace | None, above: FlatFace, near: float) -> Overlap 
             sides.append((way, bound + float(way @ (shift - middle))))
     corners = corners - middle
     reach = np.hypot(*corners.T).max()
-    discs = [one for one in discs if np.hypot(*(corners - one[0]).T).max() > one[1] - 1e-3 * reach]
-    sides = [one for one in sides if (corners @ one[0]).max() > one[1] - 1e-6 * reach]
+    discs = [disc for disc in discs if np.hypot(*(corners - disc[0]).T).max() > disc[1] - 1e-3 * reach]
+    sides = [side for side in sides if (corners @ side[0]).max() > side[1] - 1e-6 * reach]
     if len(discs) == 1 and not sides:  # a whole face
         area = math.pi * discs[0][1] ** 2
     elif discs:  # polygons in circles miss the same share of each

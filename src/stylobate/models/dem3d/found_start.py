@@ -171,7 +171,7 @@ class _Contact:
             for name, value in values.items():
                 array[name][...] = np.asarray(value)[..., None]
         lane["damp"] = lane["dt"] = 0.0
-        self.half = np.array([0.5 * one.bottom_width for one in column.drums])
+        self.half = np.array([0.5 * drum.bottom_width for drum in column.drums])
         self.pivots = not self.cornered and float(lane["pivot"][0, 0]) > 0.0
 
     def ask(self, poses: list[SpaceGeometry], friction: _Friction) -> tuple[np.ndarray, np.ndarray]:

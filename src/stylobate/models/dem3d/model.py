@@ -194,7 +194,7 @@ class DistinctElement3D(SteppedDrums):
         del motion
         if self.law != "bed":
             column.must_carry_on_whole_faces(f"dem3d with law={self.law}")
-        twice = next((one.drum for one in column.as_found.drums if one.chip_left and one.chip_right), None)
+        twice = next((drum.drum for drum in column.as_found.drums if drum.chip_left and drum.chip_right), None)
         if twice is not None and chipped(column):
             raise InputError(
                 f"drum {twice} of {column.name!r} is round and chipped on the left and on the right; dem3d knows one "

@@ -109,7 +109,7 @@ def joint_fields(column: Column, kn: np.ndarray, ks: np.ndarray) -> dict[str, np
 
 def chipped(column: Column) -> bool:
     """Whether drums are round and chipped."""
-    return column.section == "circular" and any(one.chipped for one in column.as_found.drums)
+    return column.section == "circular" and any(drum.chipped for drum in column.as_found.drums)
 
 
 def chip_directions(column: Column) -> np.ndarray:

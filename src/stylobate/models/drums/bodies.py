@@ -42,7 +42,7 @@ class Topology:
     @lru_cache(maxsize=4096)
     def of(cls, structure: Structure) -> Topology:
         """Of all bodies of a structure, on its joints and on those of its links that act."""
-        joints = tuple((one.lower, one.upper) for one in structure.face_pairs)
+        joints = tuple((pair.lower, pair.upper) for pair in structure.face_pairs)
         links = tuple((one.lower, one.upper) for one in acting(structure))
         fixed = tuple(i for i, body in enumerate(structure.bodies) if body.fixed)
         stack = 0 if structure.stack is None else structure.stack.n
@@ -52,10 +52,10 @@ class Topology:
 def body_fields(structure: Structure, closure: np.ndarray | None = None) -> dict[str, np.ndarray]:
     """Fields of the bodies as they stand, at rest; each joint of a stack closed by ``closure`` [m], shape (n,)."""
     bodies = structure.bodies
-    x, z, lean, m, i = np.array([(*one.place, one.lean, one.mass, one.inertia) for one in bodies]).T
+    x, z, lean, m, i = np.array([(*body.place, body.lean, body.mass, body.inertia) for body in bodies]).T
     if closure is not None:
         z[1:] -= np.cumsum(closure)
-    free = np.array([not one.fixed for one in bodies])
+    free = np.array([not body.fixed for body in bodies])
     m, i = np.where(free, m, 0.0), np.where(free, i, 0.0)
     im, ii = (np.divide(1.0, one, out=np.zeros(len(bodies)), where=free) for one in (m, i))
     at_rest = {name: np.zeros(len(bodies)) for name in ("th", "vx", "vz", "w")}

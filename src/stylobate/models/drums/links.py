@@ -19,18 +19,22 @@ from ..shared.stable_step import highest_frequency
 
 def acting(structure: Structure) -> tuple[PlacedLink, ...]:
     """Links that do anything besides lowering friction."""
-    return tuple(one for one in structure.placed_links if one.acts)
+    return tuple(link for link in structure.placed_links if link.acts)
 
 
 def law_fields(links: Sequence[PlacedLink]) -> dict[str, np.ndarray]:
     """By which numbers each link holds, as the fields of ``bond`` and ``link``, each of shape (m,)."""
 
     def of(name: str) -> np.ndarray:
-        return np.array([getattr(one, name) for one in links], dtype=float)
+        return np.array([getattr(link, name) for link in links], dtype=float)
 
-    straight, stiffness, axial = np.array([one.straight for one in links]), of("shear_stiffness"), of("axial_stiffness")
-    failure, across = [one.failure for one in links], [one.axial_failure for one in links]
-    clamps = np.array([one.lies == "side" for one in links])
+    straight, stiffness, axial = (
+        np.array([link.straight for link in links]),
+        of("shear_stiffness"),
+        of("axial_stiffness"),
+    )
+    failure, across = [link.failure for link in links], [link.axial_failure for link in links]
+    clamps = np.array([link.lies == "side" for link in links])
     return {
         "line": straight.astype(int),
         "ten": ((axial > 0.0) & ~straight).astype(int),

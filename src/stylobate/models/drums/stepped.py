@@ -48,7 +48,7 @@ class SteppedDrums(Model):
     mass_damping: float = 0.0
 
     def __post_init__(self) -> None:
-        default = next(one.default for one in fields(self) if one.name == "step_factor")
+        default = next(field.default for field in fields(self) if field.name == "step_factor")
         remedy = f"{default:g} is the default"
         check_range("step_factor", self.step_factor, 0.0, 1.0, open_low=True, open_high=True, remedy=remedy)
         if self.time_step is not None:
@@ -125,7 +125,7 @@ class SteppedDrums(Model):
         chunks = math.ceil(block.steps[0] / block.chunk)
         stride = max(1, min(chunks, round(options.output_interval / (block.chunk * block.dt[0]))))
         every, end, dt = stride * block.chunk, int(block.steps[0]), float(block.dt[0])
-        twins = Riders(block, [Case(one, motion) for one in options.twins])
+        twins = Riders(block, [Case(twin, motion) for twin in options.twins])
         residual = block.residual_acceleration(0)
         states: list[dict[str, Any]] = []
 

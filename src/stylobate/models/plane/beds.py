@@ -19,11 +19,11 @@ LAST_ROTATION = math.radians(50.0)
 def fill_shapes(records: Any, structure: Structure) -> np.ndarray:
     """Fill records of shapes; returns the corners of all bodies, one after another, each from its place [m]."""
     corners = [body.polygon for body in structure.bodies]
-    counts = [len(one) for one in corners]
+    counts = [len(corner) for corner in corners]
     records["first"], records["count"] = np.cumsum([0, *counts])[:-1], counts
     # a contact with what moves with the ground is as deep as the moving body
     records["depth"] = [1e9 if body.fixed else body.shape.depth for body in structure.bodies]
-    records["r"] = [float(np.hypot(one[:, 0], one[:, 1]).max()) for one in corners]
+    records["r"] = [float(np.hypot(corner[:, 0], corner[:, 1]).max()) for corner in corners]
     return np.concatenate(corners)
 
 

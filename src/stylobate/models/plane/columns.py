@@ -85,7 +85,7 @@ class ColumnLanes(LaneRuns):
         ground = self.ground_acceleration(lane)
         turn: float | np.ndarray = 0.0
         if self.options.start is not None:
-            fx, fz, mo = (one[1:] for one in records.forces(lane))
+            fx, fz, mo = (force[1:] for force in records.forces(lane))
             ground = (
                 ground[0] - fx * body["im"][1:, lane],
                 ground[1] + records.lane["g"][0, lane] - fz * body["im"][1:, lane],

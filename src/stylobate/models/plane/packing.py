@@ -43,7 +43,7 @@ def face_fields(structure: Structure, *, turned: bool = False) -> dict[str, np.n
     pairs = structure.face_pairs
     below, above = (
         np.array([(*one.direction, *one[1:]) for one in some]).reshape(-1, 5)
-        for some in ([one.below for one in pairs], [one.above for one in pairs])
+        for some in ([pair.below for pair in pairs], [pair.above for pair in pairs])
     )
     names = ("lc", "ls", "ht", "wl", "wr", "hb", "bl", "br")
     found = dict(zip(names, (*below.T, *above[:, 2:].T), strict=True))
@@ -55,12 +55,12 @@ def joint_fields(
 ) -> dict[str, np.ndarray]:
     """Faces and law of joints of contact points, from their normal and shear stiffness per area [N/m³], shape (joints,)."""
     pairs = structure.face_pairs
-    area, width = (np.array([getattr(one, name) for one in pairs]) for name in ("area", "width"))
+    area, width = (np.array([getattr(pair, name) for pair in pairs]) for name in ("area", "width"))
     return face_fields(structure, turned=turned) | {
         "kn": kn * area / width,
         "ks": ks * area / width,
-        "co": np.array([one.law.cohesion for one in pairs]) * area / width,
-        "mu": np.array([one.law.tan_phi for one in pairs]),
+        "co": np.array([pair.law.cohesion for pair in pairs]) * area / width,
+        "mu": np.array([pair.law.tan_phi for pair in pairs]),
     }
 
 

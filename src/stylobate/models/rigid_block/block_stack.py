@@ -189,7 +189,7 @@ class BlockStack:
             top=self.top * flip,
             outlines=tuple(corners[::-1] * flip for corners in self.outlines),
             slope=-self.slope,
-            links=tuple(one.mirrored() for one in self.links),
+            links=tuple(link.mirrored() for link in self.links),
         )
 
     @classmethod

@@ -150,9 +150,9 @@ def link_strains(
     n = len(centroid)
     moved = np.zeros((n, 3)) if position is None else position
     strain, opening, slope = np.zeros(len(links)), np.zeros(len(links)), np.zeros((len(links), 3 * n))
-    for k, one in enumerate(links):
-        strain[k], opening[k], by_low, by_high = link_strain(one, centroid, joint_angle, moved)
-        for block, by in zip(one.blocks, (by_low, by_high), strict=True):
+    for k, link in enumerate(links):
+        strain[k], opening[k], by_low, by_high = link_strain(link, centroid, joint_angle, moved)
+        for block, by in zip(link.blocks, (by_low, by_high), strict=True):
             if block >= 0:
                 slope[k, 3 * block : 3 * block + 3] += by
     return strain, slope, opening

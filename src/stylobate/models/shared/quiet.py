@@ -67,7 +67,7 @@ def shaking(motion: Motion, column: Column, share: float) -> np.ndarray:
 
 def share_of(motions: Sequence[Motion], whole: bool) -> float:
     """The share below which motions are quiet [-]: of records; 0 for computed motions, which have no quiet to speak of."""
-    return 0.0 if whole or not all("format" in one.metadata for one in motions) else QUIET
+    return 0.0 if whole or not all("format" in motion.metadata for motion in motions) else QUIET
 
 
 def is_cut(case: Case, options: RunOptions) -> bool:

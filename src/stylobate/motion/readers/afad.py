@@ -38,8 +38,8 @@ def read(source: Source) -> tuple[list[Component], dict]:
     peaks, line = next((entry for key, entry in header.items() if "pga values" in key), ("", 0))
     stated_peaks = re.findall(NUMBER, peaks)
     if len(stated_peaks) == 3:  # of the raw record: the one in the file may be corrected
-        for one, peak in zip(components, stated_peaks):
-            check_peak(one.values, peak, 0.01, file, line, wrong=0.2)
+        for component, peak in zip(components, stated_peaks):
+            check_peak(component.values, peak, 0.01, file, line, wrong=0.2)
     text = {key: value for key, (value, _) in header.items()}
     return components, {
         "format": "AFAD text",

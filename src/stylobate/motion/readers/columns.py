@@ -70,19 +70,19 @@ def read(source: Source, unit: str | None, dt: float | None) -> tuple[list[Compo
     if time is not None:
         _set_step(components, time, dt, comments, source.name, first)
     elif "dt_s" in comments:
-        for one in components:
-            one.dt = _comment_number(comments, "dt_s", source.name)
+        for component in components:
+            component.dt = _comment_number(comments, "dt_s", source.name)
     elif said.step is not None:
-        for one in components:
-            one.dt = said.step
+        for component in components:
+            component.dt = said.step
     elif dt is None:
         raise UnstatedError(f"{source.name} has no time column; state the step: `dt=0.01`.", field="dt")
     _check(components, said, source.name, first)
     if "sha256" in comments:
         _check_digest(components, comments["sha256"], source.name)
-    for axis, one in zip("xyz", components):
+    for axis, component in zip("xyz", components):
         if f"azimuth_{axis}_deg" in comments:
-            one.azimuth = _comment_number(comments, f"azimuth_{axis}_deg", source.name)
+            component.azimuth = _comment_number(comments, f"azimuth_{axis}_deg", source.name)
     facts = {"format": "columns of text", "unit": unit_found, "stage": comments.get("stage")}
     facts |= {key: comments[key] for key in ("station", "network", "event", "start_time", "terms") if key in comments}
     if titles:
@@ -108,22 +108,22 @@ def _check(components: list[Component], said: Stated, file: str, first: int) -> 
             check_same_step(said.step, dt, file, first)
         check_length(count, dt, said.length, file, first)
     _, size = acceleration_unit(said.unit or "m/s2")
-    for one in components:
-        high, low = (said.extremes or {}).get(one.label.upper(), (None, None))
-        for extreme, value in ((high, one.values.max()), (low, one.values.min())):
+    for component in components:
+        high, low = (said.extremes or {}).get(component.label.upper(), (None, None))
+        for extreme, value in ((high, component.values.max()), (low, component.values.min())):
             check_peak(np.array([value]), extreme, size, file, first, wrong=0.05)
 
 
 def _check_digest(components: list[Component], written: str, file: str) -> None:
-    parts = {one.label: one.values for one in components}
+    parts = {component.label: component.values for component in components}
     found = Motion(components[0].dt, parts["x"], parts.get("y"), parts.get("z")).digest
     if found != written:
         raise InputError(
             f"{file}: the numbers are not those that were written with the line '# sha256: …'; fetch the file again, or "
             "remove that line if you changed them."
         )
-    for one in components:
-        one.proven = True
+    for component in components:
+        component.proven = True
 
 
 def _first_row(lines: list[str]) -> int | None:
@@ -136,12 +136,12 @@ def _first_row(lines: list[str]) -> int | None:
 
 
 def _comments(titles: list[str]) -> dict[str, str]:
-    found = {}
+    comments = {}
     for line in titles:
         if line.startswith("#") and (":" in line or "=" in line):
             key, value = re.split(r"[:=]", line.lstrip("# "), maxsplit=1)
-            found[key.strip().lower()] = value.strip()
-    return found
+            comments[key.strip().lower()] = value.strip()
+    return comments
 
 
 def _comment_number(comments: dict[str, str], key: str, file: str) -> float:
@@ -177,7 +177,7 @@ def _check_other(other: Header, names: tuple[Name, ...], table: np.ndarray, head
     """No other line above the numbers names the columns in another way."""
     if other.unknown is not None or other.units or is_fact(other.line) or other.speaks_of_all is not None:
         return
-    found = [one for fields in (len(names), len(names) - 1) if fields > 1 for one in other.readings(fields)]
+    found = [reading for fields in (len(names), len(names) - 1) if fields > 1 for reading in other.readings(fields)]
     kinds = [(name.kind, name.direction, name.sign) for name in names]
     if found and all([(n.kind, n.direction, n.sign) for n in one] not in (kinds, kinds[1:]) for one in found):
         raise InputError(
@@ -242,9 +242,9 @@ def _set_step(
         stated = _comment_number(comments, "dt_s", file)
         if abs(stated - step) * (len(time) - 1) <= ROUNDING_SHARE * step:
             step = stated
-    for one in components:
-        one.dt = np.nan if step is None else step
-        one.time = time if step is None else None
+    for component in components:
+        component.dt = np.nan if step is None else step
+        component.time = time if step is None else None
 
 
 def _no_unit(what: str) -> str:

@@ -59,7 +59,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     return components, {
         "format": "COSMOS 1.20",
         "stage": ", ".join(dict.fromkeys(stages)),
-        "unit": ", ".join(dict.fromkeys(one.metadata["unit"] for one in components)),
+        "unit": ", ".join(dict.fromkeys(component.metadata["unit"] for component in components)),
     } | {key: first[key] for key in keep if key in first}
 
 

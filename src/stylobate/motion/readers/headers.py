@@ -68,7 +68,7 @@ class Header:
         text = f"{key} ; {text}" if key and not self._keyed else text
         text = f"{text}°" if self._keyed and re.fullmatch(r"\d{1,2}", text) and "chan" not in key.lower() else text
         text = _SERIES.sub("series", _PER_SECOND.sub(r"\g<length>/s2", text.replace("²", "2")))
-        found: list[tuple[str, bool, bool]] = []
+        words: list[tuple[str, bool, bool]] = []
         for piece in _PIECES.split(text):
             first = True
             for one in _TOKENS.finditer(piece):
@@ -77,9 +77,9 @@ class Header:
                 if not word.strip("/.:=-_") and (inside is None or word not in ("+", "-")):
                     continue
                 for part in [word] if unit_kind(word) else word.split():
-                    found.append((part, first, inside is not None))
+                    words.append((part, first, inside is not None))
                     first = False
-        return found
+        return words
 
     @cached_property
     def _meanings(self) -> list[list[tuple[Meaning, ...]]]:
@@ -91,12 +91,12 @@ class Header:
     @cached_property
     def unknown(self) -> str | None:
         """The first word that is not known, or None."""
-        return next((word for (word, *_), found in zip(self.words, self._meanings) if not found), None)
+        return next((word for (word, *_), meaning in zip(self.words, self._meanings) if not meaning), None)
 
     @property
     def seems_to_name(self) -> bool:
         """Whether most of its words are known, and one is a time, a quantity or a direction."""
-        kinds = {one[0] for found in self._meanings for some in found for one in some}
+        kinds = {one[0] for meaning in self._meanings for some in meaning for one in some}
         return 2 * sum(map(bool, self._meanings)) >= len(self.words) and bool(kinds & {"time", "quantity", "direction"})
 
     @property
@@ -193,7 +193,7 @@ class Header:
         if doubts:
             raise InputError(f"{shown} {min(doubts, key=lambda doubt: isinstance(doubt, Unlikely))}.")
         ways = [one for fields in range(1, min(len(self.words), MOST_WORDS) + 1) for one in self.readings(fields)]
-        found = min(ways, key=lambda one: sum(name.kind not in ("time", "acceleration") for name in one), default=())
+        found = min(ways, key=lambda way: sum(name.kind not in ("time", "acceleration") for name in way), default=())
         labels = ", ".join(one.direction or one.kind for one in found) or "in no order that makes sense"
         count = len(found) or len(self.words)
         if columns == 2 * count:

@@ -176,9 +176,9 @@ def _complaints_raised() -> Iterator[None]:
         with warnings.catch_warnings(record=True) as complaints:
             warnings.simplefilter("always")
             yield
-        for one in complaints:
-            if not issubclass(one.category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning)):
-                raise ValueError(str(one.message))
+        for complaint in complaints:
+            if not issubclass(complaint.category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning)):
+                raise ValueError(str(complaint.message))
     finally:
         sys.unraisablehook = hook
 

@@ -68,10 +68,10 @@ def checked(reading: tuple[Name, ...], keyed: bool) -> tuple[Name, ...]:
     parts = [one for one in reading if one.kind != "time"]
     if len(reading) - len(parts) > 1:
         raise Doubt("names two columns as times; name each column once")
-    bare = [one for one in parts if not one.direction]
+    bare = [part for part in parts if not part.direction]
     if len({one.kind for one in bare}) < len(bare):
         raise Doubt(f"names {len(bare)} columns as {bare[0].kind} without a direction; say which is which, {EXAMPLE}")
-    if bare and any(one.direction and one.kind == "acceleration" for one in parts):
+    if bare and any(part.direction and part.kind == "acceleration" for part in parts):
         raise Unlikely(f"names some columns with a direction and one without; {EXAMPLE}")
     if other is not None:
         raise Doubt(
@@ -80,9 +80,9 @@ def checked(reading: tuple[Name, ...], keyed: bool) -> tuple[Name, ...]:
         )
     if not parts:
         raise Doubt(f"names no column of acceleration; {EXAMPLE}")
-    up = [one for one in parts if one.vertical]
-    flat = [one for one in parts if not one.vertical]
-    labels = [one.direction or "x" for one in parts]
+    up = [part for part in parts if part.vertical]
+    flat = [part for part in parts if not part.vertical]
+    labels = [part.direction or "x" for part in parts]
     kinds = [one[0] if one in ("LONG", "TRAN") else one for one in labels]
     for label in kinds:
         if kinds.count(label) > 1:

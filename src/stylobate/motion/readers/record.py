@@ -163,17 +163,21 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
     """The component of a label, a number, an azimuth or an axis x, y, z as the whole record would have it."""
     text = str(wanted).strip()
     folded = " ".join(text.lower().split())
-    exact = [one for one in components if " ".join(one.label.lower().split()) == folded]
+    exact = [component for component in components if " ".join(component.label.lower().split()) == folded]
     if len(exact) == 1:
         return exact[0]
     if re.fullmatch(r"[0-9]{1,3}", text) and 1 <= int(text) <= len(components):
         return components[int(text) - 1]
     if re.fullmatch(r"[0-9]{1,3}(\.[0-9]+)?", text):
-        near = [one for one in components if one.azimuth is not None and abs(one.azimuth - float(text) % 360.0) < 0.5]
+        near = [
+            component
+            for component in components
+            if component.azimuth is not None and abs(component.azimuth - float(text) % 360.0) < 0.5
+        ]
         if len(near) == 1:
             return near[0]
-    horizontal = [one for one in components if not one.vertical]
-    vertical = [one for one in components if one.vertical]
+    horizontal = [component for component in components if not component.vertical]
+    vertical = [component for component in components if component.vertical]
     axes = dict(zip("xy", horizontal)) | ({"z": vertical[0]} if len(vertical) == 1 else {})
     if folded in axes and len(horizontal) <= 2:
         return axes[folded]
@@ -183,8 +187,8 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
         return alike[0]
     by_axis = {id(one): axis for axis, one in axes.items()}
     labels = ", ".join(
-        f"{i} ({one.label or 'no label'}{', axis ' + by_axis[id(one)] if id(one) in by_axis else ''})"
-        for i, one in enumerate(components, 1)
+        f"{i} ({component.label or 'no label'}{', axis ' + by_axis[id(component)] if id(component) in by_axis else ''})"
+        for i, component in enumerate(components, 1)
     )
     raise InputError(
         f"{name} has no component {wanted!r}; it holds {labels}: give a number, a label or an axis.", "component"

@@ -123,7 +123,7 @@ def read_motion(
                 "give the components of one record."
             )
         facts = facts or metadata
-    names = [one.name for one in records]
+    names = [record.name for record in records]
     defaults = {"station": None, "network": None, "event": None, "start_time": None, "terms": None}
     metadata = defaults | facts | {"file": ", ".join(names)}
     wanted = None if component is None else str(component)
@@ -161,7 +161,7 @@ def _read_file(
     matches = [one for one in FORMATS if one.recognises(source)]
     if len(matches) > 1:
         raise InputError(
-            f"{source.name} looks like {' and like '.join(one.name for one in matches)}; "
+            f"{source.name} looks like {' and like '.join(match.name for match in matches)}; "
             "convert it to columns under a header such as time_s,ax_g."
         )
     if matches:

@@ -87,7 +87,7 @@ def sample_at(path: str | Path) -> Sample | None:
         return None
     name = text.removeprefix(PREFIX)
     if name not in samples():
-        meant = suggest(text, (PREFIX + one for one in samples()))
+        meant = suggest(text, (PREFIX + sample for sample in samples()))
         raise InputError(f"there is no sample motion {name!r}; {meant}they are {', '.join(samples())}.")
     return samples()[name]
 

@@ -118,7 +118,7 @@ def decimal_of(time: np.ndarray, median: float) -> float | None:
 
 def same_step(components: list[Component], name: str, dt: float | None, processing: list[str]) -> float:
     """Bring all components to one step; irregular ones are resampled, and ``processing`` says so."""
-    irregular = [one for one in components if one.time is not None]
+    irregular = [component for component in components if component.time is not None]
     if irregular:
         wanted = dt
         for one in irregular:
@@ -127,7 +127,7 @@ def same_step(components: list[Component], name: str, dt: float | None, processi
             step, one.values, note = resampled(one.time, one.values, wanted, name)
             one.dt = wanted = step
             one.processing.append(note)
-    steps = [one.dt for one in components]
+    steps = [component.dt for component in components]
     if any(math.isnan(step) for step in steps):
         if dt is None:
             raise InputError(f"{name} has no time column and states no step; state it: `dt=0.01`.", "dt")
@@ -137,6 +137,6 @@ def same_step(components: list[Component], name: str, dt: float | None, processi
         raise InputError(f"components of {name} have different steps ({shown}); resample them to one step before use.")
     if dt is not None and not irregular and abs(dt - steps[0]) > 1e-3 * steps[0]:
         raise InputError(f"{name} states a step of {steps[0]:g} s, but dt is given as {dt:g} s; leave dt out.")
-    if irregular or all(one.proven for one in components):
+    if irregular or all(component.proven for component in components):
         return steps[0]
     return check_sampling(steps[0], f"the step of {name}")

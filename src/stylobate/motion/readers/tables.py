@@ -89,10 +89,10 @@ def read_table(rows: list[str], first: int, file: str) -> np.ndarray:
     columns = len(read_numbers(texts[:1], first, file, "the first row"))
     values = _parts(kept, texts, first, file)
     counts = [count_numbers(row) for row in texts]
-    for (index, _), found in zip(kept, counts):
-        if found != columns:
+    for (index, _), count in zip(kept, counts):
+        if count != columns:
             raise InputError(
-                f"{file}, line {first + index + 1}: {found} numbers where the rows above have {columns}; "
+                f"{file}, line {first + index + 1}: {count} numbers where the rows above have {columns}; "
                 "every row needs the same columns."
             )
     return values.reshape(-1, columns)

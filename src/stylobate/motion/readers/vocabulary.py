@@ -147,14 +147,14 @@ def _kind(meaning: str) -> Meaning:
 @cache
 def _table() -> dict[str, tuple[dict[Meaning, None], set[str]]]:
     """Meanings of every folded word, and its languages."""
-    found: dict[str, tuple[dict[Meaning, None], set[str]]] = {}
+    table: dict[str, tuple[dict[Meaning, None], set[str]]] = {}
     for language, meanings in (*_WORDS.items(), ("", _SIGNS), ("", {"": _FILLERS})):
         for meaning, words in meanings.items():
             for word in words.split():
-                entry = found.setdefault(folded(word), ({}, set()))
+                entry = table.setdefault(folded(word), ({}, set()))
                 entry[0][_kind(meaning) if meaning else ("filler", "")] = None
                 entry[1].update([language] * (language != ""))
-    return found
+    return table
 
 
 def languages(word: str) -> set[str]:

@@ -76,9 +76,9 @@ def _brought(vertices: np.ndarray, reference: np.ndarray) -> tuple[np.ndarray, n
 def mean_of(scans: Sequence[Scan], weights: Sequence[float]) -> Scan:
     """Minkowski's mean of scans in one frame with weights that sum to 1, about its centroid; name and mass of the first."""
     along = directions()
-    vertices = sum(w * one.vertices[np.argmax(along @ one.vertices.T, axis=1)] for w, one in zip(weights, scans))
-    centroid = sum(w * one.centroid for w, one in zip(weights, scans))
-    inertia = sum(w * one.inertia for w, one in zip(weights, scans))
+    vertices = sum(w * scan.vertices[np.argmax(along @ scan.vertices.T, axis=1)] for w, scan in zip(weights, scans))
+    centroid = sum(w * scan.centroid for w, scan in zip(weights, scans))
+    inertia = sum(w * scan.inertia for w, scan in zip(weights, scans))
     return replace(
         scans[0],
         vertices=np.unique(np.asarray(vertices - centroid), axis=0),

@@ -56,7 +56,7 @@ def variants(granite: Granite, realisations: int, calibrate: bool, seed: int = 1
     for name in names:
         rng = np.random.default_rng((seed, NAMES.index(name)))
         mine = granite.scans[name]
-        scans = [mine, *(registered(one, mine) for one in granite.scans.values() if one is not mine)] * (
+        scans = [mine, *(registered(scan, mine) for scan in granite.scans.values() if scan is not mine)] * (
             realisations > 0
         )
         for _ in range(realisations):

@@ -121,7 +121,7 @@ def _scan(name: str, one: Any, mass: Any) -> Scan:
     return scan
 
 
-def _read_tests(folder: Path, found: Granite) -> None:
+def _read_tests(folder: Path, granite: Granite) -> None:
     motions = arrays(folder / "motions.npz")
     dt = float(motions["dt"]) if "dt" in motions and np.ndim(motions["dt"]) == 0 else math.nan
     if not 0.0 < dt <= 0.1:
@@ -136,22 +136,22 @@ def _read_tests(folder: Path, found: Granite) -> None:
         try:
             number = int(row["id"])
         except (KeyError, TypeError, ValueError):
-            found.refused.append("a row of tests.csv has no number under id")
+            granite.refused.append("a row of tests.csv has no number under id")
             continue
         listed.add(f"a{number:03d}")
         if f"a{number:03d}" not in motions:
             if row.get("motion") == "1":
-                found.refused.append(f"test {number} has no motion in motions.npz")
-            found.without_motion += 1
+                granite.refused.append(f"test {number} has no motion in motions.npz")
+            granite.without_motion += 1
             continue
         try:
-            found.tests.append(_test(number, row, dt, np.asarray(motions[f"a{number:03d}"], dtype=float)))
+            granite.tests.append(_test(number, row, dt, np.asarray(motions[f"a{number:03d}"], dtype=float)))
         except InputError as error:
-            found.refused.append(str(error))
+            granite.refused.append(str(error))
         except (KeyError, TypeError, ValueError):
-            found.refused.append(f"the row of test {number} in tests.csv lacks a number")
+            granite.refused.append(f"the row of test {number} in tests.csv lacks a number")
     unlisted = sorted(name for name in motions if name[:1] == "a" and name[1:].isdecimal() and name not in listed)
-    found.refused += [f"motion {name} has no row in tests.csv" for name in unlisted]
+    granite.refused += [f"motion {name} has no row in tests.csv" for name in unlisted]
 
 
 def _test(number: int, row: dict[str, str], dt: float, samples: np.ndarray) -> Test:

@@ -112,7 +112,7 @@ def compute(
         _cube(found.cube, calibrate, threads, bars, ledger, out)
     out.summary |= {
         "refused": found.refused,
-        "choices": [one._asdict() for one in c.CHOICES],
+        "choices": [choice._asdict() for choice in c.CHOICES],
         "realisations": realisations,
         "date": date.today().isoformat(),
         "version": __version__,
@@ -184,7 +184,7 @@ def _cube(tosses: Tosses, calibrate: bool, threads: int | None, bars: Bars, ledg
     with bars("tosses, a third of them") as progress:
         tables = cube.run(third, grid, threads=threads, progress=progress, ledger=ledger)
     best = min(range(len(grid)), key=lambda k: cube.badness(tables[k]))
-    rest = [one for number, one in enumerate(tosses.tosses) if number % 3]
+    rest = [toss for number, toss in enumerate(tosses.tosses) if number % 3]
     with bars("tosses, the rest of them") as progress:
         (tested,) = cube.run(rest, [grid[best]], threads=threads, progress=progress, ledger=ledger)
     names = {one.name for one in rest}

@@ -40,15 +40,15 @@ def drum_statements(r: Reader) -> list[Statement]:
             f"unsafe share of the domain: rigid beam {percent(sizes[DRUMS, BEAM])}, DEM {percent(sizes[DRUMS, DEM])}",
             judged(sizes[DRUMS, BEAM] > sizes[DRUMS, DEM]),
             "No sliding and no loss in the beam.",
-            f"On the grid of the open parameters: beam {percents([share(one) for one in beams.values()])}, "
-            f"DEM {percents([share(one) for one in r.variants(DRUMS, DEM).values()])}.",
+            f"On the grid of the open parameters: beam {percents([share(beam) for beam in beams.values()])}, "
+            f"DEM {percents([share(variant) for variant in r.variants(DRUMS, DEM).values()])}.",
         ),
         Statement(
             "3.2", "The rigid beam's multi-drum column collapses for accelerations up to 0.2 g below 1 Hz.",
             f"first collapse below 1 Hz: {span(low)}, in steps of {step(bd):.4g} g",
             judged(
                 bool((low - step(bd) <= 0.2 + 1e-6).all()),
-                [bool((first(one, high=0.999) <= 0.2 + 1e-6).all()) for one in beams.values()],
+                [bool((first(beam, high=0.999) <= 0.2 + 1e-6).all()) for beam in beams.values()],
             ),
             "The statics of the stack of prisms opens the lowest joint at 0.20 g. Taken as: the boundary, which lies "
             "within a step below the first collapse, is not above 0.2 g.",

@@ -154,8 +154,8 @@ def in_short(results: PaperResults, rows: Sequence[Statement]) -> list[str]:
 
 def chosen(grids: Grids) -> Rows:
     """Points that the paper leaves open, and the choices made here."""
-    f = ", ".join(f"{one:g}" for one in FREQUENCIES)
-    a = ", ".join(f"{one / g:g}" for one in AMPLITUDES)
+    f = ", ".join(f"{frequency:g}" for frequency in FREQUENCIES)
+    a = ", ".join(f"{amplitude / g:g}" for amplitude in AMPLITUDES)
     fine = (
         f"{len(grids.frequencies)} frequencies from {grids.frequencies[0]:g} to {grids.frequencies[-1]:g} Hz, "
         f"{len(grids.amplitudes)} amplitudes from {grids.amplitudes[0] / g:g} to {grids.amplitudes[-1] / g:g} g"
@@ -275,5 +275,5 @@ def write_page(path: Path, title: str, lead: Sequence[Item], sections: Sequence[
         At the top.
     sections : sequence of Section
     """
-    parts = [part(one) for one in sections]
+    parts = [part(section) for section in sections]
     return write_html(path, Path(__file__).with_name("page.html"), title=title, lead=kinds(lead), sections=parts)

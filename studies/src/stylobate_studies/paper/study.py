@@ -94,7 +94,7 @@ class PaperResults:
         single += [one for doubt in self.doubts.values() for one in (doubt.steps.domain, doubt.steps.halved)]
         many = [*(doubt.population for doubt in self.doubts.values()), *self.spots.values(), *self.space.values()]
         tested = sum(len(one["peak"]) for one in self.literature.values())
-        cases = tested + sum(one["verdict"].size for one in self.histories.values())
+        cases = tested + sum(history["verdict"].size for history in self.histories.values())
         return sum(len(one.rows) for one in single) + sum(one.codes.size for one in many) + cases
 
 
@@ -136,7 +136,7 @@ def _pieces(
     folder: Path, quick: bool, grids: c.Grids, threads: int | None, report: Report | None, wait: Callable[[], object]
 ) -> PaperResults:
     data = folder / "data"
-    found, count = PaperResults(grids, quick), thread_count(threads)
+    pieces, count = PaperResults(grids, quick), thread_count(threads)
 
     def advance(what: str) -> Progress | None:
         if report is None:
@@ -147,19 +147,19 @@ def _pieces(
 
     for name, label in product(PRESETS, (c.BEAM, c.DEM)):
         what = f"histories, {name}: {label}"
-        found.histories[name, label] = histories_piece(data, name, label, grids.tail, count, advance(what))
+        pieces.histories[name, label] = histories_piece(data, name, label, grids.tail, count, advance(what))
     for name in PRESETS:
         for label, section in [(one, "rectangular") for one in c.MODELS] + [
             (one, "circular") for one in grids.circular
         ]:
             grid = (grids.frequencies, grids.amplitudes, c.DURATION)
-            found.domains[name, label, section] = domain_piece(
+            pieces.domains[name, label, section] = domain_piece(
                 data / slug("domain", name, label, section), c.paper_column(name, section), c.MODELS[label], grid,
                 grids.tail, count, advance(f"domains, {name}: {label}, {section}"),
             )  # fmt: skip
         for label in (c.BEAM, c.BLOCKS, c.DEM):
             grid = (np.array([0.1]), grids.limit_amplitudes, 20.0)
-            found.limits[name, label] = domain_piece(
+            pieces.limits[name, label] = domain_piece(
                 data / slug("limit", name, label), preset(name), c.MODELS[label], grid, 0.0, count,
                 advance(f"low frequency, {name}: {label}"),
             )  # fmt: skip
@@ -167,42 +167,42 @@ def _pieces(
             _, model, change, duration = c.VARIANTS[variant]
             column = preset(name).with_joint(**change) if change else preset(name)
             grid = (grids.variant_frequencies, grids.variant_amplitudes, duration)
-            found.variants[name, variant] = domain_piece(
+            pieces.variants[name, variant] = domain_piece(
                 data / slug("variant", name, variant), column, model, grid, grids.tail, count,
                 advance(f"open parameters, {name}: {variant}"),
             )  # fmt: skip
-        found.doubts[name] = _doubt(data, name, grids, count, advance)
+        pieces.doubts[name] = _doubt(data, name, grids, count, advance)
     for variant in grids.variants:
         label, model, change, duration = c.VARIANTS[variant]
         if duration == c.VARIANTS[c.REFERENCE][3] and (label == c.BEAM or variant == c.REFERENCE):
             column = preset(c.MONOLITH).with_joint(**change) if change else preset(c.MONOLITH)
             grid = (c.FREQUENCIES, c.AMPLITUDES, c.DURATION)
             folder_of = data / slug("shaken", variant)
-            found.shaken[variant] = domain_piece(folder_of, column, model, grid, 0.0, count, None)
+            pieces.shaken[variant] = domain_piece(folder_of, column, model, grid, 0.0, count, None)
     for label in (c.BEAM, c.DEM):
         grid = (np.array([0.66]), np.array([0.2 * g]), c.DURATION)
-        found.spots[label] = population_piece(
+        pieces.spots[label] = population_piece(
             data / slug("spot", label), preset(c.MONOLITH), c.MODELS[label], grid, 50, grids.tail, count, None
         )
     grid = (grids.space_frequencies, grids.space_amplitudes, c.DURATION)
     wait()  # for the compiler
     for name in PRESETS:
         for label, model in c.POPULATIONS.items():
-            found.space[name, label] = population_piece(
+            pieces.space[name, label] = population_piece(
                 data / slug("space", name, label), c.paper_column(name, "circular"), model, grid, grids.space_replicates,
                 grids.tail, count, advance(f"round columns, {name}: {label}"), c.ACROSS,
             )  # fmt: skip
         for label, section in c.RIVALS:
-            found.rivals[name, label, section] = domain_piece(
+            pieces.rivals[name, label, section] = domain_piece(
                 data / slug("rival", name, label, section), c.paper_column(name, section), c.MODELS[label], grid,
                 grids.tail, count, None,
             )  # fmt: skip
     wait()
-    found.literature = literature_piece(data)
-    found.cost = cost_piece(data)
+    pieces.literature = literature_piece(data)
+    pieces.cost = cost_piece(data)
     for name, section in product(PRESETS, ("rectangular", "circular")):
-        found.paths[name, section] = pushover(c.paper_column(name, section))
-    return found
+        pieces.paths[name, section] = pushover(c.paper_column(name, section))
+    return pieces
 
 
 def _doubt(data: Path, name: str, grids: c.Grids, threads: int, advance: Callable[[str], Progress | None]) -> Doubt:

@@ -97,7 +97,7 @@ def draw_doubt(doubt: Doubt, title: str, *, figure: Figure | SubFigure | None = 
     grid[0].set_ylabel("amplitude [g]")
     dot = Line2D([], [], marker="o", linestyle="none", color="white", markeredgecolor=BLACK, markersize=4.5,
                  label="another verdict than as computed")  # fmt: skip
-    order = [handles[one] for one in v.VERDICTS if one in handles]
+    order = [handles[verdict] for verdict in v.VERDICTS if verdict in handles]
     figure.suptitle(title, x=0.01, ha="left", size=10.0)
     figure.legend(handles=[*order, dot], loc="outside lower center", ncols=5)
     return figure

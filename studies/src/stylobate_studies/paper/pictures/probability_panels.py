@@ -43,8 +43,8 @@ def draw_probability_panels(
     return figure
 
 
-def _shares(axes: Axes, one: CollapseProbability) -> tuple[dict[str, Artist], str]:
+def _shares(axes: Axes, probability: CollapseProbability) -> tuple[dict[str, Artist], str]:
     """One map of several: its handles by label, and the mean share that collapses."""
-    handles: dict[str, Artist] = {str(patch.get_label()): patch for patch in draw_shares(axes, one)}
-    draw_band(axes, one)
-    return handles, percent(one.mean)
+    handles: dict[str, Artist] = {str(patch.get_label()): patch for patch in draw_shares(axes, probability)}
+    draw_band(axes, probability)
+    return handles, percent(probability.mean)
