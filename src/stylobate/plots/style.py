@@ -89,14 +89,14 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 
     What is drawn is checked first, where it is declared as an object of a class, or as several of one.
     """
-    drawn = next(iter(inspect.signature(draw).parameters.values()))
-    declared = re.fullmatch(r"(\w+)|(?:(\w+) \| )?Sequence\[(\w+)\]", str(drawn.annotation))
+    drawn = next(iter(inspect.signature(draw).parameters.values()), None)
+    declared = drawn and re.fullmatch(r"(\w+)|(?:(\w+) \| )?Sequence\[(\w+)\]", str(drawn.annotation))
     alone, _, several = declared.groups() if declared else (None, None, None)
     kind = getattr(draw, "__globals__", {}).get(alone or several)
 
     @wraps(draw)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> Figure:
-        if isinstance(kind, type) and (args or drawn.name in kwargs):
+        if drawn and isinstance(kind, type) and kind is not Any and (args or drawn.name in kwargs):
             given: Any = args[0] if args else kwargs[drawn.name]
             (check_kind if alone else check_all)(drawn.name, given, kind)
         with matplotlib.rc_context():
