@@ -358,7 +358,7 @@ def _known(
     """Curve through intervals of ln capacity: samples, region, dispersions and bracket."""
     below, above, number = float(low.max()), float(high.min()), len(np.unique(owner))
     return (
-        bootstrap(low, high, owner, samples, rng),
+        lognormal.bootstrap(low, high, owner, samples, rng),
         likelihood_region.region(low, high, number, confidence),
         likelihood_region.dispersions(low, high, number, confidence),
         (math.exp(below), math.exp(above)) if below <= above else None,
@@ -395,20 +395,3 @@ def between(low: float | None, high: float | None, unit: str = "-", digits: int 
             f"{low:.{digits}g} to {high:.{digits}g}{behind}" if high < math.inf else f"{low:.{digits}g}{behind} or more"
         )
     return f"up to {high:.{digits}g}{behind}" if high < math.inf else "no limits known"
-
-
-def bootstrap(
-    low: np.ndarray, high: np.ndarray, owner: np.ndarray, samples: int, rng: np.random.Generator
-) -> np.ndarray:
-    """ln θ and ln β of samples of the records, with all that a record says together, shape (samples, 2)."""
-    _, owner = np.unique(owner, return_inverse=True)
-    count = int(owner.max()) + 1
-    found = []
-    piece = max(1, 2_000_000 // len(low))
-    for begin in range(0, samples, piece):
-        weight = rng.multinomial(count, np.full(count, 1.0 / count), min(piece, samples - begin))[:, owner]
-        one = lognormal.fit(low, high, weight)
-        with np.errstate(invalid="ignore"):
-            found.append(np.stack((one.log_median, np.log(one.beta)), axis=1))
-    values = np.concatenate(found)
-    return np.where(np.isnan(values), math.log(lognormal.BETAS[0]), values)

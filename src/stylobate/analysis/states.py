@@ -22,10 +22,10 @@ from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
 from .difference import Difference, doubt, reference, round_drums
 from .evidence import Evidence, evidence, intervals
-from .fragility import SAMPLES, Fragility, bootstrap, fragility
+from .fragility import SAMPLES, Fragility, fragility
 from .fragility_checks import check_bootstrap
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
-from .lognormal import falls, fit
+from .lognormal import bootstrap, falls, fit
 from .paired import levels_of, median_ends, share_limits, unseen
 from .side_by_side import Share, shares
 from .studies import StudyResult, run_study

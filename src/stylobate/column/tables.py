@@ -154,6 +154,20 @@ def made_of(kind: Any, data: dict[str, Any], source: str = "the column", name: s
         return _column(kind, table, default_name=name)
 
 
+def density_of(entry: str, *stated: float | None) -> float:
+    """The first density that is stated, of those that an entry of an assembly may have [kg/m³].
+
+    Raises
+    ------
+    InputError
+        None is stated.
+    """
+    density = next((value for value in stated if value is not None), None)
+    if density is None:
+        raise InputError(f"{entry} has no density; add one to it, or a common one at the top [kg/m³].")
+    return density
+
+
 def describes_assembly(data: dict[str, Any]) -> bool:
     """Whether the content of a TOML file is that of an assembly: it has blocks, beams, or columns from files."""
     return "block" in data or "beam" in data or isinstance(data.get("column"), list)

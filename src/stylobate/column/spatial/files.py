@@ -10,7 +10,7 @@ from ...errors import InputError, warn
 from ..joint import Joint
 from ..materials import material
 from ..plausible import COLUMN, DENSITY, first, joint_doubts
-from ..tables import JointTable, joint_fields
+from ..tables import JointTable, density_of, joint_fields
 from .assembly import SpatialAssembly, refuse_many
 from .placing import block_of, lay_beam, refuse_crossing, stand_in_space
 from .stone import Stone
@@ -59,18 +59,13 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
     blocks = []
     for i, one in enumerate(table.block or []):
         name = one.name if one.name is not None else f"block {i + 1}"
-        density = one.density if one.density is not None else common
-        if density is None and not one.fixed:
-            raise InputError(f"block {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
-        blocks.append(block_of(one, name, density or 0.0, folder, surface(one.surface, f"block {name!r}")))
+        density = density_of(f"block {name!r}", one.density, common, 0.0 if one.fixed else None)
+        blocks.append(block_of(one, name, density, folder, surface(one.surface, f"block {name!r}")))
     beams = []
     for i, one in enumerate(table.beam or []):
         name = one.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
-        density = one.density if one.density is not None else common
-        if density is None:
-            density = standing[-1].density if standing else None
-        if density is None:
-            raise InputError(f"beam {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        last = standing[-1].density if standing else None
+        density = density_of(f"beam {name!r}", one.density, common, last)
         beams.append(lay_beam(one, name, density, axes, surface(one.surface, f"beam {name!r}")))
     refuse_crossing(beams)
     overrides = []
