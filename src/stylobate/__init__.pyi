@@ -1,5 +1,6 @@
 """The public names of the package: the one list of them, for the lazy loader and for type checkers."""
 
+from . import plots as plots
 from .analysis.certainty import certainty as certainty
 from .analysis.compare import compare_models as compare_models
 from .analysis.critical import critical_amplitude as critical_amplitude

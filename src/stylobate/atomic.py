@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from .errors import InputError, StylobateError
+from .errors import InputError, StylobateError, check_kind
 from .own_files import guard_of, own_files
 
 #: Errors of a system where a disk, or somebody's share of it, is full.
@@ -41,7 +41,7 @@ def replacing(path: str | Path) -> Iterator[Path]:
     StylobateError
         The disk is full.
     """
-    target = Path(path)
+    target = Path(check_kind("path", path, (str, os.PathLike)))
     if not target.parent.is_dir():
         raise InputError(f"{target} cannot be written: folder {target.parent} does not exist; create it first.")
     if target.is_dir():

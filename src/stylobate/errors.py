@@ -2,7 +2,9 @@
 
 import math
 import re
-from collections.abc import Callable, Iterable, Iterator
+import sys
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -107,6 +109,18 @@ class PlaneOnlyWarning(LeftOutWarning):
     """A round column is computed in a plane, and the motion shakes it across as well: verdicts can be too favourable."""
 
 
+#: Whose frames stand between a warning and the line that caused it: our own, and those that call for them.
+_BETWEEN = (__package__, "functools", "contextlib")
+
+
+def warn(message: str, category: type[Warning] = OutOfRangeWarning) -> None:
+    """Warn at the line that called this package, however deep inside it the doubt arose."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] in _BETWEEN:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(message, category, stacklevel=level)
+
+
 def as_typed(value: Any) -> str:
     """A value as a person types it: numbers and texts of numpy, in lists too, without the names of their types."""
     return repr(_plain(value))
@@ -124,6 +138,12 @@ def suggest(word: str, known: Iterable[str]) -> str:
 
     close = difflib.get_close_matches(word, list(known), 1)
     return f"did you mean {close[0]}? " if close else ""
+
+
+def no_field(of: str, name: str, known: Iterable[str]) -> str:
+    """The message about a field that something does not have."""
+    fields = list(known)
+    return f"{of} has no field {name!r}; {suggest(name, fields)}it has {', '.join(fields)}"
 
 
 def check_range(
@@ -201,6 +221,74 @@ def check_choice(
     if value not in choices:
         near = suggest(value, [one for one in map(str, choices) if len(one) > 2]) if isinstance(value, str) else ""
         raise _wrong(name, value, as_typed(value), f"are {', '.join(map(str, choices))}", remedy, of, field, near)
+
+
+def check_kind(name: str, value: Any, kind: Any, *, allowed: str = "", optional: bool = False) -> Any:
+    """Return ``value`` if it is of a kind, else raise :class:`InputError`.
+
+    Parameters
+    ----------
+    name : str
+        As in :func:`check_range`.
+    value : object
+    kind : type
+        Its attribute ``wanted``, where it has one, is what a message calls it.
+    allowed : str
+        What a message calls it instead.
+    optional : bool
+        None is allowed as well.
+    """
+    if isinstance(value, kind) or (optional and value is None):
+        return value
+    is_class = isinstance(value, type) and issubclass(value, kind)
+    remedy = f"write {value.__name__}() with brackets" if is_class else ""
+    raise _wrong(name, value, _shown(value), f"is {_wanted(kind, allowed)}", remedy, "", None)
+
+
+def check_all(name: str, values: Any, kind: Any, *, allowed: str = "") -> Sequence[Any]:
+    """Return the values as a sequence if all of them are of a kind, else raise :class:`InputError`.
+
+    Parameters are those of :func:`check_kind`; a single value of the kind is a list of one.
+    """
+    if isinstance(values, kind):
+        return (values,)
+    if isinstance(values, (str, bytes, Mapping, type)) or not hasattr(values, "__iter__"):
+        raise _wrong(name, values, _shown(values), f"is a list, each {_wanted(kind, allowed)}", "", "", None)
+    found = values if isinstance(values, (list, tuple)) else tuple(values)
+    for number, one in enumerate(found, 1):
+        check_kind(f"number {number} of {name}", one, kind, allowed=allowed)
+    return found
+
+
+#: What a person calls the kinds of plain values.
+_PLAIN = {
+    "str": "text",
+    "Path": "path",
+    "PathLike": "path",
+    "Real": "number",
+    "Callable": "function",
+    "Mapping": "mapping",
+}
+
+
+def _wanted(kind: Any, allowed: str) -> str:
+    kinds = kind if isinstance(kind, tuple) else (kind,)
+    called = (
+        getattr(one, "wanted", None) or _with_article(str(_PLAIN.get(one.__name__, one.__name__))) for one in kinds
+    )
+    return allowed or " or ".join(called)
+
+
+def _shown(value: Any) -> str:
+    """What came in place of something else, in few words: a plain value as it is typed, else what it is."""
+    if isinstance(value, type):
+        return f"the class {value.__name__}"
+    plain = value is None or isinstance(value, (str, int, float))
+    return as_typed(value) if plain else _with_article(type(value).__name__)
+
+
+def _with_article(word: str) -> str:
+    return f"{'an' if word[0] in 'AEIOaeio' else 'a'} {word}"
 
 
 def _wrong(

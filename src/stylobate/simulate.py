@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .column.structure import Structure
-from .errors import InputError, check_range
+from .errors import InputError, check_all, check_kind, check_range
 from .models.base import Case, Cases, Model, RunOptions, duration
 from .models.shared.quiet import expected_length
+from .models.start import Start, Toss
 from .motion import Motion
 from .response import Measures, Response
 from .response.rows import Rows
@@ -26,7 +27,6 @@ if TYPE_CHECKING:
 
     from .column import Column
     from .column.assembly import Assembly
-    from .models.start import Start, Toss
 
 
 def simulate(
@@ -81,6 +81,12 @@ def simulate(
     InputError
         The input cannot be used. A collapse or a failed computation is a result, not an exception.
     """
+    check_kind("column", column, Structure)
+    check_kind("motion", motion, Motion)
+    check_kind("model", model, Model)
+    check_kind("progress", progress, Callable, optional=True)
+    check_kind("start", start, (Start, Toss), optional=True)
+    twins = check_all("twins", twins, Structure)
     cut = quiet if column.moving_acceleration is not None else 0.0  # nobody knows what is quiet for anything else
     following = run_options(tail, output_interval, until_end, until_rest, cut)
     options = dataclasses.replace(following, start=start, twins=tuple(twins), progress=progress)
@@ -159,6 +165,7 @@ def simulate_iter(
 
 def check_cases(cases: Sequence[Case], model: Model, options: RunOptions) -> None:
     """Refuse or warn of cases before any is computed."""
+    check_kind("model", model, Model)
     if options.start is not None and not model.takes_start:
         raise InputError(
             f"{model.name} starts from rest; leave start out, or use dem2d or dem3d (DistinctElement2D, 3D)."
@@ -209,7 +216,10 @@ def simulate_many(
     pandas.DataFrame
         One row per run in the order given, columns named as the JSON keys of ``stylobate run``.
     """
-    columns = [column] * len(motions) if isinstance(column, Structure) else list(column)
+    motions = check_all("motions", motions, Motion)
+    columns = [column] * len(motions) if isinstance(column, Structure) else check_all("column", column, Structure)
+    if not len(motions):
+        raise InputError("no motion is given; give at least one.", "motions")
     if len(columns) != len(motions):
         raise InputError(
             f"{len(columns)} columns are given for {len(motions)} motions; give one column, or one for each motion."

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 
 from .atomic import replacing
-from .errors import InputError
+from .errors import InputError, check_kind
 from .reading import read_bytes, shown
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def write(data: xarray.Dataset, kind: str, path: str | Path) -> Path:
     StylobateError
         The disk is full.
     """
-    target = Path(path)
+    target = Path(check_kind("path", path, (str, os.PathLike)))
     with replacing(target) as partial:
         # The library writes to memory: one that cannot finish a file on a full disk crashes when the process ends.
         image = _image(data, {"format": f"{_NAME} {FORMAT}", "kind": kind})
@@ -90,7 +90,7 @@ def save(result: Tabled, kind: str, path: str | Path) -> Path:
     InputError
         Another ending, or a folder that cannot be written to.
     """
-    target = Path(path)
+    target = Path(check_kind("path", path, (str, os.PathLike)))
     if target.suffix == ".nc":
         return write(result.to_xarray(), kind, target)
     if target.suffix != ".csv":

@@ -20,6 +20,7 @@ from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import half_sine_pulse
 from stylobate.motion.intensity_specs import parse_levels, parse_measure
+from stylobate.response.words import round_in_the_plane
 
 BLOCK = rocking_block(2.0, 0.2)
 
@@ -173,7 +174,12 @@ def test_stripes(pulses):
 
 
 def test_what_cannot_be_scaled_or_is_not_there(pulses):
-    for im, why in (("pgv_over_pga", "does not change"), ("pgv@y", "second horizontal"), ("nonsense", "not known")):
+    for im, why in (
+        ("pgv_over_pga", "does not change"),
+        ("pgv@y", "second horizontal"),
+        ("nonsense", "not known"),
+        ("sa:-1s", "negative"),
+    ):
         with pytest.raises(InputError, match=why):
             ida(BLOCK, pulses, st.HousnerBlock(), im)
     with pytest.raises(InputError, match="no record"):
@@ -183,7 +189,11 @@ def test_what_cannot_be_scaled_or_is_not_there(pulses):
     with pytest.raises(InputError, match="without shaking"):
         ida(BLOCK, [st.Motion(0.01, np.zeros(100))], st.HousnerBlock())
     with pytest.warns(OutOfRangeWarning, match="multiplied by more than 10"):
-        ida(BLOCK, [pulses[0].scaled(0.02)], st.HousnerBlock(), "pga", levels=[0.3], threads=1)
+        ida(BLOCK, [pulses[0].scaled(0.07)], st.HousnerBlock(), "pga", levels=[0.3], threads=1)
+    with pytest.raises(
+        InputError, match=r"the level pga = 300 g multiplies '0.5 Hz', of 0.3 g, by 1000; allowed is up to 20"
+    ):
+        ida(BLOCK, pulses[:1], st.HousnerBlock(), "pga", levels=[0.3, 300.0])
 
 
 def test_measures_by_name():
@@ -240,3 +250,34 @@ def test_components_and_twins_of_a_record_have_capacities_of_their_own_and_count
     )
     table = ida(BLOCK, [pulse], st.HousnerBlock(), "pga", levels=[0.1], about={"a": {"magnitude": 6.0}}, threads=1).runs
     assert table[["record", "motion", "magnitude"]].to_numpy().tolist() == [["a", "a first component", 6.0]]
+
+
+def test_an_ida_is_evidence_and_makes_a_fragility_as_it_is(found):
+    one, other = evidence(found), evidence(found.runs, im="pga")
+    assert (one.measure, one.unit, one.codes.tolist()) == ("pga", "g", other.codes.tolist())
+    assert evidence(found, "pgv").unit == "m/s"
+    with pytest.raises(InputError, match="given twice, as measure and as im"):
+        evidence(found, "pga", im="pga")
+    with pytest.raises(InputError, match="a fragility of 5 records"):
+        fragility(found)
+    with pytest.raises(InputError, match="the table of runs is empty"):
+        evidence(found.runs[:0])
+
+
+def test_what_a_plane_leaves_out_of_round_drums_goes_with_the_runs():
+    """Under one component nothing said so but one entry of one summary."""
+    drums = [st.Drum(1.0, 0.6, 0.6, 2500.0, section="circular")] * 2
+    column = st.Column.of_drums(drums, st.Joint(1e9, 5e8))
+    motions = [st.ricker(1.0 + 0.1 * k, 2.0) for k in range(10)]
+    words, model = round_in_the_plane(column), st.DistinctElement2D()
+    some = ida(column, motions, model, "pga", levels=[0.1, 1.5], threads=1)
+    assert some.summary()["doubt"] == words
+    assert evidence(some).doubt == evidence(some.runs, "pga").doubt == words
+    assert fragility(some, samples=40).warnings[0] == words
+    assert evidence(st.suite_table(column, motions[:1], model), "pga").doubt == words
+    compared = st.compare_states({"as built": column, "same": column}, motions, model, [0.1, 1.5], "pga", samples=40)
+    assert compared.curves[0].warnings[0] == words
+    sure = st.certainty(column, motions[0].scaled(1.7), model, replicates=1)
+    assert sure.sentence.endswith(words)
+    for told in (repr(sure.response), sure.response.describe()):
+        assert told.count(words) == 1

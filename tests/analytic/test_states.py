@@ -148,6 +148,24 @@ def test_the_ratio_of_medians_is_that_of_the_runs_that_both_states_know():
     assert ratio != pytest.approx(curves[1].median / curves[0].median, rel=1e-3)
 
 
+def test_the_ratio_of_medians_holds_what_wide_levels_leave_open():
+    """8 of 12 records collapse at 1.5 g, none at 1 g: the median lies between, and its ratio holds all of that."""
+
+    def compared(levels):
+        told = []
+        for name, capacity in (("first", np.linspace(1.1, 1.69, 12)), ("other", np.linspace(0.95, 1.46, 12))):
+            codes = (np.array(levels) >= capacity[:, None]).astype(np.int8).ravel()
+            records = np.repeat(np.array([f"r{k:02}" for k in range(12)], dtype=object), len(levels))
+            told.append(Evidence(records, np.tile(levels, 12), codes, "pga", "g", "collapse", name))
+        return _difference(*told, *(fragility(one, samples=100) for one in told), 100, 0, 0.95)
+
+    designs = ([0.5, 1.0, 1.5, 2.0], [0.9 + 0.1 * k for k in range(9)], [0.6, 0.9, 1.2, 1.5, 1.8], [0.75, 1.25, 1.75])
+    found = [compared(one) for one in designs]
+    assert max(one.ratio_low for one in found) < min(one.ratio_high for one in found)
+    for one in found:
+        assert one.ratio_low < 1.205 / 1.395 < one.ratio_high  # the true medians, in the middle of each dozen
+
+
 def test_what_a_plane_says_of_round_columns_is_doubted_before_any_advice():
     square = block(0.6)
     round_ = square.replace(drums=[dataclasses.replace(one, section="circular") for one in square.drums])

@@ -1,6 +1,7 @@
 """What little data leave open is told, and never less: brackets, profiles of the likelihood, and pairs without a change."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -56,9 +57,28 @@ def test_stripes_that_no_run_contradicts_tell_the_bracket():
     # 24 such runs fall by so much, Φ(ln √(0.68/0.47)/β)^24 = exp(−3.6), farther runs but a little less
     assert 0.15 < said["beta_high"] < 0.19
     assert "between 0.47 and 0.68 m/s" in said["sentence"]
+    (warning,) = said["warnings"]
+    assert f"not seen in these runs (it may be up to {said['beta_high']:.2g}, with 95 % confidence)" in warning
+    assert fragility(runs(LEVELS > np.geomspace(0.2, 0.9, 12)[:, None]), samples=40).warnings == []
     low, high = found.interval(np.array([0.3, 0.57, 1.0]))
     assert low[1] < 0.01 < 0.99 < high[1]
     assert high[0] < 0.05 < 0.95 < low[2]
+
+
+@pytest.mark.parametrize(
+    ("asked", "words"),
+    [
+        ({"confidence": 95}, "confidence is 95; allowed is (0, 1)"),
+        ({"samples": -3}, "samples` is -3; allowed is a whole number from 40"),
+        ({"samples": 10}, "samples` is 10"),
+        ({"seed": "a"}, "seed` is 'a'; allowed is a whole number"),
+        ({"seed": None}, "seed` is None"),
+        ({"method": "mle"}, "method` is 'mle'; allowed are None, runs, records"),
+    ],
+)
+def test_numbers_of_a_bootstrap_are_refused_in_one_sentence(asked, words):
+    with pytest.raises(InputError, match=re.escape(words)):
+        fragility(SEPARABLE, **asked)
 
 
 def test_the_risk_of_a_bracket_is_not_that_of_its_middle():
@@ -199,7 +219,7 @@ def test_levels_of_records():
 )
 def test_hazard_that_no_site_has(k0, power, unit, what):
     x = np.array([0.01, 0.1, 1.0, 10.0])
-    hazard, curve = Hazard(x, k0 * x**-power, unit, "site.csv"), fragility(SEPARABLE, samples=20)
+    hazard, curve = Hazard(x, k0 * x**-power, unit, "site.csv"), fragility(SEPARABLE, samples=40)
     if what in ("warned", "plausible"):
         assert any("3 times a year" in one for one in risk(curve, hazard).warnings) == (what == "warned")
     else:
@@ -213,7 +233,7 @@ def test_return_periods_are_named():
 
 
 def test_runs_that_do_not_say_their_intensity_and_a_column_that_falls_all_the_time_are_doubted():
-    silent = fragility(replace(SEPARABLE, measure="im", unit="-"), samples=20)
+    silent = fragility(replace(SEPARABLE, measure="im", unit="-"), samples=40)
     hazard = Hazard(np.array([0.1, 10.0]), np.array([9.0, 2.0]), "m/s", "site.csv")
     told = " ".join(risk(silent, hazard).warnings)
     assert "state the intensity of the runs" in told

@@ -79,7 +79,14 @@ def test_options_of_a_group_are_said_alike_wherever_they_are():
         ("domain", "tail"),
         ("domain", "duration"),
     }
-    own |= {("spectrum", "tail"), ("compare", "settings"), ("reproduce", "out"), ("report", "out"), ("serve", "out")}
+    own |= {
+        ("spectrum", "tail"),
+        ("compare", "settings"),
+        ("reproduce", "out"),
+        ("draw", "out"),
+        ("report", "out"),
+        ("serve", "out"),
+    }
     groups = {
         name: one.default
         for kind in (Motions, Following, Population, Execution)

@@ -113,7 +113,10 @@ def kept(path):
         ("stylobate rep", {"report", "reproduce"}),
         ("stylobate run paper-m", {"paper-monolithic"}),
         ("stylobate run paper-monolithic --model dem", {"dem2d", "dem3d"}),
-        ("stylobate run gallery/assemblies/por", {"gallery/assemblies/portal.toml"}),
+        (
+            "stylobate run gallery/assemblies/por",
+            {"gallery/assemblies/portal.toml", "gallery/assemblies/portal_in_space.toml"},
+        ),
     ],
 )
 def test_the_tab_key_completes(line, offered):

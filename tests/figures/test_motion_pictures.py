@@ -2,6 +2,8 @@
 
 import dataclasses
 import math
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -16,6 +18,7 @@ from stylobate.analysis.rocking_spectrum import RockingSpectrum
 from stylobate.analysis.suite import INTENSITIES, suite_table
 from stylobate.analysis.verdicts import VERDICTS
 from stylobate.column.presets import preset
+from stylobate.errors import InputError
 from stylobate.plots.rocking_spectrum import _FILL, SHADES
 
 THREE = st.Motion(0.01, *(np.random.default_rng(i).normal(size=500) for i in range(3)), name="noise")
@@ -158,3 +161,20 @@ def test_the_share_of_collapse_counts_undecided_records_as_not_collapsed():
     assert all(name.endswith("…") for name in names)
     alone = dataclasses.replace(suite, results=suite.results[1:])
     assert len(plots.draw_record_verdicts(alone).axes[1].get_yticks()) == 1
+
+
+def test_a_name_with_an_ending_is_the_one_file_that_is_written(tmp_path):
+    figure = plots.draw_motion(st.harmonic(1.0, 1.0, 1.0))
+    assert plots.save(figure, tmp_path / "a.png") == [tmp_path / "a.png"]
+    assert plots.save(figure, tmp_path / "b.PDF") == [tmp_path / "b.PDF"]
+    assert [one.name for one in plots.save(figure, tmp_path / "at 0.3g")] == ["at 0.3g.png", "at 0.3g.svg"]
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["a.png", "at 0.3g.png", "at 0.3g.svg", "b.PDF"]
+    with pytest.raises(
+        InputError, match=r"the ending of a picture is '.jpg'; did you mean .png. allowed are .png, .svg, .pdf"
+    ):
+        plots.save_as(figure, tmp_path / "a.jpg")
+
+
+def test_pictures_are_loaded_when_they_are_asked_for():
+    code = "import sys, stylobate as st; assert 'matplotlib' not in sys.modules; st.plots.draw_fragility"
+    subprocess.run([sys.executable, "-c", code], check=True)

@@ -75,6 +75,9 @@ def test_what_is_not_taken_is_refused_by_name():
             r"`scatter` is 'friction=10%'; allowed is a Scatter, such as Scatter\(friction=0.1\)",
         ),
         ({"tail": -1.0}, r"`tail` is -1 s; allowed is \[0, 10000\] s"),
+        ({"whole": "no"}, "`whole` is 'no'; allowed is True or False"),
+        ({"ledger": 5}, "ledger is 5; allowed is the path"),
+        ({"progress": 5}, "progress is 5; allowed is a function"),
         ({"threads": 0}, r"`threads` is 0; allowed is \[1, 1024\]; leave it out"),
     ],
 )

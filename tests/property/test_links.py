@@ -121,7 +121,7 @@ TITANIUM: dict[str, Any] = {"diameter": 0.04, "embedment": 0.1, "material": "tit
         (lambda: st.Tie(at=(0.6, 0.0), to_drum=40, axial_stiffness=1e6), "the drums are 1 to 12"),
         (lambda: st.Layer(joint=1), "neither friction_coefficient"),
         (lambda: st.Dowel(joint=2, **{"at": (0.1,), "shear_stiffness": 1e6}), "a place in plan"),
-        (lambda: "dowel", "give a Dowel, Bar, Tie, Core, Layer or Pad"),
+        (lambda: "dowel", "allowed is a Dowel, Bar, Tie, Core, Layer or Pad"),
     ],
 )
 def test_what_cannot_be_is_said_in_one_sentence(made, said) -> None:

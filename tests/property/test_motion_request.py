@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import LeftOutWarning
 from stylobate.motion import keep_axes, write_csv
 from stylobate.motion.orientation import record_of
@@ -210,3 +211,35 @@ def test_a_model_in_space_is_given_every_component():
     motion = st.Motion(0.01, WAVE, WAVE, WAVE)
     assert Spatial().taken(motion) is motion
     assert st.HousnerBlock().taken(motion).components.keys() == {"x", "z"}
+
+
+def test_scaled_copies_are_one_record_however_they_are_named():
+    """Twelve copies of one record counted as twelve, and made a fragility without a word."""
+    motion = st.ricker(1.0, 2.0)
+    copies = [motion.scaled(1.0 + 0.1 * k) for k in range(12)]
+    copies += [copies[1].scaled_to_pga(3.0), motion.scaled_to_pga(1.0).scaled(2.0).replace(name="another")]
+    assert len({one.name for one in copies}) == len(copies)
+    assert {record_of(one) for one in copies} == {motion.name}
+    table = st.suite_table(rocking_block(2.0, 0.2), copies, st.HousnerBlock())
+    assert set(table["record"]) == {motion.name}
+    assert table["motion"].tolist() == [one.name for one in copies]
+    with pytest.raises(st.InputError, match="a fragility of 1 record says nothing"):
+        st.fragility(st.evidence(table, "pga"))
+
+
+def test_motions_of_a_suite_are_called_as_they_were_asked_for():
+    asked = {"harmonic": "1Hz,0.3g,2s", "scale": 2.0}
+    (one,) = st.MotionRequest(**asked).expand().motions
+    assert record_of(one) == one.name
+    assert record_of(one) != record_of(st.MotionRequest(**asked).motion())
+
+
+def test_runs_of_nothing_are_refused():
+    block, model = rocking_block(2.0, 0.2), st.HousnerBlock()
+    for run in (
+        lambda: st.suite_table([], [st.ricker(1.0, 2.0)], model),
+        lambda: st.suite_table(block, [], model),
+        lambda: st.simulate_many(block, [], model),
+    ):
+        with pytest.raises(st.InputError, match="give at least one"):
+            run()

@@ -16,7 +16,7 @@ from ..models.base import Case, Model
 from ..motion import Motion
 from ..percent import percents
 from ..response import Response
-from ..response.words import to_decide
+from ..response.words import doubt_of, to_decide
 from ..simulate import simulate, simulate_iter
 from . import verdicts as v
 
@@ -221,9 +221,10 @@ class Certainty:
 
     @property
     def sentence(self) -> str:
-        """Outcome, and its certainty."""
+        """What happened, how sure that is, and why it may be otherwise in space."""
         beside = self.population.beside(self.response.summary())
-        return f"{self.response.sentence} {self.population.sentence} {beside}".rstrip()
+        parts = (self.response.sentence, self.population.sentence, beside, doubt_of(self.response))
+        return " ".join(part for part in parts if part)
 
     def summary(self) -> dict[str, Any]:
         """The JSON object of ``stylobate run``."""

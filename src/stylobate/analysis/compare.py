@@ -16,7 +16,8 @@ from ..campaign.digests import Digests, Hasher
 from ..campaign.grid import HarmonicGrid
 from ..campaign.runs import Request, Runs, Stopped
 from ..column import Column
-from ..errors import InputError
+from ..column.structure import Structure
+from ..errors import InputError, check_all, check_kind
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -126,6 +127,9 @@ def compare_models(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    check_kind("column", column, Structure)
+    check_kind("motion", motion, Motion)
+    models = check_all("models", models, Model)
     names = _labels(models, labels)
     what: dict[str, Any] = {"response": [column.digest, motion.name, motion.digest, output_interval]}
     quiet = share_of([motion], campaign.whole)
@@ -176,6 +180,7 @@ def compare_domains(
     interrupt (Ctrl-C) is passed on, as :class:`~stylobate.campaign.runs.Stopped`: half a comparison is none.
     """
     axes: tuple[Any, Any] = frequencies, amplitudes  # checked there
+    models = check_all("models", models, Model)
     names = _labels(models, labels)
     grids = [HarmonicGrid(column, model, *axes, duration, campaign.tail) for model in models]
     requests = [grid.request() for grid in grids]

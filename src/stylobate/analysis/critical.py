@@ -21,8 +21,9 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, run_all
 from ..campaign.twins import the_twins
 from ..column import Column
+from ..column.structure import Structure
 from ..constants import g
-from ..errors import InputError, check_range
+from ..errors import InputError, check_kind, check_range
 from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
@@ -256,6 +257,9 @@ def critical_amplitude(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    check_kind("column", column, Structure)
+    check_kind("motion", motion, Motion)
+    check_kind("model", model, Model)
     as_is = motion.pga if nominal is None else nominal
     shaken = [Shaken(motion, as_is, nominal is None)]
     results, wall = sweep(column, shaken, model, amplitude_grid(start, stop, step), campaign, twin_amplitudes)

@@ -11,7 +11,6 @@ from ..motion.intensity_specs import KINDS, IntensityMeasure, parse_measure
 from . import lognormal
 from . import verdicts as v
 from .evidence import evidence, intervals
-from .fragility import bootstrap
 from .likelihood_region import dispersions
 from .limit_states import LimitState, parse_state
 
@@ -65,7 +64,7 @@ def which_tells_most(
         best = lognormal.fit(low, high)
         if math.isinf(best.log_median[0]):
             continue
-        samples = np.sort(bootstrap(low, high, owner, 500, np.random.default_rng(seed))[:, 1])
+        samples = np.sort(lognormal.bootstrap(low, high, owner, 500, np.random.default_rng(seed))[:, 1])
         middle = math.log(best.beta[0])
         limits = [math.exp(2.0 * middle - float(np.quantile(samples, q))) for q in (0.975, 0.025)]
         number = len(np.unique(owner))

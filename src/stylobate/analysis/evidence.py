@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from ..motion.intensity_specs import ENDS, IntensityMeasure, measure_of_column, parse_measure
 from ..outcome import Outcome
 from ..reading import check_file, shown
 from . import tables
 from . import verdicts as v
+from .ida_curves import Ida
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, LimitState, parse_state
 
 if TYPE_CHECKING:
@@ -143,34 +144,51 @@ def names_in(table: pandas.DataFrame) -> list[str] | None:
 
 
 def evidence(
-    table: pandas.DataFrame,
+    table: pandas.DataFrame | Ida,
     measure: IntensityMeasure | str | None = None,
     state: LimitState | str = "collapse",
     name: str = "runs",
     unit: str = "-",
     doubt: str = "",
+    *,
+    im: IntensityMeasure | str | None = None,
 ) -> Evidence:
     """Evidence of a table of runs about a state.
 
     Parameters
     ----------
-    table : pandas.DataFrame
-        From :func:`read_table`: one row per run.
-    measure : IntensityMeasure or str, optional
-        Looked for among the columns, such as ``pgv``; the column called ``im`` by default.
+    table : pandas.DataFrame or Ida
+        One row per run, as of :func:`stylobate.suite_table`, of a study, or of a file (:func:`read_table`); or an
+        incremental dynamic analysis, then over the measure that its records were scaled to by default.
+    measure, im : IntensityMeasure or str, optional
+        Two names of one: looked for among the columns, such as ``pgv``; the column called ``im`` by default.
     state : LimitState or str
         Such as ``collapse`` or ``top:0.35d``.
     name : str
     unit : str
         Of the column ``im`` where no measure is given.
     doubt : str
-        Of the evidence.
+        Of the evidence; by default what the table says itself.
 
     Raises
     ------
     InputError
         The measure or the state is not in the table, or a value makes no sense.
     """
+    import pandas
+
+    if measure is not None and im is not None:
+        raise InputError("the intensity is given twice, as measure and as im; give it once.")
+    measure = im if measure is None else measure
+    what = "a table of runs, such as that of read_table or suite_table, or an Ida"
+    check_kind("table", table, (pandas.DataFrame, Ida), allowed=what)
+    if isinstance(table, Ida):
+        measure, table = measure or table.measure, table.runs
+    if not len(table):
+        raise InputError(f"the table of {name} is empty; give one with a row per run.")
+    doubt = doubt or str(table.attrs.get("doubt", ""))
+    check_kind("measure", measure, (str, IntensityMeasure), optional=True)
+    check_kind("state", state, (str, LimitState), allowed="a limit state, such as 'collapse'")
     measure = parse_measure(measure) if isinstance(measure, str) else measure
     state = parse_state(state) if isinstance(state, str) else state
     key = "im" if measure is None else next(
@@ -187,11 +205,9 @@ def evidence(
             f"the runs of {name} have the columns im and {' and '.join(rivals)}, and which of them is {measure.name} in "
             f"{measure.unit} is not said; call that one {measure.key}."
         )
-    import pandas
-
     numbers: Any = pandas.to_numeric(table[key], errors="coerce")
-    im = np.asarray(numbers, dtype=float)
-    bad = np.flatnonzero(~(np.isfinite(im) & (im >= 0.0)))
+    sizes = np.asarray(numbers, dtype=float)
+    bad = np.flatnonzero(~(np.isfinite(sizes) & (sizes >= 0.0)))
     if bad.size:
         text = str(table[key].iloc[bad[0]])
         raise InputError(
@@ -210,7 +226,7 @@ def evidence(
         codes = np.array([state.of(row) for row in rows], dtype=np.int8)
     else:
         codes = _plain_codes(table, state, name)
-    zero = im == 0.0  # of no intensity: nothing is exceeded, and the logarithm does not exist
+    zero = sizes == 0.0  # of no intensity: nothing is exceeded, and the logarithm does not exist
     if (codes[zero] == EXCEEDED).any():
         k = int(np.flatnonzero(zero & (codes == EXCEEDED))[0])
         raise InputError(
@@ -220,7 +236,7 @@ def evidence(
     alike = [one for one in ("record", "motion", "realisation") if one in table]
     return Evidence(
         np.array([str(one) for one in table["record"]], dtype=object)[~zero],
-        im[~zero],
+        sizes[~zero],
         codes[~zero],
         "im" if measure is None else measure.name,
         unit if measure is None else measure.unit,

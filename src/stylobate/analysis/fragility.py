@@ -9,16 +9,21 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtr
 
-from ..errors import InputError
+from ..errors import InputError, check_choice, check_kind
 from . import likelihood_region, lognormal
 from .evidence import Evidence, intervals
-from .fragility_checks import check_number, check_shape
+from .evidence import evidence as evidence_of
+from .fragility_checks import check_bootstrap, check_number, check_shape
 from .fragility_points import Points, goodness, points_of
+from .ida_curves import Ida
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 from .lognormal import curve
 
 #: Samples of the bootstrap.
 SAMPLES = 1000
+
+#: What counts: every run, or the capacity under each record.
+METHODS = ("runs", "records")
 
 #: A limit of the median that is farther from all intensities that were run than by this factor is none.
 FAR = 1000.0
@@ -89,7 +94,7 @@ class Fragility:
             "every run counts as a record of its own: the interval is over runs, holds for these records only, and says "
             "nothing about the next earthquake"
         )
-        said = [f"{one}." for one in (self.outside, alone * self.records_are_one) if one]
+        said = [f"{one}." for one in (self.outside, self.no_dispersion, alone * self.records_are_one) if one]
         return [self.evidence.doubt, *said] if self.evidence.doubt else said
 
     @property
@@ -119,6 +124,18 @@ class Fragility:
         return (
             f"the fitted median, {self.median:.3g}{unit}, lies {where} all runs ({e.measure} = {low:.3g} to {high:.3g}"
             f"{unit}): it is told by the shape of the curve, not by runs; give {more} intensities"
+        )
+
+    @property
+    def no_dispersion(self) -> str:
+        """What must be said of a dispersion that these runs do not show, which β then is the least of; else empty."""
+        if _seen(self.beta) is not None:
+            return ""
+        most = self.beta_interval[1]
+        limit = f"it may be up to {most:.2g}" if math.isfinite(most) else "no limit of it is known"
+        return (
+            f"the dispersion is not seen in these runs ({limit}, with {100.0 * self.confidence:g} % confidence): "
+            f"β = {lognormal.BETAS[0]:g} is where the fit ends, no value; give levels that lie closer"
         )
 
     def probability(self, im: np.ndarray) -> np.ndarray:
@@ -266,7 +283,7 @@ class Fragility:
 
 
 def fragility(
-    evidence: Evidence,
+    evidence: Evidence | Ida,
     *,
     method: str | None = None,
     samples: int = SAMPLES,
@@ -278,13 +295,18 @@ def fragility(
 
     Parameters
     ----------
-    evidence : Evidence
+    evidence : Evidence or Ida
+        An incremental dynamic analysis is taken for collapse over its own measure; for another limit state or measure
+        give ``st.evidence(ida, measure, state)``.
     method : str, optional
-        ``runs`` or ``records``, see :class:`Fragility`; ``records`` for an IDA by default, else ``runs``.
+        ``runs`` or ``records``, see :class:`Fragility`; by default ``records`` for an IDA whose levels were hunted, and
+        ``runs`` for all else, an IDA of given levels among it. ``Fragility.method`` and its summary tell which it is.
     samples : int
-        Of the bootstrap.
+        Of the bootstrap, 40 or more.
     seed : int
+        Of the bootstrap, from 0.
     confidence : float
+        Of the intervals, between 0 and 1 [-].
     records_are_one : bool
         Runs of few records count as if each had a record of its own: the curve is then that of these records.
 
@@ -298,6 +320,11 @@ def fragility(
         Fewer than ten records of which a run is decided; no run that exceeds the state, or none that does not; all runs at
         one intensity; or runs that exceed it no oftener where the intensity is larger: that is no fragility.
     """
+    check_bootstrap(samples, seed, confidence)
+    check_choice("`method`", method, (None, *METHODS))
+    if isinstance(evidence, Ida):
+        evidence = evidence_of(evidence)
+    check_kind("evidence", evidence, Evidence, allowed="an Evidence, or an Ida")
     clusters = np.arange(len(evidence.im)).astype(str).astype(object)
     used = replace(evidence, records=clusters, curves=None) if records_are_one else evidence
     check_number(used, records_are_one)
@@ -331,7 +358,7 @@ def _known(
     """Curve through intervals of ln capacity: samples, region, dispersions and bracket."""
     below, above, number = float(low.max()), float(high.min()), len(np.unique(owner))
     return (
-        bootstrap(low, high, owner, samples, rng),
+        lognormal.bootstrap(low, high, owner, samples, rng),
         likelihood_region.region(low, high, number, confidence),
         likelihood_region.dispersions(low, high, number, confidence),
         (math.exp(below), math.exp(above)) if below <= above else None,
@@ -356,7 +383,7 @@ def _ended(found: Fragility, counted: int, samples: int, seed: int) -> Fragility
 
 def _seen(beta: float) -> float | None:
     """β, if the runs show one."""
-    return beta if beta > lognormal.BETAS[0] else None
+    return beta if beta > lognormal.BETAS[0] * (1.0 + CLOSE) else None
 
 
 def between(low: float | None, high: float | None, unit: str = "-", digits: int = 4) -> str:
@@ -368,20 +395,3 @@ def between(low: float | None, high: float | None, unit: str = "-", digits: int 
             f"{low:.{digits}g} to {high:.{digits}g}{behind}" if high < math.inf else f"{low:.{digits}g}{behind} or more"
         )
     return f"up to {high:.{digits}g}{behind}" if high < math.inf else "no limits known"
-
-
-def bootstrap(
-    low: np.ndarray, high: np.ndarray, owner: np.ndarray, samples: int, rng: np.random.Generator
-) -> np.ndarray:
-    """ln θ and ln β of samples of the records, with all that a record says together, shape (samples, 2)."""
-    _, owner = np.unique(owner, return_inverse=True)
-    count = int(owner.max()) + 1
-    found = []
-    piece = max(1, 2_000_000 // len(low))
-    for begin in range(0, samples, piece):
-        weight = rng.multinomial(count, np.full(count, 1.0 / count), min(piece, samples - begin))[:, owner]
-        one = lognormal.fit(low, high, weight)
-        with np.errstate(invalid="ignore"):
-            found.append(np.stack((one.log_median, np.log(one.beta)), axis=1))
-    values = np.concatenate(found)
-    return np.where(np.isnan(values), math.log(lognormal.BETAS[0]), values)

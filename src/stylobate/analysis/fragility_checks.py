@@ -6,13 +6,23 @@ import math
 
 import numpy as np
 
-from ..errors import InputError
+from ..errors import InputError, check_range, check_whole
 from . import lognormal
 from .evidence import DIGITS, Evidence
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN
 
 #: Fewest records of which a fragility is made: fewer say nothing about the next earthquake.
 FEWEST = 10
+
+#: Fewest samples of a bootstrap, so that the quantiles of an interval of 95 % are among them.
+FEWEST_SAMPLES = 40
+
+
+def check_bootstrap(samples: int, seed: int, confidence: float) -> None:
+    """Refuse numbers with which no interval can be made."""
+    check_whole("`samples`", samples, FEWEST_SAMPLES)
+    check_whole("`seed`", seed, 0, 2**63 - 1)
+    check_range("confidence", confidence, 0.0, 1.0, open_low=True, open_high=True, remedy="such as 0.95")
 
 
 def check_number(evidence: Evidence, records_are_one: bool) -> None:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-import warnings
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
+from numbers import Real
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -17,13 +17,14 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import the_twins
 from ..column import Column
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, OutOfRangeWarning, check_all, check_kind, check_range, warn
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
 from ..motion.orientation import record_of
 from . import verdicts as v
+from .difference import round_drums
 from .hunt import next_levels
 from .ida_curves import Ida
 
@@ -74,11 +75,12 @@ def ida(
     im : IntensityMeasure or str
         That the records are scaled to, such as ``pgv`` or ``sa:1.0s``.
     levels : sequence of float, optional
-        Stripes: every record is run at each of these, in the unit of the measure, and nothing is hunted.
+        Stripes: every record is run at each of these, in the unit of the measure (pga and sa in g, pgv in m/s), and
+        nothing is hunted.
     runs : int
         Of each record, with each column.
     largest_factor : float
-        By which a record is multiplied at most.
+        By which a record is multiplied at most [-]; larger levels are not hunted, and refused where they are given.
     about : mapping, optional
         By name of a record, or of a motion that is made of one, ``magnitude`` and ``distance_km``.
     campaign : Campaign, optional
@@ -97,11 +99,19 @@ def ida(
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     started = time.perf_counter()
+    check_kind("column", column, Column)
+    motions = check_all("motions", motions, Motion)
+    check_kind("model", model, Model)
+    check_kind("im", im, (str, IntensityMeasure))
+    check_kind("about", about, Mapping, allowed="a mapping by name of a record", optional=True)
+    levels = None if levels is None else check_all("levels", levels, Real)
     measure = parse_measure(im) if isinstance(im, str) else im
-    check_range("runs of a record", runs, 4, 1000, field="runs")
+    check_range("runs", runs, 4, 1000)
     check_range("`largest_factor`", largest_factor, 0.0, 1e4, open_low=True)
-    if levels is not None and not (len(levels) and all(one > 0.0 for one in levels)):
-        raise InputError("the levels are none, or not positive; give at least one positive level.")
+    if levels is not None and not len(levels):
+        raise InputError("levels is an empty list; give at least one positive level.", "levels")
+    for one in levels or ():
+        check_range("one of the levels", one, 0.0, 1e6, open_low=True, field="levels")
     if not motions:
         raise InputError("no record is given; give files or a folder of records.")
     if measure.power == 0:
@@ -124,6 +134,9 @@ def ida(
         start = value * (1.0 / peak) ** measure.power
         traces += [Trace(motion, one, k, value, start, [], []) for k, one in enumerate(columns)]
     stripes = None if levels is None else sorted({float(one) for one in levels})
+    if stripes is not None:
+        for one in traces:
+            _check_factor(one, stripes[-1], measure, largest_factor)
     done, total = 0, (runs if stripes is None else len(stripes)) * len(traces)
 
     def wanted(one: Trace) -> list[float]:
@@ -151,12 +164,25 @@ def ida(
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
     table["hunted"] = stripes is None
-    return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn)
+    table.attrs["doubt"] = doubt = round_drums([column], model)
+    return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
 
 
 def _asked(trace: Trace, runs: int, largest: float, power: int) -> list[float]:
     verdicts = [v.verdict(row) for row in trace.rows]
     return next_levels(trace.levels, verdicts, trace.first, trace.value * largest**power, runs - len(trace.levels))
+
+
+def _check_factor(trace: Trace, level: float, measure: IntensityMeasure, largest: float) -> None:
+    """Refuse a level to which a record would have to be multiplied by more than is allowed."""
+    times = (level / trace.value) ** (1.0 / measure.power)
+    if times > largest * (1.0 + 1e-9):
+        unit = "" if measure.unit == "-" else f" {measure.unit}"
+        raise InputError(
+            f"the level {measure.name} = {level:g}{unit} multiplies {trace.motion.name!r}, of {trace.value:.3g}{unit}, by "
+            f"{times:.4g}; allowed is up to {largest:g} (`largest_factor`): give smaller levels, or leave the record out.",
+            "levels",
+        )
 
 
 def _scaled(trace: Trace, level: float, power: int) -> Motion:
@@ -174,11 +200,10 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
     beyond = {name: factor for name, factor in factors.items() if factor > WARNED}
     if beyond:
         name = max(beyond, key=beyond.__getitem__)
-        warnings.warn(
+        warn(
             f"{len(beyond)} of {len(factors)} records are multiplied by more than {WARNED:g}, {name!r} by "
             f"{beyond[name]:.3g}: scaled so far, they are no longer those of earthquakes; leave out the weak ones.",
             OutOfRangeWarning,
-            stacklevel=4,
         )
 
 

@@ -104,6 +104,8 @@ class Ida:
         [s]
     twins : Twins, optional
         The columns like this one that were run in its place.
+    doubt : str
+        What stands before all that rests on these runs, because of the model; empty where nothing does.
     """
 
     runs: pandas.DataFrame
@@ -112,6 +114,7 @@ class Ida:
     model: str
     wall_time: float
     twins: Twins | None = None
+    doubt: str = ""
 
     def curves(self, edp: str = "peak_top_displacement_m") -> list[Curve]:
         """One curve per motion and realisation.
@@ -210,6 +213,7 @@ class Ida:
             "capacities": capacities,
             "wall_s": self.wall_time,
             "model": self.model,
+            "doubt": self.doubt,
             **({} if self.twins is None else {"replicates": len(self.twins.columns), "certainty": self.twins.told}),
         }
 

@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from ..column import Column
-from ..errors import InputError, check_choice
+from ..column.structure import Structure
+from ..errors import InputError, check_choice, check_kind
 from ..models.rigid_block.block_stack import BlockStack
 from .least_forces import Borne, Needed, needed_forces
 from .limit_programmes import ACTIVE, Facets, equilibrium_matrix, kinematic_bound, non_associated, static_bound
@@ -227,6 +228,7 @@ def towards(column: Column | BlockStack, direction: float) -> BlockStack:
     InputError
         A direction out of the plane.
     """
+    check_kind("column", column, (Structure, BlockStack), allowed=Structure.wanted)
     if not isinstance(column, BlockStack) and column.stack is None:
         raise InputError(
             f"limit_analysis is of columns in the plane, and {column.name!r} is {column.described}; use limit_directions."

@@ -61,8 +61,8 @@ class AssemblyProgramme:
         stones = [bodies[i] for i in self.moving]
         rims = [
             Rim(
-                number.get(joint.upper, -1), number.get(joint.lower, -1), joint.frame, joint.origin, joint.edges, np.zeros(2),
-                0.5 * joint.width, joint.law.tan_phi, joint.law.cohesion * joint.area,
+                number.get(joint.upper, -1), number.get(joint.lower, -1), joint.frame, joint.origin, joint.edges,
+                np.zeros(2), 0.5 * joint.width, joint.law.tan_phi, joint.law.cohesion * joint.area,
             )
             for joint in joints
         ]  # fmt: skip

@@ -12,7 +12,7 @@ from ..column import Column
 from ..column.found_in_space import SpaceGeometry, base_axes, inside_overlap, space_geometry, space_load, upward
 from ..column.structure import Structure
 from ..constants import DEGREE
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from .limit import DirectionLimit, LimitResult, limit_analysis
 from .limit_assemblies import AssemblyProgramme
 from .limit_with_links import SpaceProgramme
@@ -65,7 +65,7 @@ def limit_directions(structure: Structure, azimuths: Sequence[float] | None = No
     InputError
         A direction that is not finite, or none; a column on rings; an assembly that does not stand, or lies in a plane.
     """
-    column = structure.stack
+    column = check_kind("structure", structure, Structure).stack
     if azimuths is None and column is not None and column.as_found and column.as_found.in_plane:
         return LimitByDirection(tuple(_in_plane(column, one, loads) for one in (0.0, 180.0)), "xz")
     asked = ALL_ROUND if azimuths is None else tuple(float(azimuth) for azimuth in azimuths)

@@ -168,3 +168,20 @@ def log_interval(s: np.ndarray, t: np.ndarray) -> np.ndarray:
     upper, lower = np.where(flip, -s, t), np.where(flip, -t, s)
     big = log_ndtr(upper)
     return big + np.log(-np.expm1(np.minimum(log_ndtr(lower) - big, -1e-300)))
+
+
+def bootstrap(
+    low: np.ndarray, high: np.ndarray, owner: np.ndarray, samples: int, rng: np.random.Generator
+) -> np.ndarray:
+    """ln θ and ln β of samples of the records, with all that a record says together, shape (samples, 2)."""
+    _, owner = np.unique(owner, return_inverse=True)
+    count = int(owner.max()) + 1
+    found = []
+    piece = max(1, 2_000_000 // len(low))
+    for begin in range(0, samples, piece):
+        weight = rng.multinomial(count, np.full(count, 1.0 / count), min(piece, samples - begin))[:, owner]
+        one = fit(low, high, weight)
+        with np.errstate(invalid="ignore"):
+            found.append(np.stack((one.log_median, np.log(one.beta)), axis=1))
+    values = np.concatenate(found)
+    return np.where(np.isnan(values), math.log(BETAS[0]), values)

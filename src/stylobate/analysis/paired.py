@@ -57,3 +57,22 @@ def levels_of(records: np.ndarray, im: np.ndarray) -> tuple[float, float]:
         if len(y) >= FEWEST_LEVELS:
             steps.append((y[-1] - y[0]) / (len(y) - 1))
     return float(np.mean(numbers)), float(np.mean(steps)) if steps else math.nan
+
+
+def median_ends(low: np.ndarray, high: np.ndarray, limits: tuple[float, float]) -> tuple[float, float]:
+    """Between which levels the median capacity lies: ln of both ends.
+
+    Parameters
+    ----------
+    low, high : array, shape (n,)
+        Ends of the brackets of ln capacity, one per curve.
+    limits : (float, float)
+        Of the median by all that is known, in the unit of the measure: no end lies beyond them.
+    """
+    ends = (
+        float(np.quantile(low, 0.5, method="inverted_cdf")),
+        -float(np.quantile(-high, 0.5, method="inverted_cdf")),
+    )
+    with np.errstate(divide="ignore"):
+        least, most = np.log(limits).tolist()
+    return min(max(ends[0], least), most), min(max(ends[1], least), most)

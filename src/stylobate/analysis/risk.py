@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from scipy.special import ndtr
 
-from ..errors import InputError, check_range
+from ..errors import InputError, check_all, check_kind, check_range
 from ..motion.intensity_specs import ENDS, parse_measure
 from ..percent import percent
 from .fragility import Fragility
@@ -211,6 +211,8 @@ def risk(fragility: Fragility, hazard: Hazard) -> Risk:
     InputError
         Fragility and hazard are of different intensities.
     """
+    check_kind("fragility", fragility, Fragility)
+    check_kind("hazard", hazard, Hazard)
     measure, unit = fragility.evidence.measure, fragility.evidence.unit
     if hazard.unit not in ("-", unit) and unit != "-":
         raise InputError(
@@ -262,9 +264,11 @@ def survival(fragility: Fragility, age: float, hazards: Sequence[Hazard]) -> Sur
         Years that the column has stood as it is.
     hazards : sequence of Hazard
     """
+    check_kind("fragility", fragility, Fragility)
+    hazards = check_all("hazards", hazards, Hazard)
     years = check_range("age", age, 0.0, 1e6, unit="years", open_low=True)
     if not hazards:
-        raise InputError("no hazard curve is given; give at least one with `hazards=FILE.csv`.")
+        raise InputError("no hazard curve is given; give at least one of them.")
     return Survival(tuple(risk(fragility, hazard) for hazard in hazards), years)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..column import Column, Joint
 from ..constants import g
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from ..models.base import Case
 from ..models.rocking.model import HousnerBlock
 from ..motion import Motion, pulse_match
@@ -172,6 +172,7 @@ def rocking_spectrum(
     ----------
     Makris and Konstantinidis (2003).
     """
+    check_kind("motion", motion, Motion)
     p = _values("frequency parameters p", frequency_parameters, np.geomspace(0.8, 8.0, 64), 0.2, 20.0)
     alpha = _values("slendernesses α", slendernesses, np.linspace(0.05, 0.4, 64), 0.01, 1.0)
     cases = [Case(rocking_block(one, angle), motion) for one in p for angle in alpha]

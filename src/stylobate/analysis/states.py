@@ -14,18 +14,19 @@ import numpy as np
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.cases import Study
 from ..column import Column
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from ..models.base import Model
 from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
-from .difference import Difference, doubt, reference
+from .difference import Difference, doubt, reference, round_drums
 from .evidence import Evidence, evidence, intervals
-from .fragility import SAMPLES, Fragility, bootstrap, fragility
+from .fragility import SAMPLES, Fragility, fragility
+from .fragility_checks import check_bootstrap
 from .limit_states import EXCEEDED, FAILED, NOT_EXCEEDED, OPEN, parse_state
-from .lognormal import falls, fit
-from .paired import levels_of, share_limits, unseen
+from .lognormal import bootstrap, falls, fit
+from .paired import levels_of, median_ends, share_limits, unseen
 from .side_by_side import Share, shares
 from .studies import StudyResult, run_study
 
@@ -100,7 +101,13 @@ class StateComparison:
         return pandas.DataFrame(rows)
 
     def summary(self) -> dict[str, Any]:
-        """Under the names of the JSON object of ``stylobate states``."""
+        """Under the names of the JSON object of ``stylobate states``.
+
+        ``share_low`` and ``share_high`` of ``states`` are what undecided runs could make of the share of a state, of which
+        ``interval_low`` and ``interval_high`` are the interval over records. In ``differences``, ``share`` is that of a
+        state less that of the other, negative where fewer exceed it, and ``share_low`` and ``share_high`` are its interval
+        over records; what undecided runs could make of it are ``share_best`` and ``share_worst``.
+        """
         links: Any = self.links
         table: Any = self.table
         return {
@@ -134,7 +141,7 @@ def compare_states(
     motions: Sequence[Motion],
     model: Model,
     levels: Sequence[float] = (1.0,),
-    im: IntensityMeasure | None = None,
+    im: IntensityMeasure | str | None = None,
     *,
     state: str = "collapse",
     samples: int = SAMPLES,
@@ -154,9 +161,9 @@ def compare_states(
         At least ten records for curves; fewer give shares only.
     model : Model
     levels : sequence of float
-        Of the intensity measure, or factors without one.
-    im : IntensityMeasure, optional
-        That motions are scaled to.
+        Of the intensity measure, in its unit (pga and sa in g, pgv in m/s), or factors without one.
+    im : IntensityMeasure or str, optional
+        That motions are scaled to, such as ``pga`` or ``sa:1.0s``.
     state : str
         Limit state, as of ``stylobate fragility``.
     samples, confidence
@@ -171,7 +178,11 @@ def compare_states(
     InputError
         Fewer than two states, or input that the model refuses.
     """
+    check_bootstrap(samples, campaign.seed, confidence)
+    check_kind("states", states, Mapping, allowed="a mapping of columns by their labels, such as {'as built': column}")
     labels = tuple(states)
+    for label, column in states.items():
+        check_kind(f"the state {label!r}", column, Column)
     if len(labels) < FEWEST_STATES:
         raise InputError(f"{len(labels)} state of a column is given; give at least {FEWEST_STATES} to compare.")
     named = tuple(column.replace(name=label) for label, column in states.items())
@@ -181,7 +192,8 @@ def compare_states(
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
-    told = [evidence(part, im, state, label) for part, label in zip(parts, labels, strict=True)]
+    before = round_drums(named, model)
+    told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
     differences = tuple(
@@ -274,40 +286,45 @@ def _difference(
         low, high = share_limits(sums[paired], runs[paired], levels, drawn, confidence)
     ratio = (math.nan, math.nan, math.nan)
     if first_curve is not None and other_curve is not None:
-        ratio = _ratio(first, other, first_curve, samples, seed)
+        ratio = _ratio((first, other), (first_curve, other_curve), samples, seed)
     return Difference(
         other.name, first.name, int(known.sum()), int((was & ~now).sum()), int((now & ~was).sum()), share, low,
         high, *ratio,
     )  # fmt: skip
 
 
-def _ratio(first: Evidence, other: Evidence, curve: Fragility, samples: int, seed: int) -> tuple[float, float, float]:
+def _ratio(
+    both: tuple[Evidence, Evidence], curves: tuple[Fragility, Fragility], samples: int, seed: int
+) -> tuple[float, float, float]:
     """Ratio of the medians and its interval: both curves fitted to the runs that both states know, and to the same samples
     of their records. NaN where these runs alone make no curve.
 
-    Its limits are at least as far off as the runs leave both medians open, and as records that nobody saw may move them.
+    Its limits are at least as far off as the levels leave both medians open, and as records that nobody saw may move them.
     """
-    known = (first.codes >= 0) & (other.codes >= 0)
-    best, drawn, slack = [], [], 0.0
-    for one in (first, other):
-        low, high, owner = intervals(one, np.where(known, one.codes, OPEN), "runs")
+    known = (both[0].codes >= 0) & (both[1].codes >= 0)
+    best, drawn, ends = [], [], []
+    for one, alone in zip(both, curves, strict=True):
+        codes = np.where(known, one.codes, OPEN)
+        low, high, owner = intervals(one, codes, "runs")
         if not len(low):
             return math.nan, math.nan, math.nan
         curve_of_both = fit(low, high)
         best.append(float(curve_of_both.log_median[0]) if not falls(curve_of_both) else math.nan)
-        slack += 0.5 * max(0.0, float(high.min() - low.max()))
         drawn.append(bootstrap(low, high, owner, samples, np.random.default_rng(seed))[:, 0])
+        ends.append(median_ends(*intervals(one, codes, "records")[:2], alone.median_interval))
     if not np.isfinite(best).all():
         return math.nan, math.nan, math.nan
-    middle = best[1] - best[0]
+    middle, curve = best[1] - best[0], curves[0]
     with np.errstate(invalid="ignore"):
         change = drawn[1] - drawn[0]
     change = change[np.isfinite(change)]
-    number, step = len(np.unique(first.records[known])), levels_of(first.records[known], first.im[known])[1]
+    records, im = both[0].records[known], both[0].im[known]
+    number, step = len(np.unique(records)), levels_of(records, im)[1]
     if len(change) < samples // 2 or math.isnan(step):
         return math.exp(middle), math.nan, math.nan
-    slack = max(slack, unseen(number, curve.confidence) * step)
+    slack = unseen(number, curve.confidence) * step
     low, high = curve.basic(middle, change)
-    low, high = min(low, middle - slack), max(high, middle + slack)
+    (first_low, first_high), (other_low, other_high) = ends
+    low, high = min(low, middle - slack, other_low - first_high), max(high, middle + slack, other_high - first_low)
     with np.errstate(over="ignore"):
         return math.exp(middle), float(np.exp(low)), float(np.exp(high))

@@ -17,7 +17,7 @@ from ..campaign.cases import Study
 from ..campaign.ledger import RUNS_FILE, finished_runs_in
 from ..campaign.plan import Plan
 from ..campaign.runs import Runs, Stopped, its_turn
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from ..models.shared.quiet import share_of
 from ..response import Response
 from ..response.rows import Rows
@@ -129,6 +129,8 @@ def run_study(
     Stopped
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
+    check_kind("study", study, Study)
+    check_kind("out", out, (str, Path), optional=True)
     folder = None if out is None else Path(out)
     if folder is not None and not folder.is_dir():
         raise InputError(f"folder {folder} does not exist; create it first.")

@@ -14,13 +14,14 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, run_all
 from ..campaign.twins import the_twins
 from ..column.structure import Structure
-from ..errors import check_choice
+from ..errors import InputError, check_all, check_choice, check_kind
 from ..models.base import Case, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..motion.orientation import record_of
 from .certainty import Population
+from .difference import round_drums
 from .directions import direction_of
 from .side_by_side import Share, codes_of, shares
 from .verdicts import NOT_RUN, verdict
@@ -103,7 +104,12 @@ def suite_table(
     """
     import pandas
 
-    stands: list[Any] = [columns] if isinstance(columns, Structure) else list(columns)
+    stands = check_all("columns", columns, Structure)
+    motions = check_all("motions", motions, Motion)
+    check_kind("model", model, Model)
+    if not stands or not motions:
+        what = "record" if stands else "column"
+        raise InputError(f"no {what} is given, and a suite without one has no runs; give at least one.")
     must_be_alike(stands, "suite")
     records = [_record(motion) for motion in motions]
     rows: list[dict[str, Any]] = []
@@ -128,7 +134,9 @@ def suite_table(
             some = drawn[i // len(motions)]
             of_twins = [one for one in found[own + i * number : own + (i + 1) * number] if one is not None]
             line |= Population(some, tuple(of_twins)).columns
-    return pandas.DataFrame(rows)
+    table = pandas.DataFrame(rows)
+    table.attrs["doubt"] = round_drums(stands, model)
+    return table
 
 
 def suite_shares(rows: Sequence[Mapping[str, Any]]) -> list[Share]:

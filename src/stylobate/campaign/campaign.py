@@ -44,6 +44,8 @@ class Fields(Computing, total=False):
 class Campaign:
     """How runs are made: asked for once, the same for the command line, study files, the page and Python.
 
+    A field that is given as a keyword beside a campaign takes the place of the campaign's.
+
     Parameters
     ----------
     replicates : int
@@ -92,6 +94,14 @@ class Campaign:
                 "scatter",
             )
         check_range("`tail`", self.tail, 0.0, 1e4, unit="s")
+        if not isinstance(self.whole, bool):
+            raise InputError(f"`whole` is {as_typed(self.whole)}; allowed is True or False.", "whole")
+        if not (self.progress is None or callable(self.progress)):
+            raise InputError(
+                f"progress is {as_typed(self.progress)}; allowed is a function of two numbers.", "progress"
+            )
+        if not (self.ledger is None or isinstance(self.ledger, (str, Path))):
+            raise InputError(f"ledger is {as_typed(self.ledger)}; allowed is the path of a file.", "ledger")
         if self.threads is not None:
             check_range("`threads`", self.threads, 1, 1024, remedy="leave it out to use all cores")
 

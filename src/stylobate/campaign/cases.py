@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from numbers import Real
 from typing import Any, Unpack
 
 import numpy as np
@@ -13,12 +14,12 @@ import numpy as np
 from ..column import Column
 from ..column.scatter import usual_scatter
 from ..column.structure import Structure
-from ..errors import InputError, check_choice, check_range
+from ..errors import InputError, check_all, check_choice, check_range
 from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
-from ..motion.intensity_specs import IntensityMeasure, told, told_powers
+from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
 from ..motion.orientation import record_of
 from ..simulate import run_options
 from ..version import __version__
@@ -51,9 +52,10 @@ class Study:
         Already turned and reversed as they are to act (:meth:`stylobate.MotionRequest.expand`).
     models : sequence of Model
     levels : sequence of float
-        Of ``im`` in its unit, to each of which every motion is scaled; factors of the motions without ``im``.
-    im : IntensityMeasure, optional
-        See :func:`stylobate.motion.intensity_specs.parse_measure`.
+        Of ``im`` in its unit (pga and sa in g, pgv in m/s), to each of which every motion is scaled; factors of the
+        motions without ``im``.
+    im : IntensityMeasure or str, optional
+        Such as ``pga``; see :func:`stylobate.motion.intensity_specs.parse_measure`.
     keep : {"rows", "histories"}
         ``histories`` keeps a file of histories per case, not only of the worst and the median one.
     campaign : Campaign, optional
@@ -85,17 +87,21 @@ class Study:
         motions: Sequence[Motion],
         models: Sequence[Model],
         levels: Sequence[float] = (1.0,),
-        im: IntensityMeasure | None = None,
+        im: IntensityMeasure | str | None = None,
         *,
         keep: str = "rows",
         campaign: Campaign = USUAL,
         **fields: Unpack[Fields],
     ) -> None:
+        im = parse_measure(im) if isinstance(im, str) else im
         given = {"columns": columns, "motions": motions, "models": models, "levels": levels}
         for name, value in (given | {"im": im, "campaign": campaign, "keep": keep}).items():
             object.__setattr__(self, name, value)
-        for name, what in (("columns", "column"), ("motions", "record"), ("models", "model"), ("levels", "level")):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        for name, what, kind in (
+            ("columns", "column", Structure), ("motions", "record", Motion), ("models", "model", Model),
+            ("levels", "level", Real),
+        ):  # fmt: skip
+            object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
             if not getattr(self, name):
                 raise InputError(f"the study names no {what}; give at least one.")
         names = [column.name for column in self.columns]

@@ -1,4 +1,4 @@
-"""Behaviour of a model of somebody's own, as plain values that are the same in every process: its loaded code and its files."""
+"""Behaviour of a model of somebody's own, as plain values, the same in every process: its loaded code and its files."""
 
 from __future__ import annotations
 

@@ -11,8 +11,9 @@ import numpy as np
 
 from ..column import Column
 from ..column.files import load_column
+from ..column.structure import Structure
 from ..column.toml import Table, parse_toml, read_table
-from ..errors import InputError, as_typed, check_range, within
+from ..errors import InputError, as_typed, check_kind, check_range, within
 from ..models.base import Case, Cases, Model
 from ..models.registry import make_model
 from ..motion import harmonic
@@ -67,6 +68,8 @@ class HarmonicGrid:
     tail: float = 0.0
 
     def __post_init__(self) -> None:
+        check_kind("column", self.column, Structure)
+        check_kind("model", self.model, Model)
         f = grid_axis("frequencies", self.frequencies, 1e-3, 1e3, "Hz")
         a = grid_axis("amplitudes", self.amplitudes, 0.0, 1e4, "m/s²")
         if len(f) * len(a) > MAX_CELLS:

@@ -43,7 +43,7 @@ class Holding:
                 self._file.close()
                 if "locked" not in str(error):
                     raise StylobateError(
-                        f"the progress cannot be kept in {path} ({error}); make room there, or choose another `out`."
+                        f"the progress cannot be kept in {path} ({error}); make room there, or choose another folder."
                     ) from None
                 if waiting is None:
                     raise InputError(

@@ -11,7 +11,6 @@ import hashlib
 import os
 import sqlite3
 import threading
-import warnings
 import weakref
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, suppress
@@ -21,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from ..atomic import replacing, set_aside
-from ..errors import DamagedFileWarning, InputError, StylobateError
+from ..errors import DamagedFileWarning, InputError, StylobateError, warn
 from . import salvage
 from .holding import Holding
 
@@ -94,7 +93,7 @@ class Ledger:
         self.path = Path(path)
         if self.path.is_dir() or not self.path.parent.is_dir():
             raise InputError(
-                f"{self.path} cannot keep the progress: it is a folder, or has none; choose another `out`."
+                f"{self.path} cannot keep the progress: it is a folder, or has none; choose another folder."
             )
         refuse_foreign(self.path)
         refuse_former(*self.path.parent.glob(FORMER_FILES))
@@ -193,7 +192,7 @@ class Ledger:
                     f"{len(taken)} of its finished runs are whole and are used" if taken else "no run in it is of use"
                 )
                 said = f"{self.path} is damaged or no ledger ({damage}); it is kept as {aside.name}, and {kept}."
-                warnings.warn(said, DamagedFileWarning, stacklevel=2)
+                warn(said, DamagedFileWarning)
         try:
             with replacing(self.path) as partial:
                 create(partial, taken)
@@ -270,7 +269,7 @@ def create(path: Path, lines: list[tuple[int, str]]) -> None:
 
 
 def _cannot(path: Path, why: str) -> StylobateError:
-    return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another `out`.")
+    return StylobateError(f"the progress cannot be kept in {path} ({why}); make room there, or choose another folder.")
 
 
 def refuse_foreign(path: Path) -> None:

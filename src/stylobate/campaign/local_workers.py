@@ -106,7 +106,7 @@ def serve(count: int) -> None:
 
 
 def started(make: Callable[[], Any]) -> Any:
-    """Files that are made at the last try at the latest: a worker that dies while it starts takes the whole cluster along."""
+    """Files made at the last try at the latest: a worker that dies while it starts takes the whole cluster along."""
     for _ in range(_TRIES - 1):
         with suppress(Exception):
             return make()

@@ -138,7 +138,8 @@ def _of_grid(path: str | Path) -> Study:
     motions = []
     for frequency, amplitude in product(grid.frequencies, grid.amplitudes):
         unit = harmonic(float(frequency), 1.0, grid.duration)
-        motions.append(unit.scaled(float(amplitude)).replace(name=f"{frequency:.4g} Hz, {amplitude / g:.4g} g"))
+        name = f"{frequency:.4g} Hz, {amplitude / g:.4g} g"  # a motion of its own, no copy of a record
+        motions.append(unit.replace(factor=unit.factor * float(amplitude), name=name))
     return Study([grid.column], motions, [grid.model], campaign=Campaign(tail=grid.tail))
 
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from ..column import Column
 from ..column.scatter import Scatter, scattered_columns, usual_scatter
 from ..column.structure import Structure
-from ..errors import InputError
+from ..errors import InputError, check_kind
 from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign
 
@@ -45,6 +45,8 @@ def without(left_out: Sequence[str]) -> str:
 
 def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: bool = True) -> Twins:
     """Twins of a column that the model can take; not ``alone`` where more than the columns differs."""
+    check_kind("column", column, Structure)
+    check_kind("model", model, Model)
     stack, replicates, seed = column.stack, campaign.replicates, campaign.seed
     if stack is None:
         raise InputError(

@@ -101,7 +101,7 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
     """Print the probabilities for people."""
     from ..analysis.verdicts import open_runs
     from ..campaign.twins import described
-    from ..response.words import longer_tail
+    from ..response.words import to_decide
     from . import console
 
     s = result.summary()
@@ -112,7 +112,8 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
     sentence += f", {s['no_verdict']} have no verdict." if s["no_verdict"] else "."
     sentence += open_runs(s)
     if s["undecided"]:
-        sentence += f" Go on with {longer_tail(float(result.provenance['tail']))}."
+        cure = to_decide(result.column, result.provenance["parameters"], float(result.provenance["tail"]))
+        sentence += f" {cure[0].upper()}{cure[1:]}."
     facts = {
         "column": result.column.name,
         "model": result.model,
@@ -132,12 +133,13 @@ def describe_probability(result: CollapseProbability, files: list[Path]) -> None
 def describe(result: Domain, files: list[Path]) -> None:
     """Print the domain for people."""
     from ..constants import g
-    from ..response.words import longer_tail
+    from ..response.words import to_decide
     from . import console
 
     counts, cells = result.counts, len(result.rows)
     sentence = f"{counts['collapsed']} of {cells} cells collapse, {counts['stands']} stand."
-    far = f"ended far from rest (try {longer_tail(float(result.provenance['tail']))})"
+    cure = to_decide(result.column, result.provenance["parameters"], float(result.provenance["tail"]))
+    far = f"ended far from rest ({cure})"
     for one, meaning in (("undecided", far), ("failed", "could not be computed")):
         if counts[one]:
             sentence += f" {counts[one]} {meaning} and are not counted as collapse."

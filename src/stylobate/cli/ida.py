@@ -37,13 +37,12 @@ def ida(
 
     Levels are hunted and filled, all records at a time; with the table of which intensity measure tells most.
     """
-    from ..analysis.difference import round_drums
     from ..analysis.efficiency import which_tells_most
     from ..analysis.ida import ida as analyse
     from ..analysis.ida_curves import check_response, median_of
     from ..motion.intensity_specs import parse_levels, parse_measure
     from ..motion.orientation import record_of
-    from ..response.words import longer_tail
+    from ..response.words import to_decide
     from . import console
 
     campaign = execution.campaign(following, population)
@@ -63,7 +62,6 @@ def ida(
         best = which_tells_most(found.runs, edp=edp)
         result = found.summary() | {
             "edp": edp,
-            "doubt": round_drums([stone], how),
             "measures": best.astype(object).where(best.notna(), None).to_dict("records"),
             "refused": records.refused,
         }
@@ -99,7 +97,8 @@ def ida(
         facts["columns like this"] = drawn.words
     if result["undecided"] or result["failed"]:
         facts["open"] = (
-            f"{result['undecided']} undecided, {result['failed']} failed; go on with {longer_tail(campaign.tail)}"
+            f"{result['undecided']} undecided, {result['failed']} failed; "
+            f"{to_decide(stone, how.parameters(), campaign.tail)}"
         )
     console.say(f"{stone.name}, {how.name}: {_count(len(curves), 'curve')} over {measure.words}.", facts, files)
     if len(best):

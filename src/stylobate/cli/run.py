@@ -318,7 +318,7 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
     structure: Any = response.structure
     m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
-    sentence = response.describe()
+    sentence = response.sentence
     if response.at_rest:
         sentence += " Everything lies still."
     elif response.outcome is not Outcome.FAILED:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
@@ -12,7 +11,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, check_range, warn
 from .block import FAR_AWAY, TOUCHING, Block, FaceJoint, ground_block, separation, smallest_turn, touching_faces
 from .column import GRAVITIES
 from .faces import FacePair, face_between
@@ -109,7 +108,7 @@ class Assembly(Structure):
         touched = self._contacts[1]
         for i, block in enumerate(self.bodies):
             if not block.fixed and i not in touched:
-                warnings.warn(f"block {block.name!r} touches nothing: it will fall.", OutOfRangeWarning, stacklevel=3)
+                warn(f"block {block.name!r} touches nothing: it will fall.")
         self.placed_links  # noqa: B018  refuses links that cannot be
 
     @cached_property

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, within
+from ..errors import InputError, warn, within
 from ..reading import shown
 from .assembly import Assembly, Block
 from .column import Column
@@ -25,7 +24,7 @@ from .spatial.assembly import SpatialAssembly
 from .spatial.files import spatial_assembly
 from .spatial.tables import SpatialTable, describes_space, refuse_mixed
 from .standing import BeamTable, ColumnsTable, lay, stand
-from .tables import JointTable, describes_assembly, joint_fields
+from .tables import JointTable, density_of, describes_assembly, joint_fields
 from .toml import Table, checked, parse_toml
 
 
@@ -128,21 +127,16 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
         raise InputError("key 'joint' is missing; add it, or name a material.")
     for i, one in enumerate(table.block or []):
         name = one.name if one.name is not None else f"block {i + 1}"
-        density = one.density if one.density is not None else common
-        if density is None and not one.fixed:
-            raise InputError(f"block {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        density = density_of(f"block {name!r}", one.density, common, 0.0 if one.fixed else None)
         corners = tuple(tuple(corner) for corner in one.vertices)
         surface = None if one.surface is None else _law(one.surface, stone, f"the surface of block {name!r}")
         depth = one.depth if one.depth is not None else table.depth
-        blocks.append(Block(corners, density or 0.0, name, depth, one.fixed, surface))  # pyright: ignore[reportArgumentType]
+        blocks.append(Block(corners, density, name, depth, one.fixed, surface))  # pyright: ignore[reportArgumentType]
     blocks = standing + blocks
     for i, one in enumerate(table.beam or []):
         name = one.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
-        density = one.density if one.density is not None else common
-        if density is None:
-            density = standing[-1].density if standing else None
-        if density is None:
-            raise InputError(f"beam {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        last = standing[-1].density if standing else None
+        density = density_of(f"beam {name!r}", one.density, common, last)
         surface = None if one.surface is None else _law(one.surface, stone, f"the surface of beam {name!r}")
         blocks.append(lay(one, name, density, laid, surface))
     overrides = []
@@ -160,7 +154,7 @@ def _assembly(table: AssemblyTable, default_name: str, folder: Path) -> Assembly
         joint = _law(table.joint, stone, "[joint]")
     links += links_between(table.link or [])
     for doubt in _doubts(blocks[len(standing) :], joint, [law for _, _, law in overrides], table.gravity):
-        warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
+        warn(doubt)
     return Assembly(
         tuple(blocks), joint, table.name or default_name, table.gravity, ground, tuple(overrides), tuple(links)
     )

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import warnings
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, check_range, warn
 from .drum import DENSITIES, LENGTHS
 from .joint import Joint
 from .shapes import Outlined, Placed, Prism
@@ -86,9 +85,7 @@ class Block(Outlined):
             raise InputError(f"{who} has no area; give vertices that do not lie on one line.")
         if area < 0.0:
             corners, area = corners[::-1], -area
-            warnings.warn(
-                f"the vertices of {who} run clockwise; they are turned round.", OutOfRangeWarning, stacklevel=3
-            )
+            warn(f"the vertices of {who} run clockwise; they are turned round.")
         corners = _without_flat(corners)
         sides = np.roll(corners, -1, axis=0) - corners
         after = np.roll(sides, -1, axis=0)

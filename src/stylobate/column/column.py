@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -15,7 +14,7 @@ import numpy as np
 
 from ..constants import DEGREE
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, check_range, check_whole
+from ..errors import InputError, check_all, check_kind, check_range, check_whole, no_field, warn
 from .as_found import AS_BUILT, AsFound
 from .block import FAR_AWAY, ground_block
 from .drum import Drum
@@ -92,11 +91,13 @@ class Column(DrumStack):
 
     def _say_doubts(self) -> None:
         for doubt in shape_doubts(self, self.name):
-            warnings.warn(doubt, OutOfRangeWarning, stacklevel=4)
+            warn(doubt)
 
     def _check(self) -> None:
-        for name in ("drums", "joints", "links"):
-            object.__setattr__(self, name, tuple(getattr(self, name)))
+        for name, kind in (("drums", Drum), ("joints", Joint), ("links", Link)):
+            object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
+        check_kind("as_found", self.as_found, AsFound)
+        check_kind("name", self.name, str)
         if not 1 <= len(self.drums) <= MAX_DRUMS:
             raise InputError(f"the column has {len(self.drums)} drums; allowed is 1 to {MAX_DRUMS}.")
         if len(self.joints) != len(self.drums):
@@ -218,12 +219,14 @@ class Column(DrumStack):
         gravity : float
             [m/s²]
         """
-        joints = [joint] * len(drums)
+        drums = check_all("drums", drums, Drum)
+        joints = [check_kind("joint", joint, Joint)] * len(drums)
+        check_kind(
+            "overrides", overrides, Mapping, allowed="joints by their number, such as {1: Joint(…)}", optional=True
+        )
         for index, other in (overrides or {}).items():
-            check_whole(
-                "joint_override index", index, 1, len(joints), remedy="1 is at the base", field=f"override.{index}"
-            )
-            joints[index - 1] = other
+            check_whole("override index", index, 1, len(joints), remedy="1 is at the base", field=f"override.{index}")
+            joints[index - 1] = check_kind(f"joint {index} of overrides", other, Joint)
         return cls(tuple(drums), tuple(joints), name, gravity)
 
     @classmethod
@@ -285,7 +288,7 @@ class Column(DrumStack):
         """A copy with some fields changed, checked as any column; what was warned of is not warned of again."""
         fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         if unknown := changes.keys() - fields:
-            raise TypeError(f"a column has no field {min(unknown)!r}; it has {', '.join(fields)}")
+            raise TypeError(no_field("a column", min(unknown), fields))
         copy = object.__new__(type(self))
         for name, value in (fields | changes).items():
             object.__setattr__(copy, name, value)

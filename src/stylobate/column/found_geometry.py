@@ -168,8 +168,8 @@ def check_as_found(column: DrumStack) -> None:
             )
         if column.section == "circular" and (drum.chip_front or drum.chip_back):
             raise InputError(
-                f"drum {drum.drum} of {name} is round, and chip_front = {drum.chip_front:g}, chip_back = {drum.chip_back:g} m; "
-                "round drums take chip_left and chip_right with a chip_azimuth.",
+                f"drum {drum.drum} of {name} is round, and chip_front = {drum.chip_front:g}, chip_back = {drum.chip_back:g} "
+                "m; round drums take chip_left and chip_right with a chip_azimuth.",
                 f"found.{drum.drum}.{'chip_front' if drum.chip_front else 'chip_back'}",
             )
         if column.section != "circular" and drum.chip_azimuth:

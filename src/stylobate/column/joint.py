@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..constants import DEGREE
-from ..errors import InputError, as_typed, check_range
+from ..errors import InputError, as_typed, check_range, no_field
 from .drum import LENGTHS
 
 DEFAULT_FRICTION_ANGLE = 35.0
@@ -76,6 +76,9 @@ class Joint:
 
     def changed(self, **changes: Any) -> Joint:
         """A copy with some fields changed; a friction given in one of its two forms takes the place of both."""
+        own = [field.name for field in dataclasses.fields(self)]
+        if unknown := changes.keys() - own:
+            raise TypeError(no_field("a joint", min(unknown), own))
         if any(changes.get(name) is not None for name in FRICTION):
             changes = dict.fromkeys(FRICTION) | changes
         else:  # a friction of None is none that is given

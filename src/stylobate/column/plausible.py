@@ -12,7 +12,7 @@ from .stack import Stack
 
 
 class Measure(NamedTuple):
-    """Plausible values of a quantity of stone columns: its unit, from where to where, a usual value, and other units in that unit."""
+    """Plausible values of a quantity of stone columns: its unit, its range, a usual value, and other units in that unit."""
 
     unit: str
     low: float
@@ -53,7 +53,7 @@ STIFFNESS = Measure("N/m³", 1e7, 1e13, 2e10, {"kN/m³": 1e3, "MPa/m": 1e6, "N/m
 #: Largest friction coefficient that was measured on stone [-]; an angle below the least [degrees] looks like a coefficient.
 ROUGHEST, SLIPPERIEST = 2.0, 3.0
 
-#: Share of columns that go over their width at most, and of drums where there are so many of them: half as much again as the most
+#: Largest height over width of columns, and of drums where there are so many of them: half as much again as the most
 #: slender columns of stone that stand, and as the tallest drums of such columns [-].
 SLENDEREST, DRUMS, TALLEST = 15.0, 5, 2.2
 

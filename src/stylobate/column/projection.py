@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 import math
-import warnings
 from typing import NamedTuple
 
 import numpy as np
 
 from ..constants import DEGREE
-from ..errors import InputError, OutOfRangeWarning, check_range, within
+from ..errors import InputError, check_range, warn, within
 from .as_found import AS_BUILT, AsFound, FoundDrum
 from .column import Column
 from .drum import Drum
@@ -51,7 +50,7 @@ def projected(column: Column, azimuth: float) -> Column:
     found = project(column, azimuth)
     lost = f"left out is what lies across it: {'; '.join(found.lost)}" if found.lost else "nothing of it lies across"
     plane = f"the vertical plane of azimuth {azimuth:g}°, along which x of the motion acts"
-    warnings.warn(f"{column.name!r} is projected onto {plane}; {lost}.", OutOfRangeWarning, stacklevel=2)
+    warn(f"{column.name!r} is projected onto {plane}; {lost}.")
     return found.column
 
 

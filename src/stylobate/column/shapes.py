@@ -153,7 +153,7 @@ class Chipped:
         vertices, faces = self.whole.mesh(around)
         polygons = [vertices[list(face)] for face in faces]
         for *normal, distance in self.cuts:
-            kept = [_cut(polygon, np.array(normal), distance) for polygon in polygons]
+            kept = [cut(polygon, np.array(normal), distance) for polygon in polygons]
             # the new face has what lies in the plane, in order round its middle
             edge = np.concatenate([polygon[np.abs(polygon @ normal - distance) < 1e-9] for polygon in kept])
             along = np.cross((0.0, 0.0, 1.0), normal)
@@ -167,13 +167,13 @@ class Chipped:
         return Mesh(points, tuple(tuple(i for i, j in zip(one, one[1:] + one[:1]) if i != j) for one in around_each))
 
 
-def _cut(polygon: np.ndarray, normal: np.ndarray, distance: float) -> np.ndarray:
-    """Part of a convex polygon within a plane [m], shape (k, 3)."""
+def cut(polygon: np.ndarray, normal: np.ndarray, distance: float) -> np.ndarray:
+    """Part of a convex polygon within a line in its plane, or a plane in space [m], shape (k, 2) or (k, 3)."""
     inside = distance - polygon @ normal
     after, beyond = np.roll(inside, -1), np.roll(polygon, -1, axis=0)
     crosses = inside * after < 0.0
     share = inside / np.where(crosses, inside - after, 1.0)
-    both = np.stack((polygon, polygon + share[:, None] * (beyond - polygon)), axis=1).reshape(-1, 3)
+    both = np.stack((polygon, polygon + share[:, None] * (beyond - polygon)), axis=1).reshape(-1, polygon.shape[1])
     return both[np.stack((inside >= 0.0, crosses), axis=1).ravel()]
 
 

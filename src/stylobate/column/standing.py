@@ -10,6 +10,7 @@ from typing import NamedTuple
 from ..errors import InputError, check_range, suggest
 from .as_blocks import links_of_column, of_column
 from .block import TOUCHING, Block
+from .column import Column
 from .drum import LENGTHS
 from .files import load_column
 from .joint import Joint
@@ -58,6 +59,21 @@ class Standing(NamedTuple):
     law: Joint
 
 
+def standing_column(file: str, folder: Path) -> Column:
+    """The column of a file beside that of an assembly, or the preset of that name, which stands on level ground.
+
+    Raises
+    ------
+    InputError
+        There is no such column, or its base is out of level.
+    """
+    beside = folder / file
+    column = load_column(beside if beside.is_file() else file)
+    if column.as_found.base_tilt:
+        raise InputError(f"{column.name!r} stands on a base out of level, and the ground of an assembly is level.")
+    return column
+
+
 def stand(
     tables: Sequence[ColumnsTable], folder: Path, gravity: float, ground: float | bool
 ) -> tuple[list[Block], list[Standing], list[Link]]:
@@ -84,10 +100,7 @@ def stand(
     if tables and isinstance(ground, bool):
         raise InputError("columns stand on the ground, and ground is false; give its level in m.")
     for table in tables:
-        beside = folder / table.file
-        column = load_column(beside if beside.is_file() else table.file)
-        if column.as_found.base_tilt:
-            raise InputError(f"{column.name!r} stands on a base out of level, and the ground of an assembly is level.")
+        column = standing_column(table.file, folder)
         if not column.as_found.in_plane:
             raise InputError(f"{column.name!r} is found out of the plane of x and z, in which assemblies lie.")
         if column.gravity != gravity:
@@ -145,8 +158,8 @@ def lay(table: BeamTable, name: str, density: float, columns: Sequence[Standing]
     levels = [one.level for one in under]
     if not max(levels) - min(levels) <= 1e-9 * max(1.0, max(levels)):
         raise InputError(
-            f"beam {name!r} lies on tops at {', '.join(f'{level:g}' for level in levels)} m; give columns of one height that "
-            "stand upright."
+            f"beam {name!r} lies on tops at {', '.join(f'{level:g}' for level in levels)} m; give columns of one height "
+            "that stand upright."
         )
     left, right = _ends(table, name, [one.place for one in under])
     low, near = levels[0], 1e-9 * max(1.0, abs(left), abs(right))

@@ -149,6 +149,7 @@ class Structure:
     poses a run records; ``relative``, whether a model in the plane records them from where the bodies stand.
     """
 
+    wanted: ClassVar[str] = "a Column, Specimen or Assembly"
     kind: ClassVar[str] = "structure"
     counted: ClassVar[tuple[str, str]] = ("body", "bodies")
     joints_are: ClassVar[str] = ""

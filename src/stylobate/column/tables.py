@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import warnings
 from pathlib import Path
 from typing import Any, ClassVar
 
 from ..constants import g as STANDARD_GRAVITY
-from ..errors import InputError, OutOfRangeWarning, within
+from ..errors import InputError, check_kind, warn, within
 from ..reading import shown
 from .as_found import AsFound, FoundDrum
 from .drum import Drum
@@ -121,7 +120,7 @@ def read_as(kind: Any, path: str | Path) -> Any:
     InputError
         The file cannot be read or does not describe a column; the message names the file, the key and the remedy.
     """
-    data = parse_toml(path)
+    data = parse_toml(check_kind("path", path, (str, Path)))
     if describes_assembly(data):
         raise InputError(
             f"{shown(path)} describes an assembly of blocks, which 'run', 'critical', 'suite' and 'study' take "
@@ -155,6 +154,20 @@ def made_of(kind: Any, data: dict[str, Any], source: str = "the column", name: s
         return _column(kind, table, default_name=name)
 
 
+def density_of(entry: str, *stated: float | None) -> float:
+    """The first density that is stated, of those that an entry of an assembly may have [kg/m³].
+
+    Raises
+    ------
+    InputError
+        None is stated.
+    """
+    density = next((value for value in stated if value is not None), None)
+    if density is None:
+        raise InputError(f"{entry} has no density; add one to it, or a common one at the top [kg/m³].")
+    return density
+
+
 def describes_assembly(data: dict[str, Any]) -> bool:
     """Whether the content of a TOML file is that of an assembly: it has blocks, beams, or columns from files."""
     return "block" in data or "beam" in data or isinstance(data.get("column"), list)
@@ -164,7 +177,7 @@ def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     column = _as_built(kind, table, default_name)
     typed = [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
     for doubt in unit_doubts(column, typed):
-        warnings.warn(f"{column.name!r}: {doubt}", OutOfRangeWarning, stacklevel=5)
+        warn(f"{column.name!r}: {doubt}")
     changes: dict[str, Any] = {}
     if table.as_found is not None:
         some = tuple(FoundDrum(one.index, **one.model_dump(exclude={"index"})) for one in table.as_found.drum or ())

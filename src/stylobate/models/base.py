@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import typing
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NamedTuple
@@ -12,7 +11,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from ..column.shapes import DRUMS
-from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest
+from ..errors import InputError, LeftOutWarning, PlaneOnlyWarning, suggest, warn
 from ..motion import Motion, beyond_axes, keep_axes
 from ..response import Measures, Response
 from ..response.words import round_in_the_plane
@@ -102,6 +101,7 @@ class Model:
     which laws links may act; ``carries`` how many columns alike it can take along in a single run at next to no cost.
     """
 
+    wanted: ClassVar[str] = "a model, such as DistinctElement2D()"
     name: ClassVar[str] = ""
     title: ClassVar[str] = ""
     references: ClassVar[tuple[str, ...]] = ()
@@ -145,13 +145,9 @@ class Model:
         left_out = beyond_axes(motion, self.axes)
         if "y" in left_out and column.section == "circular":
             said = f"{self.name} leaves out what shakes a round column across. {round_in_the_plane(column)}"
-            warnings.warn(said, PlaneOnlyWarning, stacklevel=4)
+            warn(said, PlaneOnlyWarning)
         for one in left_out.values():
-            warnings.warn(
-                f"left out of {motion.name!r}: {one}; {self.name} takes {' and '.join(self.axes)}.",
-                LeftOutWarning,
-                stacklevel=4,
-            )
+            warn(f"left out of {motion.name!r}: {one}; {self.name} takes {' and '.join(self.axes)}.", LeftOutWarning)
 
     @classmethod
     def is_plane(cls, parameters: Mapping[str, Any]) -> bool:

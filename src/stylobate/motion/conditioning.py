@@ -7,14 +7,13 @@ function scales.
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
 from fractions import Fraction
 
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, OutOfRangeWarning, check_range
+from ..errors import InputError, OutOfRangeWarning, check_range, warn
 from ..percent import percent, percents
 from .integration import arias_growth, displacement
 from .motion import MAX_SAMPLES, Motion, integrate
@@ -351,11 +350,10 @@ def warn_of_scaling(motion: Motion) -> None:
     OutOfRangeWarning
     """
     if motion.metadata.get("file") and abs(motion.factor) > LARGEST_SCALING:
-        warnings.warn(
+        warn(
             f"{motion.metadata['file']} is scaled by {motion.factor:.4g}, more than {LARGEST_SCALING:g} times what was "
             "recorded; check the units, or choose a stronger record.",
             OutOfRangeWarning,
-            stacklevel=4,
         )
 
 

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any
 
 import numpy as np
 
 from ..constants import g
-from ..errors import OutOfRangeWarning, check_range
+from ..errors import OutOfRangeWarning, check_range, warn
 from .drift import cure_of, drift_of
 from .integration import absolute_integral, arias, displacement, square_integral, time_above
 from .motion import Motion, peak_velocity
@@ -44,12 +43,11 @@ def warn_of_drift(motion: Motion) -> None:
             remedy = "take no displacement from it, as no step of conditioning mends it alone"
             if cure is not None:
                 remedy = f"correct it before a displacement is taken from it (`condition={cure!r}`)"
-            warnings.warn(
+            warn(
                 f"{motion.name}: the peak displacement of component {axis}, {peak:.3g} m, is what double integration "
                 f"leaves: {drift:.3g} m stand at the end, drift of the baseline unless the ground moved for good; "
                 f"{remedy}.",
                 OutOfRangeWarning,
-                stacklevel=3,
             )
 
 

@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
@@ -107,6 +108,8 @@ class IntensityMeasure:
         ``x`` (the plane of the plane models), ``y``, ``z``, or of both horizontal components their geometric mean, the
         larger one, or the median or largest over all directions (RotD50, RotD100: of ``pga``, ``pgv``, ``sa``, ``avgsa``).
     """
+
+    wanted: ClassVar[str] = "an intensity measure (parse_measure)"
 
     kind: str
     periods: tuple[float, ...] = ()
@@ -211,7 +214,10 @@ def parse_measure(text: str) -> IntensityMeasure:
         raise InputError(f"intensity measure {text!r} is of no component known; allowed is {', '.join(COMPONENTS)}.")
     if component.startswith("rotd") and kind not in ("pga", "pgv", "sa", "avgsa"):
         raise InputError(f"{text!r} is not defined over directions; use {kind}@geomean or {kind}@larger.")
-    periods = tuple(parse_time(part) for part in (found["periods"] or "").split("-") if part)
+    typed = found["periods"].split("-") if found["periods"] else []
+    if not all(typed):
+        raise InputError(f"a period of intensity measure {text!r} is negative, or missing; write it as sa:1.0s.")
+    periods = tuple(map(parse_time, typed))
     if kind == "avgsa" and not periods:
         periods = AVERAGED
     wanted = {"sa": 1, "avgsa": 2}.get(kind, 0)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from types import MappingProxyType
+from typing import ClassVar
 
 import numpy as np
 
@@ -14,6 +15,9 @@ from ..constants import g
 from ..errors import InputError, check_range
 
 MAX_SAMPLES = 20_000_000
+
+#: What a motion may be multiplied by [-].
+FACTORS = (-1e6, 1e6)
 
 
 @dataclass(frozen=True, eq=False, init=False)
@@ -46,6 +50,8 @@ class Motion:
     InputError
         A step that is not positive, samples that are not finite, components of unequal length.
     """
+
+    wanted: ClassVar[str] = "a Motion, as read_motion, harmonic and MotionRequest(…).motion() make it"
 
     dt: float
     samples: np.ndarray
@@ -150,6 +156,12 @@ class Motion:
         """Largest absolute velocity along x from rest, also between samples [m/s]."""
         return peak_velocity(self.acceleration, self.dt)
 
+    @property
+    def record(self) -> str:
+        """Name of the record that this motion is of: the same for all directions, signs, components and scaled copies."""
+        turned = self.metadata.get("direction") or {}
+        return str(turned.get("record") or self.metadata.get("record") or self.name)
+
     # -- changed copies ------------------------------------------------------------------------------------------
 
     def replace(self, **changes) -> Motion:
@@ -168,9 +180,13 @@ class Motion:
         return Motion(**fields | {other.get(key, key): value for key, value in changes.items()})
 
     def scaled(self, factor: float) -> Motion:
-        """A copy with every component multiplied by ``factor``, which its name says; the samples are shared."""
-        times = check_range("`scale`", factor, -1e6, 1e6)
-        return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}")
+        """A copy with every component multiplied by ``factor`` [-], which its name says; the samples are shared.
+
+        It stays the same record: copies of one record are no independent evidence, however they are named.
+        """
+        times = check_range("factor", factor, *FACTORS)
+        kept = {**self.metadata, "record": self.record}
+        return self.replace(factor=self.factor * times, name=f"{self.name} × {times:g}", metadata=kept)
 
     def scaled_to_pga(self, pga: float) -> Motion:
         """A copy whose horizontal peak along x is ``pga`` [m/s²]; every component is multiplied alike.

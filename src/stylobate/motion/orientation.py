@@ -105,8 +105,8 @@ def along(motion: Motion, azimuth: float) -> Motion:
 
 
 def record_of(motion: Motion) -> str:
-    """The record that a motion is of: the same for all directions, signs and components of one."""
-    return str((motion.metadata.get("direction") or {}).get("record", motion.name))
+    """The record that a motion is of: the same for all directions, signs, components and scaled copies of one."""
+    return motion.record
 
 
 def beyond_axes(motion: Motion, axes: str) -> dict[str, str]:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..constants import g
-from ..errors import InputError, OutOfRangeWarning, check_choice, check_range
+from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, warn
 from .condition_specs import conditioned
 from .conditioning import warn_of_scaling
-from .motion import Motion
+from .motion import FACTORS, Motion
 from .orientation import keep_axes, rotated, turned
 from .ranges import azimuth_range
 from .readers import Suite, read_motion, read_suite
@@ -105,6 +105,15 @@ class MotionRequest:
     vertical: bool = True
 
     def __post_init__(self) -> None:
+        for name, kind in (("files", (str, Path)), ("azimuths", Real), ("condition", str)):
+            object.__setattr__(self, name, tuple(check_all(name, getattr(self, name), kind)))
+        for name in ("harmonic", "across", "pulse", "synthetic", "unit"):
+            check_kind(name, getattr(self, name), str, optional=True)
+        check_kind("component", self.component, (str, int), optional=True)
+        if self.scale is not None:
+            check_range("`scale`", self.scale, *FACTORS)
+        for name in ("dt", "pga"):
+            check_kind(name, getattr(self, name), Real, optional=True)
         given = [f"`{source}`" for source in SOURCES if getattr(self, source) not in (None, ())]
         if len(given) != 1:
             what = "no motion is given" if not given else f"{' and '.join(given)} are both given"
@@ -130,12 +139,11 @@ class MotionRequest:
             None,
         )
         if self.signs == "both" and opposite is not None:
-            warnings.warn(
+            warn(
                 f"the azimuths hold {opposite[0]:g}° and {opposite[1]:g}°, each of which is the other one reversed, and "
                 "both signs are asked for as well, so that directions are computed twice: a full circle holds both signs; "
                 "leave `signs='both'` out, or give half of the circle, such as 0:150:6.",
                 OutOfRangeWarning,
-                stacklevel=3,
             )
 
     @classmethod
@@ -229,7 +237,7 @@ class MotionRequest:
             Not one of them can be used.
         """
         if not self.several:
-            return Suite((self.motion(frequency_parameter, amplitude_open=amplitude_open),), {})
+            return Suite((_as_asked(self.motion(frequency_parameter, amplitude_open=amplitude_open)),), {})
         if self.separate or any(Path(path).is_dir() for path in self.files):
             picked = None if self.component in COMPONENTS else self.component
             suite = read_suite(self._listed(), self.unit, self.dt, component=picked)
@@ -243,7 +251,7 @@ class MotionRequest:
                 refused[motion.name] = str(error)
         if not motions:
             raise InputError(f"no record of the suite can be used; the first reason: {next(iter(refused.values()))}")
-        return Suite(tuple(motions), refused)
+        return Suite(tuple(map(_as_asked, motions)), refused)
 
     def _listed(self) -> list[Path]:
         found: list[Path] = []
@@ -324,6 +332,11 @@ class MotionRequest:
         if self.scale is not None or self.pga is not None:
             warn_of_scaling(motion)
         return motion if self.vertical else keep_axes(motion, "xy")
+
+
+def _as_asked(motion: Motion) -> Motion:
+    """A motion of a suite as a record of its own, called as it was asked for: each is of another one."""
+    return motion.replace(metadata={key: value for key, value in motion.metadata.items() if key != "record"})
 
 
 def _as_x(motion: Motion, component: str | None) -> Iterator[Motion]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+import re
 import textwrap
 from collections.abc import Callable
 from functools import wraps
@@ -17,6 +19,7 @@ from matplotlib.patheffects import AbstractPathEffect, Normal, Stroke
 from matplotlib.text import Text
 
 from ..atomic import replacing
+from ..errors import check_all, check_choice, check_kind
 
 P = ParamSpec("P")
 
@@ -77,11 +80,25 @@ _STYLE: dict[Any, Any] = {
 }
 
 
+#: Endings of pictures, and what keeps the day on which they were made out of them.
+UNDATED: dict[str, Any] = {".png": None, ".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+
+
 def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
-    """Draw in the style of this package, whatever the settings around it; titles and legends are plain text."""
+    """Draw in the style of this package, whatever the settings around it; titles and legends are plain text.
+
+    What is drawn is checked first, where it is declared as an object of a class, or as several of one.
+    """
+    drawn = next(iter(inspect.signature(draw).parameters.values()), None)
+    declared = drawn and re.fullmatch(r"(\w+)|(?:(\w+) \| )?Sequence\[(\w+)\]", str(drawn.annotation))
+    alone, _, several = declared.groups() if declared else (None, None, None)
+    kind = getattr(draw, "__globals__", {}).get(alone or several)
 
     @wraps(draw)
     def wrapped(*args: P.args, **kwargs: P.kwargs) -> Figure:
+        if drawn and isinstance(kind, type) and kind is not Any and (args or drawn.name in kwargs):
+            given: Any = args[0] if args else kwargs[drawn.name]
+            (check_kind if alone else check_all)(drawn.name, given, kind)
         with matplotlib.rc_context():
             matplotlib.rcdefaults()
             matplotlib.rcParams.update(_STYLE)
@@ -96,16 +113,26 @@ def styled(draw: Callable[P, Figure]) -> Callable[P, Figure]:
 def save(figure: Figure, stem: str | Path) -> list[Path]:
     """Write ``stem.png`` and ``stem.svg``; each appears whole or not at all.
 
+    Parameters
+    ----------
+    figure : Figure
+    stem : path
+        One that ends in ``.png``, ``.svg`` or ``.pdf`` is the one file that is written.
+
     Returns
     -------
     list of Path
-        The two files.
+        The files.
     """
+    if Path(stem).suffix.lower() in UNDATED:
+        return save_as(figure, Path(stem))
     return save_as(figure, Path(f"{stem}.png"), Path(f"{stem}.svg"))
 
 
 def save_as(figure: Figure, *files: Path) -> list[Path]:
     """Write files of the kinds that their names end in, ``.png``, ``.svg`` or ``.pdf``; as :func:`save`."""
+    for file in files:
+        check_choice("the ending of a picture", file.suffix.lower(), UNDATED)
     layout, dots = figure.get_layout_engine(), figure.dpi
     settled: dict[Any, Any] = {"figure.constrained_layout.use": False}
     with matplotlib.rc_context(_STYLE | settled):
@@ -117,11 +144,10 @@ def save_as(figure: Figure, *files: Path) -> list[Path]:
         figure.set_dpi(dots)
         try:
             for file in files:
-                kind = file.suffix.lower()[1:]
-                undated: Any = {"png": None, "svg": {"Date": None}, "pdf": {"CreationDate": None}}[kind]
-                dots = DOTS_PER_INCH if kind == "png" else "figure"
+                kind = file.suffix.lower()
+                dots = DOTS_PER_INCH if kind == ".png" else "figure"
                 with replacing(file) as partial:  # same picture, same bytes
-                    figure.savefig(partial, format=kind, dpi=dots, facecolor="white", metadata=undated)
+                    figure.savefig(partial, format=kind[1:], dpi=dots, facecolor="white", metadata=UNDATED[kind])
         finally:
             figure.set_layout_engine(layout)
     return list(files)

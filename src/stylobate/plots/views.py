@@ -7,7 +7,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
+from matplotlib.figure import Figure, SubFigure
 
 from ..column.block import FAR_AWAY
 from ..column.shapes import hull
@@ -15,7 +15,7 @@ from ..column.structure import Structure
 from ..column.turning import matrix_of
 from .elevation import NAMED, WORDS, Sheet, dimension
 from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
-from .style import BLACK, GREY, WIDTH, in_lines, styled
+from .style import BLACK, GREY, WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y, OBLIQUE, View
 
 #: From above, x to the right and y upward.
@@ -29,7 +29,7 @@ BESIDE = 5.0
 
 
 @styled
-def draw_views(structure: Structure, title: str | None = None) -> Figure:
+def draw_views(structure: Structure, title: str | None = None, *, figure: Figure | SubFigure | None = None) -> Figure:
     """What stands, before the motion: elevations along x and along y, the plan, and an oblique view, dimensions in m.
 
     Parameters
@@ -37,6 +37,8 @@ def draw_views(structure: Structure, title: str | None = None) -> Figure:
     structure : Column, Assembly, SpatialAssembly or Specimen
     title : str, optional
         None by default.
+    figure : Figure or SubFigure, optional
+        Where it is drawn; a new figure by default.
     """
     bodies = [one for one in structure.bodies if not (one.fixed and one.size > FAR_AWAY)]
     named = [(body.name, body.fixed, part) for body in bodies for part in body.placed]
@@ -50,7 +52,7 @@ def draw_views(structure: Structure, title: str | None = None) -> Figure:
     across, up, deep = (max(float(one), 0.05 * float(size.max())) for one in (size[0], size[2], size[1]))
     share = 0.62 * WIDTH / (across + deep)
     heights = [min(max(share * one + 1.0, least), most) for one, (most, least) in ((up, TALL), (deep, LOW))]
-    figure = Figure(figsize=(WIDTH, sum(heights)))
+    figure = page(figure, (WIDTH, sum(heights)))
     ratio = min(max(across / deep, 0.6), 1.7)
     (front, side), (plan, oblique) = figure.subplots(2, 2, width_ratios=(ratio, 1.0), height_ratios=heights)
     elevations = ((front, ALONG_X, "along y: x to the right"), (side, ALONG_Y, "against x: y to the right"))

@@ -17,7 +17,7 @@ NAMES = ("shear", "tension", "slip", "elongation")
 #: A link that bears this share of its capacity bears all of it, but for rounding.
 AT_CAPACITY = 1.0 - 1e-9
 
-#: Meaning of the seal.
+#: What the columns of the table count as given way, in a sentence beside it.
 YIELDS = "A link at its capacity yields or slips, and stays so."
 
 

@@ -11,7 +11,7 @@ from ..bibliography import cite_run
 from .page import as_html
 from .recorded import Recorded
 from .summary import summary_of
-from .words import describe, sentence_of
+from .words import describe, doubt_of, sentence_of
 
 if TYPE_CHECKING:
     import xarray
@@ -56,8 +56,8 @@ class Response(Recorded):
         return sentence_of(self)
 
     def describe(self) -> str:
-        """Outcome, in one or two sentences."""
-        return self.sentence
+        """What happened, in one or two sentences, and why it may be otherwise in space."""
+        return f"{self.sentence} {doubt_of(self)}".rstrip()
 
     def __repr__(self) -> str:
         return describe(self)

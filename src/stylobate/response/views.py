@@ -56,17 +56,20 @@ class Views:
 
     @property
     def drum_rotation(self) -> np.ndarray:
-        """Rotation of each drum, counter-clockwise positive (the top goes to −x) [rad], shape (T, n)."""
+        """Rotation of each body, counter-clockwise positive (the top goes to −x) [rad], shape (T, n); as ``rotation``."""
         return self.histories.drum_rotation
 
     @property
     def joint_opening(self) -> np.ndarray:
-        """Largest gap between the two faces of each joint [m], shape (T, J)."""
+        """Largest gap between the two faces of each joint [m], shape (T, J); as ``opening``."""
         return self.histories.joint_opening
 
     @property
     def joint_slip(self) -> np.ndarray:
-        """Offset along each joint of the body above, from the start [m], shape (T, J); in space (T, J, 2)."""
+        """Offset along each joint of the body above, from the start [m], shape (T, J); in space along x and y, (T, J, 2).
+
+        ``slip`` is the same with both components in the plane as well.
+        """
         return self.histories.joint_slip
 
     @property
@@ -138,7 +141,10 @@ class Views:
 
     @property
     def residual_top_displacement(self) -> float:
-        """The same at the end [m]; of the debris after a collapse."""
+        """Displacement of the middle of the top face at the end, relative to the base [m]; NaN for an assembly.
+
+        After a collapse it is that of the debris.
+        """
         return self.measures.residual_top_displacement
 
     @property
@@ -265,12 +271,15 @@ class Views:
 
     @property
     def opening(self) -> np.ndarray:
-        """Largest gap between the two faces of each joint [m], shape (T, J)."""
+        """Largest gap between the two faces of each joint [m], shape (T, J); as ``joint_opening``."""
         return self.histories.opening
 
     @property
     def slip(self) -> np.ndarray:
-        """Offset along x and y of each joint, from the start [m], shape (T, J, 2)."""
+        """Offset along x and y of each joint, from the start [m], shape (T, J, 2); zero along y in the plane.
+
+        ``joint_slip`` has the shape (T, J) there.
+        """
         return self.histories.slip
 
     @property
@@ -300,7 +309,7 @@ class Views:
 
     @property
     def rotation(self) -> np.ndarray:
-        """Rotation of every body, counter-clockwise positive [rad], shape (T, n)."""
+        """Rotation of every body, counter-clockwise positive (top to −x) [rad], shape (T, n); as ``drum_rotation``."""
         return self.histories.drum_rotation
 
     def _placed_by(self, axis: int) -> np.ndarray:

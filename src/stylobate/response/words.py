@@ -139,7 +139,7 @@ def describe(response: Recorded) -> str:
     top = "" if m.blocks else f"peak top displacement{until} {length(m.peak_top_displacement)}, "
     words = [
         f"<Response of {structure.name} ({size}) under {motion}, {response.model}, {end:.4g} s.",
-        sentence_of(response),
+        f"{sentence_of(response)} {doubt_of(response)}".rstrip(),
         f"{top[:1].upper() + top[1:]}{'p' if top else 'P'}eak rotation{until} {m.peak_rotation:.4g} rad;"
         f" energy imbalance {m.energy_imbalance:.1e}; {len(response.time)} recorded states in {response.dims}.>",
     ]

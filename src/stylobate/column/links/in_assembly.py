@@ -13,7 +13,7 @@ from ..block import Block, FaceJoint
 from .link import Link, in_space, told
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all
 
-#: Largest distance at which a bracket may hold the end of a tie from its body; how far from its joint a place may be given [m].
+#: Largest distance of the end of a tie from its body, on a bracket; and of a given place from its joint [m].
 BRACKET, BESIDE = 1.0, 1e-3
 
 #: Points along a straight link at which it is looked at whether it passes through stone.

@@ -39,7 +39,7 @@ def place_in_column(stack: Stack, links: Sequence[Link], name: str) -> tuple[Pla
 
 
 def _in_joint(link: Any, stack: Stack) -> PlacedLink:
-    """Sheets in a joint: at a place in the section, from the drum below to the drum above."""
+    """Place of a link in a joint: in the section, from the drum below to the drum above."""
     if link.joint > stack.n:
         raise InputError(
             f"there is no joint {link.joint} for a {link.kind}; the joints are 1 (with the base) to {stack.n}.", "joint"

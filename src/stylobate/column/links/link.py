@@ -120,6 +120,7 @@ class Link:
     take or refuse; ``lies`` and ``mark``.
     """
 
+    wanted: ClassVar[str] = "a Dowel, Bar, Tie, Core, Layer or Pad"
     kind: ClassVar[str] = ""
     law: ClassVar[str] = ""
     lies: ClassVar[Lies] = "joint"

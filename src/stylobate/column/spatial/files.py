@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from ...errors import InputError, OutOfRangeWarning
+from ...errors import InputError, warn
 from ..joint import Joint
 from ..materials import material
 from ..plausible import COLUMN, DENSITY, first, joint_doubts
-from ..tables import JointTable, joint_fields
+from ..tables import JointTable, density_of, joint_fields
 from .assembly import SpatialAssembly, refuse_many
 from .placing import block_of, lay_beam, refuse_crossing, stand_in_space
 from .stone import Stone
@@ -60,18 +59,13 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
     blocks = []
     for i, one in enumerate(table.block or []):
         name = one.name if one.name is not None else f"block {i + 1}"
-        density = one.density if one.density is not None else common
-        if density is None and not one.fixed:
-            raise InputError(f"block {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
-        blocks.append(block_of(one, name, density or 0.0, folder, surface(one.surface, f"block {name!r}")))
+        density = density_of(f"block {name!r}", one.density, common, 0.0 if one.fixed else None)
+        blocks.append(block_of(one, name, density, folder, surface(one.surface, f"block {name!r}")))
     beams = []
     for i, one in enumerate(table.beam or []):
         name = one.name or ("architrave" if len(table.beam or []) == 1 else f"architrave {i + 1}")
-        density = one.density if one.density is not None else common
-        if density is None:
-            density = standing[-1].density if standing else None
-        if density is None:
-            raise InputError(f"beam {name!r} has no density; add one to it, or a common one at the top [kg/m³].")
+        last = standing[-1].density if standing else None
+        density = density_of(f"beam {name!r}", one.density, common, last)
         beams.append(lay_beam(one, name, density, axes, surface(one.surface, f"beam {name!r}")))
     refuse_crossing(beams)
     overrides = []
@@ -83,7 +77,7 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
     # without [joint], as between the drums of the columns
     joint = axes[0].law if table.joint is None and stone is None else law(table.joint, "[joint]")
     for doubt in _doubts(blocks, [joint, *(each for *_, each in overrides)]):
-        warnings.warn(doubt, OutOfRangeWarning, stacklevel=5)
+        warn(doubt)
     stones = (*standing, *beams, *blocks)
     name = table.name or default_name
     return SpatialAssembly(stones, joint, name, table.gravity, ground, tuple(overrides), table.settle)

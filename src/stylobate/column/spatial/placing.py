@@ -12,10 +12,10 @@ import numpy as np
 from ...constants import DEGREE
 from ...errors import InputError, as_typed, check_range, suggest
 from ..drum import LENGTHS
-from ..files import load_column
 from ..found_in_space import space_geometry
 from ..joint import Joint
 from ..shapes import Placed
+from ..standing import standing_column
 from ..turning import UPRIGHT, Quaternion, about, product, quaternion_of
 from .mesh_files import read_mesh
 from .stone import Stone, box_shape, centre_of, drum_shape, hull_shape, triple, unit_quaternion
@@ -51,11 +51,8 @@ def stand_in_space(
     if tables and ground is None:
         raise InputError("columns stand on the ground, and ground is false; give its level in m.")
     for table in tables:
-        beside = folder / table.file
-        column = load_column(beside if beside.is_file() else table.file)
+        column = standing_column(table.file, folder)
         column.must_carry_on_whole_faces("an assembly in space")
-        if column.as_found.base_tilt:
-            raise InputError(f"{column.name!r} stands on a base out of level, and the ground of an assembly is level.")
         tilted = next((one.drum for one in column.as_found.drums if one.tilt), None)
         if tilted is not None:
             raise InputError(

@@ -11,7 +11,7 @@ import numpy as np
 
 from ..found_in_space import Edges
 from ..joint import Joint
-from ..shapes import Chipped, CircularFrustum, Placed
+from ..shapes import Chipped, CircularFrustum, Placed, cut
 from ..turning import matrix_of
 
 #: Faces touch when they are this close, as a share of the smaller body's size, and parallel to this angle [rad].
@@ -269,7 +269,7 @@ def overlap_of(below: FlatFace | None, above: FlatFace, near: float) -> Overlap 
         pieces.append((below.edges, shift, turn))
         other = below.corners @ turn.T + shift
         for normal, bound in _sides(other):
-            corners = _cut(corners, normal, bound)
+            corners = cut(corners, normal, bound)
             if len(corners) < 3:
                 return None
     area, middle = _area_of(corners)
@@ -291,16 +291,6 @@ def overlap_of(below: FlatFace | None, above: FlatFace, near: float) -> Overlap 
     elif discs:  # polygons in circles miss the same share of each
         area *= math.pi / (0.5 * AROUND * math.sin(2.0 * math.pi / AROUND))
     return Overlap(above.middle + frame[:, :2] @ middle, frame, corners, Edges(tuple(discs), tuple(sides)), area)
-
-
-def _cut(corners: np.ndarray, normal: np.ndarray, bound: float) -> np.ndarray:
-    """What of a convex polygon lies within a side [m], shape (k, 2)."""
-    inside = bound - corners @ normal
-    after, beyond = np.roll(inside, -1), np.roll(corners, -1, axis=0)
-    crosses = inside * after < 0.0
-    share = inside / np.where(crosses, inside - after, 1.0)
-    both = np.stack((corners, corners + share[:, None] * (beyond - corners)), axis=1).reshape(-1, 2)
-    return both[np.stack((inside >= 0.0, crosses), axis=1).ravel()]
 
 
 def _area_of(corners: np.ndarray) -> tuple[float, np.ndarray]:

@@ -1,4 +1,4 @@
-"""Points where the part of a column above a joint is held: the ends of round faces, whole or chipped, and corners of others."""
+"""Points where the part of a column above a joint is held: ends of round faces, whole or chipped, corners of others."""
 
 import math
 

@@ -24,7 +24,7 @@ def upper_face(u, e, l):
 
 @law
 def meeting(u, v, e, l):
-    """Places of the faces of a joint to one another: direction of the lower one; centroid, cosine and sine of the upper body;
+    """Faces of a joint to one another: direction of the lower one; centroid, cosine and sine of the upper body;
     corners of its face; ends of the overlap, and its length.
     """
     ht = e.ht[l]

@@ -1,1 +1,1 @@
-"""Common parts of the engines in the plane and in space: lists of contacts, laws and records of links, the frame of every run."""
+"""Common to the engines in the plane and in space: lists of contacts, laws and records of links, the frame of a run."""

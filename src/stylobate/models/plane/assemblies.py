@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
 from ...column.assembly import Assembly
-from ...errors import InputError, OutOfRangeWarning
+from ...errors import InputError, warn
 from ...kernels.plane.records import BETA
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
@@ -93,7 +92,7 @@ def run_assembly(
         )
     if not balanced:
         said = f"{assembly.name!r} is not in equilibrium as drawn; it moves from the start."
-        warnings.warn(said, OutOfRangeWarning, stacklevel=3)
+        warn(said)
     start = engine.energies()
     states, still = follow(engine, options, recorded)
     stack = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import warnings
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...column.structure import Structure
 from ...constants import DEGREE
-from ...errors import OutOfRangeWarning
+from ...errors import OutOfRangeWarning, warn
 from ...kernels.plane.records import LOCAL
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.shared.records import STATE
@@ -351,11 +350,10 @@ class Loose:
         depth = float(self.now["deepest"][0])
         thin = min((body.thickness, body.name) for body in self.structure.bodies if not body.fixed)
         if depth > DEEPEST * thin[0]:
-            warnings.warn(
+            warn(
                 f"blocks of {self.structure.name!r} entered each other by {1000.0 * depth:.3g} mm, and {thin[1]!r} is "
                 f"{1000.0 * thin[0]:.3g} mm thick; its impacts mean little: raise normal_stiffness.",
                 OutOfRangeWarning,
-                stacklevel=4,
             )
         return depth
 

@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from ...column import Column
-from ...errors import InputError, check_choice, check_range
+from ...errors import InputError, check_choice, check_range, warn
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
 from ..rocking.block import RockingBlock
 from ..shared.lanes import MOST_SAMPLES, run_alike
-from ..shared.rocking_limits import warn, warn_of_free_flight, warn_sliding
+from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
 from .equations import BeamMatrices
 
 if TYPE_CHECKING:

@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...column import Column
-from ...errors import InputError, check_range
+from ...errors import InputError, check_range, warn
 from ...motion import Motion
 from ...response import Measures, Response
 from ..base import Case, Model, RunOptions
-from ..shared.rocking_limits import warn, warn_of_free_flight, warn_sliding
+from ..shared.rocking_limits import warn_of_free_flight, warn_sliding
 from .block import RockingBlock
 
 #: Slenderness beyond which the linearised equation departs visibly from the nonlinear one [rad]; Housner's own limit.

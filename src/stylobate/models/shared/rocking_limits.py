@@ -3,16 +3,10 @@
 from __future__ import annotations
 
 import math
-import warnings
 
 from ...column import Column
-from ...errors import OutOfRangeWarning
+from ...errors import warn
 from ...motion import Motion
-
-
-def warn(text: str) -> None:
-    """Warn that a model is used outside a limit it declares."""
-    warnings.warn(text, OutOfRangeWarning, stacklevel=4)
 
 
 def warn_sliding(column: Column, alpha: float, name: str, remedy: str) -> None:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-import warnings
 from collections.abc import Sequence
 
 import numpy as np
 
-from ...errors import InputError, OutOfRangeWarning
+from ...errors import InputError, OutOfRangeWarning, warn
 from .numbers import NUMBER, number_in
 
 #: Steps of accelerographs [s]: 5000 to 5 samples per second.
@@ -115,7 +114,7 @@ def check_peak(
     if apart > wrong * peak:
         raise InputError(f"{text}; {CUT}.")
     if apart > PEAK_SHARE * peak:
-        warnings.warn(f"{text}: the header may be of another processing.", OutOfRangeWarning, stacklevel=6)
+        warn(f"{text}: the header may be of another processing.")
 
 
 def check_peak_time(values: np.ndarray, dt: float, stated: str | float | None, file: str, line: int) -> None:
@@ -130,11 +129,10 @@ def check_peak_time(values: np.ndarray, dt: float, stated: str | float | None, f
     near = np.abs(values[first : last + 1])
     if near.size == 0 or near.max() < 0.98 * np.abs(values).max():
         at = int(np.abs(values).argmax()) * dt
-        warnings.warn(
+        warn(
             f"{file}, line {line}: the header states its peak at {time:g} s, the samples have it at {at:g} s; check "
             "the step and whether samples are missing.",
             OutOfRangeWarning,
-            stacklevel=6,
         )
 
 
@@ -162,10 +160,9 @@ def check_ended(ended: bool, file: str, line: int, mark: str) -> None:
 def warn_of_missing(found: int, stated: int | None, file: str) -> None:
     """Fewer components than the header speaks of: the file may have been cut between two of them."""
     if stated is not None and found < stated:
-        warnings.warn(
+        warn(
             f"{file}: the header speaks of {stated} components, the file holds {found}; check that it is whole.",
             OutOfRangeWarning,
-            stacklevel=5,
         )
 
 

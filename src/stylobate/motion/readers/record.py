@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 import re
-import warnings
 
 import numpy as np
 
 from ...constants import g
-from ...errors import InputError, OutOfRangeWarning
+from ...errors import InputError, warn
 from ...percent import percent
 from ..drift import cure_of
 from ..motion import MAX_SAMPLES, Motion, integrate
@@ -135,7 +134,7 @@ def assemble(
         shortest = min(lengths)
         counts = ", ".join(f"{axis}: {length}" for axis, length in zip(axes, lengths))
         processing.append(f"cut to the common length of {shortest} samples ({counts})")
-        warnings.warn(f"{name}: {processing[-1]}.", OutOfRangeWarning, stacklevel=4)
+        warn(f"{name}: {processing[-1]}.")
     values = {axis: one.values[: min(lengths)] for axis, one in zip(axes, used)}
     for axis, one in zip(axes, used):
         processing += [f"{axis}: {text}" for text in one.processing]
@@ -197,7 +196,7 @@ def _choose(components: list[Component], wanted: str, name: str) -> Component:
 
 
 def _doubt(text: str) -> None:
-    warnings.warn(text, OutOfRangeWarning, stacklevel=5)
+    warn(text)
 
 
 def _warn_of_peak(values: dict[str, np.ndarray], step: float, name: str) -> None:

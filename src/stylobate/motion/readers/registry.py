@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 
-from ...errors import InputError
+from ...errors import InputError, check_all, check_kind
 from ..motion import Motion
 from . import (
     afad,
@@ -97,7 +98,9 @@ def read_motion(
     InputError
         The file cannot be read with certainty: one sentence that names the line, what was expected and what to do.
     """
-    paths = [path] if isinstance(path, (str, Path)) else list(path)
+    paths = check_all("path", path, (str, Path))
+    check_kind("unit", unit, str, optional=True)
+    check_kind("dt", dt, Real, optional=True)
     if not paths:
         raise InputError("no file is given; give the path of a record.")
     sources = [Source.open(one) for one in paths]

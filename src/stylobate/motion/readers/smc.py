@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-import warnings
 
 import numpy as np
 
-from ...errors import InputError, OutOfRangeWarning
+from ...errors import InputError, OutOfRangeWarning, warn
 from .checks import CUT, LONGEST_STEP, check_peak, check_peak_time, check_step
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
@@ -127,10 +126,9 @@ def _check_gaps(time: np.ndarray, file: str, start: int) -> None:
     around = np.maximum(largest[: len(steps)], largest[NEIGHBOURS + 1 :])  # of those before, and of those behind
     bad = np.flatnonzero(steps > GAP * around)
     if bad.size:
-        warnings.warn(
+        warn(
             f"{where(int(bad[0]))}, {GAP:g} times the steps before and behind it and more; check that no line is missing.",
             OutOfRangeWarning,
-            stacklevel=5,
         )
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from ...errors import InputError
+from ...errors import InputError, check_all
 from ...reading import shown
 from ..motion import Motion
 from .component import UnstatedError
@@ -18,7 +18,7 @@ MAX_FILES = 10_000
 
 @dataclass(frozen=True)
 class Suite:
-    """Records that were read, and files that were not.
+    """Records that were read, and files that were not; a list of its motions wherever one is wanted.
 
     Parameters
     ----------
@@ -30,6 +30,12 @@ class Suite:
 
     motions: tuple[Motion, ...]
     refused: dict[str, str]
+
+    def __iter__(self) -> Iterator[Motion]:
+        return iter(self.motions)
+
+    def __len__(self) -> int:
+        return len(self.motions)
 
 
 def read_suite(
@@ -67,7 +73,9 @@ def read_suite(
             raise InputError(f"{folder} is not a folder; give a folder of records, or a list of files.")
         paths = sorted(path for path in folder.iterdir() if path.is_file() and not path.name.startswith("."))
     else:
-        paths = [Path(path) for path in source]
+        paths = [Path(path) for path in check_all("source", source, (str, Path))]
+        if not paths:
+            raise InputError("source is an empty list; give a folder of records, or a list of files.", "source")
     if len(paths) > MAX_FILES:
         raise InputError(f"{len(paths)} files are given; allowed is up to {MAX_FILES}: split the suite.")
     motions, refused = [], {}
