@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from .assembly import Assembly
 from .block import Block
 from .column import Column
 from .links.link import Link, Numbers
-from .links.placed import stands_at
+from .links.placed import PlacedLink, Point, stands_at
 
 
 def of_column(column: Column) -> Assembly:
@@ -25,15 +25,15 @@ def of_column(column: Column) -> Assembly:
 
 
 def links_of_column(
-    column: Column, place: tuple[float, float], names: Mapping[str, str], prefix: str = ""
+    column: Column, ends: Callable[[PlacedLink], Sequence[Point]], names: Mapping[str, str], prefix: str = ""
 ) -> list[Link]:
-    """Links of a column that stands at a place of an assembly [m].
+    """Links of a column that stands in an assembly.
 
     Parameters
     ----------
     column : Column
-    place : (float, float)
-        Of the middle of its base, x and z [m].
+    ends : callable
+        Where the ends of a link of it are there: on its lower body and on its upper one [m].
     names : mapping of str to str
         What ``ground`` and ``drum 1`` … are called there.
     prefix : str
@@ -42,15 +42,19 @@ def links_of_column(
     links = []
     for link, one in zip(column.links, column.placed_links, strict=True):
         between: Any = tuple(names[f"drum {body}" if body else "ground"] for body in (one.lower, one.upper))
-        stand = (column.bodies[one.lower], column.bodies[one.upper])
-        places = [
-            stands_at(body.place, body.lean, end) for body, end in zip(stand, column.link_ends(one)[:2], strict=True)
-        ]
-        ends = places if one.straight else places[1:]  # what crosses a joint lies on the lower face of its upper drum
-        moved = ((x + place[0], y, z + place[1]) for x, y, z in ends)
-        where = dict(zip(("at", "to"), moved, strict=False))
+        places = ends(one)
+        crossing = places[1:]  # what crosses a joint lies on the lower face of its upper drum
+        where = dict(zip(("at", "to"), places if one.straight else crossing, strict=False))
         # what stone a pin leaves was looked at in the column
-        held: dict[str, Any] = {field.name: getattr(one, field.name) for field in dataclasses.fields(Numbers)}
-        numbers = Numbers(**{**held, "diameter": 0.0})
+        fields: dict[str, Any] = {field.name: getattr(one, field.name) for field in dataclasses.fields(Numbers)}
+        numbers = Numbers(**{**fields, "diameter": 0.0})
         links.append(type(link)(between=between, name=prefix + one.name, numbers=numbers, **where))
     return links
+
+
+def ends_in_plane(column: Column, link: PlacedLink, place: tuple[float, float]) -> list[Point]:
+    """Ends of a link of a column in the plane, the middle of whose base is at a place x, z [m]."""
+    stand = (column.bodies[link.lower], column.bodies[link.upper])
+    arms = column.link_ends(link)[:2]
+    ends = [stands_at(body.place, body.lean, arm) for body, arm in zip(stand, arms, strict=True)]
+    return [(x + place[0], y, z + place[1]) for x, y, z in ends]

@@ -17,7 +17,7 @@ from .column import GRAVITIES
 from .faces import FacePair, face_between
 from .joint import Joint, given
 from .links.in_assembly import in_numbers, place_between
-from .links.link import Link, Numbers
+from .links.link import Link
 from .links.placed import PlacedLink
 from .structure import Structure
 
@@ -119,23 +119,11 @@ class Assembly(Structure):
     def law_between(self, one: Block, other: Block) -> Joint:
         """Law of the contacts of two bodies, the second of which comes later; with what lies between them."""
         law = self._laws.get(frozenset((one.name, other.name))) or other.surface or self.joint
-        for numbers in self._beds.get(frozenset((one.name, other.name)), ()):
-            law = numbers.joint_law(law)
-        return law
+        return self.with_links_between(one.name, other.name, law)
 
     @cached_property
     def _laws(self) -> dict[frozenset[str], Joint]:
         return {frozenset((one, other)): law for one, other, law in self.overrides}
-
-    @cached_property
-    def _beds(self) -> dict[frozenset[str], list[Numbers]]:
-        """Links between two bodies by name, as contacts."""
-        beds: dict[frozenset[str], list[Numbers]] = {}
-        for link in self.links:
-            assert link.between is not None
-            assert link.numbers is not None
-            beds.setdefault(frozenset(link.between), []).append(link.numbers)
-        return beds
 
     @cached_property
     def bodies(self) -> tuple[Block, ...]:

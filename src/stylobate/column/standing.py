@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 from ..errors import InputError, check_range, suggest
-from .as_blocks import links_of_column, of_column
+from .as_blocks import ends_in_plane, links_of_column, of_column
 from .block import TOUCHING, Block
 from .column import Column
 from .drum import LENGTHS
@@ -113,7 +114,8 @@ def stand(
             drums = [_moved(stone, f"{name}, {stone.name}", x, float(ground)) for stone in stones]
             blocks += drums
             called = {"ground": "ground"} | {stone.name: f"{name}, {stone.name}" for stone in stones}
-            links += links_of_column(column, (x, float(ground)), called, f"{name}, ")
+            ends = partial(ends_in_plane, column, place=(x, float(ground)))
+            links += links_of_column(column, ends, called, f"{name}, ")
             top = sorted(drums[-1].vertices, key=lambda corner: corner[1])[-2:]
             if abs(top[0][1] - top[1][1]) > TOUCHING * column.height:
                 level = float("nan")  # it leans: nothing lies on it

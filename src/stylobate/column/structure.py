@@ -19,7 +19,7 @@ from ..errors import InputError
 from .as_found import AS_BUILT, AsFound
 from .faces import FacePair
 from .joint import Joint
-from .links.link import Link
+from .links.link import Link, Numbers
 from .links.placed import PlacedLink
 from .shapes import Glued, Outlined, Placed, Shape, hull
 from .turning import about, quaternion_of
@@ -193,6 +193,21 @@ class Structure:
     def link_ends(self, link: PlacedLink) -> tuple[np.ndarray, np.ndarray, tuple[float, float]]:
         """Places of a link on its two bodies in the axes of their faces [m], shape (3,), and in which direction it slips."""
         return *link.arms, link.along
+
+    def with_links_between(self, one: str, other: str, law: Joint) -> Joint:
+        """Law of the contacts of two bodies by name with what lies between them: pads, and the friction of layers."""
+        for numbers in self._beds.get(frozenset((one, other)), ()):
+            law = numbers.joint_law(law)
+        return law
+
+    @cached_property
+    def _beds(self) -> dict[frozenset[str], list[Numbers]]:
+        """Links between two bodies by name, as contacts."""
+        beds: dict[frozenset[str], list[Numbers]] = {}
+        for link in self.links:
+            if link.between is not None and link.numbers is not None:
+                beds.setdefault(frozenset(link.between), []).append(link.numbers)
+        return beds
 
     @property
     def surfaces(self) -> tuple[Joint, ...]:

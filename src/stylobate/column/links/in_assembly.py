@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError, suggest
 from ..block import Block, FaceJoint
-from .link import Link, in_space, told
+from .link import LEAST_LENGTH, Link, in_space, told
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all
 
 #: Largest distance of the end of a tie from its body, on a bracket; and of a given place from its joint [m].
@@ -42,10 +42,16 @@ def in_numbers(links: Sequence[Link], name: str) -> tuple[Link, ...]:
     return tuple(for_each(links, name, Link.in_numbers))
 
 
-def _placed(link: Link, bodies: Sequence[Block], joints: Sequence[FaceJoint]) -> PlacedLink:
+def bodies_named(link: Link, bodies: Sequence[Any]) -> tuple[int, int]:
+    """Numbers of the two bodies that a link names.
+
+    Raises
+    ------
+    InputError
+        A name that does not exist, one body twice, or two that are fixed.
+    """
     assert link.between is not None
-    assert link.numbers is not None
-    names = [block.name for block in bodies]
+    names = [body.name for body in bodies]
     missing = next((one for one in link.between if one not in names), None)
     if missing is not None:
         raise InputError(
@@ -59,33 +65,40 @@ def _placed(link: Link, bodies: Sequence[Block], joints: Sequence[FaceJoint]) ->
         raise InputError(
             f"a {link.kind} is between two bodies that both move with the ground; name one that can move.", "between"
         )
+    return one, other
+
+
+def placed_between(link: Link, lower: int, upper: int, low: Point, high: Point, **where: Any) -> PlacedLink:
+    """A link of two bodies by number, between its ends as drawn [m]; ``where`` has the other fields of its place."""
+    assert link.between is not None
+    assert link.numbers is not None
+    numbers = dict(vars(link.numbers))
+    if link.lies == "side":  # it does not leave its groove by opening; its legs are longer than that
+        numbers["lift"] = math.inf
+    if math.isfinite(numbers["lift"]):
+        where["stroke"] = numbers["lift"]
+    called = link.name or f"{link.kind} between {link.between[0]} and {link.between[1]}"
+    return PlacedLink(
+        **numbers, name=called, kind=link.kind, law=link.law, lies=link.lies, mark=link.mark, lower=lower, upper=upper,
+        low=low, high=high, **where,
+    )  # fmt: skip
+
+
+def _placed(link: Link, bodies: Sequence[Block], joints: Sequence[FaceJoint]) -> PlacedLink:
+    one, other = bodies_named(link, bodies)
     along = (1.0, 0.0)
     if link.lies == "joint":
         one, other, low, along = _in_joint(link, bodies, joints, one, other)
         high = low
     else:
         low, high = _ends(link, bodies, one, other)
-    numbers = dict(vars(link.numbers))
-    if link.lies == "side":  # it does not leave its groove by opening; its legs are longer than that
+    if link.lies == "side":
         along = _beside(low, high)
         _check_legs(link, bodies[one], bodies[other])
-        numbers["lift"] = math.inf
-    lift, origins = numbers["lift"], [bodies[body].origin for body in (one, other)]
-    return PlacedLink(
-        **numbers,
-        name=link.name or f"{link.kind} between {link.between[0]} and {link.between[1]}",
-        kind=link.kind,
-        law=link.law,
-        lies=link.lies,
-        mark=link.mark,
-        lower=one,
-        upper=other,
-        low=low,
-        high=high,
-        origins=((origins[0][0], 0.0, origins[0][1]), (origins[1][0], 0.0, origins[1][1])),
-        along=along,
-        stroke=lift if math.isfinite(lift) else STROKE * bodies[other].thickness,
-    )
+    origins = [(x, 0.0, z) for x, z in (bodies[body].origin for body in (one, other))]
+    frame = (along[0], 0.0, along[1]), (0.0, 1.0, 0.0), (-along[1], 0.0, along[0])
+    stroke = STROKE * bodies[other].thickness
+    return placed_between(link, one, other, low, high, origins=(origins[0], origins[1]), frame=frame, stroke=stroke)
 
 
 def _ends(link: Link, bodies: Sequence[Block], one: int, other: int) -> tuple[Point, Point]:
@@ -102,6 +115,8 @@ def _ends(link: Link, bodies: Sequence[Block], one: int, other: int) -> tuple[Po
                 f"{within}.",
                 name,
             )
+    if link.lies == "side" and math.hypot(high[0] - low[0], high[2] - low[2]) < LEAST_LENGTH:
+        raise InputError(f"a {link.kind} has no length: both its ends are at {told(low)}; move one of them.", "to")
     if getattr(link, "through_stone", False):
         return low, high
     for share in np.linspace(0.0, 1.0, LOOKS + 1):

@@ -14,6 +14,9 @@ from .materials import MATERIALS
 #: Largest length [m], stiffness [N/m], force [N] and dashpot [N s/m] of a link.
 LONGEST, STIFFEST, STRONGEST, THICKEST = 100.0, 1e13, 1e10, 1e10
 
+#: Least length of a straight link or clamp [m].
+LEAST_LENGTH = 1e-3
+
 #: Places of a link: in a joint, straight between two points, or in two blocks side by side, which no column has.
 Lies = Literal["joint", "line", "side"]
 
@@ -275,11 +278,11 @@ def length_of(kind: str, at: tuple[float, ...] | None, to: tuple[float, ...] | N
     """Length of a link between two places as drawn [m]."""
     if at is None or to is None:
         raise InputError(
-            f"a {kind} has two ends; give at = [x, z] in the first body and to = [x, z] in the second [m].", "to"
+            f"a {kind} has two ends; give at, a place in the first body, and to, one in the second [m].", "to"
         )
     low, high = in_space(at), in_space(to)
     length = math.dist(low, high)
-    if length < 1e-3 or (kind == "clamp" and math.hypot(high[0] - low[0], high[2] - low[2]) < 1e-3):
+    if length < LEAST_LENGTH:
         raise InputError(f"a {kind} has no length: both its ends are at {told(low)}; move one of them.", "to")
     return length
 

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from ...errors import InputError, within
+from ..turning import UPRIGHT, Quaternion, matrix_of
 from . import COLUMN_KINDS
 from .link import Lies, Link, Mark, Numbers
 
@@ -43,10 +44,13 @@ class PlacedLink(Numbers):
         a joint.
     origins : pair of (float, float, float)
         The points of the two bodies that their poses refer to, in the same axes [m].
+    turns : pair of (float, float, float, float)
+        Unit quaternions from the axes of the two bodies to these axes, w first.
     joint : int
         Of a column that it crosses, from 1; 0 for a straight line, and in an assembly.
-    along : (float, float)
-        Direction in the plane in which it slips; its axis is to the left of that, from the lower body to the upper one.
+    frame : three of (float, float, float)
+        Of what crosses a joint: two directions in which it slips, and its axis from the lower body to the upper one, each of
+        length 1 and across the others. In a plane it slips in the first alone.
     stroke : float
         Half the length of its mark across a joint [m].
 
@@ -63,8 +67,9 @@ class PlacedLink(Numbers):
     low: Point
     high: Point
     origins: tuple[Point, Point]
+    turns: tuple[Quaternion, Quaternion] = (UPRIGHT, UPRIGHT)
     joint: int = 0
-    along: tuple[float, float] = (1.0, 0.0)
+    frame: tuple[Point, Point, Point] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
     stroke: float = 0.0
 
     @property
@@ -88,16 +93,31 @@ class PlacedLink(Numbers):
         return math.dist(self.low, self.high)
 
     @property
-    def place(self) -> tuple[float, float]:
+    def along(self) -> tuple[float, float]:
+        """Direction in the plane of x and z in which it slips; its axis is to the left of that."""
+        return self.frame[0][0], self.frame[0][2]
+
+    @property
+    def middle(self) -> Point:
         """Point of action across a joint, as drawn: halfway between its ends [m]."""
-        return 0.5 * (self.low[0] + self.high[0]), 0.5 * (self.low[2] + self.high[2])
+        x, y, z = (0.5 * (low + high) for low, high in zip(self.low, self.high, strict=True))
+        return x, y, z
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """The same in the plane of x and z [m]."""
+        return self.middle[0], self.middle[2]
 
     @property
     def arms(self) -> tuple[np.ndarray, np.ndarray]:
         """Points of action on the two bodies: from their origins, in their own axes [m], each of shape (3,)."""
-        middle = self.place[0], self.low[1], self.place[1]
-        ends = (self.low, self.high) if self.straight else (middle, middle)
-        return np.subtract(ends[0], self.origins[0]), np.subtract(ends[1], self.origins[1])
+        low, high = (self.low, self.high) if self.straight else (self.middle, self.middle)
+        return self.on_body(0, low), self.on_body(1, high)
+
+    def on_body(self, end: int, point: Sequence[float] | np.ndarray) -> np.ndarray:
+        """A point as drawn, from the origin of the lower (0) or the upper body (1), in that body's axes [m], shape (3,)."""
+        arm, turn = np.subtract(point, self.origins[end]), self.turns[end]
+        return arm if turn == UPRIGHT else matrix_of(turn).T @ arm
 
     def crosses(self, joint: int) -> bool:
         """Whether it crosses joint 0 … n−1 of a column."""
@@ -124,16 +144,13 @@ def strokes(links: Sequence[PlacedLink]) -> list[Stroke]:
     for link in links:
         if link.mark == "sheet":
             continue
-        low, high = np.array(link.low), np.array(link.high)
-        if link.two_ended:
-            lower, upper = link.lower, link.upper
-            own = low - link.origins[0], high - link.origins[1]
-        else:
-            lower = upper = link.lower
-            up = link.stroke * np.array([-link.along[1], 0.0, link.along[0]])
-            own = low - link.origins[0] - up, low - link.origins[0] + up
+        low, high, upper = np.array(link.low), np.array(link.high), 1
+        if not link.two_ended:
+            up, upper = link.stroke * np.array(link.frame[2]), 0
             low, high = low - up, low + up
-        found.append(Stroke(link, (lower, own[0], low), (upper, own[1], high)))
+        bodies = link.lower, link.upper
+        ends = [(bodies[end], link.on_body(end, place), place) for end, place in ((0, low), (upper, high))]
+        found.append(Stroke(link, ends[0], ends[1]))
     return found
 
 

@@ -14,8 +14,13 @@ from ...errors import InputError, check_range
 from ..block import FAR_AWAY, ground_block
 from ..column import GRAVITIES
 from ..joint import Joint, given
+from ..links import link_from_dict
+from ..links.in_assembly import in_numbers
+from ..links.link import Link
+from ..links.placed import PlacedLink
 from ..shapes import Glued
 from ..structure import Body, Structure
+from .links import place_in_space
 from .stone import Stone
 from .touching import TOUCHING, Overlap, Solid, SpaceJoint, overlap_of, overlaps, separation
 
@@ -42,13 +47,15 @@ class SpatialAssembly(Structure):
         Level of the ground, a half-space [m]; None for none (fixed bodies are the only support).
     overrides : sequence of (str, str, Joint)
         Laws between two bodies by their names.
+    links : sequence of Link
+        Clamps, dowels, bars, ties, cores, layers and pads ``between`` two bodies each; kept in numbers.
     settle : bool
         Whether it begins in equilibrium; False to begin as drawn, in the air and moving if need be.
 
     Raises
     ------
     InputError
-        Bodies overlap, lie in the ground, hang in the air or share a name, or there are too many.
+        Bodies overlap, lie in the ground, hang in the air or share a name, there are too many, or a link cannot be.
     """
 
     kind: ClassVar[str] = "assembly in space"
@@ -63,10 +70,12 @@ class SpatialAssembly(Structure):
     ground: float | None = 0.0
     overrides: tuple[tuple[str, str, Joint], ...] = ()
     settle: bool = True
+    links: tuple[Link, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "stones", tuple(self.stones))
         object.__setattr__(self, "overrides", tuple(self.overrides))
+        object.__setattr__(self, "links", in_numbers(self.links, self.name))
         if self.gravity != 0.0:
             check_range("gravity", self.gravity, *GRAVITIES, unit="m/s²", remedy="or 0")
         if self.ground is not None:
@@ -90,6 +99,7 @@ class SpatialAssembly(Structure):
             self._refuse_hanging()
         else:
             self._contacts  # noqa: B018  refuses bodies that overlap
+        self.placed_links  # noqa: B018  refuses links that cannot be
 
     def _check_overrides(self) -> None:
         known, pairs = {body.name for body in self.bodies}, []
@@ -127,18 +137,27 @@ class SpatialAssembly(Structure):
 
     @property
     def laws_of_pairs(self) -> tuple[tuple[int, int, Joint], ...]:
-        """Overrides, by the numbers of their bodies."""
+        """Overrides, and of what is linked what the links make of it, by the numbers of their bodies."""
         numbers = {body.name: i for i, body in enumerate(self.bodies)}
-        pairs = [(numbers[one], numbers[other], law) for one, other, law in self.overrides]
-        return tuple((min(i, k), max(i, k), law) for i, k, law in pairs)
+        told = {tuple(sorted((numbers[one], numbers[other]))) for one, other, _ in self.overrides}
+        linked = {(min(link.lower, link.upper), max(link.lower, link.upper)) for link in self.placed_links}
+        return tuple((i, k, self.law_between(i, k)) for i, k in sorted(told | linked))
 
     def law_between(self, lower: int, upper: int) -> Joint:
-        """Law of the contacts of two bodies by number, the second of which comes later."""
-        return self._overridden.get((lower, upper)) or self.surfaces[upper]
+        """Law of the contacts of two bodies by number, the second of which comes later; with what lies between them."""
+        one, other = (self.bodies[i].name for i in (lower, upper))
+        law = self._overridden.get(frozenset((one, other))) or self.surfaces[upper]
+        return self.with_links_between(one, other, law)
 
     @cached_property
-    def _overridden(self) -> dict[tuple[int, int], Joint]:
-        return {(one, other): law for one, other, law in self.laws_of_pairs}
+    def _overridden(self) -> dict[frozenset[str], Joint]:
+        return {frozenset((one, other)): law for one, other, law in self.overrides}
+
+    @cached_property
+    def placed_links(self) -> tuple[PlacedLink, ...]:
+        """All links in numbers, in their order."""
+        solids = self.solids if self.ground is None else ((), *self.solids)
+        return place_in_space(self.bodies, solids, self.space_joints, self.ground, self.links, self.name)
 
     @cached_property
     def solids(self) -> tuple[tuple[Solid, ...], ...]:
@@ -276,12 +295,13 @@ class SpatialAssembly(Structure):
             "ground": self.ground,
             "overrides": [[one, other, given(law)] for one, other, law in self.overrides],
             "settle": self.settle,
-        }
+        } | ({"links": [link.to_dict() for link in self.links]} if self.links else {})
 
     @classmethod
     def from_dict(cls, data: dict) -> SpatialAssembly:
         """The assembly that :meth:`to_dict` has written."""
         special = {
+            "links": tuple(link_from_dict(fields) for fields in data.get("links", ())),
             "stones": tuple(Stone.from_dict(stone) for stone in data["stones"]),
             "joint": Joint(**data["joint"]),
             "overrides": tuple((one, other, Joint(**law)) for one, other, law in data["overrides"]),

@@ -8,6 +8,7 @@ from typing import Any
 
 from ...errors import InputError, warn
 from ..joint import Joint
+from ..links.tables import links_between
 from ..materials import material
 from ..plausible import COLUMN, DENSITY, first, joint_doubts
 from ..tables import JointTable, density_of, joint_fields
@@ -35,15 +36,11 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
     """
     if table.ground is True:
         raise InputError("ground is true; give its level in m, or false for none.")
-    if table.link:
-        raise InputError(
-            "assemblies in space take no [[link]] so far; leave it out, or describe the assembly in the plane."
-        )
     if not (table.block or table.column):
         raise InputError("there is neither [[block]] nor [[column]]; add one of the two.")
     refuse_many(len(table.block or []))
     ground = None if table.ground is False else float(table.ground)
-    standing, axes = stand_in_space(table.column or [], folder, table.gravity, ground)
+    standing, axes, links = stand_in_space(table.column or [], folder, table.gravity, ground)
     stone = None if table.material is None else material(table.material)
     common = table.density if table.density is not None or stone is None else stone.density.value
     if table.joint is None and stone is None and not axes:
@@ -80,7 +77,9 @@ def spatial_assembly(table: SpatialTable, default_name: str, folder: Path) -> Sp
         warn(doubt)
     stones = (*standing, *beams, *blocks)
     name = table.name or default_name
-    return SpatialAssembly(stones, joint, name, table.gravity, ground, tuple(overrides), table.settle)
+    links += links_between(table.link or [])
+    rest = tuple(overrides), table.settle, tuple(links)
+    return SpatialAssembly(stones, joint, name, table.gravity, ground, *rest)
 
 
 def _doubts(blocks: Sequence[Stone], laws: Sequence[Joint]) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,12 +12,16 @@ import numpy as np
 
 from ...constants import DEGREE
 from ...errors import InputError, as_typed, check_range, suggest
+from ..as_blocks import links_of_column
+from ..column import Column
 from ..drum import LENGTHS
-from ..found_in_space import space_geometry
+from ..found_in_space import SpaceGeometry, space_geometry
 from ..joint import Joint
+from ..links.link import Link
+from ..links.placed import PlacedLink, Point
 from ..shapes import Placed
 from ..standing import standing_column
-from ..turning import UPRIGHT, Quaternion, about, product, quaternion_of
+from ..turning import UPRIGHT, Quaternion, about, matrix_of, product, quaternion_of
 from .mesh_files import read_mesh
 from .stone import Stone, box_shape, centre_of, drum_shape, hull_shape, triple, unit_quaternion
 from .tables import PartTable, SpaceBeamTable, SpaceBlockTable, SpaceColumnsTable
@@ -38,8 +43,8 @@ class Axis(NamedTuple):
 
 def stand_in_space(
     tables: Sequence[SpaceColumnsTable], folder: Path, gravity: float, ground: float | None
-) -> tuple[list[Stone], list[Axis]]:
-    """Drums of columns that stand on the ground, and where their axes are.
+) -> tuple[list[Stone], list[Axis], list[Link]]:
+    """Drums of columns that stand on the ground, where their axes are, and their links.
 
     Raises
     ------
@@ -48,6 +53,7 @@ def stand_in_space(
     """
     stones: list[Stone] = []
     axes: list[Axis] = []
+    links: list[Link] = []
     if tables and ground is None:
         raise InputError("columns stand on the ground, and ground is false; give its level in m.")
     for table in tables:
@@ -58,10 +64,6 @@ def stand_in_space(
             raise InputError(
                 f"drum {tilted} of {column.name!r} is found tilted; an assembly in space takes offsets, turns and chips as "
                 "found, and no tilt so far: leave it out."
-            )
-        if column.links:
-            raise InputError(
-                f"{column.name!r} has a {column.links[0].kind}, and assemblies in space take no links so far; leave it out."
             )
         if column.gravity != gravity:
             raise InputError(
@@ -79,7 +81,24 @@ def stand_in_space(
                 stones.append(Stone(parts, place, drum.density, f"{name}, {body.name}", turned, surface=law))
             level = float(ground or 0.0) + column.height
             axes.append(Axis(name, (x, y), level, stones[-1], column.joints[-1]))
-    return stones, axes
+            called = {"ground": "ground"} | {body.name: f"{name}, {body.name}" for body in column.bodies[1:]}
+            stands = partial(_ends_of, column, at, np.array([x, y, float(ground or 0.0)]), matrix_of(turn))
+            links += links_of_column(column, stands, called, f"{name}, ")
+    return stones, axes, links
+
+
+def _ends_of(column: Column, at: SpaceGeometry, foot: np.ndarray, turned: np.ndarray, link: PlacedLink) -> list[Point]:
+    """Ends of a link of a column as found, the middle of whose base is at a foot [m] and whose axes are turned so."""
+    arms = list(link.arms)
+    if not link.straight:  # it is fixed in the lower face of its upper drum
+        below = (0.0, 0.0, -column.drums[link.upper - 1].centroid_height)
+        arms[1] = below + at.bed[link.upper - 1] @ (*link.high[:2], 0.0)
+    found = []
+    for body, arm in zip((link.lower, link.upper), arms, strict=True):
+        end = at.centroid[body - 1] + at.axes[body - 1] @ arm if body else arm
+        x, y, z = (float(one) for one in foot + turned @ end)
+        found.append((x, y, z))
+    return found
 
 
 def _places(table: SpaceColumnsTable) -> list[tuple[float, float]]:

@@ -139,6 +139,36 @@ class Solid:
         ends += [drum.top * 0.5 * across + along * (drum.height - drum.centroid)]
         return ways @ self.place + np.maximum(*ends)
 
+    def depth(self, points: np.ndarray) -> np.ndarray:
+        """Depth of points within it [m], shape (m, 3) to (m,); negative outside, as far as they are beyond its faces."""
+        if self.whole is None:
+            normals, bounds = self._planes
+            return (bounds - points @ normals.T).min(axis=1)
+        drum, axis = self.whole, self.axes[:, 2]
+        away = points - self.place
+        up = away @ axis + drum.centroid
+        slope = 0.5 * (drum.bottom - drum.top) / drum.height
+        out = np.linalg.norm(away - np.outer(away @ axis, axis), axis=1)
+        side = (0.5 * drum.bottom - slope * up - out) / math.hypot(1.0, slope)
+        return np.minimum(side, np.minimum(up, drum.height - up))
+
+    @cached_property
+    def _planes(self) -> tuple[np.ndarray, np.ndarray]:
+        """Outward normals of its faces and how far these are out [-], [m], shapes (k, 3) and (k,)."""
+        normals = []
+        for loop in self.loops:
+            corners = self.vertices[list(loop)]
+            normal = np.cross(corners, np.roll(corners, -1, axis=0)).sum(axis=0)
+            normals.append(normal / np.linalg.norm(normal))
+        found = np.array(normals)
+        return found, (self.vertices @ found.T).max(axis=0)
+
+    @property
+    def thickness(self) -> float:
+        """Smallest distance of a face from what is farthest from it [m]; of a round side, the least diameter."""
+        normals = self._planes[0]
+        return float((self.extent(normals) + self.extent(-normals)).min())
+
     @cached_property
     def faces(self) -> tuple[FlatFace, ...]:
         """All that are flat, but for chips of round drums."""
