@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from ..outcome import Outcome, classify
 from .assembly_measures import TURNED, lowest_standing
 from .collapse import FELL, Collapse
 from .histories import Histories
+from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures
 from .poses import quaternions
 from .recorded import Recorded
@@ -34,6 +36,8 @@ def recorded_in_space(
     steps: int,
     model: str,
     provenance: dict[str, Any],
+    links: tuple[LinkMeasures, ...] = (),
+    held: LinkHistories | None = None,
 ) -> Recorded:
     """A run of an assembly in space from the recorded poses of its bodies.
 
@@ -48,7 +52,7 @@ def recorded_in_space(
         Ledger [J], each term of shape (T,).
     ground_acceleration, ground_displacement : array
         [m/s²], [m], shape (T, 3)
-    at_rest, in_equilibrium, energy_imbalance, time_step, steps, model, provenance
+    at_rest, in_equilibrium, energy_imbalance, time_step, steps, model, provenance, links, held
         As of an assembly in the plane.
     failure : str
         Why the run has failed and has no verdict; empty if it has one.
@@ -82,11 +86,14 @@ def recorded_in_space(
         reason=failure,
         collapse=Collapse(first, None, FELL, azimuth) if collapsed else None,
         blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
+        links=links,
     )
     histories = Histories.in_space(
         time, position, quaternions(axes), opening, slip, twist, None, None, ground_acceleration,
         ground_displacement, energy,
     )  # fmt: skip
+    if held is not None:
+        histories = replace(histories, links=held)
     return Recorded(structure, histories, measures, model, provenance, followed=True)
 
 

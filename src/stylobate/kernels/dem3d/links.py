@@ -81,6 +81,7 @@ def across(k, b, f, u, v, l):
     k.fx[l] = fa
     k.fy[l] = fb
     k.slip[l] = far
+    k.long[l] = lift - k.h[l]
     k.on[l] = whole
     k.out[l] = out
     fx, fy, fz = in_space(v, l, fa, fb, 0.0)
@@ -108,13 +109,19 @@ def against_opening(k, b, f, u, v, l):
     put(f, l, -pull * v.kx[l], -pull * v.ky[l], -pull * v.kz[l], ax, ay, az, bx, by, bz)
 
 
-@long_law
-def straight(k, b, f, u, v, l):
-    """Adds a tie or core between two points."""
+@law
+def ends(u, v, k, l):
+    """Ends of a straight link from the centroids of its bodies, the way from the lower to the upper one, its length [m]."""
     ax, ay, az = in_space(v, l, k.ax[l], k.ay[l], k.az[l])
     bx, by, bz = in_space(u, l, k.bx[l], k.by[l], k.bz[l])
     dx, dy, dz = u.x[l] + bx - v.x[l] - ax, u.y[l] + by - v.y[l] - ay, u.z[l] + bz - v.z[l] - az
-    length = math.sqrt(dx * dx + dy * dy + dz * dz)
+    return ax, ay, az, bx, by, bz, dx, dy, dz, math.sqrt(dx * dx + dy * dy + dz * dz)
+
+
+@long_law
+def straight(k, b, f, u, v, l):
+    """Adds a tie or core between two points."""
+    ax, ay, az, bx, by, bz, dx, dy, dz, length = ends(u, v, k, l)
     size = -pulled(k, l, length) / max(length, 1e-12)
     put(f, l, size * dx, size * dy, size * dz, ax, ay, az, bx, by, bz)
 

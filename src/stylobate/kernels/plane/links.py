@@ -7,7 +7,7 @@ import math
 
 from ..jit import apart, kernel, law
 from ..run_codes import CHUNK
-from ..shared.links import held, look_at_hold, look_at_links, note_slack, pulled, some_leaves
+from ..shared.links import begun, clamped, held, look_at_hold, look_at_links, note_slack, pulled, some_leaves
 from .point_joint import face
 
 
@@ -105,20 +105,7 @@ def along_itself(body, load, link, bond, pair, n, m):
     f = load[n]
     for l in range(k.on.shape[0]):
         _, at_q, tc, ts, ax, az, bx, bz = at_place(u, v, k, l)
-        long = at_q - k.h[l]
-        way = long - k.l0[l]
-        side = 1.0 if way > 0.0 else -1.0
-        force, on, wider, heat, whole, _, most = held(
-            abs(way), k.back[l], b.ya, k.ka[l], 0.0, 1.0, 0.0, k.on[l], 0.0, b.bra, b.cra, abs(long), k.ua[l],
-            k.ft[l] * k.ft[l],
-        )  # fmt: skip
-        pull = side * force
-        k.l0[l] += side * on
-        k.back[l] += wider
-        k.lost[l] += heat
-        k.pull[l] = max(k.pull[l], most)
-        k.ft[l] = pull
-        k.on[l] = whole
+        pull = clamped(k, b, l, at_q)
         add(f, l, ts * pull, -tc * pull, ax, az, bx, bz)
 
 
@@ -232,11 +219,4 @@ def begin(body, joint, link, bond, pair):
             _, _, _, _, _, _, length = ends(u, v, k, l)
             at_s, at_q, _, _, _, _, _, _ = at_place(u, v, k, l)
             k.sx[l] = k.px[l] = at_s
-            k.h[l] = length if b.line != 0 else at_q
-            free = -k.ft[l] / k.ka[l] if k.ft[l] > 0.0 else 0.0
-            k.l0[l] = free if b.both != 0 else k.h[l] + free
-            k.pull[l] = k.ft[l]
-            k.fx[l] = k.peak[l] = k.dx[l] = k.lost[l] = k.drag[l] = 0.0
-            k.slip[l] = k.long[l] = k.far[l] = k.most[l] = k.out[l] = 0.0
-            k.on[l] = 1.0
-            k.when[l] = -1
+            begun(k, b, l, length if b.line != 0 else at_q)

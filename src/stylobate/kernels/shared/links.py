@@ -75,6 +75,40 @@ def held(size, gap, yields, stiffness, lift, deepest, reach, whole, out, brittle
 
 
 @law
+def clamped(k, b, l, length):
+    """Force of a clamp along itself at a length, tension positive, and its memory: as in shear, in both senses."""
+    long = length - k.h[l]
+    way = long - k.l0[l]
+    side = 1.0 if way > 0.0 else -1.0
+    force, on, wider, heat, whole, _, most = held(
+        abs(way), k.back[l], b.ya, k.ka[l], 0.0, 1.0, 0.0, k.on[l], 0.0, b.bra, b.cra, abs(long), k.ua[l],
+        k.ft[l] * k.ft[l],
+    )  # fmt: skip
+    pull = side * force
+    k.l0[l] += side * on
+    k.back[l] += wider
+    k.lost[l] += heat
+    k.pull[l] = max(k.pull[l], most)
+    k.ft[l] = pull
+    k.on[l] = whole
+    k.long[l] = long
+    return pull
+
+
+@law
+def begun(k, b, l, length):
+    """Lets a link begin at a lift or length: whole, and free of force but for what it is pretensioned by, ``ft``."""
+    free = -k.ft[l] / k.ka[l] if k.ft[l] > 0.0 else 0.0
+    k.h[l] = length
+    k.l0[l] = free if b.both != 0 else length + free
+    k.pull[l] = k.ft[l]
+    k.fx[l] = k.fy[l] = k.peak[l] = k.dx[l] = k.dy[l] = k.lost[l] = k.drag[l] = 0.0
+    k.slip[l] = k.long[l] = k.far[l] = k.most[l] = k.out[l] = 0.0
+    k.on[l] = 1.0
+    k.when[l] = -1
+
+
+@law
 def note_slack(k, l, size, far, speed, time):
     """Notes of a dowel whose slip is so large and grows so fast by how much it may leave its slack within a time [s]."""
     way = SPEEDS * speed * time + HASTE * time * time
@@ -110,6 +144,21 @@ def note_peaks(link, bond, m):
         k.most[l] = max(k.most[l], abs(k.long[l]) if pressed else k.long[l])
 
 
+@law
+def handed_over(k, l):
+    """Heat of a link and of its dashpot since it was asked last [J]."""
+    lost, drag = k.lost[l], k.drag[l]
+    k.lost[l] = k.drag[l] = 0.0
+    return lost, drag
+
+
+@law
+def note_break(k, l, step):
+    """Notes of a link that is lost the step after which it was seen first."""
+    if k.on[l] == 0.0 and k.when[l] < 0:
+        k.when[l] = step
+
+
 @kernel
 def look_at_links(link, bond, lane, feed, watch):
     """Between chunks of steps: peaks, links that have broken, what they have made heat of."""
@@ -122,11 +171,11 @@ def look_at_links(link, bond, lane, feed, watch):
         if b.near == 0:
             continue
         for l in range(k.on.shape[0]):
-            o.shear[l] += k.lost[l]
-            o.visc[l] += k.drag[l]
-            k.lost[l] = k.drag[l] = 0.0
-            if k.on[l] == 0.0 and k.when[l] < 0 and w.status[l] == RUNNING:
-                k.when[l] = feed[0].step[l]
+            lost, drag = handed_over(k, l)
+            o.shear[l] += lost
+            o.visc[l] += drag
+            if w.status[l] == RUNNING:
+                note_break(k, l, feed[0].step[l])
 
 
 @kernel

@@ -45,10 +45,17 @@ Legend::
                deepest        largest mean depth of the bed so far [m]
                work shear visc  work of the input, of the friction springs on their surroundings reversed, of dampers [J]
                pairs touched status  pairs listed; first step with a foreign contact, −1; RUNNING or FAILED
+    ties         the links: arrays link, bond, seat and load of as many rows each; see ``shared/link_records.py``, and
+    bond[m]    lower upper    its bodies;  i[3] j[3] k[3]  of what crosses a joint two directions along it and the one across
+                              it, from the lower body to the upper one, in the axes of the lower body [-]
+    seat[m]                   the lower body in these axes;  ht  0
+    load[m]    f up lo        force on the upper body, moments on the upper and the lower one [N], [N m]
     feed ground  as in ``dem3d/records.py``, of one lane
 """
 
 import numpy as np
+
+from ..shared.link_records import BOND_TYPE, link_types
 
 #: Kinds of shapes.
 BLOCK, DRUM, GROUND = range(3)
@@ -93,6 +100,12 @@ def types() -> dict[str, np.dtype]:
             + fields("g", 3)
             + counts("pairs touched status")
         ),
+        "link": link_types(1)[0],
+        "bond": np.dtype(
+            [(name, BOND_TYPE[name]) for name in BOND_TYPE.names or ()] + counts("lower upper") + fields("i j k", 3)
+        ),
+        "seat": np.dtype(fields(f"x y z vx vy vz wx wy wz {axes} ht", 1)),
+        "load": np.dtype(fields("f up lo", 3, 1)),
         "feed": np.dtype(fields("x y z last step", 1, kind=np.int64) + fields("ratio factor", 1) + fields("r", 9, 1)),
         "ground": np.dtype(fields("a", 3, 1)),
     }

@@ -1,7 +1,7 @@
 """The step of bodies in space of which any two may touch: forces, motion, list of pairs, and the ledger.
 
-State, a tuple in this order: body, shape, vertex, plane, loop, corner, pair, spare, joint, edge, law, now, feed, ground and
-the workspaces of a contact, of a joint and of a search; see ``records.py``.
+State, a tuple in this order: body, shape, vertex, plane, loop, corner, pair, spare, joint, edge, law, now, feed, ground,
+the workspaces of a contact, of a joint and of a search, and the links; see ``records.py``.
 """
 
 import math
@@ -9,8 +9,10 @@ import math
 from ..dem3d.step import base_acceleration
 from ..jit import kernel, strict
 from ..run_codes import CHUNK, FAILED
+from ..shared.links import add_to_ledger
 from .bed import forget, press, touching
 from .joints import on_joint
+from .links import add_links, look_at_links
 from .motion import check, kinetic_and_gravitational, move
 from .search import list_pairs
 from .vectors import of
@@ -25,7 +27,9 @@ MOST_PARTS = 8
 @kernel
 def forces(state):
     """Forces of all contacts on all bodies at t_n; brings their memory from t_{n−1} to t_n."""
-    body, shape, vertex, plane, loop, corner, pair, _, joint, edge, law, now_, feed, _, work, places, simplex = state
+    body, shape, vertex, plane, loop, corner, pair, _, joint, edge, law, now_, feed, _, work, places, simplex, ties = (
+        state
+    )
     now = now_[0]
     for i in range(body.shape[0]):
         for c in range(3):
@@ -52,19 +56,20 @@ def forces(state):
                 now.touched = feed[0].step[0]
         elif p.area > 0.0:
             forget(p)
+    add_links(body, ties, now.last)
 
 
 @kernel
 def list_all(state):
     """List anew all pairs of shapes that may touch."""
-    body, shape, vertex, _, _, _, pair, spare, joint, _, _, now, _, _, _, _, simplex = state
+    body, shape, vertex, _, _, _, pair, spare, joint, _, _, now, _, _, _, _, simplex, _ = state
     list_pairs(body, shape, vertex, pair, spare, joint, now[0], simplex)
 
 
 @kernel
 def advance(state, chunks):
     """Advance by ``chunks`` × CHUNK steps."""
-    body, _, _, _, _, _, _, _, _, _, _, now_, feed, ground, _, _, _ = state
+    body, _, _, _, _, _, _, _, _, _, _, now_, feed, ground, _, _, _, ties = state
     now = now_[0]
     for _ in range(chunks):
         base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
@@ -95,6 +100,7 @@ def advance(state, chunks):
                 if farthest > 0.5 * now.skin:
                     list_all(state)
             feed[0].step[0] += 1
+        look_at_links(ties, now, feed[0].step[0])
         check(body, now)
         if now.status == FAILED:
             break
@@ -118,7 +124,7 @@ def ledger(state, a, out):
 
     The middle three are absolute. ``a`` is the acceleration of the base at t_n.
     """
-    body, _, _, _, _, _, pair, _, joint, _, _, now_, _, _, _, _, _ = state
+    body, _, _, _, _, _, pair, _, joint, _, _, now_, _, _, _, _, _, ties = state
     now = now_[0]
     elastic = 0.0
     held = 0.0
@@ -135,3 +141,4 @@ def ledger(state, a, out):
     out[3] = elastic + held
     out[4] = now.shear - held
     out[5] = now.visc
+    add_to_ledger(ties[0], ties[1], 0, out)

@@ -138,6 +138,7 @@ class DistinctElement3D(SteppedDrums):
     computes: ClassVar[tuple[type, ...]] = (*DRUMS, ConvexSolid, Glued)
     takes_as_found: ClassVar[bool] = True
     takes_rings: ClassVar[bool] = True
+    takes_links: ClassVar[frozenset[str]] = SteppedDrums.takes_links | {"clamp"}
 
     law: str = "rim"
     pivot_friction: float = 1.0

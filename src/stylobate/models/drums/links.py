@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -120,28 +121,48 @@ def link_stiffness(column: Column) -> LinkStiffness:
     axial = np.array([drum.axial_inertia for drum in column.drums])
     mass = column.masses
     inverse = 1.0 / np.stack((mass, mass, mass, cross, column.inertias, axial), axis=1).ravel()
-    springs, dashpots = np.zeros((6 * n, 6 * n)), np.zeros((6 * n, 6 * n))
-    for link in links:
-        if link.straight:
-            way = (np.array(link.high) - link.low) / link.length
-            springs += link.axial_stiffness * _square(column, link, way)
-            continue
-        for axis in np.eye(3)[:2]:
-            square = _square(column, link, axis)
-            springs += link.shear_stiffness * square
-            dashpots += link.damping * square
-        springs += link.axial_stiffness * _square(column, link, np.eye(3)[2])
+    springs, dashpots = link_matrices(links, partial(_row, column), 6 * n)
     return LinkStiffness(highest_frequency(springs, inverse), highest_frequency(dashpots, inverse) ** 2)
 
 
-def _square(column: Column, link: PlacedLink, way: np.ndarray) -> np.ndarray:
-    """Share of a unit of stiffness along a direction in the stiffness of the drums."""
+def link_matrices(
+    links: Sequence[PlacedLink], row: Callable[[PlacedLink, np.ndarray], np.ndarray], count: int, across: int = 2
+) -> tuple[np.ndarray, np.ndarray]:
+    """Stiffness [N/m] and dashpots [N s/m] of links against all coordinates of bodies, shape (count, count) each.
+
+    Parameters
+    ----------
+    links : sequence of PlacedLink
+    row : callable
+        How far the ends of a link come apart along a direction in space for each of the coordinates, shape (count,).
+    count : int
+    across : int
+        In how many directions they slip: 2, or 1 in a plane.
+    """
+    springs, dashpots = np.zeros((count, count)), np.zeros((count, count))
+    for link in links:
+        ways = np.array(link.frame)
+        axis = np.subtract(link.high, link.low) / link.length if link.straight else ways[2]
+        springs += link.axial_stiffness * _square(row(link, axis))
+        for way in ways[:across] if not link.straight else ():
+            square = _square(row(link, way))
+            springs += link.shear_stiffness * square
+            dashpots += link.damping * square
+    return springs, dashpots
+
+
+def _square(row: np.ndarray) -> np.ndarray:
+    return np.outer(row, row)
+
+
+def _row(column: Column, link: PlacedLink, way: np.ndarray) -> np.ndarray:
+    """Of the drums in space, three places and three turns each."""
     row = np.zeros(6 * column.n)
     low, high = link.arms
     for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):
         if body:
             row[6 * body - 6 : 6 * body] = sign * np.concatenate((way, np.cross(arm, way)))
-    return np.outer(row, row)
+    return row
 
 
 def with_links(added: LinkStiffness, omega: float, stiffness_damping: float) -> tuple[float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from ...column.links.placed import PlacedLink
 from ...column.structure import Structure
 from ...kernels.shared.link_records import OWN, link_types
-from ..drums.links import LinkStiffness, acting, hold_of, law_fields
+from ..drums.links import LinkStiffness, acting, hold_of, law_fields, link_matrices
 from ..shared.stable_step import highest_frequency
 
 
@@ -57,24 +58,14 @@ def stiffness_between(structure: Structure, inverse: np.ndarray) -> LinkStiffnes
     links, count = acting(structure), len(inverse)
     if not links:
         return LinkStiffness(0.0, 0.0)
-    springs, dashpots = np.zeros((count, count)), np.zeros((count, count))
-    for link in links:
-        if link.straight:
-            way = np.array([link.high[0] - link.low[0], link.high[2] - link.low[2]]) / link.length
-            springs += link.axial_stiffness * _square(link, way, count)
-            continue
-        t = np.array(link.along)
-        square = _square(link, t, count)
-        springs += link.shear_stiffness * square
-        dashpots += link.damping * square
-        springs += link.axial_stiffness * _square(link, np.array([-t[1], t[0]]), count)
+    springs, dashpots = link_matrices(links, partial(_row, count), count, 1)
     return LinkStiffness(highest_frequency(springs, inverse), highest_frequency(dashpots, inverse) ** 2)
 
 
-def _square(link: PlacedLink, way: np.ndarray, count: int) -> np.ndarray:
-    """Share of a unit of stiffness along a direction in the stiffness of the bodies."""
-    row = np.zeros(count)
+def _row(count: int, link: PlacedLink, way: np.ndarray) -> np.ndarray:
+    """Of the bodies in the plane, two places and a turn each."""
+    row, (x, _, z) = np.zeros(count), way
     low, high = link.arms
     for body, arm, sign in ((link.upper, high, 1.0), (link.lower, low, -1.0)):
-        row[3 * body : 3 * body + 3] = sign * np.array([*way, arm[0] * way[1] - arm[2] * way[0]])
-    return np.outer(row, row)
+        row[3 * body : 3 * body + 3] = sign * np.array([x, z, arm[0] * z - arm[2] * x])
+    return row

@@ -16,6 +16,7 @@ from ...motion import Motion
 from ...response import Response
 from ...response.space_measures import fallen, recorded_in_space
 from ..base import RunOptions, refuse_endless, refuse_long_histories
+from ..drums.links import acting, link_histories, link_measures, link_snapshot
 from ..shared import ledger
 from ..shared.ground import BEFORE, ground_histories, value_at
 from ..shared.stable_step import chosen_step
@@ -69,7 +70,7 @@ def engine_of(structure: Structure, numbers: SpatialNumbers, restitution: float)
     solids, first = solids_of(structure)
     joints = joints_of(structure, solids, first)
     gravity = (0.0, 0.0, structure.gravity)
-    return Loose(solids, laws_of(structure), gravity, restitution, numbers.stiffness_damping, joints)
+    return Loose(solids, laws_of(structure), gravity, restitution, numbers.stiffness_damping, joints, acting(structure))
 
 
 def expected_step(structure: Structure, numbers: SpatialNumbers) -> tuple[float, float]:
@@ -124,7 +125,7 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
     engine.shake(motion)
     start = engine.energies()
     states, still = _follow(engine, structure, motion, duration, options)
-    stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0]}
+    stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = max(_imbalance(change, start), _imbalance_before_falls(structure, stack, change, start))
     failure = ledger.out_of_balance(imbalance, LARGEST_IMBALANCE)
@@ -151,6 +152,8 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
         time_step=engine.dt,
         steps=engine.steps,
         model=numbers.name,
+        links=link_measures(engine.links, engine.ties.link, 0, engine.dt),
+        held=link_histories(states),
         provenance={
             "restitution": restitution,
             "joints": len(engine.joint),
@@ -226,4 +229,4 @@ def _state(engine: Loose, motion: Motion) -> dict[str, Any]:
         "position": engine.places,
         "axes": engine.axes_of_all,
         "energy": engine.energies(base),
-    }
+    } | ({"links": link_snapshot(engine.ties.link, 0)} if engine.links else {})

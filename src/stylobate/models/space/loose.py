@@ -8,11 +8,14 @@ from typing import Any
 
 import numpy as np
 
+from ...column.links.placed import PlacedLink
 from ...kernels.run_codes import CHUNK, FAILED
 from ...kernels.space.records import types, workspace, workspace_of_joints
 from ...motion import Motion
+from ..drums.links import with_links
 from ..shared.settling import LOCAL_DAMPING, settled
 from ..shared.stable_step import highest_frequency, stable_step
+from .links import stiffness_of, ties_of
 from .solids import FacesJoined, Solid, pack, pack_joints
 
 #: Below this speed the restitution of a contact acts like a dashpot [m/s].
@@ -53,6 +56,8 @@ class Loose:
     stiffness_damping : float
         [s]
     joints : sequence of FacesJoined
+    links : tuple of PlacedLink
+        That act; they begin where the bodies are.
     """
 
     def __init__(
@@ -63,10 +68,12 @@ class Loose:
         restitution: float = 1.0,
         stiffness_damping: float = 0.0,
         joints: Sequence[FacesJoined] = (),
+        links: tuple[PlacedLink, ...] = (),
     ) -> None:
+        from ...kernels.space import links as bonds
         from ...kernels.space import step as kernel
 
-        self.kernel, kinds = kernel, types()
+        self.bonds, self.kernel, kinds = bonds, kernel, types()
         self.packed = packed = pack(solids)
         n, e = len(packed.shape), restitution
         self.now, self.feed = np.zeros(1, kinds["now"]), np.zeros(1, kinds["feed"])
@@ -81,11 +88,13 @@ class Loose:
         self.pair, spare = np.zeros(most, kinds["pair"]), np.zeros(most, kinds["pair"])
         self.joint, edge = pack_joints(joints, packed)
         self.body, self.law = packed.body, np.ascontiguousarray(law)
+        self.links, self.ties = links, ties_of(links, packed.turn)
         self.state: tuple[Any, ...] = (
             packed.body, packed.shape, packed.vertex, packed.plane, packed.loop, packed.corner, self.pair, spare,
             self.joint, edge, self.law, now, self.feed, np.zeros(CHUNK + 1, kinds["ground"]),
-            workspace(), workspace_of_joints(), np.zeros((4, 3)),
+            workspace(), workspace_of_joints(), np.zeros((4, 3)), tuple(self.ties),
         )  # fmt: skip
+        self.begin_links()
         self.dt = 0.0
         self.stood_at, self.stood_since = np.full((len(solids), 12), np.inf), 0.0
         self.lowest_level = float((packed.body["z"][:, 0] - packed.body["r"])[self.free].min()) - 10.0 * self.smallest
@@ -96,6 +105,14 @@ class Loose:
         self.now["dt"] = step
         self.now["last"] = 0.0
         self.kernel.list_all(self.state)
+
+    def begin_links(self) -> None:
+        """Let the links be free of force where the bodies are now, but for their pretension."""
+        if self.links:
+            link = self.ties.link
+            link["ft"][:, 0] = [one.pretension for one in self.links]
+            link["gap"][:, 0] = link["back"][:, 0] = [one.clearance for one in self.links]
+            self.bonds.begin(self.body, tuple(self.ties))
 
     def shake(self, motion: Motion) -> None:
         """Let the base move with a motion, which is kept."""
@@ -151,7 +168,7 @@ class Loose:
         for i in np.flatnonzero(self.free):
             struck = math.sqrt(float(self.law[:, :, 0].max()) * self._largest_face(i) * float(u["im"][i, 0]))
             omega = max(omega, struck * USUAL * 2.0 / STRUCK)
-        return stable_step(omega, float(self.now["beta"][0]))
+        return stable_step(*with_links(stiffness_of(self.links, root), omega, float(self.now["beta"][0])))
 
     def _carried(self, e: Any, upper: int) -> tuple[np.ndarray, np.ndarray, float]:
         """Corners of the smaller face of a joint in space [m], shape (k, 3), its axes as columns, and its area [m²]."""
@@ -213,7 +230,8 @@ class Loose:
     def _with_forces(self) -> tuple[Any, ...]:
         """A copy of what the forces at the present positions change, with these."""
         copies = {0, 6, 8, 11}  # bodies, pairs, joints, now
-        state = tuple(one.copy() if k in copies else one for k, one in enumerate(self.state))
+        *state, ties = (one.copy() if k in copies else one for k, one in enumerate(self.state))
+        state = *state, tuple(one.copy() for one in ties)
         self.kernel.forces(state)
         return state
 
@@ -253,11 +271,11 @@ class Loose:
         bool
             Whether it rests, about where it was drawn; if not, everything is as it was.
         """
-        arrays = (self.body, self.pair, self.joint, self.now, self.feed)
+        arrays = (self.body, self.pair, self.joint, self.now, self.feed, *self.ties)
         drawn, places = [one.copy() for one in arrays], self.places
         self.now["local"], self.feed["last"] = LOCAL_DAMPING, 0
         rests = settled(
-            self.advance, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
+            self._relax, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
             lost=lambda: self.failed or float(np.abs(self.places - places).max()) > AS_DRAWN * self.smallest,
         )  # fmt: skip
         before = drawn[3]
@@ -272,3 +290,7 @@ class Loose:
                 array[...] = old
         self.feed[...] = drawn[4]
         return rests
+
+    def _relax(self, chunks: int) -> None:
+        self.advance(chunks)
+        self.begin_links()
