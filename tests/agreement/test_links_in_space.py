@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import stylobate as st
+from stylobate.column.assembly import Assembly, Block
 from stylobate.column.files import write_column
-from stylobate.column.links import link_from_dict
+from stylobate.column.links import block_link, link_from_dict
 
 STEP = 2.5e-5
 JOINT = st.Joint(5e10, 2.5e10, math.degrees(math.atan(0.7)))
@@ -24,9 +25,12 @@ KINDS = {
         for j in (1, 2, 3)
     ],
     "tie": [
-        {"kind": "tie", "at": [0.45, 0.1], "to": [0.42, 0.1], "axial_stiffness": 1e7, "axial_capacity": 2.2e4,
-         "pretension": 2e4},
-        {"kind": "core", "axial_stiffness": 1e7, "pretension": 1e4},
+        {"kind": "tie", "at": [-0.45, 0.1], "to": [-0.42, 0.1], "axial_stiffness": 3e6, "axial_capacity": 2e3},
+        {"kind": "core", "axial_stiffness": 1e6, "ultimate_elongation": 1e-3},
+    ],
+    "pretension": [
+        {"kind": "tie", "at": [-0.45, 0.1], "to": [-0.42, 0.1], "axial_stiffness": 1e6, "pretension": 1e3},
+        {"kind": "core", "axial_stiffness": 1e6, "pretension": 5e2},
     ],
     "layer": [
         {"kind": "layer", "joint": 2, "friction_coefficient": 0.1, "shear_stiffness": 1e6, "damping": 1e4},
@@ -41,12 +45,14 @@ def pushed(azimuth: float) -> st.Motion:
     return st.Motion(0.0025, push * math.cos(azimuth), lateral=push * math.sin(azimuth))
 
 
+#: How close both are at the end of the swing [m]: a tie that pulls out of the plane of the push lets rounding grow a
+#: thousandfold by then, and pretension starts from what has settled to 1e-4 m/s².
+CLOSE = {"tie": 2e-8, "pretension": 4e-8}
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_column_with_links_in_both_engines(kind, tmp_path) -> None:
-    """The first swing: places to 1e-9 m, of some millimetres, and forces to 1e-6 of the largest, the same links broken.
-
-    The step is a power of two of that of the record, in which what links hold rounds alike.
-    """
+    """The first swing of some centimetres: places to 1e-9 m, the same links broken at the same step, the same forces."""
     links = tuple(link_from_dict(one) for one in KINDS[kind])
     drums = [st.Drum(1.0, 0.8, 0.8, 2700.0, section="circular")] * 3
     made = st.Column.of_drums(drums, JOINT, name="column").replace(links=links)
@@ -58,10 +64,80 @@ def test_a_column_with_links_in_both_engines(kind, tmp_path) -> None:
     lane, space = (st.simulate(one, pushed(0.6), model) for one in (column, assembly))
     ways = [np.array(one.poses.position)[:, -3:] for one in (lane, space)]
     ways = [way - way[0] for way in ways]
-    print(kind, np.abs(ways[0]).max(), np.abs(ways[1] - ways[0]).max())
-    for name in ("shear", "tension", "slip", "elongation"):
-        one, two = getattr(lane.links, name), getattr(space.links, name)
-        print(name, np.abs(one).max(axis=0), np.abs(one - two).max())
-    print([(a.broken_at, b.broken_at) for a, b in zip(lane.measures.links, space.measures.links)], space.energy_imbalance, lane.energy_imbalance, space.sentence)
-    assert np.abs(ways[0]).max() > 1e-3
-    assert ways[1] == pytest.approx(ways[0], abs=1e-9)
+    close = CLOSE.get(kind, 1e-9)
+    assert np.abs(ways[0]).max() > 1e-2
+    assert ways[1] == pytest.approx(ways[0], abs=close)
+    stiffest = max(one.get("shear_stiffness", one.get("axial_stiffness", 0.0)) for one in KINDS[kind])
+    for name, each in (("shear", stiffest), ("tension", stiffest), ("slip", 1.0), ("elongation", 1.0)):
+        assert getattr(space.links, name) == pytest.approx(getattr(lane.links, name), abs=each * close)
+    for one, other in zip(lane.measures.links, space.measures.links, strict=True):
+        assert other.broken_at == pytest.approx(one.broken_at, abs=1e-12, nan_ok=True)
+    assert space.energy_imbalance < 1e-5
+
+
+def both(boxes: dict, law: st.Joint, surface: st.Joint | None, *kinds: dict) -> tuple[Assembly, st.SpatialAssembly]:
+    """Boxes from left to right and from low to high [m], 1 m deep, in the plane and in space; ``held`` is fixed."""
+    links = tuple(block_link(**one) for one in kinds)
+    flat, solid = [], []
+    for name, (a, b, c, d) in boxes.items():
+        how = {"fixed": name == "held", "surface": surface}
+        flat.append(Block(((a, c), (b, c), (b, d), (a, d)), 2500.0, name, **how))
+        solid.append(st.Stone.box((b - a, 1.0, d - c), (0.5 * (a + b), 0.0, c), 2500.0, name=name, **how))
+    return Assembly(tuple(flat), law, "plane", links=links), st.SpatialAssembly(tuple(solid), law, "space", links=links)
+
+
+def swung(pair: tuple, step: float) -> tuple:
+    """Responses in the plane and in space to a sine of 0.5 g in the plane, and ways of bodies [m]."""
+    motion = st.Motion(0.0025, 0.5 * 9.81 * np.sin(np.pi * np.arange(0.0, 0.30001, 0.0025) / 0.15))
+    models = st.DistinctElement2D(time_step=step), st.DistinctElement3D(time_step=step)
+    found = [st.simulate(one, motion, model) for one, model in zip(pair, models, strict=True)]
+    ways = [np.array(one.poses.position) for one in found]
+    return *found, *(way - way[0] for way in ways)
+
+
+def test_clamped_boxes_that_slide_go_as_in_the_plane() -> None:
+    """Without friction and rocking only links act, through slack, crushing and break: 1e-8 m of some centimetres, 0.1 N.
+
+    The core goes up, and the joint below, pressed askew, is softer in space than in the plane: it is 1e-7 m that it notices.
+    """
+    clamp = {"kind": "clamp", "axial_stiffness": 2e6, "shear_stiffness": 1e6}
+    smooth = st.Joint(5e9, 2.5e9, friction_coefficient=0.0)
+    pair = both(
+        {"held": (0.0, 1.0, 0.0, 0.5), "near": (1.05, 1.55, 0.0, 0.5), "far": (1.7, 2.2, 0.0, 0.5)}, smooth, None,
+        clamp | {"between": ("held", "near"), "at": (0.9, 0.0, 0.25), "to": (1.15, 0.0, 0.25), "clearance": 1e-3,
+                 "axial_capacity": 4e3, "failure": "crushing"},
+        clamp | {"between": ("near", "far"), "at": (1.45, 0.0, 0.25), "to": (1.8, 0.0, 0.25), "axial_capacity": 3e3,
+                 "ultimate_elongation": 1.8e-3},
+        {"kind": "core", "between": ("ground", "far"), "at": (2.5, 0.0, 0.0), "to": (2.2, 0.0, 0.25),
+         "axial_stiffness": 1e4},
+    )  # fmt: skip
+    flat, solid, one, other = swung(pair, 0.3 / (32 * 100))
+    assert np.abs(one).max() > 0.02
+    assert other == pytest.approx(one, abs=1e-8)
+    assert solid.links.tension == pytest.approx(flat.links.tension, abs=0.1)
+    assert solid.links.elongation == pytest.approx(flat.links.elongation, abs=1e-7)
+    broken = [one.broken_at for one in flat.measures.links]
+    assert [one.broken_at for one in solid.measures.links] == pytest.approx(broken, abs=1e-9, nan_ok=True)
+    assert np.isnan(broken).tolist() == [True, False, True]
+
+
+def test_a_stack_beside_the_plane() -> None:
+    """Three boxes with a dowel, a bar and a pretensioned tie rock as in the plane, within 3.5 % of the way; so they do bare.
+
+    Joints differ: in space they carry on the edge of the faces, in the plane at two corners, and bend by (3 b + a)/(a + b)
+    against 3. Nothing leaves the plane.
+    """
+    pair = both(
+        {"low": (-0.2, 0.2, 0.0, 0.8), "mid": (-0.2, 0.2, 0.8, 1.6), "top": (-0.2, 0.2, 1.6, 2.4)},
+        st.Joint(5e10, 2.5e10, friction_coefficient=0.7), None,
+        {"kind": "dowel", "between": ("low", "mid"), "shear_stiffness": 3e7, "clearance": 1e-4},
+        {"kind": "bar", "between": ("mid", "top"), "shear_stiffness": 3e7, "axial_stiffness": 3e6},
+        {"kind": "tie", "between": ("ground", "mid"), "at": (-0.25, 0.0, 0.0), "to": (-0.25, 0.0, 1.4),
+         "axial_stiffness": 1e6, "pretension": 2e3},
+    )  # fmt: skip
+    flat, solid, one, other = swung(pair, 0.3 / (32 * 240))
+    assert np.abs(one).max() > 0.03
+    assert other == pytest.approx(one, abs=0.035 * np.abs(one).max())
+    assert np.abs(other[..., 1]).max() < 1e-9
+    tension = flat.links.tension
+    assert solid.links.tension == pytest.approx(tension, abs=0.08 * tension.max())

@@ -1,0 +1,155 @@
+"""Links between bodies in space against hand calculations, whichever way they are turned: clamp, dowel, tie, bar."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.column.links import Link, block_link
+from stylobate.column.turning import about
+
+G = 9.80665
+DENSITY = 2000.0
+SMOOTH = st.Joint(1e9, 5e8, friction_coefficient=0.0)
+ROUGH = st.Joint(1e9, 5e8, friction_coefficient=2.0)
+AZIMUTH = math.radians(37.0)
+
+
+def turned(point: tuple[float, float, float]) -> tuple[float, float, float]:
+    """A place in the axes of the scene, which is turned about the vertical [m]."""
+    x, y, z = point
+    c, s = math.cos(AZIMUTH), math.sin(AZIMUTH)
+    return c * x - s * y, s * x + c * y, z
+
+
+def box(sides: tuple[float, float, float], at: tuple[float, float, float], name: str, **others) -> st.Stone:
+    return st.Stone.box(sides, turned(at), DENSITY, name=name, orientation=about((0.0, 0.0, 1.0), AZIMUTH), **others)
+
+
+def push(acceleration: float, rise: float, hold: float) -> st.Motion:
+    """A ground acceleration against the scene's x that rises evenly and stays; what stands on it is pushed along x."""
+    time = np.arange(round((rise + hold) / 0.01) + 1) * 0.01
+    size = -acceleration * np.minimum(time / rise, 1.0)
+    return st.Motion(0.01, size * math.cos(AZIMUTH), lateral=size * math.sin(AZIMUTH))
+
+
+def side_by_side(*links: Link) -> st.SpatialAssembly:
+    """A box that stays and, beside it along x, one of 1 t that slides freely; both 0.5 m high and 1 m wide."""
+    held = box((1.0, 1.0, 0.5), (0.5, 0.0, 0.0), "held", fixed=True)
+    free = box((1.0, 1.0, 0.5), (1.5, 0.0, 0.0), "free", surface=SMOOTH)
+    return st.SpatialAssembly((held, free), SMOOTH, "pair", gravity=G, links=links)
+
+
+def clamp(**what: float | str) -> Link:
+    ends = {"between": ("held", "free"), "at": turned((0.85, 0.0, 0.25)), "to": turned((1.15, 0.0, 0.25))}
+    return block_link("clamp", **ends, **what)
+
+
+def test_a_clamp_in_pull_snaps_at_its_capacity() -> None:
+    """The force m a rises by 4 kN in a second: T = m a to 2 kN, at 0.5 s, where it snaps; then the box slides by itself.
+
+    Clamp and box swing at 100 rad/s, which a steady rise of 4 kN/s excites by 4/100 kN.
+    """
+    brittle = clamp(axial_stiffness=1e7, axial_capacity=2e3, shear_stiffness=0.0, failure="brittle")
+    response = st.simulate(side_by_side(brittle), push(4.0, 1.0, 0.1), st.DistinctElement3D())
+    (measures,) = response.measures.links
+    time, tension = response.time, response.links.tension[:, 0]
+    early = (time > 0.1) & (time < 0.48)
+    assert tension[early] == pytest.approx(4e3 * time[early], abs=1.2 * 4e3 / 100.0)
+    assert measures.peak_tension == pytest.approx(2e3, rel=1e-9)
+    assert measures.broken_at == pytest.approx(0.5, abs=0.012)
+    assert not tension[time > 0.52].any()
+    way = np.linalg.norm(response.body_position[:, 2] - response.body_position[0, 2], axis=1)
+    after = (time > measures.broken_at + 0.02) & (time < 0.98)
+    step = time[1] - time[0]
+    assert np.diff(way[after], 2) / step**2 == pytest.approx(4.0 * time[after][1:-1], rel=2e-3)
+    assert response.energy_imbalance < 1e-3
+    assert "The clamp broke at 0.5" in response.sentence
+    assert response.summary()["links"][0]["broken_s"] == measures.broken_at
+
+
+def test_a_clamp_holds_against_both_senses_behind_its_slack() -> None:
+    """Pushed to and fro across a gap, the box swings about slack + m a/K on either side of where it was.
+
+    It comes out of its slack with some speed: the mean of a spring that holds it, over several of its periods of 0.2 s, is
+    that of the push as long as it does not fall back into the slack.
+    """
+    held, _ = side_by_side().stones
+    apart = held, box((1.0, 1.0, 0.5), (1.55, 0.0, 0.0), "free", surface=SMOOTH)
+    ends = {"between": ("held", "free"), "at": turned((0.85, 0.0, 0.25)), "to": turned((1.2, 0.0, 0.25))}
+    link = block_link("clamp", **ends, axial_stiffness=1e6, shear_stiffness=0.0, clearance=1e-4)
+    scene = st.SpatialAssembly(apart, SMOOTH, "gap", gravity=G, links=(link,))
+    for sign in (1.0, -1.0):
+        response = st.simulate(scene, push(sign, 2.0, 1.0), st.DistinctElement3D())
+        last = response.time > 2.0
+        assert response.links.tension[last, 0].mean() == pytest.approx(sign * 1e3, rel=0.05)
+        assert response.links.elongation[last, 0].mean() == pytest.approx(sign * 1.1e-3, rel=0.05)
+
+
+def test_a_dowel_in_shear_holds_to_friction_and_capacity_in_any_direction() -> None:
+    """a = μ g + V/m: 4 % below it holds behind its slack, 4 % above it slides off with the capacity on it."""
+    slack, stiffness, friction, mass = 2e-4, 2e7, 0.3, 1000.0
+    capacity = 0.2 * mass * G
+    joint = st.Joint(1e9, 5e8, friction_coefficient=friction)
+    dowel = block_link("dowel", ("slab", "pier"), shear_stiffness=stiffness, shear_capacity=capacity, clearance=slack)
+    stones = box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), "pier", fixed=True), box((1.0, 1.0, 0.5), (0.0, 0.0, 1.0), "slab")
+    pier = st.SpatialAssembly(stones, joint, "pier and slab", gravity=G, links=(dowel,))
+    limit = friction * G + capacity / mass
+    below = st.simulate(pier, push(0.96 * limit, 2.0, 0.4), st.DistinctElement3D())
+    above = st.simulate(pier, push(1.04 * limit, 0.4, 0.6), st.DistinctElement3D())
+    slip = below.links.slip[:, 0]  # friction may go on holding what the swing behind the slack has brought it to bear
+    assert slip[-1] == pytest.approx(slack + (0.96 * limit - friction * G) * mass / stiffness, rel=0.05)
+    assert np.ptp(slip[-20:]) < 1e-5
+    assert below.measures.links[0].peak_shear < capacity
+    last = int(np.searchsorted(above.time, 1.0)) - 1  # afterwards nothing pushes any more
+    slid = above.links.slip[:, 0]
+    speed = (slid[last] - slid[last - 1]) / (above.time[last] - above.time[last - 1])
+    assert speed == pytest.approx(0.04 * limit * 0.6, rel=0.1)
+    assert above.links.shear[last, 0] == pytest.approx(capacity, rel=1e-9)
+
+
+def test_a_pretension_is_there_when_all_has_settled_and_holds_the_heel_down() -> None:
+    """m a H/2 = m g b + T (b + x), as of a column: 4 % below the box stays on its face, 4 % above it turns about its toe."""
+    b, height, pull, x = 0.5, 2.0, 2e4, 0.55
+    tie = block_link(
+        "tie",
+        ("ground", "box"),
+        turned((-x, 0.0, 0.0)),
+        turned((-x, 0.0, height)),
+        axial_stiffness=1e5,
+        pretension=pull,
+    )
+    stone = box((2.0 * b, 1.0, height), (0.0, 0.0, 0.0), "box")
+    tied = st.SpatialAssembly((stone,), ROUGH, "tied", gravity=G, links=(tie,))
+    mass = stone.mass
+    expected = (mass * G * b + pull * (b + x)) / (mass * 0.5 * height)
+    below, above = (
+        st.simulate(tied, push(share * expected, 1.0, 0.4), st.DistinctElement3D()) for share in (0.96, 1.04)
+    )
+    assert below.links.tension[0, 0] == pytest.approx(pull, rel=1e-9)
+    assert below.measures.blocks is not None
+    assert below.measures.blocks.in_equilibrium
+    assert below.measures.peak_rotation < 1e-3
+    assert above.measures.peak_rotation > 5e-3
+
+
+def test_a_bar_carries_a_box_under_a_ceiling() -> None:
+    """Pulled down by its weight from a fixed box above, a bar lengthens by m g/K; a dowel lets it fall."""
+    ceiling = box((1.0, 1.0, 0.5), (0.0, 0.0, 2.0), "ceiling", fixed=True)
+    hung = box((1.0, 1.0, 0.5), (0.0, 0.0, 1.5), "hung")
+    made = {"axial_stiffness": 1e6, "shear_stiffness": 1e6}
+    bar = block_link("bar", ("hung", "ceiling"), **made)
+    dowel = block_link("dowel", ("hung", "ceiling"), shear_stiffness=1e6, embedment=0.05)
+    motion = st.Motion(0.01, np.zeros(51))
+    for link, falls in ((bar, False), (dowel, True)):
+        scene = st.SpatialAssembly((ceiling, hung), SMOOTH, "hung", gravity=G, settle=False, links=(link,))
+        response = st.simulate(scene, motion, st.DistinctElement3D())
+        way = response.body_position[0, 2, 2] - response.body_position[:, 2, 2]
+        if falls:
+            assert way[-1] == pytest.approx(0.5 * G * response.time[-1] ** 2, rel=0.01)
+        else:
+            assert way.max() == pytest.approx(2.0 * 1e3 * G / 1e6, rel=0.01)
+            assert response.links.tension.max() == pytest.approx(2.0 * 1e3 * G, rel=0.01)
