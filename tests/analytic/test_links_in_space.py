@@ -153,3 +153,64 @@ def test_a_bar_carries_a_box_under_a_ceiling() -> None:
         else:
             assert way.max() == pytest.approx(2.0 * 1e3 * G / 1e6, rel=0.01)
             assert response.links.tension.max() == pytest.approx(2.0 * 1e3 * G, rel=0.01)
+
+
+def limit(scene: st.SpatialAssembly, azimuth: float = 0.0):
+    """Limit towards an azimuth from the scene's x [degrees]."""
+    return st.limit_directions(scene, [math.degrees(AZIMUTH) + azimuth]).limits[0]
+
+
+def test_the_limit_of_a_dowelled_slab_is_friction_and_capacity_over_weight() -> None:
+    """λ = μ + V/W in any direction, to the 16 sides of what is cut for a circle: at most 2 % less; its dowel yields."""
+    joint = st.Joint(1e9, 5e8, friction_coefficient=0.2)
+    dowel = block_link("dowel", ("slab", "pier"), shear_stiffness=1e7, shear_capacity=2e3)
+    stones = box((1.0, 1.0, 1.0), (0.0, 0.0, 0.0), "pier", fixed=True), box((1.0, 1.0, 0.3), (0.0, 0.0, 1.0), "slab")
+    scene = st.SpatialAssembly(stones, joint, "slab", gravity=G, links=(dowel,))
+    exact = 0.2 + 2e3 / (stones[1].mass * G)
+    for azimuth in (0.0, 13.0, 90.0):
+        found = limit(scene, azimuth)
+        assert 0.98 * exact < found.multiplier < 1.0001 * exact
+        assert (found.mode, found.links[0].action, found.links[0].yields) == ("sliding", "shear", True)
+
+
+def test_the_limit_of_a_tied_box_is_weight_and_tie_about_its_toe() -> None:
+    """λ W h/2 = W b + T (b + x)."""
+    b, height, most, x = 0.5, 2.0, 2e4, 0.55
+    ends = turned((-x, 0.0, 0.0)), turned((-x, 0.0, height))
+    tie = block_link("tie", ("ground", "box"), *ends, axial_stiffness=1e5, axial_capacity=most)
+    stone = box((2.0 * b, 1.0, height), (0.0, 0.0, 0.0), "box")
+    scene = st.SpatialAssembly((stone,), ROUGH, "tied", gravity=G, links=(tie,))
+    weight = stone.mass * G
+    assert limit(scene).multiplier == pytest.approx((weight * b + most * (b + x)) / (0.5 * weight * height), rel=1e-6)
+    assert limit(scene, 180.0).multiplier == pytest.approx(b / (0.5 * height), rel=1e-6)
+    assert limit(scene, 180.0).links[0].idle
+
+
+@pytest.mark.parametrize("share", [0.5, 3.0], ids=["yielding", "as one block"])
+def test_the_limit_of_a_clamped_pair_is_that_of_its_clamp_up_to_one_block(share) -> None:
+    """λ = (b/h) (1 + V/W), V at most W: two boxes that do not rub on each other, a clamp across their joint."""
+    b, h = 0.4, 2.0
+    left, right = (
+        box((b, 1.0, h), (sign * 0.5 * b, 0.0, 0.0), name, surface=ROUGH)
+        for name, sign in (("left", -1.0), ("right", 1.0))
+    )
+    weight = left.mass * G
+    ends = turned((-0.1, 0.0, 1.0)), turned((0.1, 0.0, 1.0))
+    across = block_link(
+        "clamp", ("left", "right"), *ends, axial_stiffness=0.0, shear_stiffness=2e8, shear_capacity=share * weight
+    )
+    pair = st.SpatialAssembly((left, right), ROUGH, "pair", G, overrides=(("left", "right", SMOOTH),), links=(across,))
+    assert limit(pair).multiplier == pytest.approx(b / h * (1.0 + min(share, 1.0)), rel=1e-6)
+
+
+def test_a_clamp_pulls_what_slides_and_holds_apart_what_is_pressed() -> None:
+    """λ W = T_c in both senses, of a box without friction beside a wall, which it does not touch."""
+    held, _ = side_by_side().stones
+    free = box((1.0, 1.0, 0.5), (1.55, 0.0, 0.0), "free", surface=SMOOTH)
+    ends = {"between": ("held", "free"), "at": turned((0.85, 0.0, 0.25)), "to": turned((1.2, 0.0, 0.25))}
+    link = block_link("clamp", **ends, axial_stiffness=1e6, axial_capacity=2e3, shear_stiffness=0.0)
+    scene = st.SpatialAssembly((held, free), SMOOTH, "pair", gravity=G, links=(link,))
+    for azimuth, action in ((0.0, "closing"), (180.0, "apart")):
+        found = limit(scene, azimuth)
+        assert found.multiplier == pytest.approx(2e3 / (free.mass * G), rel=1e-6)
+        assert [one.action for one in found.links if one.yields] == [action]

@@ -142,8 +142,8 @@ class ContactProgramme:
                 self.hold(k, np.ones(1))
                 continue
             first = math.atan2(*(holder.axes.T @ push)[::-1])
-            for i in range(WAYS):
-                self.hold(k, _way(first + 2.0 * math.pi * i / WAYS))
+            for i in range(count):
+                self.hold(k, _way(first + 2.0 * math.pi * i / count))
 
     # -- what is borne -------------------------------------------------------------------------------------------------
 

@@ -45,7 +45,8 @@ class LinkForce:
     Parameters
     ----------
     name, action : str
-        The link, and what it does: ``shear``, ``closing`` of its joint, or a ``line`` in tension.
+        The link, and what it does: ``shear``, ``closing`` of its joint, a ``line`` in tension; a clamp that is pressed holds
+        ``apart``.
     force, capacity : float
         The least that it holds in any answer, and what it can hold [N]; of shear towards +x on the part below positive.
     yields : bool

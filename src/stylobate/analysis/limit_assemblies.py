@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from ..column.structure import Structure
 from ..constants import DEGREE
 from ..errors import InputError
+from ..models.rigid_block.stack_links import LINE, Hold, holds
 from .contact_programme import ContactProgramme
-from .contact_rims import Rim
+from .contact_rims import Holder, Rim
 from .limit import DirectionLimit
+from .limit_with_links import demand, held_along
 
 #: What moves with more than this share of the fastest takes part in the mechanism [-].
 MOVES = 1e-3
@@ -66,20 +68,22 @@ class AssemblyProgramme:
             )
             for joint in joints
         ]  # fmt: skip
+        holders = [_holder(one, number) for one in holds(structure.placed_links) if one.strength]
         self.points = [stone.vertices for stone in stones]  # pyright: ignore[reportAttributeAccessIssue]
         every = np.concatenate(self.points)
         centroids = np.array([stone.position for stone in stones])  # pyright: ignore[reportAttributeAccessIssue]
         masses = np.array([stone.mass for stone in stones])
         length = float(np.ptp(every, axis=0).max())
         self.programme = ContactProgramme(
-            masses, centroids, structure.gravity, rims, (), length, repr(structure.name), cut=True
+            masses, centroids, structure.gravity, rims, holders, length, repr(structure.name), cut=True
         )
         self.dead = self.programme.body_force(np.array([0.0, 0.0, -1.0]))
         self.programme.begin(np.array([1.0, 0.0, 0.0]))
         self._must_stand()
 
     def _must_stand(self) -> None:
-        resting = {body for joint in self.structure.space_joints or () for body in (joint.lower, joint.upper)}
+        held = (*(self.structure.space_joints or ()), *self.structure.placed_links)
+        resting = {body for one in held for body in (one.lower, one.upper)}
         loose = next((i for i in self.moving if i not in resting), None)
         if loose is not None:
             raise InputError(
@@ -114,6 +118,7 @@ class AssemblyProgramme:
             found.multiplier + 0.0,
             joint + 1,
             mode,
+            demand(programme, self.dead, live, found),
             between=tuple(self.structure.bodies[i].name for i in between),
             moving=tuple(self._who(rates)),
             upper_bound=slides or twists,
@@ -127,6 +132,18 @@ class AssemblyProgramme:
         ]
         most = max(fastest)
         return [self.structure.bodies[i].name for i, one in zip(self.moving, fastest) if one > MOVES * most]
+
+
+def _holder(hold: Hold, number: Mapping[int, int]) -> Holder:
+    """What a link holds, by the numbers of the bodies in the programme."""
+    link = hold.link
+    bodies = number.get(link.upper, -1), number.get(link.lower, -1)
+    if hold.action == LINE:
+        low, high = np.array(link.low), np.array(link.high)
+        return Holder(hold.name, LINE, *bodies, high, low, ((low - high) / link.length)[:, None], hold.capacity)
+    middle = np.array(link.middle)
+    axes = held_along(hold, np.array(link.frame).T)
+    return Holder(hold.name, hold.action, *bodies, middle, middle, axes, hold.capacity)
 
 
 def listed(names: Sequence[str]) -> str:

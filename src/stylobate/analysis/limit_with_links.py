@@ -11,7 +11,7 @@ from ..column import Column
 from ..column.found_in_space import base_axes, overlap_edges, space_geometry, space_load, upward
 from ..constants import DEGREE
 from ..errors import InputError
-from ..models.rigid_block.stack_links import LINE, SHEAR, Hold, holds
+from ..models.rigid_block.stack_links import APART, LINE, SHEAR, Hold, holds
 from .contact_programme import MOVES, ContactProgramme, Solved
 from .contact_rims import Holder, Rim
 from .least_forces import Borne, needed_forces
@@ -72,8 +72,7 @@ class SpaceProgramme:
             axes = ((lower - upper) / np.linalg.norm(lower - upper))[:, None]
             return Holder(hold.name, hold.action, *bodies, upper, lower, axes, hold.capacity)
         frame = at.frame[link.joint - 1]
-        axes = frame[:, :2] if hold.action == SHEAR else -frame[:, 2:]
-        return Holder(hold.name, hold.action, *bodies, upper, upper, axes, hold.capacity)
+        return Holder(hold.name, hold.action, *bodies, upper, upper, held_along(hold, frame), hold.capacity)
 
     def solve(self, azimuth: float) -> SpaceLimit:
         """The multiplier of horizontal forces in proportion to mass towards an azimuth [degrees]."""
@@ -81,22 +80,44 @@ class SpaceProgramme:
         push = base_axes(self.column).T @ (math.cos(angle), math.sin(angle), 0.0)
         live = programme.body_force(push)
         programme.begin(push)
-        links = [k for k, holder in enumerate(programme.holders) if holder.name]
-        every = programme.capacities
-
-        def borne(found: Solved) -> Borne:
-            prices, held = found.prices[links] / programme.weight, programme.held(found.forces)[links]
-            return Borne(found.multiplier, prices, held, found.forces)
-
-        def bear(some: np.ndarray, enough: float) -> Borne:
-            capacity = every.copy()
-            capacity[links] = some
-            return borne(programme.converged(self.dead, live, capacity, enough))
-
-        found = programme.converged(self.dead, live, every)
+        found = programme.converged(self.dead, live, programme.capacities)
         sizes = programme.movements(found.rates)
         joint = int(np.argmax(sizes.max(axis=1) > MOVES * sizes.max()))
         mode = ("rocking", "sliding", "twisting")[int(np.argmax(sizes[joint]))]
-        needed = needed_forces(bear, every[links], borne(found))
-        forces = link_forces([programme.holders[k] for k in links], needed)
-        return SpaceLimit(found.multiplier + 0.0, joint + 1, mode, forces)
+        return SpaceLimit(found.multiplier + 0.0, joint + 1, mode, demand(programme, self.dead, live, found))
+
+
+def held_along(hold: Hold, frame: np.ndarray) -> np.ndarray:
+    """Directions of the force that something across a joint puts on the body above, as columns; ``frame`` the joint's."""
+    if hold.action == SHEAR:
+        return frame[:, :2]
+    return frame[:, 2:] if hold.action == APART else -frame[:, 2:]
+
+
+def demand(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, found: Solved) -> tuple[LinkForce, ...]:
+    """Action of the links at the multiplier of an answer, for these loads.
+
+    Parameters
+    ----------
+    programme : ContactProgramme
+        Its holders with a name are links.
+    dead, live : array
+        Over the weight, shape (6 n,).
+    found : Solved
+    """
+    links = [k for k, holder in enumerate(programme.holders) if holder.name]
+    if not links:
+        return ()
+    every = programme.capacities
+
+    def borne(found: Solved) -> Borne:
+        prices, held = found.prices[links] / programme.weight, programme.held(found.forces)[links]
+        return Borne(found.multiplier, prices, held, found.forces)
+
+    def bear(some: np.ndarray, enough: float) -> Borne:
+        capacity = every.copy()
+        capacity[links] = some
+        return borne(programme.converged(dead, live, capacity, enough))
+
+    needed = needed_forces(bear, every[links], borne(found))
+    return link_forces([programme.holders[k] for k in links], needed)

@@ -13,8 +13,9 @@ from ...column import Column
 from ...column.links.placed import PlacedLink, stands_at
 from ...errors import InputError
 
-#: Action of a link: it holds a joint in shear, holds it closed, or is a straight line that holds in tension.
-SHEAR, CLOSING, LINE = "shear", "closing", "line"
+#: Action of a link: it holds a joint in shear, holds it closed, is a straight line that holds in tension, or, a clamp, holds
+#: what it clamps apart.
+SHEAR, CLOSING, LINE, APART = "shear", "closing", "line", "apart"
 
 
 class Hold(NamedTuple):
@@ -24,7 +25,7 @@ class Hold(NamedTuple):
     ----------
     link : PlacedLink
         In the plane its ends are where the stack has them, x and z [m].
-    action : {"shear", "closing", "line"}
+    action : {"shear", "closing", "line", "apart"}
     """
 
     link: PlacedLink
@@ -98,13 +99,14 @@ def holds(links: Sequence[PlacedLink]) -> list[Hold]:
     for link in links:
         if link.law == "tie":
             actions = (LINE,) if link.axial_stiffness > 0.0 else ()
-        elif link.law in ("dowel", "pad"):
+        elif link.law in ("dowel", "pad", "clamp"):
             actions = (SHEAR,) if link.shear_stiffness > 0.0 else ()
             actions += (CLOSING,) if link.axial_stiffness > 0.0 else ()
+            actions += (APART,) if link.axial_stiffness > 0.0 and link.law == "clamp" else ()
         else:
             raise InputError(
-                f"the statics of blocks know links that act as a dowel or pad or tie, and {link.name!r} does not; leave it "
-                "out."
+                f"the statics of blocks know links that act as a clamp, dowel, pad or tie, and {link.name!r} does not; "
+                "leave it out."
             )
         found += [Hold(link, action) for action in actions]
     return found
