@@ -20,8 +20,9 @@ TOUCHING, PARALLEL = 1e-5, 1e-4
 #: Corners of a circle where areas are counted, and where directions are looked at.
 AROUND = 96
 
-#: Best directions from which a farther one is looked for, and the finest turn of it [rad].
-STARTS, FINEST = 3, 1e-9
+#: Best directions from which a farther one is looked for, the finest turn of it [rad], and most turns: along a ridge, where
+#: only the finest ones lead farther, there is no end of them.
+STARTS, FINEST, TURNS = 3, 1e-9, 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -259,7 +260,9 @@ def _farther(solid: Solid, other: Solid, way: np.ndarray, gap: float) -> tuple[f
     """The largest gap that turning a direction by and by leads to."""
     angle = np.arange(8) * (0.25 * math.pi)
     step = 0.2
-    while step > FINEST:
+    for _ in range(TURNS):
+        if step <= FINEST:
+            break
         aside = np.linalg.svd(way[None])[2][1:]
         ways = way + step * (np.cos(angle)[:, None] * aside[0] + np.sin(angle)[:, None] * aside[1])
         ways = ways / np.linalg.norm(ways, axis=1)[:, None]
