@@ -214,3 +214,23 @@ def test_a_clamp_pulls_what_slides_and_holds_apart_what_is_pressed() -> None:
         found = limit(scene, azimuth)
         assert found.multiplier == pytest.approx(2e3 / (free.mass * G), rel=1e-6)
         assert [one.action for one in found.links if one.yields] == [action]
+
+
+def test_the_limit_of_a_box_that_hangs_tells_what_its_bar_must_hold() -> None:
+    """λ W = V, and T = W (1 + λ (h/2)/b): without the bar nothing stands, and what is pressed is the rim of the joint."""
+    ceiling = box((1.0, 1.0, 0.5), (0.0, 0.0, 2.0), "ceiling", fixed=True)
+    hung = box((1.0, 1.0, 0.5), (0.0, 0.0, 1.5), "hung")
+    weight = hung.mass * G
+    made = {
+        "axial_stiffness": 1e7,
+        "shear_stiffness": 1e7,
+        "axial_capacity": 3.0 * weight,
+        "shear_capacity": 0.5 * weight,
+    }
+    bar = block_link("bar", ("hung", "ceiling"), **made)
+    found = limit(st.SpatialAssembly((ceiling, hung), SMOOTH, "hung", gravity=G, links=(bar,)))
+    assert found.multiplier == pytest.approx(0.5, rel=0.02)
+    shear, closing = found.links
+    assert shear.yields
+    assert not closing.idle
+    assert closing.force == pytest.approx(weight * (1.0 + found.multiplier * 0.25 / 0.5), rel=5e-3)

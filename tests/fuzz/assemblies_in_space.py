@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import random
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -59,7 +60,37 @@ def file(rng: random.Random) -> str:
             lines.append(f"orientation = [{', '.join(value(-1.0, 1.0) for _ in range(4))}]")
         if rng.random() < 0.1:
             lines.append("fixed = " + odd.some(rng, ["true", "false"], strange, odd.OTHERS))
+    for _ in range(rng.choice((0, 0, 1, 2))):
+        lines += link(rng, value, strange)
     return "\n".join(lines) + "\n"
+
+
+def link(rng: random.Random, value: Callable[[float, float], str], strange: float) -> list[str]:
+    """Lines of a link between two of the bodies, or the ground."""
+    kind = rng.choice(("dowel", "bar", "layer", "pad", "tie", "core", "clamp"))
+    ends = [
+        odd.some(rng, [f'"{name}"'], strange, odd.NAMES)
+        for name in rng.choice((("b0", "b1"), ("ground", "b0"), ("b1", "b2")))
+    ]
+    lines = ["[[link]]", f'kind = "{kind}"', f"between = [{', '.join(ends)}]"]
+    if kind != "pad":
+        lines.append(
+            f"shear_stiffness = {value(1e5, 1e8)}"
+            if kind in ("dowel", "layer")
+            else f"axial_stiffness = {value(1e5, 1e8)}"
+        )
+    else:
+        lines += ['material = "lead"', f"thickness = {value(1e-3, 1e-2)}"]
+    if kind in ("bar", "clamp"):
+        lines.append(f"shear_stiffness = {value(0.0, 1e8)}")
+    if kind in ("tie", "core", "clamp"):
+        near = [", ".join(value(-0.4, 0.4) for _ in "xyz") for _ in range(2)]
+        lines += [f"at = [{near[0]}]", f"to = [{near[1]}]"]
+    if kind in ("tie", "core", "bar", "clamp"):
+        lines.append(f"axial_capacity = {value(10.0, 1e5)}")
+    if kind in ("dowel", "bar", "clamp") and rng.random() < 0.7:
+        lines.append(f"shear_capacity = {value(10.0, 1e5)}")
+    return lines
 
 
 def one(rng: random.Random, folder: Path) -> str:

@@ -47,6 +47,10 @@ class Solved(NamedTuple):
     prices: np.ndarray
 
 
+class InfeasibleError(StylobateError):
+    """Nothing that joints and holders can bear carries the dead load."""
+
+
 class ContactProgramme:
     """The programme of bodies on joints: what has been added for one direction stays for the next.
 
@@ -217,6 +221,8 @@ class ContactProgramme:
             raise InputError(
                 f"{self.name} bears any push, because {' and '.join(endless[:2])} has no capacity; give it one [N]."
             )
+        if found.status == 2:
+            raise InfeasibleError(f"{self.name} is not carried by its joints and what holds it: {found.message}")
         if found.status != 0:
             raise StylobateError(f"the programme of the limit analysis was not solved: {found.message}")
         prices = np.zeros(len(self.holders))

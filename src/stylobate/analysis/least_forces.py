@@ -50,7 +50,7 @@ def needed_forces(solve: Callable[[np.ndarray, float], Borne], capacity: np.ndar
     ----------
     solve : callable
         The programme for capacities of the links [N], shape (links,); it may leave off where its multiplier is as large as
-        the second argument [g].
+        the second argument [g], and says −∞ where what stands does not without them.
     capacity : array
         [N], infinite without limit.
     whole : Borne
@@ -86,12 +86,15 @@ def _least(
 ) -> tuple[float, bool]:
     """The least that a link must hold [N], with its sign, and whether that is its capacity."""
     less, most = capacity.copy(), float(capacity[k])
-    less[k] = 0.0
+    less[k], enough = 0.0, abs(float(whole.held[k]))
     for _ in range(STEPS):
         found = solve(less, same)
         if found.multiplier >= same:
             return float(found.held[k]) if less[k] else 0.0, False
         slope = float(found.worth[k])
+        if found.multiplier == -np.inf and enough - less[k] > NEARLY * enough:  # without so much nothing stands
+            less[k] = 0.5 * (less[k] + enough)
+            continue
         if slope <= 0.0:
             break
         less[k] += (whole.multiplier - found.multiplier) / slope

@@ -12,7 +12,7 @@ from ..column.found_in_space import base_axes, overlap_edges, space_geometry, sp
 from ..constants import DEGREE
 from ..errors import InputError
 from ..models.rigid_block.stack_links import APART, LINE, SHEAR, Hold, holds
-from .contact_programme import MOVES, ContactProgramme, Solved
+from .contact_programme import MOVES, ContactProgramme, InfeasibleError, Solved
 from .contact_rims import Holder, Rim
 from .least_forces import Borne, needed_forces
 from .limit import LinkForce, link_forces
@@ -117,7 +117,11 @@ def demand(programme: ContactProgramme, dead: np.ndarray, live: np.ndarray, foun
     def bear(some: np.ndarray, enough: float) -> Borne:
         capacity = every.copy()
         capacity[links] = some
-        return borne(programme.converged(dead, live, capacity, enough))
+        try:
+            return borne(programme.converged(dead, live, capacity, enough))
+        except InfeasibleError:  # it does not even stand
+            none = np.zeros(len(links))
+            return Borne(-math.inf, none, none, found.forces)
 
     needed = needed_forces(bear, every[links], borne(found))
     return link_forces([programme.holders[k] for k in links], needed)

@@ -10,12 +10,13 @@ from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure, SubFigure
 
 from ..column.block import FAR_AWAY
+from ..column.links.placed import strokes
 from ..column.shapes import hull
 from ..column.structure import Structure
 from ..column.turning import matrix_of
 from .elevation import NAMED, WORDS, Sheet, dimension
 from .solids import MARK, STONE, Solid, Surface, painted, painting_order, surface_of
-from .style import BLACK, GREY, WIDTH, in_lines, page, styled
+from .style import BLACK, BLUE, GREY, WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y, OBLIQUE, View
 
 #: From above, x to the right and y upward.
@@ -63,6 +64,7 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
         if level is not None:
             axes.axhline(level, color=BLACK, linewidth=1.2, zorder=0)
         _paint(axes, solids, view)
+        _mark_links(axes, structure, view)
         low, high = _box(solids, view, None)
         for along in (0, 1):
             dimension(axes, sheet, along, low, high)
@@ -70,6 +72,7 @@ def draw_views(structure: Structure, title: str | None = None, *, figure: Figure
             _names(axes, sheet, solids, names, view)
         axes.set_title(said, fontsize=8.5, color=GREY)
     _paint(oblique, solids, OBLIQUE)
+    _mark_links(oblique, structure, OBLIQUE)
     oblique.set_aspect("equal")
     oblique.autoscale_view()
     oblique.set_axis_off()
@@ -102,6 +105,13 @@ def _paint(axes: Axes, solids: list[Solid], view: View) -> None:
     edges = np.where(np.array(outlines)[:, None], 0.35, colours)
     widths = [0.9 if outline else 0.2 for outline in outlines]
     axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors=edges, linewidths=widths, zorder=2))
+
+
+def _mark_links(axes: Axes, structure: Structure, view: View) -> None:
+    """Lines for links, over the bodies: of a column they are told as built, and not marked."""
+    for _, (*_, low), (*_, high) in strokes(structure.placed_links) if structure.stack is None else ():
+        ends = view.across(np.array([low, high]))
+        axes.plot(ends[:, 0], ends[:, 1], color=BLUE, linewidth=1.2, zorder=4, scalex=False, scaley=False)
 
 
 def _names(axes: Axes, sheet: Sheet, solids: list[Solid], names: list[str], view: View) -> None:

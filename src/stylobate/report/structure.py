@@ -241,11 +241,12 @@ def _blocks(structure: Structure) -> list[Item]:
 
 def _links_between_blocks(assembly: Structure) -> Rows:
     body = []
+    axes = {"x": 0, "z": 2} if assembly.space_joints is None else {"x": 0, "y": 1, "z": 2}
     for link, placed in zip(assembly.links, assembly.placed_links, strict=True):
         given = link.to_dict()
         numbers = [f"{key.replace('_', ' ')} {n.plain(given[key])}" for key in given if key not in _TOLD]
         ends = [placed.low, placed.high] if placed.two_ended else [placed.low]
-        at = " to ".join(f"{end[0]:g} / {end[2]:g}" for end in ends)
+        at = " to ".join(" / ".join(f"{end[k]:.4g}" for k in axes.values()) for end in ends)
         body.append([placed.name, " – ".join(link.between or ()), at, ", ".join(numbers) or n.NONE])
     caption = "Links between the blocks; lengths in m, forces in N, stiffness in N/m. “governs” names formulas."
-    return Rows(["link", "between", "at x / z [m]", "properties"], body, caption, numbers=True)
+    return Rows(["link", "between", f"at {' / '.join(axes)} [m]", "properties"], body, caption, numbers=True)
