@@ -7,6 +7,9 @@ import pytest
 
 import stylobate as st
 from stylobate import plots
+from stylobate.column.links import block_link
+from stylobate.column.turning import about
+from stylobate.plots.style import BLUE
 
 FOLDER = Path(__file__).parents[2] / "gallery" / "assemblies"
 
@@ -28,6 +31,19 @@ def test_views_of_an_assembly_in_space():
     scales = [np.ptp(axes.get_xlim()) / axes.get_position().width for axes in (front, side)]
     assert scales[0] == pytest.approx(scales[1], rel=1e-6)
     assert len(plan.collections[0].get_paths()) > 3
+
+
+def test_links_are_marked_where_they_are():
+    """A tie beside a turned box, seen from both sides and from above."""
+    stone = st.Stone.box((1.0, 0.5, 2.0), (0.0, 0.0, 0.0), 2000.0, name="box", orientation=about((0.0, 0.0, 1.0), 0.5))
+    tie = block_link("tie", ("ground", "box"), (0.7, 0.8, 0.0), (0.7, 0.8, 1.5), axial_stiffness=1e6)
+    law = st.Joint(1e9, 5e8, friction_coefficient=0.7)
+    figure = plots.draw_views(st.SpatialAssembly((stone,), law, links=(tie,)))
+    marks = [[line.get_xydata() for line in axes.lines if line.get_color() == BLUE] for axes in figure.axes]
+    assert [len(some) for some in marks] == [1, 1, 1, 1]
+    expected = [(0.7, 0.0), (0.7, 1.5)], [(0.8, 0.0), (0.8, 1.5)], [(0.7, 0.8), (0.7, 0.8)]
+    for (found,), ends in zip(marks, expected):
+        assert found == pytest.approx(np.array(ends), abs=1e-12)
 
 
 @pytest.mark.parametrize("name", ["column", "plane", "specimen", "found"])
