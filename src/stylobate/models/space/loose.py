@@ -66,7 +66,7 @@ class Loose:
     ) -> None:
         from ...kernels.space import step as kernel
 
-        self.kernel, kinds = kernel, types()
+        self.kernel, self.restitution, kinds = kernel, restitution, types()
         self.packed = packed = pack(solids)
         n, e = len(packed.shape), restitution
         self.now, self.feed = np.zeros(1, kinds["now"]), np.zeros(1, kinds["feed"])
