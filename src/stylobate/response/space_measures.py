@@ -132,16 +132,17 @@ def joint_histories(
     opening, slip, twist = np.zeros(count), np.zeros((*count, 2)), np.zeros(count)
     for k, joint in enumerate(joints):
         u, v = joint.lower, joint.upper
-        # what was at the joint on either body, from the middle of the joint, in the axes of the body below as it was drawn
-        turned = axes[:, u] @ axes[0, u].T
-        other = axes[:, v] @ axes[0, v].T
-        below = position[:, u] + np.einsum("tab,b->ta", turned, joint.origin - position[0, u])
+        # what was at the joint on either body, seen from the body below in the axes of the joint
+        frame = axes[:, u] @ (axes[0, u].T @ joint.frame)
+        below = position[:, u] + frame @ (joint.frame.T @ (joint.origin - position[0, u]))
+        turned = frame.swapaxes(1, 2) @ (axes[:, v] @ axes[0, v].T)
+        moved = np.einsum("tba,tb->ta", frame, position[:, v] - below)
         corners = joint.origin + joint.corners @ joint.frame[:, :2].T - position[0, v]
-        above = position[:, v, None] + np.einsum("tab,kb->tka", other, corners)
-        seen = np.einsum("ac,tab,tkb->tkc", joint.frame, turned, above - below[:, None])
-        opening[:, k] = np.maximum((seen[..., 2] - seen[0, :, 2]).max(axis=1), 0.0)
-        slip[:, k] = (seen[..., :2] - seen[0, :, :2]).mean(axis=1)
-        relative = np.einsum("ac,tab,tbd,de->tce", joint.frame, turned, other, joint.frame)
+        height = moved[:, 2, None] + turned[:, 2] @ corners.T
+        offset = moved[:, :2] + turned[:, :2] @ corners.mean(axis=0)
+        opening[:, k] = np.maximum((height - height[0]).max(axis=1), 0.0)
+        slip[:, k] = offset - offset[0]
+        relative = turned @ joint.frame
         twist[:, k] = np.unwrap(
             np.arctan2(relative[:, 1, 0] - relative[:, 0, 1], relative[:, 0, 0] + relative[:, 1, 1])
         )

@@ -4,7 +4,7 @@ The limit surface is that of faces in ``dem3d``; legend of what is remembered: `
 """
 
 from ..dem3d.friction import kept, returned
-from ..jit import kernel
+from ..jit import kernel, long_law
 from .vectors import along, cross, dot, length, of, put, scaled
 
 
@@ -31,25 +31,10 @@ def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
         On the second body, with ``push``: shear force and torsion moment about n.
     """
     dt = now.last
-    f = of(q.f)
-    size = length(f)
-    f = along(f, -dot(f, n), n)
-    f = scaled(size / max(length(f), 1e-300), f)
-    f = along(f, rolling * dt, cross(n, f))
-    keep = kept(kf, q.kf)
-    old, turn = f, q.t
-    f = along(scaled(keep, f), -kf * dt, slip)
-    twist = kept(kt, q.kt) * turn - kt * dt * spin
-    keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
-    f = scaled(keep, f)
-    twist *= less
+    turn = q.t
+    old, f, twist = sprung(of(q.f), turn, q.kf, q.kt, n, slip, rolling, spin, kf, kt, limit, arm, dt)
+    g, more = slowed(f, twist, slip, spin, kf, kt, limit, arm, push, now.beta)
     now.shear -= 0.5 * dt * (dot(along(old, 1.0, f), slip) + (turn + twist) * spin)
-    # dashpots parallel to the springs; friction in sum stays within Coulomb's
-    g = along(f, -now.beta * kf, slip)
-    more = twist - now.beta * kt * spin
-    keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
-    g = along(along(push, keep, g), -1.0, f)
-    more = more * less - twist
     now.visc -= 0.5 * dt * (dot(along(g, 1.0, of(q.d)), velocity) + (more + q.dt) * spin)
     put(q.f, f)
     put(q.d, g)
@@ -58,6 +43,32 @@ def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
     q.kf = kf
     q.kt = kt
     return along(f, 1.0, g), twist + more
+
+
+@long_law
+def sprung(f, turn, soft, supple, n, slip, rolling, spin, kf, kt, limit, arm, dt):
+    """Springs of friction at t_n, from a force f and a moment ``turn`` of stiffness ``soft`` and ``supple`` a step ago;
+    others as of :func:`rub`.
+
+    Returns the old shear force, turned with the contact, and the new one, and the new torsion moment.
+    """
+    size = length(f)
+    f = along(f, -dot(f, n), n)
+    f = scaled(size / max(length(f), 1e-300), f)
+    old = along(f, rolling * dt, cross(n, f))
+    f = along(scaled(kept(kf, soft), old), -kf * dt, slip)
+    twist = kept(kt, supple) * turn - kt * dt * spin
+    keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
+    return old, scaled(keep, f), twist * less
+
+
+@long_law
+def slowed(f, twist, slip, spin, kf, kt, limit, arm, push, beta):
+    """Force and moment of dashpots parallel to the springs of friction; all of it in sum stays within Coulomb's limit."""
+    g = along(f, -beta * kf, slip)
+    more = twist - beta * kt * spin
+    keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
+    return along(along(push, keep, g), -1.0, f), more * less - twist
 
 
 @kernel

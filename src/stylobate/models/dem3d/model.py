@@ -25,11 +25,11 @@ from ..drums.joints import damping_rows, joint_stiffnesses
 from ..drums.links import bonds, link_stiffness, with_beds_alone, with_links
 from ..drums.records import Packed
 from ..drums.stepped import SteppedDrums
-from ..plane.assemblies import measures_of_assemblies
 from ..shared.soft_joints import check_step_resolves
 from ..shared.stable_step import chosen_step, stable_step
 from ..shared.toes import bed_toes, point_toes, rim_toes
 from ..space.assemblies import SpatialNumbers, expected_step, run_in_space
+from ..space.lanes import measures_in_space
 from .arrays import Records
 from .block import SpaceBlock, Stack
 from .found_start import found_start
@@ -206,9 +206,9 @@ class DistinctElement3D(SteppedDrums):
         return run_in_space(structure, motion, self.spatial_numbers, options)
 
     def run_many(self, cases: Sequence[Case], options: RunOptions, threads: int) -> Iterator[tuple[int, Measures]]:
-        """Many runs in lanes, or of assemblies one by one in threads; never of both in one batch."""
+        """Many runs in lanes, assemblies as long as nothing of them comes loose; never of columns too in one batch."""
         if len(cases) and cases[0].column.space_joints is not None:
-            return measures_of_assemblies(self.run_in_space, cases, options, threads)
+            return measures_in_space(self.run_in_space, cases, self.spatial_numbers, options, threads)
         return super().run_many(cases, options, threads)
 
     def expected_step(self, column: Any, motion: Motion) -> tuple[float, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import warnings
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,7 +13,7 @@ from ...column.structure import Structure
 from ...errors import OutOfRangeWarning
 from ...kernels.run_codes import CHUNK
 from ...motion import Motion
-from ...response import Response
+from ...response import LinkHistories, Response
 from ...response.space_measures import fallen, recorded_in_space
 from ..base import RunOptions, refuse_endless, refuse_long_histories
 from ..drums.links import acting, link_histories, link_measures, link_snapshot
@@ -106,38 +106,102 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
     OutOfRangeWarning
         The assembly is not in equilibrium as drawn.
     """
+    engine = unsettled(structure, numbers, options)
+    chunks, every = chunks_of(structure, motion, engine, options)
+    made = settled(structure, engine)
+    if made.balanced is False:
+        said = f"{structure.name!r} is not in equilibrium as drawn; it moves from the start."
+        warnings.warn(said, OutOfRangeWarning, stacklevel=4)
+    engine.shake(motion)
+    states, still = _follow(engine, structure, motion, chunks, every, options)
+    stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
+    failure = ""
+    if engine.failed:
+        failure = f"the bodies could not be followed beyond {engine.time:.4g} s; try a smaller step_factor"
+    return response_of(
+        structure, motion, numbers, made, stack, still=still, failure=failure, held=link_histories(states)
+    )
+
+
+class Begun(NamedTuple):
+    """An assembly in space about to be shaken.
+
+    Parameters
+    ----------
+    engine : Loose
+        With its step, settled.
+    start : array
+        Ledger of its state [J].
+    balanced : bool or None
+        Whether it is in equilibrium as drawn; None if it was not asked to settle.
+    """
+
+    engine: Loose
+    start: np.ndarray
+    balanced: bool | None
+
+
+def unsettled(structure: Structure, numbers: SpatialNumbers, options: RunOptions) -> Loose:
+    """The lane of an assembly in space as drawn, with its step.
+
+    Raises
+    ------
+    InputError
+        The step asked for is unstable.
+    """
     restitution = numbers.restitution
     if restitution is None:
         restitution = RESTITUTION_TO_REST if options.until_rest else 1.0
     engine = engine_of(structure, numbers, restitution)
-    step = step_for(engine, structure, numbers)
+    engine.start(step_for(engine, structure, numbers))
+    return engine
+
+
+def settled(structure: Structure, engine: Loose) -> Begun:
+    """An assembly in space with its contacts closed by the weight that they carry, unless it begins as drawn."""
+    balanced = engine.settle() if getattr(structure, "settle", True) else None
+    return Begun(engine, engine.energies(), balanced)
+
+
+def chunks_of(structure: Structure, motion: Motion, engine: Loose, options: RunOptions) -> tuple[int, int]:
+    """Chunks of steps of a run, and after how many of them a state is kept; endless runs are refused.
+
+    Raises
+    ------
+    InputError
+    """
     duration = motion.duration + options.tail
     length = duration + (LONGEST_WAIT if options.until_rest else 0.0)
-    refuse_endless(f"{structure.name!r} under {motion.name!r}", length, step, COST * len(engine.body))
+    refuse_endless(f"{structure.name!r} under {motion.name!r}", length, engine.dt, COST * len(engine.body))
     refuse_long_histories(length / options.output_interval, len(engine.body))
-    engine.start(step)
-    balanced = None
-    if getattr(structure, "settle", True):
-        balanced = engine.settle()
-        if not balanced:
-            said = f"{structure.name!r} is not in equilibrium as drawn; it moves from the start."
-            warnings.warn(said, OutOfRangeWarning, stacklevel=4)
-    engine.shake(motion)
-    start = engine.energies()
-    states, still = _follow(engine, structure, motion, duration, options)
-    stack: dict[str, Any] = {key: np.array([state[key] for state in states]) for key in states[0] if key != "links"}
+    chunks = math.ceil(duration / (CHUNK * engine.dt) * (1.0 - 1e-12))
+    return chunks, max(1, min(chunks, round(options.output_interval / (CHUNK * engine.dt))))
+
+
+def response_of(
+    structure: Structure,
+    motion: Motion,
+    numbers: SpatialNumbers,
+    made: Begun,
+    stack: dict[str, Any],
+    *,
+    still: bool,
+    failure: str = "",
+    held: LinkHistories | None = None,
+) -> Response:
+    """The response of a run from its states, by their names; ``failure`` is why they end before the run does, ``held`` are
+    the histories of its links."""
+    engine, start = made.engine, made.start
     change = stack["energy"] - np.where([0, 0, 1, 1, 1, 1], start, 0.0)
     imbalance = max(_imbalance(change, start), _imbalance_before_falls(structure, stack, change, start))
-    failure = ledger.out_of_balance(imbalance, LARGEST_IMBALANCE)
     deepest = float(engine.now["deepest"][0])
-    if deepest > DEEPEST * engine.smallest:
+    if not failure and deepest > DEEPEST * engine.smallest:
         failure = (
             f"bodies sank into one another, {deepest:.3g} m at a contact; try a smaller step_factor, or stiffer joints"
         )
-    if engine.failed:
-        failure = f"the bodies could not be followed beyond {engine.time:.4g} s; try a smaller step_factor"
+    failure = failure or ledger.out_of_balance(imbalance, LARGEST_IMBALANCE)
     acceleration, displacement = ground_histories(motion, stack["time"])
-    made = recorded_in_space(
+    recorded = recorded_in_space(
         structure,
         stack["time"],
         stack["position"],
@@ -146,21 +210,21 @@ def run_in_space(structure: Structure, motion: Motion, numbers: SpatialNumbers, 
         acceleration,
         displacement,
         at_rest=still,
-        in_equilibrium=balanced,
+        in_equilibrium=made.balanced,
         failure=failure,
         energy_imbalance=imbalance,
         time_step=engine.dt,
-        steps=engine.steps,
+        steps=round(float(stack["time"][-1]) / engine.dt),
         model=numbers.name,
         links=link_measures(engine.links, engine.ties.link, 0, engine.dt),
-        held=link_histories(states),
+        held=held,
         provenance={
-            "restitution": restitution,
+            "restitution": engine.restitution,
             "joints": len(engine.joint),
             "deepest_penetration_m": deepest,
         },
     )
-    return Response.of(made)
+    return Response.of(recorded)
 
 
 def _imbalance(change: np.ndarray, start: np.ndarray) -> float:
@@ -189,11 +253,10 @@ def _imbalance_before_falls(
 
 
 def _follow(
-    engine: Loose, structure: Structure, motion: Motion, duration: float, options: RunOptions
+    engine: Loose, structure: Structure, motion: Motion, chunks: int, every: int, options: RunOptions
 ) -> tuple[list[dict[str, Any]], bool]:
     """Go on to where the run ends; the states on the way, and whether all lies still."""
-    chunks = math.ceil(duration / (CHUNK * engine.dt) * (1.0 - 1e-12))
-    every = max(1, min(chunks, round(options.output_interval / (CHUNK * engine.dt))))
+    duration = motion.duration + options.tail
     states, still = [_state(engine, motion)], False
     down, since = np.zeros(len(engine.body), dtype=bool), 0.0
     while not engine.failed:
@@ -219,14 +282,19 @@ def _follow(
 
 def _state(engine: Loose, motion: Motion) -> dict[str, Any]:
     """Part of the present state in a history."""
-    place, base = engine.time / motion.dt, np.zeros(3)
-    if place <= motion.steps - 1:
-        for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):
-            if samples is not None:
-                base[c] = value_at(samples, place, BEFORE) * motion.factor
     return {
         "time": engine.time,
         "position": engine.places,
         "axes": engine.axes_of_all,
-        "energy": engine.energies(base),
+        "energy": engine.energies(ground_at(motion, engine.time)),
     } | ({"links": link_snapshot(engine.ties.link, 0)} if engine.links else {})
+
+
+def ground_at(motion: Motion, time: float) -> np.ndarray:
+    """Acceleration of the base at a time [m/s²], shape (3,)."""
+    place, base = time / motion.dt, np.zeros(3)
+    if place <= motion.steps - 1:
+        for c, samples in enumerate((motion.samples, motion.y_samples, motion.z_samples)):
+            if samples is not None:
+                base[c] = value_at(samples, place, BEFORE) * motion.factor
+    return base

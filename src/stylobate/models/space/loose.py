@@ -73,7 +73,7 @@ class Loose:
         from ...kernels.space import links as bonds
         from ...kernels.space import step as kernel
 
-        self.bonds, self.kernel, kinds = bonds, kernel, types()
+        self.bonds, self.kernel, self.restitution, kinds = bonds, kernel, restitution, types()
         self.packed = packed = pack(solids)
         n, e = len(packed.shape), restitution
         self.now, self.feed = np.zeros(1, kinds["now"]), np.zeros(1, kinds["feed"])

@@ -30,6 +30,8 @@ from stylobate.models.drums.stepped import SteppedDrums
 from stylobate.motion import Motion, harmonic
 from stylobate.simulate import run_options, simulate, simulate_many, thread_count
 
+from .assemblies import assemblies
+
 #: Vectors as wide as the machine has, multiply-add contraction as in the kernels, no reordering of sums.
 FLAGS = (
     "-O3",
@@ -92,6 +94,8 @@ def bench(
     out |= _kernel(model, column, Motion(1.0, np.array([2.0, 2.0])), "native_dem2d.cpp", model.points)
     say("kernel and native reference in space")
     out |= _in_space(count, full)
+    say("an assembly in space")
+    out |= assemblies()
     say("one run")
     shaking = harmonic(1.0, 0.3 * g, 10.0)
     simulate(column, shaking.scaled(0.0), model)
