@@ -20,7 +20,7 @@ from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
-from .difference import Difference, doubt, reference, round_drums
+from .difference import Difference, caveat, doubt, reference
 from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, fragility
 from .fragility_checks import check_bootstrap
@@ -192,7 +192,7 @@ def compare_states(
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
-    before = round_drums(named, model)
+    before = caveat(named, model)
     told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}
