@@ -108,7 +108,7 @@ def test_a_keyword_that_contradicts_the_campaign_is_refused():
     """The keyword won, and nobody was told."""
     asked = st.Campaign(tail=3.0, threads=1)
     with pytest.raises(
-        st.InputError, match=r"`tail` is 1.0, and 3.0 in `campaign`; give it in one of the two"
+        st.InputError, match=r"`tail` is 1.0, and 3.0 in the campaign; give it in one of the two"
     ) as refused:
         st.collapse_domain(*GRID, campaign=asked, tail=1.0)
     assert refused.value.field == "tail"

@@ -181,7 +181,7 @@ class Population:
                 "sentence": self.sentence,
                 **{one: counts[one] for one in v.MADE},
                 "confidence": self.confidence,
-                **self.drawn.told,
+                **self.drawn.facts,
                 "percentiles": [16, 50, 84],
                 **self.spread,
                 "median_twin": None if middle is None else middle + 1,

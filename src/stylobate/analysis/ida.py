@@ -21,7 +21,7 @@ from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, che
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
 from ..motion import Motion
-from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
+from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
 from . import verdicts as v
 from .difference import caveat
@@ -211,7 +211,7 @@ def _about(about: Mapping[str, Mapping[str, float]], motions: Sequence[Motion]) 
 def _facts(
     motion: Motion, measure: IntensityMeasure, relation: tuple[float, float], about: Mapping[str, float]
 ) -> dict[str, float]:
-    return told(motion, [relation])[0] | {measure.key: measure.of(motion, relation)} | dict(about)
+    return measures_by_column(motion, [relation])[0] | {measure.key: measure.of(motion, relation)} | dict(about)
 
 
 def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
@@ -235,7 +235,7 @@ def _table(
 ) -> pandas.DataFrame:
     import pandas
 
-    powers = told_powers() | {measure.key: measure.power}
+    powers = powers_by_column() | {measure.key: measure.power}
     rows = []
     for trace in traces:
         fact = facts[trace.motion.name]

@@ -187,7 +187,7 @@ def compare_states(
         raise InputError(f"{len(labels)} state of a column is given; give at least {FEWEST_STATES} to compare.")
     named = tuple(column.replace(name=label) for label, column in states.items())
     study = Study(named, motions, [model], levels, im, campaign=campaign.of_runs)
-    parse_state(state).must_be_told(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
+    parse_state(state).check_known(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
     result, seed = run_study(study, out, campaign=campaign.of_computing), campaign.seed
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))

@@ -53,7 +53,7 @@ INTENSITIES = {
 }
 
 
-def must_be_told(against: str, columns: Sequence[Structure]) -> None:
+def check_measure(against: str, columns: Sequence[Structure]) -> None:
     """Refuse a measure of records that there is not, or not of assemblies.
 
     Raises
@@ -137,7 +137,7 @@ def suite_table(
             line |= Population(some, tuple(of_twins)).columns
     table = pandas.DataFrame(rows)
     table.attrs["doubt"] = caveat(stands, model)
-    table.attrs["twins"] = {one.name: {"words": some.words, **some.told} for one, some in zip(stands, drawn)}
+    table.attrs["twins"] = {one.name: {"words": some.words, **some.facts} for one, some in zip(stands, drawn)}
     return table
 
 

@@ -180,7 +180,7 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
                 asked = getattr(value, name)
                 if asked not in (typed, getattr(USUAL, name), getattr(standard, name)):
                     raise InputError(
-                        f"`{name}` is {as_typed(typed)}, and {as_typed(asked)} in `campaign`; give it in one of the two.",
+                        f"`{name}` is {as_typed(typed)}, and {as_typed(asked)} in the campaign; give it in one of the two.",
                         name,
                     )
             made = replace(value, **changes)

@@ -46,14 +46,14 @@ def columns(
     with execution.files("columns", *names) as files:
         if files.wanted:
             files += [write_column(one, files / name) for one, name in zip(chosen, names)]
-    if execution.emits({"columns": [_told(one) for one in chosen], "files": files.names}):
+    if execution.emits({"columns": [_facts_of(one) for one in chosen], "files": files.names}):
         return
     for one in chosen:
         console.say(one.name, _facts(one) if one.stack is not None else _assembled(one))
     console.print_files(files)
 
 
-def _told(structure: Any) -> dict:
+def _facts_of(structure: Any) -> dict:
     return properties(structure) if structure.stack is not None else parts_of(structure)
 
 

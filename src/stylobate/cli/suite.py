@@ -47,14 +47,14 @@ def suite(
     """
     from ..analysis.certainty import CHANCE, chance_words
     from ..analysis.directions import compass_of_shares, harm_words, worst
-    from ..analysis.suite import must_be_told, suite_shares, suite_table
+    from ..analysis.suite import check_measure, suite_shares, suite_table
     from ..errors import InputError
     from ..models.shared.quiet import share_of
     from . import console
 
     campaign = execution.campaign(following, population)
     stones: list[Any] = [o.the_structure(name, project) for name in (column, *(also or ()))]
-    must_be_told(against, stones)
+    check_measure(against, stones)
     names = [stone.name for stone in stones]
     if len(set(names)) < len(names):
         raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.", "also")
