@@ -26,7 +26,7 @@ class InputError(StylobateError, ValueError):
     Parameters
     ----------
     message : str
-        Parameters stand in backticks, with a value where one is advised: :func:`told`.
+        Parameters stand in backticks, with a value where one is advised: :func:`reworded`.
     field : str, optional
         Path of what is wrong, such as ``frequency``, ``drum.3.height`` or ``link.1.at``: drums, joints and links by number.
     value, allowed, remedy : optional
@@ -42,7 +42,7 @@ class InputError(StylobateError, ValueError):
     def place(self, place: str, *path: object) -> None:
         """Say where the error is, as :func:`within`."""
         if place:  # a key of a table, a part of a file
-            self.args = (_cut(f"{place}: {told(str(self), str)}"),)
+            self.args = (_cut(f"{place}: {reworded(str(self), str)}"),)
         self.field = ".".join(map(str, (*path, *([self.field] if self.field else [])))) or None
 
     def without(self, place: str) -> None:
@@ -75,7 +75,7 @@ PARAMETER = re.compile(r"(?<!`)`([a-z][a-z0-9_]*)(?:=([^`]*))?`(?!`)")
 UNITS = {"dt": "s", "tail": "s"}
 
 
-def told(sentence: str, called: Callable[[str], str]) -> str:
+def reworded(sentence: str, called: Callable[[str], str]) -> str:
     """A message whose parameters are called as its reader knows them: options, fields of a page, keys of a file.
 
     Parameters

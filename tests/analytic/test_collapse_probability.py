@@ -257,6 +257,16 @@ def test_a_component_across_takes_the_shaking_out_of_the_plane():
     np.testing.assert_array_equal(plane.codes, same.codes)
 
 
+def test_a_motion_that_is_drawn_does_not_depend_on_how_many_are():
+    """The phases of twenty were others than the first twenty of forty."""
+    f, size = np.array([0.5]), MotionScatter(amplitude=0.1, phase=0.25, across=0.05)
+    few, many = (ScatteredSines(f, 2.0, size, number, 3) for number in (7, 40))
+    for k in range(7):
+        one, other = few.motion(0, 1.0, k), many.motion(0, 1.0, k)
+        np.testing.assert_array_equal(one.acceleration, other.acceleration)
+        np.testing.assert_array_equal(one.lateral, other.lateral)
+
+
 def test_probabilities_of_an_earlier_version_are_refused_as_such(tmp_path):
     old = dataclasses.replace(probability(["SSSS SSSC SCCC CCCC"]), provenance={"imperfection": {"geometry": 0.01}})
     with pytest.raises(st.InputError, match="was written by an earlier version; run it again"):

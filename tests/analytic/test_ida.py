@@ -10,6 +10,7 @@ import pytest
 
 import stylobate as st
 from stylobate.analysis import verdicts as v
+from stylobate.analysis.difference import caveat, doubt
 from stylobate.analysis.efficiency import which_tells_most
 from stylobate.analysis.evidence import evidence, intervals
 from stylobate.analysis.fragility import fragility
@@ -20,7 +21,7 @@ from stylobate.analysis.rocking_spectrum import rocking_block
 from stylobate.errors import InputError, OutOfRangeWarning
 from stylobate.motion import half_sine_pulse
 from stylobate.motion.intensity_specs import parse_levels, parse_measure
-from stylobate.response.words import round_in_the_plane
+from stylobate.response.words import UNDAMPED_WOBBLE, round_in_the_plane
 
 BLOCK = rocking_block(2.0, 0.2)
 
@@ -281,3 +282,31 @@ def test_what_a_plane_leaves_out_of_round_drums_goes_with_the_runs():
     assert sure.sentence.endswith(words)
     for told in (repr(sure.response), sure.response.describe()):
         assert told.count(words) == 1
+
+
+@pytest.mark.parametrize(
+    ("about", "says"),
+    [
+        ({"b": {"magnitude": 6.0}}, r"`about` names 'b', which is no record here; records are a: leave out"),
+        (
+            {"a": {"magnitud": 6.0}},
+            r"a fact about 'a' is 'magnitud'; did you mean magnitude\? allowed are magnitude, dist",
+        ),
+        ({"a": {"magnitude": "six"}}, r"magnitude of 'a' is 'six'; allowed is a number"),
+        ({"a": 6.0}, r"'a' of about is 6.0; allowed is a mapping"),
+    ],
+)
+def test_facts_that_nobody_asks_for_are_refused(about, says):
+    pulse = half_sine_pulse(1.0, 0.3 * st.g, 3.0).replace(name="a")
+    with pytest.raises(InputError, match=says):
+        ida(BLOCK, [pulse], st.HousnerBlock(), "pga", levels=[0.1], about=about)
+
+
+def test_what_nothing_damps_in_space_goes_with_the_runs():
+    """A single run alone said so."""
+    drums = [st.Drum(1.0, 0.6, 0.6, 2500.0, section="circular")] * 2
+    column = st.Column.of_drums(drums, st.Joint(1e9, 5e8))
+    assert caveat([column], st.DistinctElement3D()) == UNDAMPED_WOBBLE
+    assert doubt(["as built"], [column], st.DistinctElement3D()) == UNDAMPED_WOBBLE
+    for model in (st.DistinctElement3D(stiffness_damping=1e-4), st.DistinctElement3D(planar=True)):
+        assert UNDAMPED_WOBBLE not in (caveat([column], model), doubt(["as built"], [column], model))

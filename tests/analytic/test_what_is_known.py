@@ -227,6 +227,16 @@ def test_hazard_that_no_site_has(k0, power, unit, what):
             risk(curve, hazard)
 
 
+@pytest.mark.parametrize("rate", [[0.01, 0.002, 0.0001], [0.5, 0.05, 1e-6]])
+def test_swapped_columns_of_a_hazard_curve_are_named(rate):
+    im = np.array([0.1, 0.3, 1.0])
+    assert Hazard(im, np.array(rate), "g", "site.csv").rate.tolist() == rate
+    with pytest.raises(
+        InputError, match=r"its columns look swapped; give the intensity under its own name and the rate"
+    ):
+        Hazard(np.array(rate), im, "g", "site.csv")
+
+
 def test_return_periods_are_named():
     with pytest.raises(InputError, match="return periods"):
         Hazard(np.array([0.1, 0.2]), np.array([95.0, 475.0]), "g", "site.csv")

@@ -70,6 +70,7 @@ def commands():
         "study of records": (["study", "run", "records.toml"], 3),
         "states": ([*states, "--motion", "records"], 3),
         "run": (["run", *column, "--motion", "records", "--no-pictures"], 3),
+        "twins of a run": (["run", *column, "--harmonic", "1Hz,0.5g,2s", "--replicates", "6", "--no-pictures"], 7),
         "ida": (["ida", "paper-monolithic", "records", *MODEL, "--im", "pga", "--levels", "0.2g:0.4g:2"], 6),
     }
 
@@ -88,6 +89,7 @@ def commands():
         ("states", "suite", 0),
         ("ida", "ida", 0),
         ("run", "run", 0),
+        ("twins of a run", "twins of a run", 1),  # the run itself, with its histories
     ],
 )
 def test_what_one_command_has_made_the_next_one_reads(first, second, again, folder, made, capsys):

@@ -26,7 +26,7 @@ TAKEN = {
     st.collapse_probability: [one for one in ALL if one != "whole"],
     st.compare_states: ALL[:-1],
     st.compare_models: ["tail", "whole", "progress", "ledger"],
-    st.certainty: ["replicates", "scatter", "seed", "tail", "threads", "progress"],
+    st.certainty: [one for one in ALL if one != "whole"],
     st.run_study: ["threads", "dask", "progress"],
     st.Study: ["replicates", "scatter", "seed", "tail", "whole"],
 }
@@ -48,7 +48,7 @@ def test_its_fields_are_keywords_with_their_words_and_one_default(made, fields):
 
 def test_a_value_and_keywords_ask_for_the_same():
     by_keywords = st.collapse_domain(*GRID, tail=1.0, threads=1)
-    as_value = st.collapse_domain(*GRID, campaign=st.Campaign(tail=3.0, threads=1), tail=1.0)
+    as_value = st.collapse_domain(*GRID, campaign=st.Campaign(threads=1), tail=1.0)
     assert by_keywords.provenance == as_value.provenance
     assert by_keywords.table.equals(as_value.table)
 
@@ -102,3 +102,15 @@ def test_a_number_that_is_not_allowed_is_refused_where_the_value_is_made(fields,
 def test_an_option_that_a_command_ignores_is_not_accepted(capsys, command, option):
     assert call([*command, option]) == 2
     assert option.split("=")[0] in capsys.readouterr().err
+
+
+def test_a_keyword_that_contradicts_the_campaign_is_refused():
+    """The keyword won, and nobody was told."""
+    asked = st.Campaign(tail=3.0, threads=1)
+    with pytest.raises(
+        st.InputError, match=r"`tail` is 1.0, and 3.0 in the campaign; give it in one of the two"
+    ) as refused:
+        st.collapse_domain(*GRID, campaign=asked, tail=1.0)
+    assert refused.value.field == "tail"
+    same = st.collapse_domain(*GRID, campaign=asked, tail=3.0)
+    assert same.provenance["tail"] == 3.0

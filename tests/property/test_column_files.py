@@ -13,6 +13,7 @@ from stylobate.column.assembly_files import read_assembly
 from stylobate.column.files import column_from_dict, load_column, read_column, write_column
 from stylobate.column.plausible import unit_doubts
 from stylobate.column.presets import PRESETS, preset
+from stylobate.column.scatter import Scatter, scattered_columns
 from stylobate.errors import InputError
 
 LENGTHS = some.floats(1e-3, 1e3)
@@ -61,6 +62,7 @@ def columns(draw):
             return column
 
 
+@pytest.mark.filterwarnings("ignore::stylobate.OutOfRangeWarning")  # sizes are anything
 @given(column=columns())
 def test_a_written_column_is_read_back_equal(column, tmp_path_factory):
     path = write_column(column, tmp_path_factory.getbasetemp() / "round.toml")
@@ -154,23 +156,48 @@ def drums_of(height, width, number):
 
 
 @pytest.mark.parametrize(
-    ("column", "says"),
+    ("size", "says"),
     [
         (
-            drums_of(9.0, 0.5, 1),
+            (9.0, 0.5, 1),
             "9 m, is 18 times its width of 0.5 m, .* some 15 times: is 0.5 m the radius, where the",
         ),
-        (drums_of(14.0, 1.0, 6), r"drums are 2.33 times as high as wide \(1 m\), .* 2.2 times: is 1 m the radius"),
-        (drums_of(9.0, 1.0, 1), ""),
-        (drums_of(9.0, 1.0, 4), ""),  # tall drums, as Roman columns have them
-        (drums_of(19.6, 1.6, 6), ""),  # Persepolis, among the most slender of many drums
-        (drums_of(5.5, 0.5, 10), ""),
+        ((14.0, 1.0, 6), r"drums are 2.33 times as high as wide \(1 m\), .* 2.2 times: is 1 m the radius"),
+        ((9.0, 1.0, 1), ""),
+        ((9.0, 1.0, 4), ""),  # tall drums, as Roman columns have them
+        ((19.6, 1.6, 6), ""),  # Persepolis, among the most slender of many drums
+        ((5.5, 0.5, 10), ""),
     ],
 )
-def test_a_radius_given_for_a_diameter_is_told_by_the_slenderness(column, says):
-    found = unit_doubts(column)
+def test_a_radius_given_for_a_diameter_is_told_by_the_slenderness(size, says):
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        found = unit_doubts(drums_of(*size))
+    assert [str(one.message) for one in told] == [f"'column': {doubt}" for doubt in found]
     assert len(found) == bool(says)
     assert re.search(says, " ".join(found))
+
+
+def test_a_column_made_in_python_is_doubted_as_one_of_a_file_and_not_again():
+    drums = [st.Drum(900.0, 800.0, 800.0, 2500.0, section="circular")] * 3
+    joint = st.Joint(5e10, 2.5e10)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        column = st.Column.of_drums(drums, joint)
+    first, *others = (str(one.message) for one in told)
+    assert first == "'column': the height of the column is 2700 m, and columns have 0.05 to 60 m: was it meant in mm?"
+    assert re.search("width of the lower face of drum 1 is 800 m.*meant in mm", others[0])
+    sound = drums_of(5.5, 0.5, 10)
+    with pytest.warns(st.OutOfRangeWarning, match=r"density of drum 1 is 2.5 kg/m³"):
+        sound.replace(drums=(st.Drum(1.0, 0.5, 0.5, 2.5, section="circular"), *sound.drums[1:]))
+    with pytest.warns(st.OutOfRangeWarning, match=r"friction_angle is 0.7 degrees, and a coefficient is friction_coef"):
+        sound.with_joint(friction_angle=0.7)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert column_from_dict(column.to_dict()) == column
+        assert len(scattered_columns(column, Scatter(), 2, 1)) == 2
+        assert st.Joint(5e10, 5e10, friction_angle=0.0).tan_phi == 0.0
+        column.replace(name="again")
 
 
 def test_no_column_that_is_known_is_doubted():

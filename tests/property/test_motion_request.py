@@ -243,3 +243,19 @@ def test_runs_of_nothing_are_refused():
     ):
         with pytest.raises(st.InputError, match="give at least one"):
             run()
+
+
+@pytest.mark.parametrize("azimuths", [(0.0, 90.0, 360.0), (-90.0, 0.0, 270.0), (30.0, 30.0)])
+def test_one_direction_twice_is_refused(record, azimuths):
+    with pytest.raises(
+        st.InputError, match=r"which are one direction; give each direction once, such as 0:330:12"
+    ) as refused:
+        st.MotionRequest(files=(record,), azimuths=azimuths)
+    assert refused.value.field == "azimuths"
+    with pytest.raises(st.InputError, match="0° and 360°, which are one direction"):
+        st.MotionRequest.typed(motion=[record], azimuths="0:360:13")
+
+
+def test_several_scales_are_no_scale(record):
+    with pytest.raises(st.InputError, match=r"`scale` is \(1, 2\), not a number"):
+        st.MotionRequest(files=(record,), scale=(1, 2))  # pyright: ignore[reportArgumentType]

@@ -12,7 +12,7 @@ import stylobate
 import stylobate as st
 from stylobate.cli import console, main
 from stylobate.column.tables import made_of
-from stylobate.errors import PARAMETER, InputError, check_range, told, within
+from stylobate.errors import PARAMETER, InputError, check_range, reworded, within
 
 SOURCE = Path(stylobate.__file__).parent
 OPTION = re.compile(r"(?<![\w-])--[a-z]")
@@ -70,7 +70,7 @@ def test_every_parameter_in_a_message_is_given_by_an_option():
 )
 def test_the_reader_of_a_message_has_his_own_words(message, options, keys):
     assert console.in_options(InputError(message)) == options
-    assert told(message, str) == keys
+    assert reworded(message, str) == keys
     assert str(InputError(message)) == message
 
 

@@ -31,10 +31,9 @@ def round_column(drums: int = 1, stiffness: float = 5e10, friction: float = 0.7)
 
 
 def cylinder(diameter: float, height: float, stiffness: float = 5e10, friction: float = 0.7) -> Column:
-    """A single cylindrical drum."""
-    return Column.of_drums(
-        [Drum(height, diameter, diameter, 1600.0, section="circular")], joint(stiffness, friction), name="cylinder"
-    )
+    """A single cylindrical drum, flatter than any column too."""
+    drum = Drum(height, diameter, diameter, 1600.0, section="circular")
+    return Column.of_fields(drums=(drum,), joints=(joint(stiffness, friction),), name="cylinder")
 
 
 def released(column: Column, start: Start, duration: float, every: int = 1, **options) -> tuple[np.ndarray, np.ndarray]:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import closing
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
 
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.digests import Hasher
+from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import Twins, the_twins
 from ..column import Column
 from ..models.base import Case, Model
@@ -17,7 +20,7 @@ from ..motion import Motion
 from ..percent import percents
 from ..response import Response
 from ..response.words import doubt_of, to_decide
-from ..simulate import simulate, simulate_iter
+from ..simulate import simulate
 from . import verdicts as v
 
 if TYPE_CHECKING:
@@ -178,7 +181,7 @@ class Population:
                 "sentence": self.sentence,
                 **{one: counts[one] for one in v.MADE},
                 "confidence": self.confidence,
-                **self.drawn.told,
+                **self.drawn.facts,
                 "percentiles": [16, 50, 84],
                 **self.spread,
                 "median_twin": None if middle is None else middle + 1,
@@ -291,7 +294,7 @@ def _not_fallen(counts: Mapping[str, int]) -> str:
     return " and ".join(words)
 
 
-@campaigning(Fields, but=("whole", "dask", "ledger"), replicates=15)
+@campaigning(Fields, but=("whole",), replicates=15)
 def certainty(
     column: Column,
     motion: Motion,
@@ -315,8 +318,8 @@ def certainty(
     column, motion, model, output_interval, until_end, until_rest, quiet
         As in :func:`stylobate.simulate`.
     campaign : Campaign, optional
-        How many twins, and how; threads are for those beyond the first fifteen, and ``progress`` is called with times, as in
-        :func:`stylobate.simulate`.
+        How many twins, and how; threads, cluster and ledger are for those beyond the first fifteen, and ``progress`` is
+        called with times, as in :func:`stylobate.simulate`.
 
     Raises
     ------
@@ -332,17 +335,20 @@ def certainty(
         twins=riding, quiet=quiet, progress=campaign.progress,
     )  # fmt: skip
     rows = [twin.row() for twin in response.twins]
-    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, tail, campaign.threads, quiet)
+    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, quiet)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail))
     return Certainty(response, population, time.perf_counter() - began)
 
 
-def batch(
-    cases: Sequence[Case], column: Column, model: Model, tail: float, threads: int | None, quiet: float = 0.0
-) -> list[dict]:
-    """Rows of twins that did not ride along, computed as those that did."""
+def batch(cases: Sequence[Case], column: Column, model: Model, campaign: Campaign, quiet: float) -> list[dict]:
+    """Rows of twins that did not ride along, computed as those that did; the ledger of the campaign keeps them."""
     rows: list[dict] = [{}] * len(cases)
     if cases:
-        for index, measures in simulate_iter(cases, model.paced(column), tail=tail, quiet=quiet, threads=threads):
-            rows[index] = measures.row()
+        request = Request.of(cases, Hasher(model.paced(column), campaign.tail), quiet)
+        with closing(Runs(replace(campaign, progress=None))) as runs, closing(runs.run(request)) as finished:
+            try:
+                for number, row in finished:
+                    rows[number] = row
+            except KeyboardInterrupt:
+                raise Stopped(runs.kept, len(cases), runs.path) from None
     return rows

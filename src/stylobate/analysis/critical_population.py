@@ -122,7 +122,7 @@ class CriticalPopulation:
             **{name: count.tolist() for name, count in self.counts.items()},
             "replicates": len(self.verdicts),
             "certainty": {
-                **self.drawn.told,
+                **self.drawn.facts,
                 "confidence": self.confidence,
                 **self.percentiles,
                 "bounds": self.bounds,

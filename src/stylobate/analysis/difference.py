@@ -11,7 +11,7 @@ from ..column import Column
 from ..column.structure import Structure
 from ..models.base import Model
 from ..percent import whole
-from ..response.words import ROUND_IN_THE_PLANE, round_in_the_plane
+from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, round_in_the_plane, undamped
 from .fragility_checks import FEWEST
 
 #: Kinds of difference.
@@ -31,18 +31,24 @@ NO_MEASURE_YET = (
 )
 
 
-def round_drums(columns: Sequence[Structure], model: Model) -> str:
-    """Caveat before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
-    if not model.is_plane(model.parameters()):
-        return ""
-    return next(
-        (round_in_the_plane(column) for column in columns if column.stack is not None and column.stack.n > 1), ""
-    )
+def caveat(columns: Sequence[Structure], model: Model) -> str:
+    """Caveat before many runs of these columns, in one sentence; empty where their model gives no reason for any.
+
+    In a plane, columns of several round drums leave it by themselves; in space, their wobble is damped by nothing.
+    """
+    known = model.parameters()
+    if not model.is_plane(known):
+        wobbles = undamped(known) and any(column.slenderness is not None for column in columns)
+        return UNDAMPED_WOBBLE if wobbles else ""
+    stacks = (column for column in columns if column.stack is not None and column.stack.n > 1)
+    return next(filter(None, map(round_in_the_plane, stacks)), "")
 
 
 def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
     """Caveat before any advice on these states, because of the model; empty where nothing does."""
-    if not model.is_plane(model.parameters()) or all(column.section != "circular" for column in columns):
+    if not model.is_plane(model.parameters()):
+        return caveat(columns, model)
+    if all(column.section != "circular" for column in columns):
         return ""
     return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(label not in NO_MEASURE for label in labels) + "."
 

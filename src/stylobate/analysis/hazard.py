@@ -30,6 +30,10 @@ ENVELOPE = (
     (5.0, 1e-3, "im_g is in g and im_m_s in m/s, not in % of g, cm/s² or cm/s"),
 )
 
+#: No hazard curve that falls from here less than in proportion is one [g or m/s]: from site to site rates fall by the power
+#: 1.5 to 4 of the intensity, and so do intensities by less than the first power of a rate.
+FEEBLEST = 2e-3
+
 #: A rate is refused that is larger by more than this factor.
 REFUSED = 10.0
 
@@ -78,10 +82,15 @@ class Hazard:
         rises = np.flatnonzero(np.diff(rate) > 0.0)
         if rises.size:
             k = int(rises[0])
-            periods = " (return periods? the rate is 1 over the period)" if (rate >= 1.0).all() else ""
             raise InputError(
                 f"hazard curve {self.name} rises from {rate[k]:.3g} a year at {im[k]:g} {self.unit} to {rate[k + 1]:.3g} at "
-                f"{im[k + 1]:g}; the rate of exceeding more cannot be larger: check its columns{periods}."
+                f"{im[k + 1]:g}, and the rate of exceeding more cannot be larger; {_remedy(im, rate)}."
+            )
+        if im[0] <= FEEBLEST and math.log(rate[0] / rate[-1]) < math.log(im[-1] / im[0]):
+            raise InputError(
+                f"hazard curve {self.name} begins at {im[0]:g} {self.unit}, exceeded {rate[0]:.3g} times a year, and falls "
+                "less than in proportion, which no hazard does: its columns look swapped; give the intensity under its own "
+                "name and the rate of exceeding it as annual_rate."
             )
         object.__setattr__(self, "im", im)
         object.__setattr__(self, "rate", rate)
@@ -111,6 +120,13 @@ class Hazard:
         if im > self.im[-1]:
             return 0.0
         return float(np.exp(np.interp(math.log(im), np.log(self.im), np.log(self.rate))))
+
+
+def _remedy(im: np.ndarray, rate: np.ndarray) -> str:
+    """What mends a curve that rises: its columns hold something else than they are called."""
+    if (rate >= 1.0).all() and (np.diff(rate) > 0.0).all():
+        return "these look like return periods: give 1 over the period as annual_rate"
+    return "check its rows and columns"
 
 
 def read_hazard(path: str | Path, site: tuple[float, float] | None = None) -> Hazard:

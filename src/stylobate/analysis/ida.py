@@ -17,14 +17,14 @@ from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import the_twins
 from ..column import Column
-from ..errors import InputError, OutOfRangeWarning, check_all, check_kind, check_range, warn
+from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
 from ..motion import Motion
-from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
+from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
 from . import verdicts as v
-from .difference import round_drums
+from .difference import caveat
 from .hunt import next_levels
 from .ida_curves import Ida
 
@@ -36,6 +36,9 @@ WARNED, LARGEST = 10.0, 20.0
 
 #: Runs of a record.
 RUNS = 14
+
+#: What may be known about a record.
+ABOUT = ("magnitude", "distance_km")
 
 
 @dataclass
@@ -124,7 +127,7 @@ def ida(
                 f"{motion.name!r} is zero along x and cannot be scaled; leave a record without shaking out."
             )
     relation = (math.tan(column.slenderness), column.frequency_parameter)
-    known = about or {}
+    known = _about(about or {}, motions)
     facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
     drawn = the_twins(column, model, campaign) if campaign.replicates else None
     columns = [column] if drawn is None else list(drawn.columns)
@@ -164,7 +167,7 @@ def ida(
     _warn_of_factors(traces, measure.power)
     table = _table(traces, dict(zip((one.name for one in motions), facts)), column, measure, model)
     table["hunted"] = stripes is None
-    table.attrs["doubt"] = doubt = round_drums([column], model)
+    table.attrs["doubt"] = doubt = caveat([column], model)
     return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
 
 
@@ -189,10 +192,26 @@ def _scaled(trace: Trace, level: float, power: int) -> Motion:
     return trace.motion.scaled((level / trace.value) ** (1.0 / power))
 
 
+def _about(about: Mapping[str, Mapping[str, float]], motions: Sequence[Motion]) -> Mapping[str, Mapping[str, float]]:
+    """Facts about records, refused where they are of none of these, or are called otherwise."""
+    names = list(dict.fromkeys(name for motion in motions for name in (motion.name, record_of(motion))))
+    for name, facts in about.items():
+        if name not in names:
+            raise InputError(
+                f"`about` names {name!r}, which is no record here; {suggest(str(name), names)}records are "
+                f"{', '.join(names[:4])}{' …' if names[4:] else ''}: leave out what is about others.",
+                "about",
+            )
+        for fact, value in check_kind(f"{name!r} of about", facts, Mapping).items():
+            check_choice(f"a fact about {name!r}", fact, ABOUT, field="about")
+            check_kind(f"{fact} of {name!r}", value, Real)
+    return about
+
+
 def _facts(
     motion: Motion, measure: IntensityMeasure, relation: tuple[float, float], about: Mapping[str, float]
 ) -> dict[str, float]:
-    return told(motion, [relation])[0] | {measure.key: measure.of(motion, relation)} | dict(about)
+    return measures_by_column(motion, [relation])[0] | {measure.key: measure.of(motion, relation)} | dict(about)
 
 
 def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
@@ -216,7 +235,7 @@ def _table(
 ) -> pandas.DataFrame:
     import pandas
 
-    powers = told_powers() | {measure.key: measure.power}
+    powers = powers_by_column() | {measure.key: measure.power}
     rows = []
     for trace in traces:
         fact = facts[trace.motion.name]

@@ -214,7 +214,7 @@ class Ida:
             "wall_s": self.wall_time,
             "model": self.model,
             "doubt": self.doubt,
-            **({} if self.twins is None else {"replicates": len(self.twins.columns), "certainty": self.twins.told}),
+            **({} if self.twins is None else {"replicates": len(self.twins.columns), "certainty": self.twins.facts}),
         }
 
 

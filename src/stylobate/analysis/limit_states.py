@@ -91,7 +91,7 @@ class LimitState:
             return OPEN
         return EXCEEDED if passed else NOT_EXCEEDED
 
-    def must_be_told(self, row: Mapping[str, Any], columns: Sequence[Structure]) -> None:
+    def check_known(self, row: Mapping[str, Any], columns: Sequence[Structure]) -> None:
         """Refuse a state that runs do not tell, before there are any.
 
         Parameters

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..column import Column, Joint
+from ..column import Column, Drum, Joint
 from ..constants import g
 from ..errors import InputError, check_kind
 from ..models.base import Case
@@ -121,17 +121,11 @@ def rocking_block(frequency_parameter: float, slenderness: float) -> Column:
     """The rectangular block of given p [rad/s] and α [rad]: R = 3g/(4p²)."""
     radius = 0.75 * g / frequency_parameter**2
     width = 2.0 * radius * math.sin(slenderness)
-    return Column.tapered(
-        height=2.0 * radius * math.cos(slenderness),
-        bottom_width=width,
-        top_width=width,
-        drums=1,
-        density=2000.0,
-        section="rectangular",
-        # Friction enough that it rocks and does not slide; the stiffness does not matter for a rigid block.
-        joint=Joint(5e10, 2.5e10, friction_angle=math.degrees(math.atan(max(0.7, 2.0 * math.tan(slenderness))))),
-        name=f"block p = {frequency_parameter:g} rad/s, α = {math.degrees(slenderness):g}°",
-    )
+    # Friction enough that it rocks and does not slide; the stiffness does not matter for a rigid block.
+    law = Joint(5e10, 2.5e10, friction_angle=math.degrees(math.atan(max(0.7, 2.0 * math.tan(slenderness)))))
+    name = f"block p = {frequency_parameter:g} rad/s, α = {math.degrees(slenderness):g}°"
+    drum = Drum(2.0 * radius * math.cos(slenderness), width, width, 2000.0)
+    return Column.of_fields(drums=(drum,), joints=(law,), name=name)
 
 
 def rocking_spectrum(

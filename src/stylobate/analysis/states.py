@@ -20,7 +20,7 @@ from ..motion import Motion
 from ..motion.intensity_specs import IntensityMeasure
 from ..response.links import AT_CAPACITY
 from ..response.measures import blank_row
-from .difference import Difference, doubt, reference, round_drums
+from .difference import Difference, caveat, doubt, reference
 from .evidence import Evidence, evidence, intervals
 from .fragility import SAMPLES, Fragility, fragility
 from .fragility_checks import check_bootstrap
@@ -187,12 +187,12 @@ def compare_states(
         raise InputError(f"{len(labels)} state of a column is given; give at least {FEWEST_STATES} to compare.")
     named = tuple(column.replace(name=label) for label, column in states.items())
     study = Study(named, motions, [model], levels, im, campaign=campaign.of_runs)
-    parse_state(state).must_be_told(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
+    parse_state(state).check_known(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
     result, seed = run_study(study, out, campaign=campaign.of_computing), campaign.seed
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
     parts: list[Any] = [table[table["state"] == label] for label in labels]
-    before = round_drums(named, model)
+    before = caveat(named, model)
     told = [evidence(part, study.im, state, label, doubt=before) for part, label in zip(parts, labels, strict=True)]
     curves = tuple(_curve(one, samples, seed, confidence) for one in told)
     compared = {label: labels.index(reference(labels, label)) for label in labels[1:]}

@@ -21,7 +21,7 @@ from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..motion.orientation import record_of
 from .certainty import Population
-from .difference import round_drums
+from .difference import caveat
 from .directions import direction_of
 from .side_by_side import Share, codes_of, shares
 from .verdicts import NOT_RUN, verdict
@@ -53,7 +53,7 @@ INTENSITIES = {
 }
 
 
-def must_be_told(against: str, columns: Sequence[Structure]) -> None:
+def check_measure(against: str, columns: Sequence[Structure]) -> None:
     """Refuse a measure of records that there is not, or not of assemblies.
 
     Raises
@@ -93,7 +93,8 @@ def suite_table(
         one: outcome and measures as the JSON keys of
         ``stylobate run``, the factor by which the record was multiplied, and its intensity measures along x, with
         those that relate it to the column (:data:`INTENSITIES`); an assembly has no slenderness. With twins, the probability
-        of collapse with its interval, and what 16, 50 and 84 % of them do not exceed.
+        of collapse with its interval, and what 16, 50 and 84 % of them do not exceed; ``attrs["twins"]`` tells by column how
+        they differ.
 
     Raises
     ------
@@ -135,7 +136,8 @@ def suite_table(
             of_twins = [one for one in found[own + i * number : own + (i + 1) * number] if one is not None]
             line |= Population(some, tuple(of_twins)).columns
     table = pandas.DataFrame(rows)
-    table.attrs["doubt"] = round_drums(stands, model)
+    table.attrs["doubt"] = caveat(stands, model)
+    table.attrs["twins"] = {one.name: {"words": some.words, **some.facts} for one, some in zip(stands, drawn)}
     return table
 
 

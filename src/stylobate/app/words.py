@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from ..column import tables
-from ..errors import told
+from ..errors import reworded
 
 #: Label of a field of the page, by the option of the command line that it stands for; the scripts of the page take
 #: them from here.
@@ -59,7 +59,7 @@ def in_page_words(said: Any) -> Any:
     said : text, list, dict, or anything else, which stays as it is
     """
     if isinstance(said, str):
-        said = told(said, lambda name: "--" + _OPTIONS.get(name, name).replace("_", "-"))
+        said = reworded(said, lambda name: "--" + _OPTIONS.get(name, name).replace("_", "-"))
         said = _OPTION.sub(_named, _ASIDE.sub(_kept, said)) if "--" in said else said
         return _KEYS.sub(lambda key: key[0].replace("_", " "), said)
     if isinstance(said, dict):

@@ -44,7 +44,8 @@ class Fields(Computing, total=False):
 class Campaign:
     """How runs are made: asked for once, the same for the command line, study files, the page and Python.
 
-    A field that is given as a keyword beside a campaign takes the place of the campaign's.
+    A keyword beside a campaign fills a field that the campaign leaves at its default; where both say something else, they
+    are refused.
 
     Parameters
     ----------
@@ -175,6 +176,13 @@ def campaigning(keywords: type, but: tuple[str, ...] = (), **usual: Any) -> Call
                 raise InputError(
                     f"campaign is {as_typed(value)}; allowed is a Campaign, such as Campaign(replicates=30)."
                 )
+            for name, typed in changes.items():
+                asked = getattr(value, name)
+                if asked not in (typed, getattr(USUAL, name), getattr(standard, name)):
+                    raise InputError(
+                        f"`{name}` is {as_typed(typed)}, and {as_typed(asked)} in the campaign; give it in one of the two.",
+                        name,
+                    )
             made = replace(value, **changes)
             for other in others:
                 if getattr(made, other.name) != other.default:

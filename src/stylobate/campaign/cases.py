@@ -19,7 +19,7 @@ from ..models.base import Case, Cases, Model
 from ..models.shared.quiet import share_of
 from ..motion import Motion
 from ..motion.conditioning import warn_of_scaling
-from ..motion.intensity_specs import IntensityMeasure, parse_measure, told, told_powers
+from ..motion.intensity_specs import IntensityMeasure, measures_by_column, parse_measure, powers_by_column
 from ..motion.orientation import record_of
 from ..simulate import run_options
 from ..version import __version__
@@ -205,7 +205,7 @@ class Study:
             "columns": [{"column": column.name, **column.widths} for column in self.columns],
             "motions": [one(motion) for motion in self.motions],
             "intensities": self._intensities(),
-            "powers": told_powers(),
+            "powers": powers_by_column(),
             "measure": "factor" if self.im is None else self.im.name,
             "unit": "-" if self.im is None else self.im.unit,
             "levels": list(self.levels),
@@ -227,9 +227,9 @@ class Study:
         seen: dict[tuple, list[dict[str, float]]] = {}
         for motion in self.motions:
             if samples_of(motion) not in seen:
-                seen[samples_of(motion)] = told(motion.replace(factor=1.0), relations)
+                seen[samples_of(motion)] = measures_by_column(motion.replace(factor=1.0), relations)
         intensities = {}
-        for name, power in told_powers().items():
+        for name, power in powers_by_column().items():
             if name in RELATIVE and all(angle is None for angle in angles):
                 continue
             sizes = [abs(motion.factor) ** power for motion in self.motions]

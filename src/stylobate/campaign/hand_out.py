@@ -213,7 +213,7 @@ class HandOut:
         if error is None:  # taken back by the scheduler, which lost it
             self._check()
         elif type(error).__name__ != "KilledWorker":
-            raise _said(error) from None
+            raise _bare_error(error) from None
         elif len(numbers) == 1:
             if name == self._alone:
                 yield numbers[0], not_computed(InputError("the workers that computed it died, each time"))
@@ -245,7 +245,7 @@ class HandOut:
 GONE = "the Dask scheduler is gone; with `out=DIR` what has finished is kept, and the same command goes on from there."
 
 
-def _said(error: BaseException) -> BaseException:
+def _bare_error(error: BaseException) -> BaseException:
     """Error of a worker, in a sentence where it is not about the work itself."""
     if isinstance(error, ImportError):
         return InputError(f"a worker cannot load what it needs ({error}); install the same version of stylobate there.")

@@ -28,7 +28,7 @@ class Twins(NamedTuple):
         return described(len(self.columns), self.scatter, self.seed, self.left_out)
 
     @property
-    def told(self) -> dict[str, Any]:
+    def facts(self) -> dict[str, Any]:
         """Differences, under the names of the JSON objects of commands."""
         return {"scatter": dataclasses.asdict(self.scatter), "left_out": list(self.left_out), "seed": self.seed}
 

@@ -23,7 +23,7 @@ def animate(
         "From where a response in space is seen, in degrees: azimuth from x towards y; -40,18 if not given.",
     ),
     *,
-    execution: Annotated[o.Execution, o.But("threads", "dask")],
+    execution: Annotated[o.Execution, o.But("dask")],
 ) -> None:
     """Draw a recorded response as a film: GIF, MP4, or an HTML page with a scrubber.
 
@@ -37,13 +37,15 @@ def animate(
     from . import console
 
     if to not in FORMATS:
-        raise InputError(f"--format is {to!r}; allowed are {', '.join(FORMATS)}.")
+        raise InputError(f"--format is {to!r}; allowed are {', '.join(FORMATS)}.", "format")
     frames, pace = _number("--fps", rate, 100.0), _number("--speed", speed, 1000.0)
     if response.is_dir():
         response = response / "response.nc"
     loaded = load_response(response)
     if view is not None and loaded.dims != "xyz":
-        raise InputError(f"--view is for responses in space, and that of {loaded.model} is in the plane; leave it out.")
+        raise InputError(
+            f"--view is for responses in space, and that of {loaded.model} is in the plane; leave it out.", "view"
+        )
     seen_from = OBLIQUE if view is None else parse_view(view)
     window = None
     if start is not None or stop is not None:

@@ -32,7 +32,7 @@ def cite(
         if one not in (None, False)
     ]
     if len(given) > 1:
-        raise InputError(f"{' and '.join(given)} are both given; give one of RESULT, --model and --all.")
+        raise InputError(f"{' and '.join(given)} are both given; give one of RESULT, --model and --all.", "result")
     found = _citation(result, model, everything)
     with execution.files("cite", "citation.txt", "citation.bib") as files:
         if files.wanted:

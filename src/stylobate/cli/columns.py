@@ -36,23 +36,24 @@ def columns(
     other = next((one for one in chosen if one.stack is None), None)
     if execution.out is not None and other is not None:
         raise InputError(
-            f"--out writes column files, and {other.name!r} is {other.described}; leave one of the two out."
+            f"--out writes column files, and {other.name!r} is {other.described}; leave one of the two out.",
+            "out",
         )
     names = [f"{Path(one.name).name or 'column'}.toml" for one in chosen]
     double = next((name for name in names if names.count(name) > 1), None)
     if execution.out is not None and double is not None:
-        raise InputError(f"two of the columns would be written to {double}; give each a name of its own.")
+        raise InputError(f"two of the columns would be written to {double}; give each a name of its own.", "columns")
     with execution.files("columns", *names) as files:
         if files.wanted:
             files += [write_column(one, files / name) for one, name in zip(chosen, names)]
-    if execution.emits({"columns": [_told(one) for one in chosen], "files": files.names}):
+    if execution.emits({"columns": [_facts_of(one) for one in chosen], "files": files.names}):
         return
     for one in chosen:
         console.say(one.name, _facts(one) if one.stack is not None else _assembled(one))
     console.print_files(files)
 
 
-def _told(structure: Any) -> dict:
+def _facts_of(structure: Any) -> dict:
     return properties(structure) if structure.stack is not None else parts_of(structure)
 
 

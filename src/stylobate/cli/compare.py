@@ -36,7 +36,7 @@ def compare(
     States of one column, as built, as found and with a measure, are compared by 'stylobate states'.
     """
     from ..analysis.compare import compare_domains, compare_models
-    from ..analysis.difference import round_drums
+    from ..analysis.difference import caveat
     from ..motion.orientation import keep_axes
     from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
@@ -44,22 +44,24 @@ def compare(
 
     names = [name.strip() for name in models.split(",")]
     if len(set(names)) != len(names):
-        raise InputError(f"--models is {models!r}, with a model given twice; give each once.")
+        raise InputError(f"--models is {models!r}, with a model given twice; give each once.", "models")
     campaign = execution.campaign(following)
     stone = o.the_column(column, project)
     chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
-    doubts = (round_drums([stone], one) for one in chosen)
+    doubts = (caveat([stone], one) for one in chosen)
     result: dict[str, Any] = {"models": names, "doubt": next(filter(None, doubts), "")}
     facts: dict[str, str] = {}
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}
     if over_domain:
         if frequencies is None or amplitudes is None:
-            raise InputError("a domain needs both --frequencies and --amplitudes; give both.")
+            raise InputError("a domain needs both --frequencies and --amplitudes; give both.", "frequencies")
         if motions.harmonic or motions.pulse or motions.synthetic or motions.motion:
-            raise InputError("both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.")
+            raise InputError(
+                "both a motion and a domain are given; give a motion, or --frequencies and --amplitudes.", "frequencies"
+            )
         if following.whole:
-            raise InputError("--whole is for records, and a domain has none; leave it out.")
+            raise InputError("--whole is for records, and a domain has none; leave it out.", "whole")
         grid = frequency_range(frequencies), amplitude_range(amplitudes), parse_time(duration)
         each = [one for name in names for one in (f"domain-{_stem(name)}.nc", f"domain-{_stem(name)}")]
         with execution.files("compare", "comparison.csv", "comparison", *each) as files:
@@ -72,7 +74,7 @@ def compare(
         result |= {"domains": [domain.summary() for domain in domains.domains], "differences": table.to_dict("records")}
     else:
         if execution.dask is not None:
-            raise InputError("--dask is for domains, and one motion is run here; leave it out.")
+            raise InputError("--dask is for domains, and one motion is run here; leave it out.", "dask")
         shaking = motions.request().motion(stone.frequency_parameter)
         each = [f"response-{_stem(name)}.nc" for name in names]
         with execution.files("compare", "comparison.csv", "comparison", *each) as files:
@@ -115,7 +117,9 @@ def _settings_of(name: str, names: list[str], settings: list[str] | None) -> lis
     for text in settings or []:
         model, dot, setting = text.partition(".")
         if not dot or model not in names:
-            raise InputError(f"--set is {text!r}; write it as model.name=value, the model one of {', '.join(names)}.")
+            raise InputError(
+                f"--set is {text!r}; write it as model.name=value, the model one of {', '.join(names)}.", "set"
+            )
         if model == name:
             mine.append(setting)
     return mine

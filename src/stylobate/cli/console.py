@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..errors import told
+from ..errors import reworded
 
 if TYPE_CHECKING:
     import pandas
@@ -34,7 +34,7 @@ OPTIONS = {"files": "--motion", "hazards": "--hazard"}
 
 def in_options(message: object) -> str:
     """The message of an error or a warning, with the options that give the parameters in it."""
-    return told(str(message), lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
+    return reworded(str(message), lambda name: OPTIONS.get(name, f"--{name.replace('_', '-')}"))
 
 
 #: Time until the first line about progress, where there is no terminal [s].

@@ -37,7 +37,7 @@ def domain(
     With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
-    from ..analysis.difference import round_drums
+    from ..analysis.difference import caveat
     from ..analysis.domain import collapse_domain
     from ..analysis.replicates import collapse_probability
     from ..analysis.step_sensitivity import compare_steps
@@ -49,7 +49,7 @@ def domain(
     campaign = execution.campaign(population, tail=study.tail)
     likely = population.replicates is not None
     if likely and half_step:
-        raise InputError("--half-step is for a domain without --replicates; give one of the two.")
+        raise InputError("--half-step is for a domain without --replicates; give one of the two.", "half_step")
     if not likely:
         o.for_replicates("--motion-scatter", motion_scatter)
     shaking = None if motion_scatter is None else o.motion_scatter(motion_scatter)
@@ -64,7 +64,7 @@ def domain(
             else:
                 result = collapse_domain(*grid, campaign=asked)
         summary = result.summary() | ({"half_step": pair.summary()} if pair else {})
-        summary["doubt"] = round_drums([study.column], study.model)
+        summary["doubt"] = caveat([study.column], study.model)
         if not result.complete:
             raise Stopped(summary["runs"], summary["runs"] + summary["not_run"], asked.ledger)
         if files.wanted:
@@ -181,7 +181,9 @@ def _study(
     if Path(what).is_file() and is_grid(what):
         for option, value in given.items():
             if value:
-                raise InputError(f"{what} is a study file and {option} is given as well; state it in the file.")
+                raise InputError(
+                    f"{what} is a study file and {option} is given as well; state it in the file.", o.field_of(option)
+                )
         return read_grid(what)
     column = o.the_column(what, project)
     return HarmonicGrid(
@@ -196,5 +198,7 @@ def _study(
 
 def _needed(option: str, value: str | None, example: str) -> str:
     if value is None:
-        raise InputError(f"{option} is missing; a domain of a column needs it, e.g. {option} {example}.")
+        raise InputError(
+            f"{option} is missing; a domain of a column needs it, e.g. {option} {example}.", o.field_of(option)
+        )
     return value

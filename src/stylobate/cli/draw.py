@@ -26,10 +26,10 @@ def draw(
 
     structure = o.the_structure(column)
     if out.suffix.lower() not in KINDS:
-        raise InputError(f"--out is {str(out)!r}; allowed are files that end in {', '.join(KINDS)}.")
+        raise InputError(f"--out is {str(out)!r}; allowed are files that end in {', '.join(KINDS)}.", "out")
     if out.is_dir() or not out.parent.is_dir():
         what = "is a folder" if out.is_dir() else f"lies in {str(out.parent)!r}, which is no folder"
-        raise InputError(f"--out {str(out)!r} {what}; name a file in a folder that is there.")
+        raise InputError(f"--out {str(out)!r} {what}; name a file in a folder that is there.", "out")
     from .. import plots
 
     files = plots.save_as(plots.draw_views(structure, structure.name), out)

@@ -51,9 +51,9 @@ class Curves(o.Group):
         from ..results.sources import Source
 
         if method not in (None, "runs", "records"):
-            raise InputError(f"--method is {method!r}; allowed is runs or records.")
+            raise InputError(f"--method is {method!r}; allowed is runs or records.", "method")
         if not 0 <= self.seed < 2**63:
-            raise InputError(f"--seed is {self.seed}; allowed is a whole number from 0.")
+            raise InputError(f"--seed is {self.seed}; allowed is a whole number from 0.", "seed")
         asked, level = None if self.im is None else parse_measure(self.im), parse_state(self.state)
         found, used = [], []
         for source in sources:
@@ -69,12 +69,14 @@ class Curves(o.Group):
                 missing = [one for one in self.of if one not in names]
                 if missing:
                     raise InputError(
-                        f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}."
+                        f"{source} has no runs of a column or state {missing[0]!r}; it has {', '.join(names)}.",
+                        "of",
                     )
                 names = [one for one in names if one in self.of]
             if single and len(names) > 1:
                 raise InputError(
-                    f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of."
+                    f"{source} holds runs of {len(names)} columns or states ({', '.join(names)}); choose one with --of.",
+                    "of",
                 )
             chosen: Any = table[[label in names for label in labels]]
             place = table_of(source)
@@ -85,7 +87,7 @@ class Curves(o.Group):
                 told = evidence(rows, measure, level, shown, doubt=Source(source, place, rows).doubt)
                 found.append(fit(told, method=method, seed=self.seed, records_are_one=self.records_are_one))
         if len({one.evidence.unit for one in found}) > 1:
-            raise InputError("the sources are over different intensities; choose one with --im.")
+            raise InputError("the sources are over different intensities; choose one with --im.", "im")
         return found, used
 
     def one(self, source: Path) -> tuple[Fragility, list[Source]]:

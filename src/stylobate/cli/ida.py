@@ -115,21 +115,20 @@ def the_facts(about: Path | None, sources: list[Path], names: list[str]) -> dict
     import pandas
 
     from ..analysis import tables
+    from ..analysis.ida import ABOUT
 
     facts: dict[str, dict[str, float]] = {}
     for folder in (source for source in sources if about is None and (source / "manifest.csv").is_file()):
         table = pandas.read_csv(folder / "manifest.csv", dtype=str).fillna("")
         for row in table.to_dict("records"):
             told = _MAGNITUDE.search(" ".join(str(one) for one in row.values()))
-            if told and row.get("file"):
+            if told and row.get("file") in names:
                 facts[str(row["file"])] = {"magnitude": float(told[1])}
     if about is not None:
         table = tables.read(about, 10_000_000, "record", "the columns record, and magnitude or distance_km")
-        known = [one for one in ("magnitude", "distance_km") if one in table.columns]
+        known = [one for one in ABOUT if one in table.columns]
         if not known:
-            raise InputError(f"{about} needs the columns record, and magnitude or distance_km.")
+            raise InputError(f"{about} needs the columns record, and magnitude or distance_km.", "about")
         for name, *values in zip(table.texts("record"), *(table.numbers(one, math.nan) for one in known), strict=True):
             facts[name] = dict(zip(known, values, strict=True))
-        if not set(facts) & set(names):
-            raise InputError(f"{about} names none of the records; they are {', '.join(names[:5])} …")
     return facts

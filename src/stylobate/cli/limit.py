@@ -52,7 +52,8 @@ def limit(
     if around and pushing.typed and (in_space or not stone.as_found.in_plane):
         raise InputError(
             "--pattern, --tilt and --compressive-strength are for one direction in the plane; leave them out, or leave "
-            "--directions out for a column found in the plane."
+            "--directions out for a column found in the plane.",
+            "directions",
         )
     with execution.files("limit", "limit.json", "limit", "directions") as files:
         all_round = limit_directions(stone, azimuths, **loads) if around else None

@@ -27,7 +27,9 @@ def motion(
     from . import console
 
     if samples == bool(files):
-        raise InputError("give the file of a record, sample:NAME, or --samples for the list of samples, one of them.")
+        raise InputError(
+            "give the file of a record, sample:NAME, or --samples for the list of samples, one of them.", "files"
+        )
     if samples:
         return _list_samples(execution)
     found = motions.request(motion=files).motion()

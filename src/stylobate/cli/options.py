@@ -184,7 +184,8 @@ class Execution(Group):
 
         if self.threads is not None and not self.threads.isdecimal():
             raise InputError(
-                f"--threads is {self.threads!r}; allowed is a whole number from 1; leave it out to use all cores."
+                f"--threads is {self.threads!r}; allowed is a whole number from 1; leave it out to use all cores.",
+                "threads",
             )
         for group in groups:
             fields |= group.fields
@@ -238,11 +239,11 @@ def _in_plane(structure: Any, project: str | None) -> Any:
         return structure
     if structure.stack is None:
         lies = ", which lies in a plane" if structure.space_joints is None else ""
-        raise InputError(f"--project is for columns, and {structure.name!r} is {structure.described}{lies}.")
+        raise InputError(f"--project is for columns, and {structure.name!r} is {structure.described}{lies}.", "project")
     try:
         azimuth = parse_angle(project)
     except InputError:
-        raise InputError(f"--project is {project!r}; write it with its unit, such as 30deg.") from None
+        raise InputError(f"--project is {project!r}; write it with its unit, such as 30deg.", "project") from None
     return projected(structure.stack, azimuth)
 
 
@@ -254,9 +255,9 @@ def the_model(name: str, settings: list[str] | None) -> Model:
     for text in settings or []:
         key, sign, value = text.partition("=")
         if not sign or not key.strip():
-            raise InputError(f"--set is {text!r}; write it as name=value, e.g. --set points=3.")
+            raise InputError(f"--set is {text!r}; write it as name=value, e.g. --set points=3.", "set")
         if key.strip() in values:
-            raise InputError(f"--set {key.strip()} is given twice; give it once.")
+            raise InputError(f"--set {key.strip()} is given twice; give it once.", "set")
         values[key.strip()] = value.strip()
     return make_model(name, values)
 
@@ -289,10 +290,15 @@ def input_lines(motion: Motion) -> dict[str, str]:
     return found
 
 
+def field_of(option: str) -> str:
+    """Field of an error about an option: its name as a parameter."""
+    return option.strip("-").replace("-", "_")
+
+
 def _whole_number(option: str, text: str, example: int) -> int:
     """A whole number as typed after an option."""
     if not text.isdecimal():
-        raise InputError(f"{option} is {text!r}; allowed is a whole number, such as {example}.")
+        raise InputError(f"{option} is {text!r}; allowed is a whole number, such as {example}.", field_of(option))
     return int(text)
 
 
@@ -324,7 +330,9 @@ def with_twins(stone: Structure, model: Model, asked: Campaign, given: bool) -> 
 def for_replicates(option: str, value: str | None) -> None:
     """Refuse an option that is for columns like one, where none are asked for."""
     if value is not None:
-        raise InputError(f"{option} is for columns like this one; give --replicates as well, e.g. --replicates 30.")
+        raise InputError(
+            f"{option} is for columns like this one; give --replicates as well, e.g. --replicates 30.", field_of(option)
+        )
 
 
 def motion_scatter(text: str) -> MotionScatter:
@@ -340,6 +348,8 @@ def _sizes(option: str, text: str, names: Iterable[str], example: str) -> dict[s
     for part in text.split(","):
         name, _, size = part.partition("=")
         if name.strip() not in sizes:
-            raise InputError(f"{option} names {name.strip()!r}; names are {', '.join(sizes)}, e.g. {example}.")
+            raise InputError(
+                f"{option} names {name.strip()!r}; names are {', '.join(sizes)}, e.g. {example}.", field_of(option)
+            )
         sizes[name.strip()] = _share(size, example)
     return sizes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import closing
 from functools import partial
 from pathlib import Path
@@ -176,7 +176,7 @@ def each_record(
 
 
 def conclude(
-    follow: Callable[..., tuple[Response, Population | None]],
+    follow: partial[tuple[Response, Population | None]],
     stone: Structure,
     motion: Motion,
     model: Model,
@@ -195,7 +195,8 @@ def conclude(
     names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "median")
     with files_of(out, "run", *names, *pictures) as files:
         with console.progress("seconds of motion") as progress:
-            response, population = follow(motion, progress=progress)
+            campaign = follow.keywords["campaign"].kept_in(files.folder)
+            response, population = follow(motion, campaign=campaign, progress=progress)
         console.show(response)
         taken = model.taken(motion)
         summary = response.summary() | o.input_facts(taken) | direction_of(motion)

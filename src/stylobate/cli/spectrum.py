@@ -38,7 +38,7 @@ def spectrum(
     from . import console
 
     if kind not in ("response", "rocking"):
-        raise InputError(f"--kind is {kind!r}; allowed is response or rocking.")
+        raise InputError(f"--kind is {kind!r}; allowed is response or rocking.", "kind")
     _only_for(kind, "response", {"--damping": damping, "--periods": periods})
     _only_for(kind, "rocking", {"--p": sizes, "--alpha": slendernesses, "--restitution": restitution, "--tail": tail})
     vertical = motions.vertical if kind == "rocking" else "on"
@@ -122,7 +122,9 @@ def rocking(motion: Motion, blocks: dict[str, Any], files: Files) -> tuple[dict[
 def _only_for(kind: str, needed: str, given: dict[str, str | None]) -> None:
     for option, value in given.items():
         if value is not None and kind != needed:
-            raise InputError(f"{option} belongs to --kind {needed}, and --kind is {kind}; leave it out.")
+            raise InputError(
+                f"{option} belongs to --kind {needed}, and --kind is {kind}; leave it out.", o.field_of(option)
+            )
 
 
 def _values(option: str, text: str | None, *, geometric: bool = False) -> np.ndarray | None:
@@ -135,8 +137,12 @@ def _values(option: str, text: str | None, *, geometric: bool = False) -> np.nda
         return None
     parts = text.split(":")
     if len(parts) != 3 or not parts[2].isdecimal() or not 1 <= int(parts[2]) <= 1000:
-        raise InputError(f"{option} is {text!r}; write first:last:number with a number from 1 to 1000.")
+        raise InputError(
+            f"{option} is {text!r}; write first:last:number with a number from 1 to 1000.", o.field_of(option)
+        )
     low, high, count = parse_number(option, parts[0]), parse_number(option, parts[1]), int(parts[2])
     if not 0.0 < low <= high < np.inf or (count > 1 and low == high):
-        raise InputError(f"{option} is {text!r}; both ends must be positive and the first below the last.")
+        raise InputError(
+            f"{option} is {text!r}; both ends must be positive and the first below the last.", o.field_of(option)
+        )
     return np.geomspace(low, high, count) if geometric else np.linspace(low, high, count)

@@ -20,11 +20,11 @@ def the_states(as_built: str | None, as_found: str | None, strengthened: list[st
     for text in strengthened or ():
         label = Path(text).stem
         if label in found:
-            raise InputError(f"two of the states are called {label!r}; rename one of the files.")
+            raise InputError(f"two of the states are called {label!r}; rename one of the files.", "states")
         found[label] = text
     if len(found) < 2:
         given = f"only the state {next(iter(found))!r} is given" if found else "no state is given"
-        raise InputError(f"{given}; give two or more of --as-built, --as-found and --with.")
+        raise InputError(f"{given}; give two or more of --as-built, --as-found and --with.", "states")
     return found
 
 
@@ -55,10 +55,10 @@ def states(
     from . import console
 
     if records and motions.motion:
-        raise InputError("records are given before the options and after --motion; give them once.")
+        raise InputError("records are given before the options and after --motion; give them once.", "records")
     sources = records or motions.motion
     if not (sources or motions.harmonic or motions.pulse or motions.synthetic):
-        raise InputError("no record is given; name a folder of records, or files, before the options.")
+        raise InputError("no record is given; name a folder of records, or files, before the options.", "records")
     named = the_states(as_built, as_found, strengthened)
     how = o.the_model(model, settings)
     campaign = execution.campaign(following, population)
@@ -66,7 +66,7 @@ def states(
     columns = {label: o.the_column(text, project) for label, text in named.items()}
     if (im is None) != (levels is None):
         raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
-                         "0.2m/s:1.6m/s:8.")  # fmt: skip
+                         "0.2m/s:1.6m/s:8.", "im")  # fmt: skip
     parse_state(state)
     measure, sizes = (None, [1.0]) if im is None or levels is None else levels_of(im, levels)
     suite = request.expand()

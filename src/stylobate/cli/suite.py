@@ -46,19 +46,18 @@ def suite(
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
     from ..analysis.certainty import CHANCE, chance_words
-    from ..analysis.difference import round_drums
     from ..analysis.directions import compass_of_shares, harm_words, worst
-    from ..analysis.suite import must_be_told, suite_shares, suite_table
+    from ..analysis.suite import check_measure, suite_shares, suite_table
     from ..errors import InputError
     from ..models.shared.quiet import share_of
     from . import console
 
     campaign = execution.campaign(following, population)
     stones: list[Any] = [o.the_structure(name, project) for name in (column, *(also or ()))]
-    must_be_told(against, stones)
+    check_measure(against, stones)
     names = [stone.name for stone in stones]
     if len(set(names)) < len(names):
-        raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
+        raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.", "also")
     how = o.the_model(model, settings)
     records = motions.request(motion=sources, separate=True).expand()
     with execution.files("suite", "suite.csv", "suite.json", "suite", "directions") as files:
@@ -76,8 +75,10 @@ def suite(
             "quiet_share": share_of(records.motions, following.whole),
             "refused": records.refused,
             "model": how.name,
+            "doubt": table.attrs["doubt"],
         }
-        result["doubt"] = round_drums(stones, how)
+        if twins := table.attrs["twins"]:
+            result |= {"replicates": campaign.replicates, "twins": twins}
         compass = compass_of_shares(result["runs"])
         result["worst"] = worst(result["runs"], compass if swept else None)
         found = suite_shares(result["runs"])
@@ -102,6 +103,8 @@ def suite(
         shown = rows.filter(list(SHOWN))
         shown = shown.rename(columns={"chance": CHANCE}) if any(shown["chance"]) else shown.drop(columns="chance")
         console.print_table(shown, digits=3)
+    for name, drawn in twins.items():
+        print(f"columns like {name}: {drawn['words']}")
     if swept and result["worst"] is not None:
         print(harm_words(result["worst"], compass))
     console.print_left_out(result["inputs"])

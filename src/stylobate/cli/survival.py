@@ -31,7 +31,8 @@ def survival(
     names = [one.name for one in hazards]
     if len(set(names)) < len(names):
         raise InputError(
-            f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own."
+            f"two hazard curves have the same name ({', '.join(names)}); give each file a name of its own.",
+            "hazard",
         )
     fragility, used = asked.one(source)
     found = survive(fragility, years, hazards)

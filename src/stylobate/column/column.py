@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
-from typing import ClassVar, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 
@@ -28,7 +28,7 @@ from .links.link import Link
 from .links.loads import pulls_in_plane
 from .links.placed import PlacedLink
 from .materials import material
-from .plausible import shape_doubts
+from .plausible import shape_doubts, size_doubts
 from .shapes import Shape, shape_of
 from .structure import Body
 
@@ -70,7 +70,8 @@ class Column(DrumStack):
     Warns
     -----
     OutOfRangeWarning
-        A drum that widens upward and is no capital, or a column that does: allowed, but said.
+        A drum that widens upward and is no capital, or a column that does; sizes and densities that no column of stone
+        has, as a slip of units makes them: allowed, but said.
     """
 
     kind: ClassVar[str] = "column"
@@ -87,10 +88,15 @@ class Column(DrumStack):
 
     def __post_init__(self) -> None:
         self._check()
-        self._say_doubts()
+        self._warn_of_doubts()
 
-    def _say_doubts(self) -> None:
-        for doubt in shape_doubts(self, self.name):
+    @property
+    def doubts(self) -> list[str]:
+        """Doubts about shapes, and about sizes and densities that look like a slip of units, in sentences."""
+        return shape_doubts(self, self.name) + [f"{self.name!r}: {doubt}" for doubt in size_doubts(self)]
+
+    def _warn_of_doubts(self) -> None:
+        for doubt in self.doubts:
             warn(doubt)
 
     def _check(self) -> None:
@@ -286,16 +292,26 @@ class Column(DrumStack):
 
     def replace(self, **changes) -> Column:
         """A copy with some fields changed, checked as any column; what was warned of is not warned of again."""
+        copy = self.unwarned(**changes)
+        if "drums" in changes and not self.doubts:
+            copy._warn_of_doubts()
+        return copy
+
+    def unwarned(self, **changes) -> Column:
+        """As :meth:`replace`, without a warning: of what was drawn or computed, not typed."""
         fields = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
         if unknown := changes.keys() - fields:
             raise TypeError(no_field("a column", min(unknown), fields))
-        copy = object.__new__(type(self))
-        for name, value in (fields | changes).items():
-            object.__setattr__(copy, name, value)
-        copy._check()
-        if "drums" in changes and not shape_doubts(self, self.name):
-            copy._say_doubts()
-        return copy
+        return self.of_fields(**fields | changes)
+
+    @classmethod
+    def of_fields(cls, **fields: Any) -> Self:
+        """The column of its fields, checked as any, without a warning: of what is read back or computed, not typed."""
+        column = object.__new__(cls)
+        for name, value in fields.items():
+            object.__setattr__(column, name, value)
+        column._check()
+        return column
 
     def with_joint(self, **changes) -> Column:
         """A copy with the same change made to every joint, e.g. ``with_joint(friction_angle=10.0)``."""

@@ -93,7 +93,8 @@ def column_from_dict(data: Mapping[str, Any]) -> Column:
         tuple(FoundDrum(**drum) for drum in found["drums"]), found["base_tilt"], found.get("base_azimuth", 0.0)
     )
     links = tuple(link_from_dict(fields) for fields in data.get("links", ()))
-    return Column(drums, joints, data["name"], data["gravity"], as_found, data.get("material"), links)
+    who = {"name": data["name"], "gravity": data["gravity"], "material": data.get("material")}
+    return Column.of_fields(drums=drums, joints=joints, as_found=as_found, links=links, **who)
 
 
 def _joint_fields(joint: Joint) -> dict[str, float]:

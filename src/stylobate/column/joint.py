@@ -8,10 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..constants import DEGREE
-from ..errors import InputError, as_typed, check_range, no_field
+from ..errors import InputError, as_typed, check_range, no_field, warn
 from .drum import LENGTHS
 
 DEFAULT_FRICTION_ANGLE = 35.0
+
+#: A friction angle below this looks like a coefficient [degrees]; without friction both are 0.
+SLIPPERIEST = 3.0
 
 #: The two forms in which a joint holds its friction.
 FRICTION = ("friction_angle", "friction_coefficient")
@@ -39,6 +42,11 @@ class Joint:
     ------
     InputError
         A value is not finite or outside its range, or angle and coefficient are not of the same friction.
+
+    Warns
+    -----
+    OutOfRangeWarning
+        A friction angle as small as a coefficient.
     """
 
     normal_stiffness: float
@@ -63,6 +71,8 @@ class Joint:
         if angle is None:
             angle = DEFAULT_FRICTION_ANGLE if mu is None else math.atan(mu) / DEGREE
         angle = check_range("friction_angle", angle, 0.0, 90.0, unit="degrees", open_high=True, of="a joint")
+        if mu is None and 0.0 < angle < SLIPPERIEST:
+            warn(f"friction_angle is {angle:g} degrees, and a coefficient is friction_coefficient: is the unit right?")
         if mu is None:
             mu = math.tan(angle * DEGREE)
         elif not math.isclose(angle, math.atan(mu) / DEGREE, rel_tol=1e-12, abs_tol=1e-12):

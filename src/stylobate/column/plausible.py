@@ -50,8 +50,8 @@ DENSITY = Measure("kg/m³", 500.0, 5000.0, 2500.0, {"g/cm³": 1e3, "kN/m³": 101
 #: Range of values outside which nobody has measured joints of stone.
 STIFFNESS = Measure("N/m³", 1e7, 1e13, 2e10, {"kN/m³": 1e3, "MPa/m": 1e6, "N/mm³": 1e9})
 
-#: Largest friction coefficient that was measured on stone [-]; an angle below the least [degrees] looks like a coefficient.
-ROUGHEST, SLIPPERIEST = 2.0, 3.0
+#: Largest friction coefficient that was measured on stone [-].
+ROUGHEST = 2.0
 
 #: Largest height over width of columns, and of drums where there are so many of them: half as much again as the most
 #: slender columns of stone that stand, and as the tallest drums of such columns [-].
@@ -61,15 +61,18 @@ SLENDEREST, DRUMS, TALLEST = 15.0, 5, 2.2
 CLOSES = 5e-4
 
 
-def unit_doubts(column: Stack, friction_angles: Iterable[float | None] = ()) -> list[str]:
-    """Parts of a column that look like a slip of units, each kind once.
+def unit_doubts(column: Stack) -> list[str]:
+    """Parts of a column that look like a slip of units, each kind once: sizes, densities, joints."""
+    return size_doubts(column) + law_doubts(column)
 
-    Parameters
-    ----------
-    column : Stack
-    friction_angles : iterable of float, optional
-        As they were typed [degrees].
-    """
+
+def law_doubts(column: Stack) -> list[str]:
+    """Joints of a column that look like a slip of units, or that it sinks into as into none."""
+    return first(joint_doubts(joint) for joint in dict.fromkeys(column.joints)) or _sinking(column)
+
+
+def size_doubts(column: Stack) -> list[str]:
+    """Sizes and densities of a column that look like a slip of units, each kind once."""
     single = [DRUM.doubt(f"the height of drum {i}", float(h), "drums have") for i, h in enumerate(column.heights, 1)]
     doubts = [] if all(single) else first(single)  # one drum alone, or the whole column
     doubts = doubts or COLUMN.doubt("the height of the column", column.height, "columns have")
@@ -80,16 +83,9 @@ def unit_doubts(column: Stack, friction_angles: Iterable[float | None] = ()) -> 
     )
     doubts = doubts or _slenderness_doubt(column)
     densities = [drum.density for drum in column.drums]
-    doubts += first(
+    return doubts + first(
         DENSITY.doubt(f"the density of drum {i + 1}", density, "stone has") for i, density in enumerate(densities)
     )
-    doubts += [
-        f"friction_angle is {angle:g} degrees, and a coefficient is friction_coefficient: is the unit right?"
-        for angle in friction_angles
-        if angle is not None and angle < SLIPPERIEST
-    ][:1]
-    laws = first(joint_doubts(joint) for joint in dict.fromkeys(column.joints))
-    return doubts + (laws or _sinking(column))
 
 
 def _slenderness_doubt(column: Stack) -> list[str]:

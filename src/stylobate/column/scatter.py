@@ -129,7 +129,7 @@ def _drawn(column: Column, size: Scatter, stream: np.random.Generator, k: int, s
         return varied
     shifts = size.offset * varied.joint_widths * np.array([aside, across if space else np.zeros(column.n)])
     found = tuple(_shifted(column.as_found.of(i + 1), *shifts[:, i]) for i in range(column.n))
-    return varied.replace(as_found=dataclasses.replace(column.as_found, drums=found))
+    return varied.unwarned(as_found=dataclasses.replace(column.as_found, drums=found))
 
 
 def _rebuilt(
@@ -171,7 +171,7 @@ def _rebuilt(
         )
         for i, joint in enumerate(column.joints)
     )
-    return column.replace(drums=drums, joints=joints, name=name)
+    return column.unwarned(drums=drums, joints=joints, name=name)
 
 
 def _shifted(drum: FoundDrum, x: float, y: float) -> FoundDrum:

@@ -13,7 +13,7 @@ from .drum import Drum
 from .joint import FRICTION, Joint, given
 from .links.tables import LinkTable, links_of
 from .materials import JOINT_VALUES, Material, material
-from .plausible import unit_doubts
+from .plausible import law_doubts
 from .toml import Table, checked, parse_toml
 
 
@@ -175,8 +175,7 @@ def describes_assembly(data: dict[str, Any]) -> bool:
 
 def _column(kind: Any, table: ColumnTable, default_name: str) -> Any:
     column = _as_built(kind, table, default_name)
-    typed = [one.friction_angle for one in (table.joint, *(table.joint_override or ())) if one is not None]
-    for doubt in unit_doubts(column, typed):
+    for doubt in law_doubts(column):
         warn(f"{column.name!r}: {doubt}")
     changes: dict[str, Any] = {}
     if table.as_found is not None:

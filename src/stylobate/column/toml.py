@@ -152,13 +152,16 @@ def _sentence(item: Any, schema: type[Table], others: list[Any]) -> str:
     return f"{position}{key!r}{place} is {_short(value)}; it must be {expected}."
 
 
-def _place(where: list[str | int]) -> str:
+def _place(where: Sequence[str | int]) -> str:
+    """Table of a key, counted from 1: “ in [[as_found.drum]] number 2”, “ in 'drum' of [[block]] number 1”."""
     if not where:
         return ""
+    rows = [k for k, part in enumerate(where[:-1]) if isinstance(part, int)]
+    of = _place(where[: rows[-1] + 1]).replace(" in ", " of ", 1) if rows else ""
+    path = ".".join(part for part in (where[rows[-1] + 1 :] if rows else where) if isinstance(part, str))
     if isinstance(where[-1], int):
-        path = ".".join(part for part in where if isinstance(part, str))
-        return f" in [[{path}]] number {where[-1] + 1}"
-    return f" in [{'.'.join(map(str, where))}]"
+        return f" in [[{path}]] number {where[-1] + 1}{of}"
+    return f" in {path!r}{of}" if rows else f" in [{path}]"
 
 
 def _keys(schema: type[Table], where: list[str | int]) -> list[str]:

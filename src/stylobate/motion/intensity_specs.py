@@ -246,7 +246,7 @@ def measure_of_column(name: str) -> IntensityMeasure | None:
     return None
 
 
-def told(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
+def measures_by_column(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[str, float]]:
     """The measures that tables hold, by their names there, for a motion and (tan α, p) of each column."""
     names = TOLD if motion.y_samples is None else (*TOLD, *TOLD_OF_TWO)
     measures = [parse_measure(name) for name in names]
@@ -261,7 +261,7 @@ def told(motion: Motion, columns: Sequence[tuple[float, float]]) -> list[dict[st
     return found
 
 
-def told_powers() -> dict[str, int]:
+def powers_by_column() -> dict[str, int]:
     """Powers of the factor of a motion with which these measures grow, by their columns."""
     return {one.key: one.power for one in map(parse_measure, (*TOLD, *TOLD_OF_TWO))}
 

@@ -130,14 +130,13 @@ class MotionRequest:
             raise InputError("`scale` and `pga` are both given; give one of the two.", "pga")
         for azimuth in self.azimuths:
             check_range("azimuth", azimuth, -360.0, 360.0, unit="degrees")
-        opposite = next(
-            (
-                pair
-                for pair in combinations(self.azimuths, 2)
-                if abs((pair[0] - pair[1]) % 360.0 - 180.0) < SAME_DIRECTION
-            ),
-            None,
-        )
+        if (same := self._two_apart(0.0)) is not None:
+            raise InputError(
+                f"the azimuths hold {same[0]:g}° and {same[1]:g}°, which are one direction; give each direction once, such "
+                "as 0:330:12 for a full circle.",
+                "azimuths",
+            )
+        opposite = self._two_apart(180.0)
         if self.signs == "both" and opposite is not None:
             warn(
                 f"the azimuths hold {opposite[0]:g}° and {opposite[1]:g}°, each of which is the other one reversed, and "
@@ -145,6 +144,13 @@ class MotionRequest:
                 "leave `signs='both'` out, or give half of the circle, such as 0:150:6.",
                 OutOfRangeWarning,
             )
+
+    def _two_apart(self, angle: float) -> tuple[float, float] | None:
+        """The first two azimuths that are so far apart [degrees]."""
+        pairs = combinations(self.azimuths, 2)
+        return next(
+            (two for two in pairs if abs((two[1] - two[0] - angle + 180.0) % 360.0 - 180.0) < SAME_DIRECTION), None
+        )
 
     @classmethod
     def typed(

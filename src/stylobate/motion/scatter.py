@@ -66,6 +66,8 @@ class MotionScatter:
 class ScatteredSines:
     """Harmonic motions that are drawn around one of each frequency and amplitude: draw k is alike for all of them.
 
+    Draw k of a seed is the same for any ``number`` above k.
+
     Parameters
     ----------
     frequencies : array
@@ -78,12 +80,13 @@ class ScatteredSines:
     """
 
     def __init__(self, frequencies: np.ndarray, duration: float, size: MotionScatter, number: int, seed: int) -> None:
-        stream = np.random.default_rng([seed, 1])
-        self._factors = 1.0 + size.amplitude * stream.uniform(-1.0, 1.0, number)
         starts = size.phase * np.linspace(-1.0, 1.0, PHASES) if size.phase else np.zeros(1)
-        self._start = stream.integers(0, len(starts), number)
         aside = size.across * np.linspace(-1.0, 1.0, ASIDES) if size.across else np.zeros(1)
-        self._aside = np.random.default_rng([seed, 2]).integers(0, len(aside), number)
+        # Each part has a stream of its own, so that draw k does not depend on how many there are, nor on the other parts.
+        factors, first, across = (np.random.default_rng([seed, part]) for part in (1, 3, 2))
+        self._factors = 1.0 + size.amplitude * factors.uniform(-1.0, 1.0, number)
+        self._start = first.integers(0, len(starts), number)
+        self._aside = across.integers(0, len(aside), number)
         self._units = [
             [[_sine(float(f), duration, float(start), float(share)) for share in aside] for start in starts]
             for f in frequencies

@@ -58,7 +58,7 @@ def draw_elevation(structure: Structure, title: str | None = None, *, ax: Axes |
     sheet = Sheet.around(axes, low, high, left=86.0, right=205.0, below=44.0, above=34.0)
     slope = _slope(column)
     axes.axline((0.0, 0.0), slope=math.tan(slope), color=BLACK, linewidth=1.4)
-    marked = {drum.drum for drum in column.as_found.drums if _said(drum)}
+    marked = {drum.drum for drum in column.as_found.drums if _words_of_found(drum)}
     for i, shape in enumerate(outlines):
         red = i + 1 in marked
         axes.fill(*shape.T, facecolor="#f7e3df" if red else SAND, edgecolor=RED if red else BROWN, linewidth=0.9)
@@ -176,7 +176,7 @@ def _words_beside(axes: Axes, sheet: Sheet, column: Column, outlines: list[np.nd
         else:
             wide = f"{drum.bottom_width:.3f} × {drum.depth:.3f} – {drum.top_width:.3f} × {drum.upper_depth:.3f}"
         height = level + 0.5 * drum.height
-        found = _said(column.as_found.of(i + 1))
+        found = _words_of_found(column.as_found.of(i + 1))
         axes.text(far, height, wide, fontsize=WORDS, ha="left", va="bottom" if found and not tight else "center")
         if found:
             place = (sheet.up(far, 76.0), height) if tight else (far, height)
@@ -225,7 +225,7 @@ def _ends(shape: np.ndarray, at: np.ndarray) -> np.ndarray:
     return face[[int(face[:, 0].argmin()), int(face[:, 0].argmax())]]
 
 
-def _said(drum: FoundDrum) -> str:
+def _words_of_found(drum: FoundDrum) -> str:
     """State as found of a drum, in words."""
     towards = lambda azimuth: f" to {azimuth:g}°" if azimuth else ""  # noqa: E731
     parts = []

@@ -102,7 +102,7 @@ def _write(found: Sequence[Result], target: Path, title: str | None, pdf: bool) 
 
 def _case(result: Result, told: set[str], all_: Sequence[Result]) -> dict[str, Any]:
     """A case as the template takes it; its verdict is what the verdicts of its first section begin with."""
-    sections = _told(result, told, all_)
+    sections = _sections_of(result, told, all_)
     notes = [item for item in sections[0].items if isinstance(item, page.Note) and "verdict" in item.look]
     verdict = " ".join(text for note in notes for text in note.texts[: note.first])
     said = [text for part in sections for item in part.items if isinstance(item, page.Note) for text in item.texts]
@@ -128,7 +128,7 @@ def _notes(notes: Sequence[Sequence[str]]) -> list[page.Item]:
     return [page.Note(each, "fair")] if each else []
 
 
-def _told(result: Result, told: set[str], all_: Sequence[Result]) -> list[page.Section]:
+def _sections_of(result: Result, told: set[str], all_: Sequence[Result]) -> list[page.Section]:
     """Sections of a result; values that cannot have been written by stylobate are bad input, not a fault of it."""
     try:
         return _sections(result, told, all_)

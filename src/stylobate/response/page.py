@@ -24,7 +24,8 @@ def as_html(response: Recorded) -> str:
     """HTML without scripts and without anything from the network."""
     facts = {key: value for key, value in summary_of(response).items() if key not in _LEFT_OUT and _plain(value)}
     rows = "".join(
-        f"<tr><td>{html.escape(key)}</td><td>{html.escape(_said(value))}</td></tr>" for key, value in facts.items()
+        f"<tr><td>{html.escape(key)}</td><td>{html.escape(_number_words(value))}</td></tr>"
+        for key, value in facts.items()
     )
     return (
         f"<p><b>{html.escape(title_of(response))}</b></p><p>{html.escape(sentence_of(response))}</p>"
@@ -67,5 +68,5 @@ def _plain(value: Any) -> bool:
     return value is not None and not isinstance(value, (list, dict))
 
 
-def _said(value: Any) -> str:
+def _number_words(value: Any) -> str:
     return f"{value:.4g}" if isinstance(value, float) else str(value)

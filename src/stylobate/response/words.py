@@ -44,6 +44,12 @@ UNDAMPED = {"stiffness_damping": 0.0, "mass_damping": 0.0, "restitution": 1.0, "
 WOBBLES = 0.02
 
 
+#: What stands before all that rests on wobbles without damping.
+UNDAMPED_WOBBLE = (
+    "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall "
+    "with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it."
+)
+
 #: What stands before all that rests on round columns in a plane; of several drums they leave it by themselves.
 ROUND_IN_THE_PLANE = "Round columns, computed in a plane: in space they can fall under much weaker motions"
 
@@ -69,15 +75,15 @@ def doubt_of(response: Recorded) -> str:
     if space is None:
         several = len(response.bodies.names) > 1 and response.outcome in (Outcome.ROCKED, Outcome.DISPLACED)
         return round_in_the_plane(response.structure) if several else ""
-    if slenderness is None or not space.peak_tilt > WOBBLES * slenderness:
-        return ""
-    damped = any(known.get(name) not in (None, none) for name, none in UNDAMPED.items())
-    if "stiffness_damping" not in known or known.get("planar") or damped:
-        return ""
-    return (
-        "Nothing damped its wobble, and in space a verdict can hang on that, either way: see how many columns like it fall "
-        "with a stiffness damping of 1e-4 s, and of 1e-3 s, before relying on it."
-    )
+    wobbled = slenderness is not None and space.peak_tilt > WOBBLES * slenderness
+    return UNDAMPED_WOBBLE if wobbled and undamped(known) else ""
+
+
+def undamped(parameters: Mapping[str, Any]) -> bool:
+    """Whether a model in space with these parameters takes no energy from the wobble of what it computes."""
+    if "stiffness_damping" not in parameters or parameters.get("planar"):
+        return False
+    return all(parameters.get(name) in (None, none) for name, none in UNDAMPED.items())
 
 
 def longer_tail(given: float) -> str:

@@ -12,7 +12,7 @@ from ..analysis.evidence import STOOD
 from ..errors import InputError
 from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
-from ..response.words import ROUND_IN_THE_PLANE
+from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, undamped
 from .asked import Asked, asked_file, scales_of
 
 if TYPE_CHECKING:
@@ -83,18 +83,16 @@ class Source:
 
     @property
     def doubt(self) -> str:
-        """Caveat before all that rests on these runs: that round columns were computed in a plane, where they were."""
-        round_ = any(
-            drum.get("section") == "circular"
-            for structure in self.structures
-            for drum in (structure.get("column") or {}).get("drums", ())
-        )
-        plane = any(
-            model_class(model["name"]).is_plane(model.get("parameters") or {})
-            for model in self.models
-            if model["name"] in MODELS
-        )
-        return f"{ROUND_IN_THE_PLANE}." if round_ and plane else ""
+        """Caveat before all that rests on these runs: round columns in a plane, or a wobble in space that nothing damped."""
+        drums = [drum for one in self.structures for drum in (one.get("column") or {}).get("drums", ())]
+        models = [one for one in self.models if one["name"] in MODELS]
+        in_plane, in_space = [], []
+        for model in models:
+            known = model.get("parameters") or {}
+            (in_plane if model_class(model["name"]).is_plane(known) else in_space).append(known)
+        if in_plane and any(drum.get("section") == "circular" for drum in drums):
+            return f"{ROUND_IN_THE_PLANE}."
+        return UNDAMPED_WOBBLE if drums and any(map(undamped, in_space)) else ""
 
     @property
     def motions(self) -> list[dict[str, Any]]:

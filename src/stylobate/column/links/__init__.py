@@ -13,7 +13,7 @@ from .core import Core
 from .dowel import Dowel
 from .layer import Layer
 from .line import Line
-from .link import Link, Numbers, told
+from .link import Link, Numbers, point
 from .pad import Pad
 from .tie import Tie
 
@@ -25,7 +25,7 @@ COLUMN_KINDS = {name: one for name, one in KINDS.items() if one.lies != "side"}
 
 __all__ = [
     "COLUMN_KINDS", "KINDS", "Bar", "Clamp", "Core", "Dowel", "Layer", "Line", "Link", "Numbers", "Pad", "Tie", "block_link",
-    "link_from_dict", "told",
+    "link_from_dict", "point",
 ]  # fmt: skip
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError, suggest
 from ..block import Block, FaceJoint
-from .link import LEAST_LENGTH, Link, in_space, told
+from .link import LEAST_LENGTH, Link, in_space, point
 from .placed import GROOVE, RIM, STROKE, PlacedLink, Point, for_each, place_all
 
 #: Largest distance of the end of a tie from its body, on a bracket; and of a given place from its joint [m].
@@ -111,12 +111,12 @@ def _ends(link: Link, bodies: Sequence[Block], one: int, other: int) -> tuple[Po
         if outside > far + 1e-6 * min(block.size, 1.0):
             within = f"within {far:g} m of it" if far else "in it"
             raise InputError(
-                f"{name} of a {link.kind} is {told(end)}, {outside:.3g} m outside block {block.name!r}; its end must be "
+                f"{name} of a {link.kind} is {point(end)}, {outside:.3g} m outside block {block.name!r}; its end must be "
                 f"{within}.",
                 name,
             )
     if link.lies == "side" and math.hypot(high[0] - low[0], high[2] - low[2]) < LEAST_LENGTH:
-        raise InputError(f"a {link.kind} has no length: both its ends are at {told(low)}; move one of them.", "to")
+        raise InputError(f"a {link.kind} has no length: both its ends are at {point(low)}; move one of them.", "to")
     if getattr(link, "through_stone", False):
         return low, high
     for share in np.linspace(0.0, 1.0, LOOKS + 1):
@@ -165,13 +165,14 @@ def _in_joint(
         s, off = float(way @ t), float(t[0] * way[1] - t[1] * way[0])
         if abs(off) > BESIDE:
             raise InputError(
-                f"a {link.kind} at {told(place)} is {abs(off):.3g} m from the joint of {link.between[0]!r} and "
+                f"a {link.kind} at {point(place)} is {abs(off):.3g} m from the joint of {link.between[0]!r} and "
                 f"{link.between[1]!r}; give a place in it, or leave at out for its middle.",
                 "at",
             )
         if not low <= s <= high:
             raise InputError(
-                f"a {link.kind} at {told(place)} is outside the section, by {max(low - s, s - high):.3g} m; move it inward.",
+                f"a {link.kind} at {point(place)} is outside the section, by {max(low - s, s - high):.3g} m; move it "
+                "inward.",
                 "at",
             )
     inside = min(s - low, high - s) - 0.5 * link.numbers.diameter

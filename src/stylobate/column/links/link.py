@@ -165,11 +165,11 @@ class Link:
     def to_dict(self) -> dict[str, Any]:
         """Its kind and all that differs from what is left out, as plain values; :func:`~.links.link_from_dict` reads it."""
         if self.numbers is None:
-            return {"kind": self.kind} | _said(self)
+            return {"kind": self.kind} | _given_fields(self)
         at, to = self.ends
         place = {"between": self.between, "at": at, "to": to, "name": self.name or None}
         given = {name: list(value) if isinstance(value, tuple) else value for name, value in place.items() if value}
-        return {"kind": self.kind} | given | _said(self.numbers)
+        return {"kind": self.kind} | given | _given_fields(self.numbers)
 
     @classmethod
     def known(cls) -> set[str]:
@@ -261,7 +261,7 @@ class Link:
             raise InputError(f"a {self.kind} of {material} has no diameter; give it one [m].", "diameter")
 
 
-def _said(one: Link | Numbers) -> dict[str, Any]:
+def _given_fields(one: Link | Numbers) -> dict[str, Any]:
     """Fields that differ from what is left out, as plain values."""
     default = {field.name: field.default for field in dataclasses.fields(one)}
     if isinstance(one, Link) and one.between is None:
@@ -283,7 +283,7 @@ def length_of(kind: str, at: tuple[float, ...] | None, to: tuple[float, ...] | N
     low, high = in_space(at), in_space(to)
     length = math.dist(low, high)
     if length < LEAST_LENGTH:
-        raise InputError(f"a {kind} has no length: both its ends are at {told(low)}; move one of them.", "to")
+        raise InputError(f"a {kind} has no length: both its ends are at {point(low)}; move one of them.", "to")
     return length
 
 
@@ -293,7 +293,7 @@ def in_space(place: tuple[float, ...] | None) -> tuple[float, float, float]:
     return (place[0], 0.0 if len(place) == 2 else place[1], place[-1])
 
 
-def told(place: tuple[float, ...]) -> str:
+def point(place: tuple[float, ...]) -> str:
     """A place in space as messages tell it."""
     return f"[{place[0]:g}, {place[2]:g}] m"
 

@@ -107,7 +107,7 @@ class _Scene:
             if outside > far + 1e-6 * min(self.bodies[body].size, 1.0):
                 within = f"within {far:g} m of it" if far else "in it"
                 raise InputError(
-                    f"{name} of a {link.kind} is {_told(end)}, {outside:.3g} m outside block {self.bodies[body].name!r}; "
+                    f"{name} of a {link.kind} is {_point(end)}, {outside:.3g} m outside block {self.bodies[body].name!r}; "
                     f"its end must be {within}.",
                     name,
                 )
@@ -135,7 +135,7 @@ class _Scene:
                 )
                 raise InputError(
                     f"a {link.kind} passes through stone: {1000.0 * deep[worst]:.3g} mm inside block "
-                    f"{self.bodies[i].name!r} at {_told(points[worst])}; {remedy}."
+                    f"{self.bodies[i].name!r} at {_point(points[worst])}; {remedy}."
                 )
 
     def _in_joint(self, link: Any, one: int, other: int) -> tuple[int, int, Point, Frame]:
@@ -145,12 +145,12 @@ class _Scene:
         deep = inside(joint.edges, local[:2])
         if deep < 0.0:
             raise InputError(
-                f"a {link.kind} at {_told(place)} is outside the section, by {-deep:.3g} m; move it inward.", "at"
+                f"a {link.kind} at {_point(place)} is outside the section, by {-deep:.3g} m; move it inward.", "at"
             )
         left = deep - 0.5 * link.numbers.diameter
         if link.numbers.diameter and left < RIM:
             raise InputError(
-                f"a {link.kind} at {_told(place)} leaves {1000.0 * left:.3g} mm of stone to the rim; at least "
+                f"a {link.kind} at {_point(place)} leaves {1000.0 * left:.3g} mm of stone to the rim; at least "
                 f"{1000.0 * RIM:g} mm must be left: move it inward or make it thinner.",
                 "at",
             )
@@ -190,7 +190,7 @@ class _Scene:
         off = [abs(float(seen[2])) for seen in local]
         if min(off) > BESIDE:
             raise InputError(
-                f"a {link.kind} at {_told(place)} is {min(off):.3g} m from the joint of {names}; give a place in it, or "
+                f"a {link.kind} at {_point(place)} is {min(off):.3g} m from the joint of {names}; give a place in it, or "
                 "leave at out for its middle.",
                 "at",
             )
@@ -231,5 +231,5 @@ def _three(place: Any) -> Point:
     return x, y, z
 
 
-def _told(place: Any) -> str:
+def _point(place: Any) -> str:
     return f"[{', '.join(f'{one:.4g}' for one in place)}] m"

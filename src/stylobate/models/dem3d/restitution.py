@@ -29,7 +29,8 @@ def one_body(column: Column) -> Column:
     ends = first.depth, None if column.section == "circular" else last.upper_depth
     drum = Drum(column.height, first.bottom_width, last.top_width, first.density, column.section, *ends)
     drum = dataclasses.replace(drum, density=first.density * column.mass / drum.mass)
-    return Column.of_drums([drum], column.joint_laws[0], name=f"{column.name} as one body", gravity=column.gravity)
+    who = {"name": f"{column.name} as one body", "gravity": column.gravity}
+    return Column.of_fields(drums=(drum,), joints=column.joint_laws[:1], **who)
 
 
 @lru_cache(maxsize=256)

@@ -55,6 +55,15 @@ def check_sampling(dt: float, what: str) -> float:
     return dt
 
 
+def rising_pairs(numbers: np.ndarray, file: str, line: int) -> tuple[np.ndarray, np.ndarray]:
+    """Times and values of a row of pairs below a line, refused where a time falls."""
+    time, values = numbers.reshape(-1, 2).T.copy()
+    if (np.diff(time) < 0.0).any():
+        bad = int(np.flatnonzero(np.diff(time) < 0.0)[0]) + 1
+        raise InputError(f"{file}, below line {line}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it.")
+    return time, values
+
+
 def check_same_step(first: float, second: float, file: str, line: int) -> None:
     """Two statements of one step agree, but for rounding."""
     if abs(first - second) > 0.01 * first:

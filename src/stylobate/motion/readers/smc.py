@@ -7,7 +7,7 @@ import re
 import numpy as np
 
 from ...errors import InputError, OutOfRangeWarning, warn
-from .checks import CUT, LONGEST_STEP, check_peak, check_peak_time, check_step
+from .checks import CUT, LONGEST_STEP, check_peak, check_peak_time, check_step, rising_pairs
 from .numbers import read_numbers
 from .record import Component, check_count, oriented
 from .source import Source
@@ -61,12 +61,7 @@ def read(source: Source) -> tuple[list[Component], dict]:
     else:
         if stated % 2:
             raise InputError(f"{file}, line {TEXT_LINES + 3}: {stated} values are not pairs of time and acceleration.")
-        time, values = numbers.reshape(-1, 2).T.copy()
-        if (np.diff(time) < 0.0).any():
-            bad = int(np.flatnonzero(np.diff(time) < 0.0)[0]) + 1
-            raise InputError(
-                f"{file}, below line {start + 1}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it."
-            )
+        time, values = rising_pairs(numbers, file, start + 1)
         _check_gaps(time, file, start)
         component = Component(values * 0.01, np.nan, time=time)
     _check_peaks(component, reals, file, at + 6)

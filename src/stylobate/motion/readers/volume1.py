@@ -10,7 +10,7 @@ import numpy as np
 
 from ...errors import InputError, within
 from ..specs import acceleration_unit
-from .checks import CUT, check_ended, check_peak, check_peak_time, printed
+from .checks import CUT, check_ended, check_peak, check_peak_time, printed, rising_pairs
 from .numbers import NUMBER, read_numbers
 from .record import Component, check_count
 from .steps import step_of
@@ -94,12 +94,7 @@ def pairs(
     numbers = read_numbers(
         lines[first:end], first, file, "pairs of time and acceleration", count=2 * count, width=width
     )
-    time, values = numbers.reshape(-1, 2).T.copy()
-    if (np.diff(time) < 0.0).any():
-        bad = int(np.flatnonzero(np.diff(time) < 0.0)[0]) + 1
-        raise InputError(
-            f"{file}, below line {first + 1}: the time falls at sample {bad + 1} ({time[bad]:g} s); mend it."
-        )
+    time, values = rising_pairs(numbers, file, first + 1)
     if total is not None and (stated := printed(total))[0] > 0.0:
         # Counted from zero or from the first sample, to the last one or a step further.
         slack = 2.0 * float(np.diff(time).max()) + stated[1]
