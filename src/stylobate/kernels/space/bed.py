@@ -224,16 +224,21 @@ def on_line(p, c, a, u, b, v):
 
 
 @long_law
-def returnable(fn, before, depth, vn, dt, held):
+def returnable(fn, last, gain, before, depth, vn, ease, dt, held):
     """Pressure of a contact [N], which never gives back more work than it has taken.
 
     ``fn`` is k_n times the volume [N], ``held`` the work that it holds, and ``before`` the work of the last pressure in
-    half a step [J].
+    half a step [J]. What holds too little gives less, and gains, while it closes, ``gain`` [N] at most on the ``last``
+    pressure. ``ease`` is the mobility along the normal [1/kg]: the work of the step, with the velocity after it, is no
+    more than what is held.
     """  # Eq. (Q4)
-    if vn <= 0.0 or fn <= 0.0:
+    if fn <= 0.0:
         return fn
-    most = 2.0 * (held - before) / max(vn * dt, 1e-300)
-    return min(fn, max(min(held / (HOLDS * depth), most), 0.0))
+    allowed = max(held, 0.0) / (HOLDS * depth)
+    if vn < 0.0:
+        allowed = max(allowed, last + gain)
+    most = (math.sqrt(vn * vn + 2.0 * ease * max(held - before, 0.0)) - vn) / max(ease * dt, 1e-300)
+    return min(fn, allowed, most)
 
 
 @kernel
@@ -256,13 +261,14 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
     kn *= share
     ks *= share
+    ease = mobility(u, ru, n) + mobility(v, rv, n)
     # pressure  # Eq. (Q2)
     fn = kn * volume
     if now.last == 0.0:  # no work has pressed what overlaps at the start
         p.en = 0.5 * fn * volume / area
     before = 0.5 * p.fn * dot(w, of(p.n)) * now.last
     if share == 1.0:  # a joint that hands over has its own
-        fn = returnable(fn, before, volume / area, vn, now.last, p.en)
+        fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, volume / area, vn, ease, now.last, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.en -= before + 0.5 * fn * vn * now.last
     f, twist = rub(
@@ -274,7 +280,7 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     p.area = area
     put(p.n, n)
     now.deepest = max(now.deepest, volume / area)
-    now.rate = max(now.rate, kn * (area + grown) * (mobility(u, ru, n) + mobility(v, rv, n)))
+    now.rate = max(now.rate, kn * (area + grown) * ease)
     f = along(f, fn, n)
     m = scaled(twist, n)
     add(v, rv, f, m)
