@@ -93,6 +93,13 @@ def mobility(u, r, n):
 
 
 @long_law
+def velocity_then(u, r):
+    """Velocity of the point of a body at r from its centroid as the last force left it."""
+    w = cross(of(u.past), r)
+    return u.vx[0] + w[0], u.vy[0] + w[1], u.vz[0] + w[2]
+
+
+@long_law
 def forget(p):
     """The contact is open: nothing is left of it but the direction."""
     relax(p)
@@ -189,6 +196,7 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
     top = reach(a, u, vertex, 1.0, n[0], n[1], n[2])
     low = -reach(b, v, vertex, LESS, -n[0], -n[1], -n[2])
     round_ = a.kind == DRUM or b.kind == DRUM
+    p.gap = low - top
     if low - top >= (NEAR * min(u.r, v.r) if round_ and not ground else 0.0):
         put(p.n, n)
         return False
@@ -196,6 +204,7 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
         gap, nx, ny, nz = parting(a, u, b, v, LESS, vertex, n[0], n[1], n[2], simplex)
         if gap > 0.0:
             p.n[0], p.n[1], p.n[2] = nx, ny, nz
+            p.gap = gap
             return False
     if top <= low:
         return False
@@ -210,6 +219,67 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
         if not meet:
             forget(p)
     return meet
+
+
+@kernel
+def foresee(p, a, u, b, v, vertex, plane, loop, corner, wide, kn, now, work):
+    """Count a contact that will close within a step with the stiffness that it will have then."""
+    n = of(p.n)
+    closing = dot(minus((u.vx[0], u.vy[0], u.vz[0]), (v.vx[0], v.vy[0], v.vz[0])), n)
+    closing += u.r * length((u.wx[0], u.wy[0], u.wz[0])) + v.r * length((v.wx[0], v.wy[0], v.wz[0]))
+    if p.gap >= closing * now.dt:
+        return
+    pose_u, pose_v = pose(u), pose(v)
+    carry(u, now.dt)
+    carry(v, now.dt)
+    top = reach(a, u, vertex, 1.0, n[0], n[1], n[2])
+    low = -reach(b, v, vertex, LESS, -n[0], -n[1], -n[2])
+    if top > low and drawn(p, n, a, u, b, v, vertex, plane, loop, corner, wide, top, low, work):
+        total = work[10]
+        s = of(total[NORMAL : NORMAL + 3])
+        area = length(s)
+        n = scaled(1.0 / area, s)
+        c = along(of(total[REF : REF + 3]), 1.0 / total[VOLUME], of(total[MOMENT : MOMENT + 3]))
+        ease = mobility(u, minus(c, place(u)), n) + mobility(v, minus(c, place(v)), n)
+        now.rate = max(now.rate, kn * area * ease)
+    stand(u, pose_u)
+    stand(v, pose_v)
+
+
+@long_law
+def pose(u):
+    """Place and axes of a body."""
+    return (
+        (u.x[0], u.y[0], u.z[0]),
+        (u.ix[0], u.iy[0], u.iz[0]),
+        (u.jx[0], u.jy[0], u.jz[0]),
+        (u.kx[0], u.ky[0], u.kz[0]),
+    )
+
+
+@long_law
+def stand(u, at):
+    """Put a body where it was."""
+    u.x[0], u.y[0], u.z[0] = at[0]
+    u.ix[0], u.iy[0], u.iz[0] = at[1]
+    u.jx[0], u.jy[0], u.jz[0] = at[2]
+    u.kx[0], u.ky[0], u.kz[0] = at[3]
+
+
+@long_law
+def carry(u, dt):
+    """Move a body along its velocities, to the first order."""
+    w = u.wx[0], u.wy[0], u.wz[0]
+    x, i, j, k = pose(u)
+    stand(
+        u,
+        (
+            along(x, dt, (u.vx[0], u.vy[0], u.vz[0])),
+            along(i, dt, cross(w, i)),
+            along(j, dt, cross(w, j)),
+            along(k, dt, cross(w, k)),
+        ),
+    )
 
 
 @long_law
@@ -266,19 +336,23 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     fn = kn * volume
     if now.last == 0.0:  # no work has pressed what overlaps at the start
         p.en = 0.5 * fn * volume / area
-    before = 0.5 * p.fn * dot(w, of(p.n)) * now.last
+    past = minus(velocity_then(v, of(p.rb)), velocity_then(u, of(p.ra)))
+    past_spin = dot(minus(of(v.past), of(u.past)), of(p.n))
+    before = 0.5 * p.fn * dot(past, of(p.n)) * now.last
     if share == 1.0:  # a joint that hands over has its own
         fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, volume / area, vn, ease, now.last, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.en -= before + 0.5 * fn * vn * now.last
     f, twist = rub(
-        p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u,
+        p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         ks * area, ks * area * square, mu * (fn + dn), math.sqrt(mean), scaled(dn, n), w, now,
     )  # fmt: skip
     p.fn = fn
-    grown = max(area - p.area, 0.0)
+    grown = max(area - p.area, 0.0) * (now.dt / max(now.last, 1e-300) if p.area > 0.0 else 1.0)
     p.area = area
     put(p.n, n)
+    put(p.ra, ru)
+    put(p.rb, rv)
     now.deepest = max(now.deepest, volume / area)
     now.rate = max(now.rate, kn * (area + grown) * ease)
     f = along(f, fn, n)

@@ -9,7 +9,7 @@ from .vectors import along, cross, dot, length, of, put, scaled
 
 
 @kernel
-def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
+def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, velocity, now):
     """Friction at t_n; brings its memory from t_{n−1} to t_n.
 
     Parameters
@@ -20,6 +20,8 @@ def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
         Normal of the contact.
     slip, rolling, spin : vector, float, float
         Velocity of the second body over the first one across n; mean and difference of the spins about n.
+    past, past_spin : vector, float
+        Velocity and spin after the last force, where it acted, against which it does the second half of its work.
     kf, kt, limit, arm : float
         Stiffness in shear and torsion, friction times pressure, and the arm of its torsion.
     push, velocity : vector, vector
@@ -32,25 +34,25 @@ def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
     """
     dt = now.last
     f = of(q.f)
+    done = dot(f, past) + q.t * past_spin
     size = length(f)
     f = along(f, -dot(f, n), n)
     f = scaled(size / max(length(f), 1e-300), f)
     f = along(f, rolling * dt, cross(n, f))
     keep = kept(kf, q.kf)
-    old, turn = f, q.t
     f = along(scaled(keep, f), -kf * dt, slip)
-    twist = kept(kt, q.kt) * turn - kt * dt * spin
+    twist = kept(kt, q.kt) * q.t - kt * dt * spin
     keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
     f = scaled(keep, f)
     twist *= less
-    now.shear -= 0.5 * dt * (dot(along(old, 1.0, f), slip) + (turn + twist) * spin)
+    now.shear -= 0.5 * dt * (done + dot(f, slip) + twist * spin)
     # dashpots parallel to the springs; friction in sum stays within Coulomb's
     g = along(f, -now.beta * kf, slip)
     more = twist - now.beta * kt * spin
     keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
     g = along(along(push, keep, g), -1.0, f)
     more = more * less - twist
-    now.visc -= 0.5 * dt * (dot(along(g, 1.0, of(q.d)), velocity) + (more + q.dt) * spin)
+    now.visc -= 0.5 * dt * (dot(of(q.d), past) + q.dt * past_spin + dot(g, velocity) + more * spin)
     put(q.f, f)
     put(q.d, g)
     q.t = twist

@@ -3,10 +3,10 @@
 import math
 
 from ..dem3d.look import straighten
-from ..dem3d.move import rotate_any, twice_kinetic
+from ..dem3d.move import omega, rotate_any, twice_kinetic
 from ..jit import kernel, strict
 from ..run_codes import FAILED
-from .vectors import along, length, of, scaled
+from .vectors import along, length, of, put, scaled
 
 
 @kernel
@@ -40,6 +40,7 @@ def move(body, now, a, b, dt):
         u.x[0] += v[0] * dt
         u.y[0] += v[1] * dt
         u.z[0] += v[2] * dt
+        put(u.past, omega(u, 0, l[0], l[1], l[2]))
         rotate_any(u, 0, l[0], l[1], l[2], dt)
         px += u.m[0] * v[0]
         py += u.m[0] * v[1]

@@ -6,6 +6,7 @@ Legend::
                f[3] mo[3]     force and moment of all contacts at t_n [N], [N m]
                r              distance of the farthest point from the centroid [m]
                travel         way that no point of the body can have exceeded since the pairs were listed [m]
+               past[3]        angular velocity after the last kick, before the drift that followed [rad/s]
                fixed          1: it moves with the ground
     shape[s]   body kind      whose it is; BLOCK, DRUM or GROUND (the half-space below the origin of its body, k is up)
                first count    its vertices in ``vertex`` [m], in the axes of the body from its centroid
@@ -23,6 +24,8 @@ Legend::
                fn en          normal force at the last step [N], elastic energy of the pressure [J]
                d[3]           dashpots: force on b [N], and torsion [N m] in ``dt``
                area           of the contact [m²], 0 where there is none
+               ra[3] rb[3]    its middle at the last step from the centroid of either body [m]
+               gap            how far apart the shapes are along n [m], where they do not touch
     joint[j]   a b            shapes of the lower and the upper face, a body each
                ml il jl       middle and two directions of the lower face in the axes of its body, il × jl out of it [m], [-]
                mu iu ju       the same of the upper face, iu × ju into its body
@@ -76,13 +79,13 @@ def types() -> dict[str, np.dtype]:
     return {
         "body": np.dtype(
             fields(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib", 1)
-            + fields("f mo", 3)
+            + fields("f mo past", 3)
             + fields("r travel")
             + counts("fixed")
         ),
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
         "loop": np.dtype(counts("first count")),
-        "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d", 3) + fields("t dt kf kt fn en area")),
+        "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d ra rb", 3) + fields("t dt kf kt fn en area gap")),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
             + fields("ml il jl mu iu ju f d gf gm", 3)

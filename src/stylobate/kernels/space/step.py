@@ -9,7 +9,7 @@ import math
 from ..dem3d.step import base_acceleration
 from ..jit import kernel, strict
 from ..run_codes import CHUNK, FAILED
-from .bed import forget, press, touching
+from .bed import foresee, forget, press, touching
 from .joints import on_joint
 from .motion import check, kinetic_and_gravitational, move
 from .search import list_pairs
@@ -50,8 +50,11 @@ def forces(state):
             press(p, a, u, b, v, vertex, numbers[0], numbers[1], numbers[2], share, now, total, simplex)
             if now.touched < 0 and p.joint < 0:
                 now.touched = feed[0].step[0]
-        elif p.area > 0.0:
-            forget(p)
+        elif share > 0.0:
+            if p.area > 0.0:
+                forget(p)
+            stiffness = share * law[min(a.body, b.body), max(a.body, b.body), 0]
+            foresee(p, a, u, b, v, vertex, plane, loop, corner, wide, stiffness, now, work)
 
 
 @kernel
@@ -69,6 +72,7 @@ def advance(state, chunks):
     for _ in range(chunks):
         base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
         for k in range(CHUNK):
+            forces(state)
             parts = min(max(math.ceil(now.dt * math.sqrt(now.rate) / PART), 1), MOST_PARTS)
             g = ground[k].a
             h = ground[k + 1].a
@@ -76,7 +80,8 @@ def advance(state, chunks):
             for q in range(parts):
                 x = q * each
                 y = x + each
-                forces(state)
+                if q > 0:
+                    forces(state)
                 farthest = move(
                     body,
                     now,
