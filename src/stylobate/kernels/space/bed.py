@@ -9,7 +9,7 @@ import math
 from ..dem3d.move import omega
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
-from .friction import relax, rub
+from .friction import late, relax, rub
 from .nearest import parting
 from .overlap import DEEP_A, DEEP_B, MIDDLE, MOMENT, NORMAL, REF, SHADOW, SPREAD, VOLUME, overlap
 from .records import DRUM, GROUND, LESS
@@ -22,6 +22,9 @@ OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
 #: A contact that opens gives all of its pressure as long as it holds this share of the pressure times the mean depth; a
 #: face that is pressed holds one half, an edge two thirds, a corner three quarters.
 HOLDS = 0.45
+
+#: While it holds more than this share it gives more, to this share of its pressure at most.
+LEFT, MORE = 0.8, 2.0
 
 #: A drum is touched on its side where the normal is across its axis, to this cosine.
 ON_SIDE = 0.05
@@ -103,7 +106,7 @@ def velocity_then(u, r):
 def forget(p):
     """The contact is open: nothing is left of it but the direction."""
     relax(p)
-    p.fn = p.area = 0.0
+    p.fn = p.pn = p.area = 0.0
     for c in range(3):
         p.ta[c] = p.tb[c] = 0.0
 
@@ -307,6 +310,8 @@ def returnable(fn, last, gain, before, depth, vn, ease, dt, held):
     allowed = max(held, 0.0) / (HOLDS * depth)
     if vn < 0.0:
         allowed = max(allowed, last + gain)
+    else:
+        fn = max(fn, min(MORE * fn, max(held, 0.0) / (LEFT * depth)))
     most = (math.sqrt(vn * vn + 2.0 * ease * max(held - before, 0.0)) - vn) / max(ease * dt, 1e-300)
     return min(fn, allowed, most)
 
@@ -338,11 +343,12 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
         p.en = 0.5 * fn * volume / area
     past = minus(velocity_then(v, of(p.rb)), velocity_then(u, of(p.ra)))
     past_spin = dot(minus(of(v.past), of(u.past)), of(p.n))
-    before = 0.5 * p.fn * dot(past, of(p.n)) * now.last
+    before = late(p.pn, p.fn * dot(past, of(p.n)), now)
     if share == 1.0:  # a joint that hands over has its own
-        fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, volume / area, vn, ease, now.last, p.en)
+        fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, volume / area, vn, ease, now.kick, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
-    p.en -= before + 0.5 * fn * vn * now.last
+    p.pn = fn * vn
+    p.en -= before + 0.5 * p.pn * now.last
     f, twist = rub(
         p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         ks * area, ks * area * square, mu * (fn + dn), math.sqrt(mean), scaled(dn, n), w, now,

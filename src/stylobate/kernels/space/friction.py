@@ -4,8 +4,17 @@ The limit surface is that of faces in ``dem3d``; legend of what is remembered: `
 """
 
 from ..dem3d.friction import kept, returned
-from ..jit import kernel
+from ..jit import kernel, long_law
 from .vectors import along, cross, dot, length, of, put, scaled
+
+
+@long_law
+def late(before, after, now):
+    """Work of the last force that is not counted yet [J], from its powers before and after it acted [W].
+
+    A force acts for half of the parts of the step before and after it; half the one before was counted at once.
+    """
+    return 0.25 * (now.earlier + now.last) * (before + after) - 0.5 * now.earlier * before
 
 
 @kernel
@@ -34,7 +43,8 @@ def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, ve
     """
     dt = now.last
     f = of(q.f)
-    done = dot(f, past) + q.t * past_spin
+    now.shear -= late(q.pf, dot(f, past) + q.t * past_spin, now)
+    now.visc -= late(q.pd, dot(of(q.d), past) + q.dt * past_spin, now)
     size = length(f)
     f = along(f, -dot(f, n), n)
     f = scaled(size / max(length(f), 1e-300), f)
@@ -45,14 +55,16 @@ def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, ve
     keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
     f = scaled(keep, f)
     twist *= less
-    now.shear -= 0.5 * dt * (done + dot(f, slip) + twist * spin)
+    q.pf = dot(f, slip) + twist * spin
+    now.shear -= 0.5 * dt * q.pf
     # dashpots parallel to the springs; friction in sum stays within Coulomb's
     g = along(f, -now.beta * kf, slip)
     more = twist - now.beta * kt * spin
     keep, less = returned(dot(g, g), more * more, limit, limit * arm, kf, kt)
     g = along(along(push, keep, g), -1.0, f)
     more = more * less - twist
-    now.visc -= 0.5 * dt * (dot(of(q.d), past) + q.dt * past_spin + dot(g, velocity) + more * spin)
+    q.pd = dot(g, velocity) + more * spin
+    now.visc -= 0.5 * dt * q.pd
     put(q.f, f)
     put(q.d, g)
     q.t = twist
@@ -65,6 +77,6 @@ def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, ve
 @kernel
 def relax(q):
     """Nothing is remembered any more."""
-    q.t = q.dt = q.kf = q.kt = q.en = 0.0
+    q.t = q.dt = q.kf = q.kt = q.en = q.pf = q.pd = 0.0
     for c in range(3):
         q.f[c] = q.d[c] = 0.0

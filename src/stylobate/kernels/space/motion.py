@@ -16,6 +16,7 @@ def move(body, now, a, b, dt):
     Returns the longest way since the pairs were listed.
     """
     kick = 0.5 * (now.last + dt)
+    now.earlier = now.last
     now.last = dt
     g = of(now.g)
     base = a[0] + g[0], a[1] + g[1], a[2] + g[2]

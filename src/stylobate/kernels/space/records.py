@@ -22,6 +22,7 @@ Legend::
                f[3] t         shear force on b [N], torsion moment on b about n [N m]
                kf kt          stiffness they were stored with [N/m], [N m]
                fn en          normal force at the last step [N], elastic energy of the pressure [J]
+               pn pf pd       power of pressure, friction springs and dashpots at the last step, before they acted [W]
                d[3]           dashpots: force on b [N], and torsion [N m] in ``dt``
                area           of the contact [m²], 0 where there is none
                ra[3] rb[3]    its middle at the last step from the centroid of either body [m]
@@ -36,9 +37,10 @@ Legend::
                from_c to_c    cosines of the relative tilts from which the bed acts too, and alone
                weight live    1 joint, 0 bed, between them both; 0: the faces have parted for good
                gf gm          force and moment of damping on the upper body about the middle of the lower face [N], [N m]
-               f t kf kt d dt en  what is remembered, as of a pair;  over  area of the overlap [m²]
+               f t kf kt d dt en pf pd  what is remembered, as of a pair;  over  area of the overlap [m²]
     law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
-    now        dt last        step, and the last part of one that was taken [s]
+    now        dt last earlier  step, the last part of one that was taken, and the one before [s]
+               kick           longest time for which forces at t_n may act [s]
                eta calm       restitution of the bed: F is larger by eta while it closes, smaller while it opens; below the
                               speed ``calm`` [m/s] in proportion to it;  dull  the same of the joints
                beta           stiffness-proportional damping [s];  local  Cundall's local damping, for settling [-]
@@ -85,14 +87,14 @@ def types() -> dict[str, np.dtype]:
         ),
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
         "loop": np.dtype(counts("first count")),
-        "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d ra rb", 3) + fields("t dt kf kt fn en area gap")),
+        "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d ra rb", 3) + fields("t dt kf kt fn en area gap pn pf pd")),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
             + fields("ml il jl mu iu ju f d gf gm", 3)
-            + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over")
+            + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over pf pd")
         ),
         "now": np.dtype(
-            fields("dt last eta dull calm beta local skin rate deepest work shear visc")
+            fields("dt last earlier kick eta dull calm beta local skin rate deepest work shear visc")
             + fields("g", 3)
             + counts("pairs touched status")
         ),

@@ -72,6 +72,7 @@ def advance(state, chunks):
     for _ in range(chunks):
         base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
         for k in range(CHUNK):
+            now.kick = 0.5 * (now.last + now.dt)
             forces(state)
             parts = min(max(math.ceil(now.dt * math.sqrt(now.rate) / PART), 1), MOST_PARTS)
             g = ground[k].a
@@ -81,6 +82,7 @@ def advance(state, chunks):
                 x = q * each
                 y = x + each
                 if q > 0:
+                    now.kick = now.last
                     forces(state)
                 farthest = move(
                     body,
