@@ -24,7 +24,7 @@ OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
 HOLDS = 0.45
 
 #: While it holds more than this share it gives more, to this share of its pressure at most.
-LEFT, MORE = 0.8, 2.0
+LEFT, MORE = 0.8, 4.0
 
 #: A drum is touched on its side where the normal is across its axis, to this cosine.
 ON_SIDE = 0.05
@@ -340,12 +340,13 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     # pressure  # Eq. (Q2)
     fn = kn * volume
     if now.last == 0.0:  # no work has pressed what overlaps at the start
-        p.en = 0.5 * fn * volume / area
+        p.en = 0.5 * fn * min(volume / area, -p.gap)
     past = minus(velocity_then(v, of(p.rb)), velocity_then(u, of(p.ra)))
     past_spin = dot(minus(of(v.past), of(u.past)), of(p.n))
     before = late(p.pn, p.fn * dot(past, of(p.n)), now)
+    depth = min(volume / area, -p.gap)  # no mean is more than the whole, but for what is rounded where hardly anything touches
     if share == 1.0:  # a joint that hands over has its own
-        fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, volume / area, vn, ease, now.kick, p.en)
+        fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, depth, vn, ease, now.kick, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
     p.pn = fn * vn
     p.en -= before + 0.5 * p.pn * now.last
@@ -359,7 +360,7 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     put(p.n, n)
     put(p.ra, ru)
     put(p.rb, rv)
-    now.deepest = max(now.deepest, volume / area)
+    now.deepest = max(now.deepest, depth)
     now.rate = max(now.rate, kn * (area + grown) * ease)
     f = along(f, fn, n)
     m = scaled(twist, n)
