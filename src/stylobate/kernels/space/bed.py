@@ -188,7 +188,7 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
     """Whether two shapes overlap; the sums over the surface of their overlap then stand in ``work``.
 
     The direction of the pair is that of the last contact; before there is one, that in which the shapes are apart.
-    ``wide`` is a length that no shape on the ground is larger than [m].
+    ``wide`` is a length beyond which nothing of a body on the ground is from below its centroid [m].
     """
     n = of(p.n)
     ground = a.kind == GROUND or b.kind == GROUND

@@ -44,7 +44,7 @@ def forces(state):
         u = body[a.body]
         v = body[b.body]
         share = 1.0 - joint[p.joint].weight if p.joint >= 0 and joint[p.joint].live != 0 else 1.0
-        wide = 2.0 * max(min(a.r, b.r), 1e-3)
+        wide = 2.0 * min(u.r, v.r)
         if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
             numbers = law[min(a.body, b.body), max(a.body, b.body)]
             press(p, a, u, b, v, vertex, numbers[0], numbers[1], numbers[2], share, now, total, simplex)
