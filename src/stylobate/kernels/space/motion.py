@@ -6,7 +6,7 @@ from ..dem3d.look import straighten
 from ..dem3d.move import omega, rotate_any, twice_kinetic
 from ..jit import kernel, strict
 from ..run_codes import FAILED
-from .vectors import along, length, of, put, scaled
+from .vectors import along, dot, length, of, put, scaled
 
 
 @kernel
@@ -30,10 +30,13 @@ def move(body, now, a, b, dt):
         l = u.lx[0], u.ly[0], u.lz[0]
         f = along(scaled(u.im[0], of(u.f)), -1.0, base)
         m = of(u.mo)
-        if now.local > 0.0:
-            # local damping (Cundall): a share of the unbalanced force, against the velocity; for settling only
-            f = along(f, -now.local * length(f) / max(length(v), 1e-30), v)
-            m = along(m, -now.local * length(m) / max(length(l), 1e-30), l)
+        if u.local > 0.0:
+            # local damping (Cundall): a share of the unbalanced force, against the velocity
+            w = omega(u, 0, l[0], l[1], l[2])
+            drag, brake = u.local * length(f), u.local * length(m)
+            now.visc += kick * (u.m[0] * drag * length(v) + brake * dot(w, l) / max(length(l), 1e-30))
+            f = along(f, -drag / max(length(v), 1e-30), v)
+            m = along(m, -brake / max(length(l), 1e-30), l)
         v = along(v, kick, f)
         l = along(l, kick, m)
         u.vx[0], u.vy[0], u.vz[0] = v

@@ -6,6 +6,7 @@ Legend::
                f[3] mo[3]     force and moment of all contacts at t_n [N], [N m]
                r              distance of the farthest point from the centroid [m]
                travel         way that no point of the body can have exceeded since the pairs were listed [m]
+               local          Cundall's local damping, for settling and for what comes to rest [-]
                past[3]        angular velocity after the last kick, before the drift that followed [rad/s]
                fixed          1: it moves with the ground
     shape[s]   body kind      whose it is; BLOCK, DRUM or GROUND (the half-space below the origin of its body, k is up)
@@ -43,7 +44,7 @@ Legend::
                kick           longest time for which forces at t_n may act [s]
                eta calm       restitution of the bed: F is larger by eta while it closes, smaller while it opens; below the
                               speed ``calm`` [m/s] in proportion to it;  dull  the same of the joints
-               beta           stiffness-proportional damping [s];  local  Cundall's local damping, for settling [-]
+               beta           stiffness-proportional damping [s]
                g[3]           gravity, as an acceleration of the base: up is positive [m/s²]
                skin           of the bounding spheres [m]
                rate           largest (circular frequency)² of a contact at the last step [1/s²]
@@ -82,7 +83,7 @@ def types() -> dict[str, np.dtype]:
         "body": np.dtype(
             fields(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib", 1)
             + fields("f mo past", 3)
-            + fields("r travel")
+            + fields("r travel local")
             + counts("fixed")
         ),
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
@@ -94,7 +95,7 @@ def types() -> dict[str, np.dtype]:
             + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over pf pd")
         ),
         "now": np.dtype(
-            fields("dt last earlier kick eta dull calm beta local skin rate deepest work shear visc")
+            fields("dt last earlier kick eta dull calm beta skin rate deepest work shear visc")
             + fields("g", 3)
             + counts("pairs touched status")
         ),
