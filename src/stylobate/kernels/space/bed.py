@@ -23,7 +23,7 @@ OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
 #: face that is pressed holds one half, an edge two thirds, a corner three quarters.
 HOLDS = 0.45
 
-#: While it holds more than this share it gives more, to this share of its pressure at most.
+#: While it opens and holds more than this share it gives more, up to so many times its pressure.
 LEFT, MORE = 0.8, 4.0
 
 #: A drum is touched on its side where the normal is across its axis, to this cosine.
@@ -337,14 +337,15 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     kn *= share
     ks *= share
     ease = mobility(u, ru, n) + mobility(v, rv, n)
+    # no mean depth is more than that of the slab, but for what is rounded where hardly anything touches
+    depth = min(volume / area, -p.gap)
     # pressure  # Eq. (Q2)
     fn = kn * volume
     if now.last == 0.0:  # no work has pressed what overlaps at the start
-        p.en = 0.5 * fn * min(volume / area, -p.gap)
+        p.en = 0.5 * fn * depth
     past = minus(velocity_then(v, of(p.rb)), velocity_then(u, of(p.ra)))
     past_spin = dot(minus(of(v.past), of(u.past)), of(p.n))
     before = late(p.pn, p.fn * dot(past, of(p.n)), now)
-    depth = min(volume / area, -p.gap)  # no mean is more than the whole, but for what is rounded where hardly anything touches
     if share == 1.0:  # a joint that hands over has its own
         fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, depth, vn, ease, now.kick, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))

@@ -88,7 +88,9 @@ def types() -> dict[str, np.dtype]:
         ),
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
         "loop": np.dtype(counts("first count")),
-        "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d ra rb", 3) + fields("t dt kf kt fn en area gap pn pf pd")),
+        "pair": np.dtype(
+            counts("a b joint side") + fields("n ta tb f d ra rb", 3) + fields("t dt kf kt fn en area gap pn pf pd")
+        ),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
             + fields("ml il jl mu iu ju f d gf gm", 3)
