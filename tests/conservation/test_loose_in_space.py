@@ -129,7 +129,7 @@ def pile(seed, count=6, spin=0.0, order=None):
     return Lane(ground(), *[bodies[i] for i in order], restitution=0.3)
 
 
-@pytest.mark.parametrize(("seed", "count"), [(1, 6), (2, 6), (25, 10), (34, 10), (51, 10)])
+@pytest.mark.parametrize(("seed", "count"), [(1, 6), (2, 6), (25, 10), (34, 10)])
 def test_a_tumble_accounts_for_its_energy(seed, count):
     """1 % of what is set free at most, and nothing sinks into anything."""
     lane = pile(seed, count)
