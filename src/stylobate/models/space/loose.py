@@ -249,8 +249,7 @@ class Loose:
 
     def quieten(self) -> None:
         """Damp what moves slowly, so that it comes to rest; what falls loses a twentieth of its acceleration at most."""
-        speed = np.sqrt(sum(self.body["v" + c][:, 0] ** 2 for c in "xyz"))
-        turning = np.sqrt(sum(self.body["w" + c][:, 0] ** 2 for c in "xyz"))
+        speed, turning = (np.linalg.norm([self.body[name + c][:, 0] for c in "xyz"], axis=0) for name in ("v", "w"))
         self.body["local"] = np.where(speed + self.body["r"] * turning < SLOW, QUIETENED, 0.0)
 
     # -- the start -------------------------------------------------------------------------------------------------
