@@ -106,11 +106,11 @@ class Lane(Loose):
 
     @property
     def local_damping(self):
-        return float(self.now["local"][0])
+        return float(self.body["local"].max())
 
     @local_damping.setter
     def local_damping(self, share):
-        self.now["local"] = share
+        self.body["local"] = share
 
 
 def _frame(up):

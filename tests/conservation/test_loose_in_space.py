@@ -2,7 +2,9 @@
 
 import numpy as np
 import pytest
-from bodies_in_space import Lane, box, cylinder, ground, turn
+from bodies_in_space import LYING, Lane, box, box_mesh, cylinder, ground, turn
+
+from stylobate.column.shapes import Mesh
 
 
 def angular_momentum(lane, bodies):
@@ -63,18 +65,49 @@ def test_collisions_keep_both_momenta_and_nearly_the_energy(kinds):
 
 @pytest.mark.parametrize(
     ("kinds", "restitution", "seed"),
-    [("cc", 0.3, 95), ("bc", 0.3, 1), ("bc", 1.0, 47), ("cb", 0.3, 56), ("cb", 1.0, 77), ("cc", 1.0, 47)],
-)
+    [
+        ("cc", 0.3, 95), ("cc", 0.3, 71), ("cc", 0.3, 47), ("bc", 0.3, 1), ("bc", 1.0, 47), ("cb", 0.3, 56),
+        ("cb", 1.0, 77), ("cc", 1.0, 47),
+    ],
+)  # fmt: skip
 def test_no_collision_gains_energy(kinds, restitution, seed):
-    """Where the normal turns while a contact is closed it may hold work back, and never gives more than it took.
+    """Where the normal turns while a contact is closed it never gives more than it took.
 
-    If it could, these would gain 6 to 94 %.
+    If it could, these would gain 1 to 94 %.
     """
     lane = colliding(kinds, np.random.default_rng(seed), restitution)
     energy = lane.energies()[1]
     lane.run(0.6)
     assert lane.now["touched"][0] >= 0
-    assert -0.1 * energy < lane.energies()[1:].sum() - energy < 0.02 * energy
+    assert -0.1 * energy < lane.energies()[1:].sum() - energy < 0.002 * energy
+
+
+def test_a_side_that_lands_flat_is_foreseen():
+    """Of a drum on a post, whose contact would be closed all at once in a step too long, which gained 2 %."""
+    for share in (0.5, 1.0):
+        drum = cylinder(0.3, 0.6, (0.0, 0.0, 0.3 + 1e-3 * share), LYING, velocity=(0.0, 0.0, -0.5))
+        lane = Lane(box((0.3, 0.3, 1.0), (0, 0, -0.5)), drum, kn=5e9, gravity=(0, 0, 0))
+        lane.step = 0.4 * lane.stable_step()
+        lane.start(lane.step)
+        energy = lane.energies()[1]
+        lane.run(0.03)
+        assert lane.now["touched"][0] >= 0
+        assert abs(lane.energies()[1:].sum() - energy) < 0.005 * energy
+
+
+def test_the_ground_is_under_a_part_far_from_the_centroid():
+    """A long body that comes down on the small foot at its end."""
+    foot, shaft = box_mesh((0.6, 0.5, 0.12)), box_mesh((0.3, 0.3, 2.4))
+    parts = [Mesh(foot.vertices - np.array([0.0, 0.0, 1.26]), foot.faces), shaft]
+    long = box((0.3, 0.3, 2.4), (0, 0, 1.6), turn(0.3, 0.2, 0.0), velocity=(0.0, 0.0, -2.0))
+    lane = Lane(ground(), long._replace(parts=parts), restitution=0.3, kn=5e9)
+    lane.step = 0.4 * lane.stable_step()
+    lane.start(lane.step)
+    start = lane.energies()
+    lane.run(1.5)
+    change = lane.energies() - start
+    assert abs(change[1:].sum()) < 0.005 * (start[1] - change[2])
+    assert lane.now["deepest"][0] < 0.02
 
 
 def pile(seed, count=6, spin=0.0, order=None):

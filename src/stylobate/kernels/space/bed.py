@@ -9,7 +9,7 @@ import math
 from ..dem3d.move import omega
 from ..jit import kernel, long_law
 from ..plane.contact import normal_dashpot, restitution_share
-from .friction import relax, rub
+from .friction import late, relax, rub
 from .nearest import parting
 from .overlap import DEEP_A, DEEP_B, MIDDLE, MOMENT, NORMAL, REF, SHADOW, SPREAD, VOLUME, overlap
 from .records import DRUM, GROUND, LESS
@@ -22,6 +22,9 @@ OF_LINE, OF_DISC = 0.75, 8.0 / 9.0
 #: A contact that opens gives all of its pressure as long as it holds this share of the pressure times the mean depth; a
 #: face that is pressed holds one half, an edge two thirds, a corner three quarters.
 HOLDS = 0.45
+
+#: While it opens and holds more than this share it gives more, up to so many times its pressure.
+LEFT, MORE = 0.8, 4.0
 
 #: A drum is touched on its side where the normal is across its axis, to this cosine.
 ON_SIDE = 0.05
@@ -93,10 +96,17 @@ def mobility(u, r, n):
 
 
 @long_law
+def velocity_then(u, r):
+    """Velocity of the point of a body at r from its centroid as the last force left it."""
+    w = cross(of(u.past), r)
+    return u.vx[0] + w[0], u.vy[0] + w[1], u.vz[0] + w[2]
+
+
+@long_law
 def forget(p):
     """The contact is open: nothing is left of it but the direction."""
     relax(p)
-    p.fn = p.area = 0.0
+    p.fn = p.pn = p.area = 0.0
     for c in range(3):
         p.ta[c] = p.tb[c] = 0.0
 
@@ -178,7 +188,7 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
     """Whether two shapes overlap; the sums over the surface of their overlap then stand in ``work``.
 
     The direction of the pair is that of the last contact; before there is one, that in which the shapes are apart.
-    ``wide`` is a length that no shape on the ground is larger than [m].
+    ``wide`` is a length beyond which nothing of a body on the ground is from below its centroid [m].
     """
     n = of(p.n)
     ground = a.kind == GROUND or b.kind == GROUND
@@ -189,6 +199,7 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
     top = reach(a, u, vertex, 1.0, n[0], n[1], n[2])
     low = -reach(b, v, vertex, LESS, -n[0], -n[1], -n[2])
     round_ = a.kind == DRUM or b.kind == DRUM
+    p.gap = low - top
     if low - top >= (NEAR * min(u.r, v.r) if round_ and not ground else 0.0):
         put(p.n, n)
         return False
@@ -196,6 +207,7 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
         gap, nx, ny, nz = parting(a, u, b, v, LESS, vertex, n[0], n[1], n[2], simplex)
         if gap > 0.0:
             p.n[0], p.n[1], p.n[2] = nx, ny, nz
+            p.gap = gap
             return False
     if top <= low:
         return False
@@ -212,6 +224,67 @@ def touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
     return meet
 
 
+@kernel
+def foresee(p, a, u, b, v, vertex, plane, loop, corner, wide, kn, now, work):
+    """Count a contact that will close within a step with the stiffness that it will have then."""
+    n = of(p.n)
+    closing = dot(minus((u.vx[0], u.vy[0], u.vz[0]), (v.vx[0], v.vy[0], v.vz[0])), n)
+    closing += u.r * length((u.wx[0], u.wy[0], u.wz[0])) + v.r * length((v.wx[0], v.wy[0], v.wz[0]))
+    if p.gap >= closing * now.dt:
+        return
+    pose_u, pose_v = pose(u), pose(v)
+    carry(u, now.dt)
+    carry(v, now.dt)
+    top = reach(a, u, vertex, 1.0, n[0], n[1], n[2])
+    low = -reach(b, v, vertex, LESS, -n[0], -n[1], -n[2])
+    if top > low and drawn(p, n, a, u, b, v, vertex, plane, loop, corner, wide, top, low, work):
+        total = work[10]
+        s = of(total[NORMAL : NORMAL + 3])
+        area = length(s)
+        n = scaled(1.0 / area, s)
+        c = along(of(total[REF : REF + 3]), 1.0 / total[VOLUME], of(total[MOMENT : MOMENT + 3]))
+        ease = mobility(u, minus(c, place(u)), n) + mobility(v, minus(c, place(v)), n)
+        now.rate = max(now.rate, kn * area * ease)
+    stand(u, pose_u)
+    stand(v, pose_v)
+
+
+@long_law
+def pose(u):
+    """Place and axes of a body."""
+    return (
+        (u.x[0], u.y[0], u.z[0]),
+        (u.ix[0], u.iy[0], u.iz[0]),
+        (u.jx[0], u.jy[0], u.jz[0]),
+        (u.kx[0], u.ky[0], u.kz[0]),
+    )
+
+
+@long_law
+def stand(u, at):
+    """Put a body where it was."""
+    u.x[0], u.y[0], u.z[0] = at[0]
+    u.ix[0], u.iy[0], u.iz[0] = at[1]
+    u.jx[0], u.jy[0], u.jz[0] = at[2]
+    u.kx[0], u.ky[0], u.kz[0] = at[3]
+
+
+@long_law
+def carry(u, dt):
+    """Move a body along its velocities, to the first order."""
+    w = u.wx[0], u.wy[0], u.wz[0]
+    x, i, j, k = pose(u)
+    stand(
+        u,
+        (
+            along(x, dt, (u.vx[0], u.vy[0], u.vz[0])),
+            along(i, dt, cross(w, i)),
+            along(j, dt, cross(w, j)),
+            along(k, dt, cross(w, k)),
+        ),
+    )
+
+
 @long_law
 def on_line(p, c, a, u, b, v):
     """Middle of a contact, which on the side of a drum lies on the line that touches, not somewhere on the facet."""
@@ -224,16 +297,23 @@ def on_line(p, c, a, u, b, v):
 
 
 @long_law
-def returnable(fn, before, depth, vn, dt, held):
+def returnable(fn, last, gain, before, depth, vn, ease, dt, held):
     """Pressure of a contact [N], which never gives back more work than it has taken.
 
     ``fn`` is k_n times the volume [N], ``held`` the work that it holds, and ``before`` the work of the last pressure in
-    half a step [J].
+    half a step [J]. What holds too little gives less, and gains, while it closes, ``gain`` [N] at most on the ``last``
+    pressure. ``ease`` is the mobility along the normal [1/kg]: the work of the step, with the velocity after it, is no
+    more than what is held.
     """  # Eq. (Q4)
-    if vn <= 0.0 or fn <= 0.0:
+    if fn <= 0.0:
         return fn
-    most = 2.0 * (held - before) / max(vn * dt, 1e-300)
-    return min(fn, max(min(held / (HOLDS * depth), most), 0.0))
+    allowed = max(held, 0.0) / (HOLDS * depth)
+    if vn < 0.0:
+        allowed = max(allowed, last + gain)
+    else:
+        fn = max(fn, min(MORE * fn, max(held, 0.0) / (LEFT * depth)))
+    most = (math.sqrt(vn * vn + 2.0 * ease * max(held - before, 0.0)) - vn) / max(ease * dt, 1e-300)
+    return min(fn, allowed, most)
 
 
 @kernel
@@ -256,25 +336,33 @@ def press(p, a, u, b, v, vertex, kn, ks, mu, share, now, total, simplex):
     spin_v = dot((v.wx[0], v.wy[0], v.wz[0]), n)
     kn *= share
     ks *= share
+    ease = mobility(u, ru, n) + mobility(v, rv, n)
+    # no mean depth is more than that of the slab, but for what is rounded where hardly anything touches
+    depth = min(volume / area, -p.gap)
     # pressure  # Eq. (Q2)
     fn = kn * volume
     if now.last == 0.0:  # no work has pressed what overlaps at the start
-        p.en = 0.5 * fn * volume / area
-    before = 0.5 * p.fn * dot(w, of(p.n)) * now.last
+        p.en = 0.5 * fn * depth
+    past = minus(velocity_then(v, of(p.rb)), velocity_then(u, of(p.ra)))
+    past_spin = dot(minus(of(v.past), of(u.past)), of(p.n))
+    before = late(p.pn, p.fn * dot(past, of(p.n)), now)
     if share == 1.0:  # a joint that hands over has its own
-        fn = returnable(fn, before, volume / area, vn, now.last, p.en)
+        fn = returnable(fn, p.fn, -kn * area * vn * now.last, before, depth, vn, ease, now.kick, p.en)
     dn = normal_dashpot(fn, now.beta * kn * area, vn, restitution_share(now.eta, now.calm, vn))
-    p.en -= before + 0.5 * fn * vn * now.last
+    p.pn = fn * vn
+    p.en -= before + 0.5 * p.pn * now.last
     f, twist = rub(
-        p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u,
+        p, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, past, past_spin,
         ks * area, ks * area * square, mu * (fn + dn), math.sqrt(mean), scaled(dn, n), w, now,
     )  # fmt: skip
     p.fn = fn
-    grown = max(area - p.area, 0.0)
+    grown = max(area - p.area, 0.0) * (now.dt / max(now.last, 1e-300) if p.area > 0.0 else 1.0)
     p.area = area
     put(p.n, n)
-    now.deepest = max(now.deepest, volume / area)
-    now.rate = max(now.rate, kn * (area + grown) * (mobility(u, ru, n) + mobility(v, rv, n)))
+    put(p.ra, ru)
+    put(p.rb, rv)
+    now.deepest = max(now.deepest, depth)
+    now.rate = max(now.rate, kn * (area + grown) * ease)
     f = along(f, fn, n)
     m = scaled(twist, n)
     add(v, rv, f, m)

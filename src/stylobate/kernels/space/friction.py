@@ -8,8 +8,17 @@ from ..jit import kernel, long_law
 from .vectors import along, cross, dot, length, of, put, scaled
 
 
+@long_law
+def late(before, after, now):
+    """Work of the last force that is not counted yet [J], from its powers before and after it acted [W].
+
+    A force acts for half of the parts of the step before and after it; half the one before was counted at once.
+    """
+    return 0.25 * (now.earlier + now.last) * (before + after) - 0.5 * now.earlier * before
+
+
 @kernel
-def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
+def rub(q, n, slip, rolling, spin, past, past_spin, kf, kt, limit, arm, push, velocity, now):
     """Friction at t_n; brings its memory from t_{n−1} to t_n.
 
     Parameters
@@ -20,6 +29,8 @@ def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
         Normal of the contact.
     slip, rolling, spin : vector, float, float
         Velocity of the second body over the first one across n; mean and difference of the spins about n.
+    past, past_spin : vector, float
+        Velocity and spin after the last force, where it acted, against which it does the second half of its work.
     kf, kt, limit, arm : float
         Stiffness in shear and torsion, friction times pressure, and the arm of its torsion.
     push, velocity : vector, vector
@@ -31,11 +42,15 @@ def rub(q, n, slip, rolling, spin, kf, kt, limit, arm, push, velocity, now):
         On the second body, with ``push``: shear force and torsion moment about n.
     """
     dt = now.last
-    turn = q.t
-    old, f, twist = sprung(of(q.f), turn, q.kf, q.kt, n, slip, rolling, spin, kf, kt, limit, arm, dt)
+    f, turn = of(q.f), q.t
+    now.shear -= late(q.pf, dot(f, past) + turn * past_spin, now)
+    now.visc -= late(q.pd, dot(of(q.d), past) + q.dt * past_spin, now)
+    f, twist = sprung(f, turn, q.kf, q.kt, n, slip, rolling, spin, kf, kt, limit, arm, dt)
     g, more = slowed(f, twist, slip, spin, kf, kt, limit, arm, push, now.beta)
-    now.shear -= 0.5 * dt * (dot(along(old, 1.0, f), slip) + (turn + twist) * spin)
-    now.visc -= 0.5 * dt * (dot(along(g, 1.0, of(q.d)), velocity) + (more + q.dt) * spin)
+    q.pf = dot(f, slip) + twist * spin
+    now.shear -= 0.5 * dt * q.pf
+    q.pd = dot(g, velocity) + more * spin
+    now.visc -= 0.5 * dt * q.pd
     put(q.f, f)
     put(q.d, g)
     q.t = twist
@@ -50,16 +65,16 @@ def sprung(f, turn, soft, supple, n, slip, rolling, spin, kf, kt, limit, arm, dt
     """Springs of friction at t_n, from a force f and a moment ``turn`` of stiffness ``soft`` and ``supple`` a step ago;
     others as of :func:`rub`.
 
-    Returns the old shear force, turned with the contact, and the new one, and the new torsion moment.
+    Returns the shear force and the torsion moment.
     """
     size = length(f)
     f = along(f, -dot(f, n), n)
     f = scaled(size / max(length(f), 1e-300), f)
-    old = along(f, rolling * dt, cross(n, f))
-    f = along(scaled(kept(kf, soft), old), -kf * dt, slip)
+    f = along(f, rolling * dt, cross(n, f))
+    f = along(scaled(kept(kf, soft), f), -kf * dt, slip)
     twist = kept(kt, supple) * turn - kt * dt * spin
     keep, less = returned(dot(f, f), twist * twist, limit, limit * arm, kf, kt)
-    return old, scaled(keep, f), twist * less
+    return scaled(keep, f), twist * less
 
 
 @long_law
@@ -74,6 +89,6 @@ def slowed(f, twist, slip, spin, kf, kt, limit, arm, push, beta):
 @kernel
 def relax(q):
     """Nothing is remembered any more."""
-    q.t = q.dt = q.kf = q.kt = q.en = 0.0
+    q.t = q.dt = q.kf = q.kt = q.en = q.pf = q.pd = 0.0
     for c in range(3):
         q.f[c] = q.d[c] = 0.0

@@ -118,7 +118,7 @@ def on_joint(e, u, v, edge, up, arcs, sums, now):
     kf = share * e.ks * closed
     dn = normal_dashpot(pressing, 0.0, vn, restitution_share(now.dull, now.calm, vn))
     f, twist = rub(
-        e, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u,
+        e, n, along(w, -vn, n), 0.5 * (spin_u + spin_v), spin_v - spin_u, w, spin_v - spin_u,
         kf, TORSION * kf * spread, e.tan * (pressing + dn) + share * e.co * closed, LEVER * math.sqrt(spread),
         scaled(dn, n), w, now,
     )  # fmt: skip

@@ -152,16 +152,16 @@ def act(damped, e, u, v, s, o, l):
     w = minus(at_point(v, l, rv), at_point(u, l, at))
     spin_u = dot((u.wx[l], u.wy[l], u.wz[l]), n)
     spin_v = dot((v.wx[l], v.wy[l], v.wz[l]), n)
-    kf, slip, spin, turn = e.ks[l] * closed, along(w, -dot(w, n), n), spin_v - spin_u, e.t[l]
+    kf, slip, spin, before, turn = e.ks[l] * closed, along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     kt, limit, arm = TORSION * kf * spread, e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
-    old, f, twist = sprung(
-        row(e.f, l), turn, e.kf[l], e.kt[l], n, slip, 0.5 * (spin_u + spin_v), spin, kf, kt, limit, arm, last
+    f, twist = sprung(
+        before, turn, e.kf[l], e.kt[l], n, slip, 0.5 * (spin_u + spin_v), spin, kf, kt, limit, arm, last
     )
     # nothing is remembered of a joint that is open
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last * keep
     f, twist = scaled(keep, f), keep * twist
-    o.shear[l] -= half * (dot(along(old, 1.0, f), slip) + (turn + twist) * spin)
+    o.shear[l] -= half * (dot(before, w) + dot(f, slip) + (turn + twist) * spin)
     write(e.f, l, f)
     e.t[l], e.kf[l], e.kt[l] = twist, keep * kf, keep * kt
     if damped:

@@ -3,10 +3,10 @@
 import math
 
 from ..dem3d.look import straighten
-from ..dem3d.move import rotate_any, twice_kinetic
+from ..dem3d.move import omega, rotate_any, twice_kinetic
 from ..jit import kernel, strict
 from ..run_codes import FAILED
-from .vectors import along, length, of, scaled
+from .vectors import along, dot, length, of, put, scaled
 
 
 @kernel
@@ -16,6 +16,7 @@ def move(body, now, a, b, dt):
     Returns the longest way since the pairs were listed.
     """
     kick = 0.5 * (now.last + dt)
+    now.earlier = now.last
     now.last = dt
     g = of(now.g)
     base = a[0] + g[0], a[1] + g[1], a[2] + g[2]
@@ -29,10 +30,13 @@ def move(body, now, a, b, dt):
         l = u.lx[0], u.ly[0], u.lz[0]
         f = along(scaled(u.im[0], of(u.f)), -1.0, base)
         m = of(u.mo)
-        if now.local > 0.0:
-            # local damping (Cundall): a share of the unbalanced force, against the velocity; for settling only
-            f = along(f, -now.local * length(f) / max(length(v), 1e-30), v)
-            m = along(m, -now.local * length(m) / max(length(l), 1e-30), l)
+        if u.local > 0.0:
+            # local damping (Cundall): a share of the unbalanced force, against the velocity
+            w = omega(u, 0, l[0], l[1], l[2])
+            drag, brake = u.local * length(f), u.local * length(m)
+            now.visc += kick * (u.m[0] * drag * length(v) + brake * dot(w, l) / max(length(l), 1e-30))
+            f = along(f, -drag / max(length(v), 1e-30), v)
+            m = along(m, -brake / max(length(l), 1e-30), l)
         v = along(v, kick, f)
         l = along(l, kick, m)
         u.vx[0], u.vy[0], u.vz[0] = v
@@ -40,6 +44,7 @@ def move(body, now, a, b, dt):
         u.x[0] += v[0] * dt
         u.y[0] += v[1] * dt
         u.z[0] += v[2] * dt
+        put(u.past, omega(u, 0, l[0], l[1], l[2]))
         rotate_any(u, 0, l[0], l[1], l[2], dt)
         px += u.m[0] * v[0]
         py += u.m[0] * v[1]

@@ -6,6 +6,8 @@ Legend::
                f[3] mo[3]     force and moment of all contacts at t_n [N], [N m]
                r              distance of the farthest point from the centroid [m]
                travel         way that no point of the body can have exceeded since the pairs were listed [m]
+               local          Cundall's local damping, for settling and for what comes to rest [-]
+               past[3]        angular velocity after the last kick, before the drift that followed [rad/s]
                fixed          1: it moves with the ground
     shape[s]   body kind      whose it is; BLOCK, DRUM or GROUND (the half-space below the origin of its body, k is up)
                first count    its vertices in ``vertex`` [m], in the axes of the body from its centroid
@@ -21,8 +23,11 @@ Legend::
                f[3] t         shear force on b [N], torsion moment on b about n [N m]
                kf kt          stiffness they were stored with [N/m], [N m]
                fn en          normal force at the last step [N], elastic energy of the pressure [J]
+               pn pf pd       power of pressure, friction springs and dashpots at the last step, before they acted [W]
                d[3]           dashpots: force on b [N], and torsion [N m] in ``dt``
                area           of the contact [m²], 0 where there is none
+               ra[3] rb[3]    its middle at the last step from the centroid of either body [m]
+               gap            how far apart the shapes are along n [m], where they do not touch
     joint[j]   a b            shapes of the lower and the upper face, a body each
                ml il jl       middle and two directions of the lower face in the axes of its body, il × jl out of it [m], [-]
                mu iu ju       the same of the upper face, iu × ju into its body
@@ -33,12 +38,13 @@ Legend::
                from_c to_c    cosines of the relative tilts from which the bed acts too, and alone
                weight live    1 joint, 0 bed, between them both; 0: the faces have parted for good
                gf gm          force and moment of damping on the upper body about the middle of the lower face [N], [N m]
-               f t kf kt d dt en  what is remembered, as of a pair;  over  area of the overlap [m²]
+               f t kf kt d dt en pf pd  what is remembered, as of a pair;  over  area of the overlap [m²]
     law[a, b]  k_n, k_s [N/m³], tan φ of bodies a < b
-    now        dt last        step, and the last part of one that was taken [s]
+    now        dt last earlier  step, the last part of one that was taken, and the one before [s]
+               kick           longest time for which forces at t_n may act [s]
                eta calm       restitution of the bed: F is larger by eta while it closes, smaller while it opens; below the
                               speed ``calm`` [m/s] in proportion to it;  dull  the same of the joints
-               beta           stiffness-proportional damping [s];  local  Cundall's local damping, for settling [-]
+               beta           stiffness-proportional damping [s]
                g[3]           gravity, as an acceleration of the base: up is positive [m/s²]
                skin           of the bounding spheres [m]
                rate           largest (circular frequency)² of a contact at the last step [1/s²]
@@ -83,20 +89,22 @@ def types() -> dict[str, np.dtype]:
     return {
         "body": np.dtype(
             fields(f"x y z vx vy vz {axes} lx ly lz wx wy wz m im ia ic ib", 1)
-            + fields("f mo", 3)
-            + fields("r travel")
+            + fields("f mo past", 3)
+            + fields("r travel local")
             + counts("fixed")
         ),
         "shape": np.dtype(counts("body kind first count face faces") + fields("m c e", 3) + fields("r h rb rt")),
         "loop": np.dtype(counts("first count")),
-        "pair": np.dtype(counts("a b joint side") + fields("n ta tb f d", 3) + fields("t dt kf kt fn en area")),
+        "pair": np.dtype(
+            counts("a b joint side") + fields("n ta tb f d ra rb", 3) + fields("t dt kf kt fn en area gap pn pf pd")
+        ),
         "joint": np.dtype(
             counts("a b first_l many_l first_u many_u live")
             + fields("ml il jl mu iu ju f d gf gm", 3)
-            + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over")
+            + fields("rl ru kn ks tan co width from_c to_c weight t dt kf kt en over pf pd")
         ),
         "now": np.dtype(
-            fields("dt last eta dull calm beta local skin rate deepest work shear visc")
+            fields("dt last earlier kick eta dull calm beta skin rate deepest work shear visc")
             + fields("g", 3)
             + counts("pairs touched status")
         ),

@@ -10,7 +10,7 @@ from ..dem3d.step import base_acceleration
 from ..jit import kernel, strict
 from ..run_codes import CHUNK, FAILED
 from ..shared.links import add_to_ledger
-from .bed import forget, press, touching
+from .bed import foresee, forget, press, touching
 from .joints import on_joint
 from .links import add_links, look_at_links
 from .motion import check, kinetic_and_gravitational, move
@@ -48,14 +48,17 @@ def forces(state):
         u = body[a.body]
         v = body[b.body]
         share = 1.0 - joint[p.joint].weight if p.joint >= 0 and joint[p.joint].live != 0 else 1.0
-        wide = 2.0 * max(min(a.r, b.r), 1e-3)
+        wide = 2.0 * min(u.r, v.r)
         if share > 0.0 and touching(p, a, u, b, v, vertex, plane, loop, corner, wide, work, simplex):
             numbers = law[min(a.body, b.body), max(a.body, b.body)]
             press(p, a, u, b, v, vertex, numbers[0], numbers[1], numbers[2], share, now, total, simplex)
             if now.touched < 0 and p.joint < 0:
                 now.touched = feed[0].step[0]
-        elif p.area > 0.0:
-            forget(p)
+        elif share > 0.0:
+            if p.area > 0.0:
+                forget(p)
+            stiffness = share * law[min(a.body, b.body), max(a.body, b.body), 0]
+            foresee(p, a, u, b, v, vertex, plane, loop, corner, wide, stiffness, now, work)
     add_links(body, ties, now.last)
 
 
@@ -74,6 +77,8 @@ def advance(state, chunks):
     for _ in range(chunks):
         base_acceleration(feed[0], ground, feed[0].last[0] > 0, 0)
         for k in range(CHUNK):
+            now.kick = 0.5 * (now.last + now.dt)
+            forces(state)
             parts = min(max(math.ceil(now.dt * math.sqrt(now.rate) / PART), 1), MOST_PARTS)
             g = ground[k].a
             h = ground[k + 1].a
@@ -81,7 +86,9 @@ def advance(state, chunks):
             for q in range(parts):
                 x = q * each
                 y = x + each
-                forces(state)
+                if q > 0:
+                    now.kick = now.last
+                    forces(state)
                 farthest = move(
                     body,
                     now,

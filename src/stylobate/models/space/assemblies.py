@@ -264,6 +264,8 @@ def _follow(
         still = engine.at_rest()
         if left <= 0:
             engine.now["dull"] = engine.now["eta"] if options.until_rest else 0.0
+            if options.until_rest:
+                engine.quieten()
         if left <= 0 and (not options.until_rest or still or engine.time > duration + LONGEST_WAIT):
             break
         engine.advance(min(every, left) if left > 0 else every)

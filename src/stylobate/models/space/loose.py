@@ -30,6 +30,10 @@ MOST_NEAR = 64
 #: At rest: nothing has moved by this share of the smallest body's radius, for so long [s].
 REST_WAY, REST_TIME = 2.0e-4, 0.5
 
+#: In a run until rest, once the motion is over: bodies of which no point is faster than this [m/s] have local damping, this
+#: share of the unbalanced force. Their energy, 0.005 J/kg, decides over no fall.
+SLOW, QUIETENED = 0.1, 0.05
+
 #: Bodies are in equilibrium as drawn if their accelerations fall below this [m/s²] within so long with local damping [s],
 #: while none goes farther than this share of the smallest one's radius.
 SETTLED, SETTLE_TIME, AS_DRAWN = 1e-4, 10.0, 0.02
@@ -261,6 +265,11 @@ class Loose:
             self.stood_at, self.stood_since = here, self.time
         return self.time - self.stood_since > REST_TIME
 
+    def quieten(self) -> None:
+        """Damp what moves slowly, so that it comes to rest; what falls loses a twentieth of its acceleration at most."""
+        speed, turning = (np.linalg.norm([self.body[name + c][:, 0] for c in "xyz"], axis=0) for name in ("v", "w"))
+        self.body["local"] = np.where(speed + self.body["r"] * turning < SLOW, QUIETENED, 0.0)
+
     # -- the start -------------------------------------------------------------------------------------------------
 
     def settle(self) -> bool:
@@ -273,14 +282,15 @@ class Loose:
         """
         arrays = (self.body, self.pair, self.joint, self.now, self.feed, *self.ties)
         drawn, places = [one.copy() for one in arrays], self.places
-        self.now["local"], self.feed["last"] = LOCAL_DAMPING, 0
+        self.body["local"], self.feed["last"] = LOCAL_DAMPING, 0
         rests = settled(
             self._relax, self.residual_acceleration, SETTLED, math.ceil(SETTLE_TIME / (CHUNK * self.dt)),
             lost=lambda: self.failed or float(np.abs(self.places - places).max()) > AS_DRAWN * self.smallest,
         )  # fmt: skip
         before = drawn[3]
         if rests:
-            for name in ("local", "work", "shear", "visc", "touched", "last"):
+            self.body["local"] = 0.0
+            for name in ("work", "shear", "visc", "touched", "last"):
                 self.now[name] = before[name]
             for c in "xyz":
                 for name in ("v", "w", "l"):
