@@ -270,7 +270,7 @@ def test_what_does_not_stand_cannot_settle(portal, capsys, tmp_path):
 )
 def test_other_commands_say_that_assemblies_are_for_run(arguments, refused, portal):
     message = refused(*(portal if one == "PORTAL" else one for one in arguments))
-    assert "describes an assembly of blocks, which 'run', 'critical', 'suite' and 'study' take" in message
+    assert "describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida' and 'states'" in message
 
 
 def test_animate_refuses_what_is_no_response(refused, portal):

@@ -7,11 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from ..column import Column
 from ..column.structure import Structure
 from ..models.base import Model
 from ..percent import whole
-from ..response.words import ROUND_IN_THE_PLANE, round_in_the_plane
+from ..response.words import ROUND_IN_THE_PLANE, round_in_the_plane, struck_in_space
 from .fragility_checks import FEWEST
 
 #: Kinds of difference.
@@ -31,18 +30,20 @@ NO_MEASURE_YET = (
 )
 
 
-def round_drums(columns: Sequence[Structure], model: Model) -> str:
-    """Caveat before runs in a plane of columns of several round drums, which leave it by themselves; else empty."""
+def caveat(columns: Sequence[Structure], model: Model) -> str:
+    """Caveat before many runs: in a plane of columns of several round drums, which leave it; of assemblies in space."""
     if not model.is_plane(model.parameters()):
-        return ""
+        return next((struck_in_space(column) for column in columns if column.space_joints is not None), "")
     return next(
         (round_in_the_plane(column) for column in columns if column.stack is not None and column.stack.n > 1), ""
     )
 
 
-def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
+def doubt(labels: Sequence[str], columns: Sequence[Structure], model: Model) -> str:
     """Caveat before any advice on these states, because of the model; empty where nothing does."""
-    if not model.is_plane(model.parameters()) or all(column.section != "circular" for column in columns):
+    if not model.is_plane(model.parameters()):
+        return caveat(columns, model)
+    if all(column.section != "circular" for column in columns):
         return ""
     return ROUND_IN_THE_PLANE + NO_MEASURE_YET * any(label not in NO_MEASURE for label in labels) + "."
 

@@ -21,7 +21,7 @@ from ..motion import Motion
 from ..motion.intensity import motion_summary, rocking_measures
 from ..motion.orientation import record_of
 from .certainty import Population
-from .difference import round_drums
+from .difference import caveat
 from .directions import direction_of
 from .side_by_side import Share, codes_of, shares
 from .verdicts import NOT_RUN, verdict
@@ -135,7 +135,7 @@ def suite_table(
             of_twins = [one for one in found[own + i * number : own + (i + 1) * number] if one is not None]
             line |= Population(some, tuple(of_twins)).columns
     table = pandas.DataFrame(rows)
-    table.attrs["doubt"] = round_drums(stands, model)
+    table.attrs["doubt"] = caveat(stands, model)
     return table
 
 

@@ -36,7 +36,7 @@ def compare(
     States of one column, as built, as found and with a measure, are compared by 'stylobate states'.
     """
     from ..analysis.compare import compare_domains, compare_models
-    from ..analysis.difference import round_drums
+    from ..analysis.difference import caveat
     from ..motion.orientation import keep_axes
     from ..motion.ranges import amplitude_range, frequency_range
     from ..motion.specs import parse_time
@@ -49,7 +49,7 @@ def compare(
     stone = o.the_column(column, project)
     chosen = [_chosen(name, names, settings) for name in names]
     over_domain = frequencies is not None or amplitudes is not None
-    doubts = (round_drums([stone], one) for one in chosen)
+    doubts = (caveat([stone], one) for one in chosen)
     result: dict[str, Any] = {"models": names, "doubt": next(filter(None, doubts), "")}
     facts: dict[str, str] = {}
     what: dict[str, Any] = {"structures": [stone], "models": chosen, "labels": names, "tail_s": campaign.tail}

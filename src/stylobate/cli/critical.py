@@ -53,7 +53,7 @@ def critical(
     """
     from ..analysis.critical import amplitude_grid, critical_amplitude
     from ..analysis.critical_suite import critical_suite
-    from ..analysis.difference import round_drums
+    from ..analysis.difference import caveat
     from ..motion.specs import parse_acceleration
     from . import console
 
@@ -78,7 +78,7 @@ def critical(
     with execution.files("critical", "critical.csv", "critical.json", "critical", *writes) as files:
         with files.campaign(campaign) as asked:
             result: Any = make(campaign=asked)
-        summary = result.summary() | {"doubt": round_drums([stone], how)}
+        summary = result.summary() | {"doubt": caveat([stone], how)}
         summary |= {"refused": suite.refused} if request.several else o.input_facts(taken[0])
         if files.wanted:
             (write_suite if request.several else write)(result, summary, files)
@@ -153,7 +153,7 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
         "grid": f"{low:.4g} to {high:.4g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }
     if likes is not None:
-        facts[f"{kind}s like this"] = f"{likes.drawn.words}; at {len(likes.amplitudes)} of these amplitudes"
+        facts[f"{likes.drawn.like} like this"] = f"{likes.drawn.words}; at {len(likes.amplitudes)} of these amplitudes"
     if (own := summary["as_recorded"]) is not None:
         facts["as recorded"] = as_recorded(own)
     for row in summary["alternation"]:

@@ -37,7 +37,7 @@ def domain(
     With --replicates, the probability of collapse over columns like this one. With --out, a domain that was
     interrupted goes on where it was.
     """
-    from ..analysis.difference import round_drums
+    from ..analysis.difference import caveat
     from ..analysis.domain import collapse_domain
     from ..analysis.replicates import collapse_probability
     from ..analysis.step_sensitivity import compare_steps
@@ -64,7 +64,7 @@ def domain(
             else:
                 result = collapse_domain(*grid, campaign=asked)
         summary = result.summary() | ({"half_step": pair.summary()} if pair else {})
-        summary["doubt"] = round_drums([study.column], study.model)
+        summary["doubt"] = caveat([study.column], study.model)
         if not result.complete:
             raise Stopped(summary["runs"], summary["runs"] + summary["not_run"], asked.ledger)
         if files.wanted:

@@ -27,7 +27,7 @@ def run(
 
     Finished runs are kept in the folder: a study that was stopped goes on, one that has grown computes only what is new.
     """
-    from ..analysis.difference import round_drums
+    from ..analysis.difference import caveat
     from ..analysis.studies import TABLES, keep_histories, run_study, write_table
     from ..campaign.study_files import read_plan
     from . import console
@@ -46,7 +46,7 @@ def run(
         what = {"structures": study.columns, "models": study.models, "runs": result.table}
         what |= {"motions": motions if more else [model.taken(motion) for motion in motions]}
         files.asked(**what, tail_s=study.campaign.tail)
-        doubts = (round_drums(study.columns, one) for one in study.models)
+        doubts = (caveat(study.columns, one) for one in study.models)
         summary = result.summary() | {"refused": refused, "doubt": next(filter(None, doubts), "")}
         files.summary(summary, "study.json")
     if execution.emits(summary):

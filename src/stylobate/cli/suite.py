@@ -46,7 +46,7 @@ def suite(
     --replicates, how sure each verdict is; with --azimuths or --signs, from where the shaking does most harm.
     """
     from ..analysis.certainty import CHANCE, chance_words
-    from ..analysis.difference import round_drums
+    from ..analysis.difference import caveat
     from ..analysis.directions import compass_of_shares, harm_words, worst
     from ..analysis.suite import must_be_told, suite_shares, suite_table
     from ..errors import InputError
@@ -77,7 +77,7 @@ def suite(
             "refused": records.refused,
             "model": how.name,
         }
-        result["doubt"] = round_drums(stones, how)
+        result["doubt"] = caveat(stones, how)
         compass = compass_of_shares(result["runs"])
         result["worst"] = worst(result["runs"], compass if swept else None)
         found = suite_shares(result["runs"])

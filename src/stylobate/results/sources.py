@@ -12,7 +12,7 @@ from ..analysis.evidence import STOOD
 from ..errors import InputError
 from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
-from ..response.words import ROUND_IN_THE_PLANE
+from ..response.words import ROUND_IN_THE_PLANE, STRUCK_IN_SPACE
 from .asked import Asked, asked_file, scales_of
 
 if TYPE_CHECKING:
@@ -83,7 +83,10 @@ class Source:
 
     @property
     def doubt(self) -> str:
-        """Caveat before all that rests on these runs: that round columns were computed in a plane, where they were."""
+        """Caveat before all that rests on these runs: round columns were computed in a plane, or stones in space struck."""
+        kept = [one for structure in self.structures for one in structure.values() if isinstance(one, dict)]
+        if any("stones" in one for one in kept):
+            return STRUCK_IN_SPACE
         round_ = any(
             drum.get("section") == "circular"
             for structure in self.structures
