@@ -36,6 +36,7 @@ friction_angle = 20.0
 MODEL = ["--model", "dem2d"]
 SHAKEN = [*MODEL, "--harmonic", "1Hz,0.02g,1s"]
 KEYS = {
+    "replicates", "displaced", "bodies", "mechanism", "doubt", "struck_at_s", "peak_opening_per_joint_m",
     "outcome", "collapsed", "decided", "collapse_time_s", "fallen", "at_rest", "in_equilibrium_as_drawn",
     "peak_displacement_m", "residual_displacement_m", "peak_rotation_rad", "peak_joint_opening_m",
     "residual_joint_slip_m", "energy_imbalance", "time_step_s", "steps", "wall_s", "model", "version", "motion",

@@ -160,7 +160,7 @@ def test_many_runs_carry_the_caution_once(answered, tmp_path):
     assert said.count("Assemblies in space are new: where bodies strike one another") == 1
     assert "assemblies like this" in said
     record = tmp_path / "weak.csv"
-    record.write_text("time_s,ax_g\n" + "\n".join(f"{0.01 * k:.2f},{0.02 * (k % 2):g}" for k in range(20)))
+    record.write_text("time_s,ax_g\n" + "\n".join(f"{0.01 * k:.2f},{0.02 * (-1) ** k:g}" for k in range(20)))
     told = answered("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--levels", "0.02g:0.03g:2", "--json")
     assert told["edp"] == "peak_displacement_m"
     assert told["doubt"].startswith("Assemblies in space are new")
@@ -186,6 +186,6 @@ def test_what_a_run_refuses(arguments, words, refused):
 
 def test_measures_that_need_a_column_are_refused(refused, tmp_path):
     record = tmp_path / "weak.csv"
-    record.write_text("time_s,ax_g\n" + "\n".join(f"{0.01 * k:.2f},{0.02 * (k % 2):g}" for k in range(20)))
+    record.write_text("time_s,ax_g\n" + "\n".join(f"{0.01 * k:.2f},{0.02 * (-1) ** k:g}" for k in range(20)))
     said = refused("ida", STATUE, record, "--model", "dem3d", "--im", "pga", "--edp", "peak_top_displacement_m")
     assert "the runs have no measure 'peak_top_displacement_m'" in said

@@ -177,7 +177,7 @@ def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]
     )
     one_draw = ""
     if r.structure.space_joints is not None and r.collapsed:
-        one_draw = " Where pieces come to lie is one draw of many: take regions over assemblies like it (--replicates)."
+        one_draw = " Where pieces come to lie is one draw of many: take regions over assemblies like it (`replicates`)."
     which = "its top" if r.histories.top is not None else "the block that moved most"
     views = ", seen along y (x to the right) and against x (y to the right)" if space else ""
     items.append(
