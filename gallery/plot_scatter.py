@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 
 import stylobate as st
 from stylobate.analysis.verdicts import wilson_interval
-from stylobate.column.scatter import scattered_columns
+from stylobate.column.twins import twins_of
 
 # %%
 # Widths, heights, friction and stiffness of each drum and joint differ by 0.4 %; draws end at 2.5
@@ -20,7 +20,7 @@ from stylobate.column.scatter import scattered_columns
 column = st.preset("paper-12-drums")
 size = 0.004
 scatter = st.Scatter(friction=size, joint_stiffness=size, density=0.0, width=size, height=size, offset=0.0)
-columns = scattered_columns(column, scatter, number=200, seed=1)
+columns = twins_of(column, scatter, number=200, seed=1)
 motions = [st.harmonic(frequency=0.8, amplitude=0.32 * st.g, duration=8.0)] * 200
 table = st.simulate_many(columns, motions, st.DistinctElement2D(), tail=5.0)
 

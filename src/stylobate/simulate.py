@@ -142,6 +142,7 @@ def simulate_iter(
     *,
     tail: float = 0.0,
     until_end: bool = False,
+    until_rest: bool = False,
     quiet: float = 0.0,
     threads: int | None = None,
 ) -> Generator[tuple[int, Measures], None, None]:
@@ -151,14 +152,14 @@ def simulate_iter(
     ----------
     cases : sequence of Case
     model : Model
-    tail, until_end
+    tail, until_end, until_rest
         As in :func:`simulate`.
     quiet : float
         Share of what opens a joint below which the lead-in and the end of a motion are not stepped [-]; 0 steps all of it.
     threads : int, optional
         All cores by default.
     """
-    options = run_options(tail, until_end=until_end, quiet=quiet)
+    options = run_options(tail, until_end=until_end, until_rest=until_rest, quiet=quiet)
     check_cases(cases, model, options)
     yield from run_checked(cases, model, options, threads)
 

@@ -8,7 +8,7 @@ import pytest
 import stylobate as st
 from stylobate.analysis.certainty import Population, batch
 from stylobate.campaign.twins import Twins, the_twins
-from stylobate.column.scatter import scattered_columns
+from stylobate.column.twins import twins_of
 from stylobate.models.base import Case
 from stylobate.response.words import to_decide
 
@@ -98,10 +98,10 @@ def test_twins_that_ride_along_are_those_of_a_batch_to_the_bit(model):
 
 
 def test_the_same_seed_gives_the_same_twins_of_any_number():
-    few, many = (scattered_columns(COLUMN, st.Scatter(), number, seed=5) for number in (3, 9))
+    few, many = (twins_of(COLUMN, st.Scatter(), number, seed=5) for number in (3, 9))
     assert [one.digest for one in few] == [one.digest for one in many[:3]]
-    assert few[0].digest != scattered_columns(COLUMN, st.Scatter(), 1, seed=6)[0].digest
-    still = scattered_columns(COLUMN, dataclasses.replace(st.Scatter(), friction=0.0), 1, seed=5)[0]
+    assert few[0].digest != twins_of(COLUMN, st.Scatter(), 1, seed=6)[0].digest
+    still = twins_of(COLUMN, dataclasses.replace(st.Scatter(), friction=0.0), 1, seed=5)[0]
     assert still.joints[0].tan_phi == COLUMN.joints[0].tan_phi
     assert still.drums == few[0].drums
 
@@ -109,14 +109,14 @@ def test_the_same_seed_gives_the_same_twins_of_any_number():
 def test_the_scatter_is_that_declared():
     # 400 columns: standard errors of a coefficient of variation are 1/√(2·400) = 3.5 % of it, bounds at four of these; the
     # cut at 2.5 standard deviations takes 4 % off the spread
-    twins = scattered_columns(COLUMN, st.Scatter(), 400, seed=0)
+    twins = twins_of(COLUMN, st.Scatter(), 400, seed=0)
     friction = np.array([[joint.tan_phi for joint in one.joints] for one in twins]) / COLUMN.joints[0].tan_phi
     assert np.std(friction[:, 0]) == pytest.approx(0.1, rel=0.18)
     assert np.corrcoef(friction[:, 0], friction[:, 2])[0, 1] == pytest.approx(0.5, abs=0.2)
     offset = np.array([one.as_found.of(2).offset for one in twins]) / COLUMN.joint_widths[1]
     assert np.std(offset) == pytest.approx(0.003, rel=0.18)
     assert all(one.as_found.in_plane for one in twins)
-    assert not all(one.as_found.in_plane for one in scattered_columns(COLUMN, st.Scatter(), 2, seed=0, space=True))
+    assert not all(one.as_found.in_plane for one in twins_of(COLUMN, st.Scatter(), 2, seed=0, space=True))
 
 
 def test_undecided_and_failed_twins_are_counted_as_neither():

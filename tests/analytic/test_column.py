@@ -8,7 +8,8 @@ from scipy.integrate import quad
 
 import stylobate as st
 from stylobate.column.presets import preset
-from stylobate.column.scatter import Scatter, scattered_columns
+from stylobate.column.scatter import Scatter
+from stylobate.column.twins import twins_of
 
 JOINT = st.Joint(normal_stiffness=5e10, shear_stiffness=2.5e10, friction_angle=35.0)
 SHAPES = [(0.82, 1.11, 1.08), (5.0, 0.96, 0.66), (0.3, 2.0, 0.4), (1.0, 0.5, 0.9), (1.0, 1.0, 1.0)]
@@ -128,7 +129,7 @@ def test_twins_are_not_warned_of_again():
     with pytest.warns(st.OutOfRangeWarning, match="widens upward"):
         column = column_of((1.0, 0.9), (0.8, 0.9))
     # warnings are errors here
-    assert len(scattered_columns(column, Scatter(), 15, 1)) == 15
+    assert len(twins_of(column, Scatter(), 15, 1)) == 15
     assert column.replace(name="d").name == "d"
     with pytest.raises(TypeError, match="no field 'nme'"):
         column.replace(nme="d")

@@ -184,7 +184,7 @@ def test_what_is_undecided_is_told_beside_the_share_of_the_columns_alike():
     found = over("ussc", ["ussc"] * 13 + ["sscc"] * 2, record)
     own = dict(found.as_recorded)
     assert (own["twins_undecided"], own["twins_stands"]) == (13, 2)
-    said = "undecided; columns like it that collapse: 0 to 87 % of 15 (0 to 96 %); 13 undecided"
+    said = "undecided; those like it that collapse: 0 to 87 % of 15 (0 to 96 %); 13 undecided"
     assert as_recorded(own) == f"0.2 g: {said}"
     items = critical_result(SimpleNamespace(summary=json.loads(json.dumps(found.summary())), pictures={}))[1]
     assert said in str(items[0])

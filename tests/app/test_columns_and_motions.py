@@ -241,5 +241,5 @@ def test_an_assembly_in_space_is_refused_before_its_mesh_is_read(client, path):
         client.post("/api/column/file", content=text.encode()),
         client.post("/api/assembly", json={"assembly": text}),
     ):
-        assert "an assembly in space is nothing that the page shows" in answer.text
+        assert "the page does not take assemblies in space yet" in answer.text
         assert path not in answer.text

@@ -36,6 +36,7 @@ friction_angle = 20.0
 MODEL = ["--model", "dem2d"]
 SHAKEN = [*MODEL, "--harmonic", "1Hz,0.02g,1s"]
 KEYS = {
+    "replicates", "displaced", "bodies", "mechanism", "doubt", "struck_at_s", "peak_opening_per_joint_m",
     "outcome", "collapsed", "decided", "collapse_time_s", "fallen", "at_rest", "in_equilibrium_as_drawn",
     "peak_displacement_m", "residual_displacement_m", "peak_rotation_rad", "peak_joint_opening_m",
     "residual_joint_slip_m", "energy_imbalance", "time_step_s", "steps", "wall_s", "model", "version", "motion",
@@ -270,7 +271,7 @@ def test_what_does_not_stand_cannot_settle(portal, capsys, tmp_path):
 )
 def test_other_commands_say_that_assemblies_are_for_run(arguments, refused, portal):
     message = refused(*(portal if one == "PORTAL" else one for one in arguments))
-    assert "describes an assembly of blocks, which 'run', 'critical', 'suite' and 'study' take" in message
+    assert "describes an assembly of blocks, which 'run', 'critical', 'suite', 'study', 'ida' and 'states'" in message
 
 
 def test_animate_refuses_what_is_no_response(refused, portal):

@@ -133,10 +133,13 @@ def test_what_cannot_stand_is_said_in_one_sentence(folder, capsys, change, words
     ("arguments", "words"),
     [
         (["critical", "{file}", "--model", "dem3d"], "is an assembly: use dem2d"),
-        (["critical", "{file}", "--replicates", "5"], "only columns have twins"),
+        (["critical", "{file}", "--replicates", "5"], "only columns and assemblies in space have twins"),
         (["limit", "{file}"], "is an assembly of the plane; give its blocks as boxes"),
         (["pushover", "{file}"], "describes an assembly of blocks"),
-        (["suite", "{file}", "sample:el-centro-1940", "--replicates", "5"], "only columns have twins"),
+        (
+            ["suite", "{file}", "sample:el-centro-1940", "--replicates", "5"],
+            "only columns and assemblies in space have twins",
+        ),
         (["suite", "{file}", "sample:el-centro-1940", "--also", "paper-monolithic"], "holds columns and assemblies"),
         (["suite", "{file}", "sample:el-centro-1940", "--against", "omega_g_over_p"], "--against is 'omega_g_over_p'"),
     ],

@@ -322,7 +322,7 @@ def test_every_share_of_a_suite_has_its_interval_and_its_number():
     )
     assert "bad" in look
     assert items[0].body == [["a", "8", "4", "4", "3", "1", "50 to 63 %", "15 to 91 %", "0"]]
-    place = items[1].header.index("columns like it that collapse")
+    place = items[1].header.index("those like it that collapse")
     assert items[1].body[0][place] == "40 to 60 % of 5 (12 to 88 %); 1 undecided, 1 failed"
     assert items[1].body[1][items[1].header.index("motion")] == "r0 at 1°"
 

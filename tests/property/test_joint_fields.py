@@ -10,8 +10,9 @@ import pytest
 import stylobate as st
 from stylobate.column.files import column_from_dict, write_column
 from stylobate.column.materials import material
-from stylobate.column.scatter import LARGEST, Scatter, scattered_columns
+from stylobate.column.scatter import LARGEST, Scatter
 from stylobate.column.tables import JointTable
+from stylobate.column.twins import twins_of
 
 COLUMN = st.Column.tapered(
     height=5.0, bottom_width=0.96, top_width=0.66, drums=12, density=1600.0, section="circular",
@@ -43,7 +44,7 @@ def test_what_rebuilds_a_joint_keeps_what_may_be_left_out(name, tmp_path) -> Non
     ):
         assert again == column
         assert again.digest == column.digest
-    for twin in scattered_columns(column, Scatter(**dict.fromkeys(LARGEST, 0.0)), 2, seed=1):
+    for twin in twins_of(column, Scatter(**dict.fromkeys(LARGEST, 0.0)), 2, seed=1):
         assert [getattr(joint, name) for joint in twin.joints] == pytest.approx([value] * 12, rel=1e-15)
     path = tmp_path / "column.toml"
     override = 'index = 2\nmaterial = "marble, worn"\n'

@@ -15,7 +15,8 @@ import numpy as np
 from stylobate import DistinctElement2D, DistinctElement3D, RigidBlock, simulate_many
 from stylobate.analysis import verdicts as v
 from stylobate.column import Column, Drum, Joint
-from stylobate.column.scatter import Scatter, scattered_columns
+from stylobate.column.scatter import Scatter
+from stylobate.column.twins import twins_of
 from stylobate.constants import g
 from stylobate.motion import Motion
 
@@ -128,7 +129,7 @@ def computed_thresholds(name: str) -> list[tuple[float | None, float | None]]:
 
 def computed_replicates() -> list[list[float]]:
     """First collapse of every slightly different column in the plane, of each length [g]."""
-    columns = list(scattered_columns(column(), ALIKE, REPLICATES, seed=0))
+    columns = list(twins_of(column(), ALIKE, REPLICATES, seed=0))
     found = bounds(columns, DistinctElement2D(), 0.02)
     return [[first for first, _ in each if first is not None] for each in found.values()]
 

@@ -6,6 +6,7 @@ import time
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Unpack
 
 import numpy as np
@@ -14,7 +15,7 @@ from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import Twins, the_twins
-from ..column import Column
+from ..column.structure import Structure
 from ..models.base import Case, Model
 from ..motion import Motion
 from ..percent import percents
@@ -22,19 +23,24 @@ from ..response import Response
 from ..response.words import doubt_of, to_decide
 from ..simulate import simulate
 from . import verdicts as v
+from .debris import BodyOverTwins, bodies_over_twins, words_of_bodies
+from .directions import peak_of
 
 if TYPE_CHECKING:
     import pandas
 
-#: Displacements whose median and spread are told.
-DISPLACEMENTS = ("peak_top_displacement_m", "residual_top_displacement_m", "peak_rotation_rad", "residual_joint_slip_m")
+#: Displacements whose median and spread are told: of the top of a column, of the farthest body of an assembly.
+DISPLACEMENTS = (
+    "peak_top_displacement_m", "residual_top_displacement_m", "peak_displacement_m", "residual_displacement_m",
+    "peak_rotation_rad", "residual_joint_slip_m",
+)  # fmt: skip
 
 #: Twins that must stand before their largest and least displacement tell where a run belongs.
 ENOUGH = 8
 
 
 #: Heading of a column of a table that holds :func:`chance_words`.
-CHANCE = "columns like it that collapse"
+CHANCE = "those like it that collapse"
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,16 +90,26 @@ class Population:
 
         None where a verdict is missing, or a percentile lies among the collapses.
         """
-        return {name: self._percentiles(name) for name in DISPLACEMENTS}
+        return {name: self._percentiles(name) for name in DISPLACEMENTS if not self.rows or name in self.rows[0]}
+
+    @cached_property
+    def bodies(self) -> tuple[BodyOverTwins, ...]:
+        """Each body of an assembly over its twins; empty for columns."""
+        return bodies_over_twins(self.rows)
+
+    @property
+    def like(self) -> str:
+        """What the twins are: columns, assemblies."""
+        return self.drawn.like
 
     @property
     def order(self) -> list[int]:
-        """Twins from the least to the most: by peak top displacement, then those that collapse, the last one first."""
+        """Twins from the least to the most: by peak displacement, then those that collapse, the last one first."""
 
         def harm(index: int) -> tuple[bool, float]:
             row = self.rows[index]
             fell = bool(row["collapsed"])
-            return fell, -row["collapse_time_s"] if fell else abs(row["peak_top_displacement_m"])
+            return fell, -row["collapse_time_s"] if fell else abs(row[peak_of(row)])
 
         sound = [i for i, verdict in enumerate(self.verdicts) if verdict != v.FAILED]
         return sorted(sound, key=harm)
@@ -114,12 +130,13 @@ class Population:
         counts, number = self.counts, len(self.rows)
         trials = number - counts[v.FAILED]
         if trials == 0:
-            return f"None of {number} columns like this could be computed."
-        said = f"Collapses in {counts[v.COLLAPSED]} of {trials} columns like this"
+            return f"None of {number} {self.like} like this could be computed."
+        said = f"Collapses in {counts[v.COLLAPSED]} of {trials} {self.like} like this"
         said += f" ({100.0 * self.confidence:g} %: {percents(*self.interval)})"
         if counts[v.UNDECIDED]:
             said += f"; {_not_fallen(counts)}{f': {self.to_decide}' if self.to_decide else ''}"
-        return said + (f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else ".")
+        said += f"; {counts[v.FAILED]} more failed." if counts[v.FAILED] else "."
+        return f"{said} {words_of_bodies(self.bodies)}".rstrip()
 
     @property
     def table(self) -> pandas.DataFrame:
@@ -128,6 +145,13 @@ class Population:
 
         named = zip(self.drawn.columns, self.verdicts, self.rows, strict=True)
         return pandas.DataFrame([{"column": twin.name, "verdict": one, **row} for twin, one, row in named])
+
+    @property
+    def table_of_bodies(self) -> pandas.DataFrame:
+        """One row per body of an assembly: in how many twins it fell, and the regions in which it lay at the end."""
+        import pandas
+
+        return pandas.DataFrame([{"body": one.name, **one.row(self.confidence)} for one in self.bodies])
 
     @property
     def columns(self) -> dict[str, Any]:
@@ -140,9 +164,10 @@ class Population:
             "replicates": len(self.rows),
         }
         columns |= {f"twins_{one}": number for one, number in self.counts.items() if one != v.NOT_RUN}
-        spread = self.spread["peak_top_displacement_m"]
+        name = next((one for one in DISPLACEMENTS if one in self.spread), DISPLACEMENTS[0])
+        spread = self.spread.get(name)
         for i, share in enumerate((16, 50, 84)):
-            columns[f"peak_top_displacement_{share}_m"] = None if spread is None else spread[i]
+            columns[f"{name.removesuffix('_m')}_{share}_m"] = None if spread is None else spread[i]
         return columns
 
     def beside(self, run: Mapping[str, Any]) -> str:
@@ -155,15 +180,15 @@ class Population:
         """
         if said := set_against(run, self.counts, self.confidence):
             return said
-        stood = [
-            abs(row["peak_top_displacement_m"]) for row, verdict in zip(self.rows, self.verdicts) if verdict == v.STANDS
-        ]
-        own = run.get("peak_top_displacement_m")
+        name = peak_of(run)
+        stood = [abs(row[name]) for row, verdict in zip(self.rows, self.verdicts) if verdict == v.STANDS]
+        own = run.get(name)
         if run["collapsed"] or own is None or len(stood) < ENOUGH or min(stood) <= abs(own) <= max(stood):
             return ""
         low, high, here = 1e3 * min(stood), 1e3 * max(stood), 1e3 * abs(own)
         return (
-            f"Its top moves {'more' if here > high else 'less'} than that of any column like it that stands "
+            f"{'Its top moves' if 'top' in name else 'It moves'} {'more' if here > high else 'less'} than "
+            f"{'that of ' * ('top' in name)}any {'column' if 'top' in name else 'one'} like it that stands "
             f"({low:.3g} to {high:.3g} mm): with this one, from {min(low, here):.3g} to {max(high, here):.3g} mm."
         )
 
@@ -186,6 +211,7 @@ class Population:
                 **self.spread,
                 "median_twin": None if middle is None else middle + 1,
                 "worst_twin": None if self.worst is None else self.worst + 1,
+                **({"bodies": {one.name: one.row(self.confidence) for one in self.bodies}} if self.bodies else {}),
                 **({} if run is None else {"beside": self.beside(run)}),
             },
         }
@@ -296,7 +322,7 @@ def _not_fallen(counts: Mapping[str, int]) -> str:
 
 @campaigning(Fields, but=("whole",), replicates=15)
 def certainty(
-    column: Column,
+    column: Structure,
     motion: Motion,
     model: Model,
     *,
@@ -329,22 +355,25 @@ def certainty(
     began = time.perf_counter()
     drawn = the_twins(column, model, campaign)
     twins, tail = drawn.columns, campaign.tail
-    riding = () if until_end or until_rest else tuple(twins[: model.carries])
+    riding = () if until_end or until_rest else tuple(twins[: model.carried(column)])
     response = simulate(
         column, motion, model, tail=tail, output_interval=output_interval, until_end=until_end, until_rest=until_rest,
         twins=riding, quiet=quiet, progress=campaign.progress,
     )  # fmt: skip
     rows = [twin.row() for twin in response.twins]
-    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, quiet)
+    rest = until_rest and not model.carried(column)  # what is followed one by one, so are its twins
+    rows += batch([Case(twin, motion) for twin in twins[len(rows) :]], column, model, campaign, quiet, rest)
     population = Population(drawn, tuple(rows), to_decide=to_decide(column, model.parameters(), tail))
     return Certainty(response, population, time.perf_counter() - began)
 
 
-def batch(cases: Sequence[Case], column: Column, model: Model, campaign: Campaign, quiet: float) -> list[dict]:
+def batch(
+    cases: Sequence[Case], column: Structure, model: Model, campaign: Campaign, quiet: float, until_rest: bool = False
+) -> list[dict]:
     """Rows of twins that did not ride along, computed as those that did; the ledger of the campaign keeps them."""
     rows: list[dict] = [{}] * len(cases)
     if cases:
-        request = Request.of(cases, Hasher(model.paced(column), campaign.tail), quiet)
+        request = Request.of(cases, Hasher(model.paced(column), campaign.tail, until_rest), quiet)
         with closing(Runs(replace(campaign, progress=None))) as runs, closing(runs.run(request)) as finished:
             try:
                 for number, row in finished:

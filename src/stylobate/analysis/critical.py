@@ -212,7 +212,7 @@ class CriticalAmplitude:
             "model": self.model,
             **({} if self.population is None else self.population.summary()),
         }
-        return found | {"sentence": sentence(found, self.column.kind)}
+        return found | {"sentence": sentence(found, self.column.kind, self.column.like)}
 
 
 @campaigning(Fields)

@@ -160,7 +160,8 @@ class CriticalSuite:
             "wall_s": self.wall_time,
             "model": self.results[0].model,
         }
-        return found | {"sentence": sentence_of_suite(found, self.results[0].column.kind)}
+        stands = self.results[0].column
+        return found | {"sentence": sentence_of_suite(found, stands.kind, stands.like)}
 
 
 @campaigning(Fields)

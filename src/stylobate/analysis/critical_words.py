@@ -15,49 +15,53 @@ from .certainty import CHANCE, chance_words
 #: Most stretches of amplitudes that are named.
 MOST = 4
 
-#: That one column says little, and what asks columns like it.
-ONE_ALONE = (
-    "Near the boundary small differences decide, and one alone says little: with 15 replicates, 15 columns like it "
-    "run as well."
-)
+
+def one_alone(like: str) -> str:
+    """That one of some columns says little, and what asks others like it; empty where there are none like it."""
+    if not like:
+        return ""
+    return (
+        f"Near the boundary small differences decide, and one alone says little: with 15 replicates, 15 {like} like it "
+        "run as well."
+    )
 
 
-def sentence(s: Mapping[str, Any], kind: str = "column") -> str:
+def sentence(s: Mapping[str, Any], kind: str = "column", like: str = "columns") -> str:
     """Results of one motion over its amplitudes.
 
     Parameters
     ----------
     s : mapping
         The JSON object of ``stylobate critical`` for one motion.
-    kind : str
-        What stands: column, assembly.
+    kind, like : str
+        What stands: column, assembly; what several like it are, if there are any.
     """
     twins = s.get("certainty")
-    words = [_with_twins(s, kind, twins) if twins else "", _alone(s, kind, twins), _open(s, twins)]
-    words.append(ONE_ALONE if not twins and kind == "column" else "")
+    words = [_with_twins(s, kind, like, twins) if twins else "", _alone(s, kind, twins), _open(s, twins)]
+    words.append("" if twins else one_alone(like))
     return " ".join(filter(None, words))
 
 
-def sentence_of_suite(s: Mapping[str, Any], kind: str = "column") -> str:
+def sentence_of_suite(s: Mapping[str, Any], kind: str = "column", like: str = "columns") -> str:
     """Results of several motions over one grid of peaks; ``s`` as of :func:`sentence`, for several motions."""
     rows, worst, twins = s["records"], s["worst"], s["certainty"]
-    records, like = len({row["record"] for row in rows}), " or one like it" if twins else ""
+    records, or_like = len({row["record"] for row in rows}), " or one like it" if twins else ""
     what, of = ("record", "") if records == len(rows) else ("motion", f" of {records} record{'s' * (records > 1)}")
     grid = f"{s['amplitudes_g'][0]:g} to {s['amplitudes_g'][-1]:g} g"
     if worst is None:
         surely = "surely " * bool(s["open_below"])
-        words = f"No {what}{of} {surely}collapses the {kind}{like} at a peak looked at, {grid}."
+        words = f"No {what}{of} {surely}collapses the {kind}{or_like} at a peak looked at, {grid}."
     else:
         fell = [sum(row[name] is not None for row in rows) for name in ("critical_g", "lowest_collapse_g")]
         already = "already " * ("lowest_collapse_g" in worst["bounds"])
         words = (
             f"{fell[0]} of {len(rows)} {what}s{of} collapse the {kind} at some peak looked at, {grid}"
             + (f", {fell[1]} it or one like it" if twins else "")
-            + f". Most harm: {worst['motion']}, which collapses it{like} {already}at "
+            + f". Most harm: {worst['motion']}, which collapses it{or_like} {already}at "
             f"{worst['lowest_collapse_factor']:.3g} times the record, {worst['lowest_collapse_g']:.4g} g, the smallest "
             f"factor at which any {'surely ' * bool(s['open_below'])}does{_below(s['open_below'], ' that factor')}."
         )
-    return " ".join(filter(None, (words, _open(s, twins), ONE_ALONE if not twins and kind == "column" else "")))
+    return " ".join(filter(None, (words, _open(s, twins), "" if twins else one_alone(like))))
 
 
 def as_recorded(own: Mapping[str, Any]) -> str:
@@ -73,13 +77,13 @@ def as_recorded(own: Mapping[str, Any]) -> str:
     return f"{words}; {CHANCE}: {likes}" if likes else words
 
 
-def _with_twins(s: Mapping[str, Any], kind: str, twins: Mapping[str, Any]) -> str:
+def _with_twins(s: Mapping[str, Any], kind: str, like: str, twins: Mapping[str, Any]) -> str:
     """The lowest collapse of the column and those like it, and by which amplitude shares of these have fallen."""
     number, lowest = s["replicates"], s["lowest_collapse_g"]
     if lowest is None:
         return _none(s, f"the {kind} or one of {number} like it", s["open_below"])
     words = (
-        f"Of {number + 1} {kind}s, this one and {number} like it, the first falls {_at(s, lowest, s['amplitudes_g'])}"
+        f"Of {number + 1} {like}, this one and {number} like it, the first falls {_at(s, lowest, s['amplitudes_g'])}"
     )
     words += _below(s["open_below"])
     shares = [(share, _by(twins, f"critical_{share}_g")) for share in (16, 50, 84)]

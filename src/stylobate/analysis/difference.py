@@ -7,11 +7,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from ..column import Column
 from ..column.structure import Structure
 from ..models.base import Model
 from ..percent import whole
-from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, round_in_the_plane, undamped
+from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, round_in_the_plane, struck_in_space, undamped
 from .fragility_checks import FEWEST
 
 #: Kinds of difference.
@@ -34,17 +33,19 @@ NO_MEASURE_YET = (
 def caveat(columns: Sequence[Structure], model: Model) -> str:
     """Caveat before many runs of these columns, in one sentence; empty where their model gives no reason for any.
 
-    In a plane, columns of several round drums leave it by themselves; in space, their wobble is damped by nothing.
+    In a plane, columns of several round drums leave it by themselves; in space, bodies that strike one another hang on how
+    stiff they are, and a column's wobble is damped by nothing.
     """
     known = model.parameters()
     if not model.is_plane(known):
         wobbles = undamped(known) and any(column.slenderness is not None for column in columns)
-        return UNDAMPED_WOBBLE if wobbles else ""
+        struck = next((struck_in_space(column) for column in columns if column.space_joints is not None), "")
+        return struck or (UNDAMPED_WOBBLE if wobbles else "")
     stacks = (column for column in columns if column.stack is not None and column.stack.n > 1)
     return next(filter(None, map(round_in_the_plane, stacks)), "")
 
 
-def doubt(labels: Sequence[str], columns: Sequence[Column], model: Model) -> str:
+def doubt(labels: Sequence[str], columns: Sequence[Structure], model: Model) -> str:
     """Caveat before any advice on these states, because of the model; empty where nothing does."""
     if not model.is_plane(model.parameters()):
         return caveat(columns, model)

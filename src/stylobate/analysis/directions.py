@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -41,10 +41,10 @@ def harm(row: Mapping[str, Any]) -> tuple[float, float, float]:
     share = row.get("collapse_probability")
     fell = bool(row["collapsed"])
     likely = float(fell) if share is None or math.isnan(share) else float(share)
-    return likely, 1.0 / (1.0 + row["collapse_time_s"]) if fell else 0.0, abs(row[_peak_of(row)])
+    return likely, 1.0 / (1.0 + row["collapse_time_s"]) if fell else 0.0, abs(row[peak_of(row)])
 
 
-def _peak_of(row: Mapping[str, Any]) -> str:
+def peak_of(row: Container[Any]) -> str:
     """Name of the peak displacement: of the top of a column, or of the block of an assembly that goes farthest."""
     return next(name for name in ("peak_top_displacement_m", "peak_displacement_m") if name in row)
 
@@ -159,7 +159,7 @@ def compass_of_shares(rows: Sequence[Mapping[str, Any]]) -> Compass:
 def compass_of_chances(rows: Sequence[Mapping[str, Any]]) -> Compass:
     """Probability of collapse from each direction, of several records the largest; without twins, the peak displacement."""
     sound = [row for row in rows if bearing(row) is not None and v.verdict(row) != v.FAILED]
-    name = _peak_of(sound[0]) if sound else "peak_top_displacement_m"
+    name = peak_of(sound[0]) if sound else "peak_top_displacement_m"
     names, label = [name], f"peak {'top ' if 'top' in name else ''}displacement (collapse at the rim) [m]"
     if all(row.get("collapse_probability") is not None for row in sound):
         names = ["collapse_probability", "collapse_interval_low", "collapse_interval_high"]

@@ -10,6 +10,7 @@ import numpy as np
 from ..motion.intensity_specs import KINDS, IntensityMeasure, parse_measure
 from . import lognormal
 from . import verdicts as v
+from .directions import peak_of
 from .evidence import evidence, intervals
 from .likelihood_region import dispersions
 from .limit_states import LimitState, parse_state
@@ -28,7 +29,7 @@ ROCKS = 0.01
 
 
 def which_tells_most(
-    runs: pandas.DataFrame, state: LimitState | str = "collapse", edp: str = "peak_top_displacement_m", seed: int = 0
+    runs: pandas.DataFrame, state: LimitState | str = "collapse", edp: str | None = None, seed: int = 0
 ) -> pandas.DataFrame:
     """Prediction of a state by each intensity measure of a table of runs.
 
@@ -37,8 +38,8 @@ def which_tells_most(
     runs : pandas.DataFrame
         Of an IDA.
     state : LimitState or str
-    edp : str
-        Measure of the response.
+    edp : str, optional
+        Measure of the response; the peak displacement by default.
     seed : int
         Of the bootstrap.
 
@@ -55,6 +56,7 @@ def which_tells_most(
     import pandas
 
     asked = parse_state(state) if isinstance(state, str) else state
+    edp = peak_of(runs) if edp is None else edp
     rows = []
     for measure in _measures(runs):
         told = evidence(runs, measure, asked)

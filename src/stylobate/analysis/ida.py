@@ -13,10 +13,12 @@ from typing import TYPE_CHECKING, Any, Unpack
 import numpy as np
 
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
+from ..campaign.cases import RELATIVE
 from ..campaign.digests import Hasher
 from ..campaign.runs import Request, Runs, Stopped
 from ..campaign.twins import the_twins
-from ..column import Column
+from ..column.structure import Structure
+from ..constants import g
 from ..errors import InputError, OutOfRangeWarning, check_all, check_choice, check_kind, check_range, suggest, warn
 from ..models.base import Case, Model
 from ..models.shared.quiet import level, share_of
@@ -34,6 +36,9 @@ if TYPE_CHECKING:
 #: A record that has to be multiplied by more is no longer that of an earthquake: a warning, and the end of the hunt.
 WARNED, LARGEST = 10.0, 20.0
 
+#: Peak at which a hunt begins of what nobody knows the opening of [m/s²].
+GENTLE = 0.1 * g
+
 #: Runs of a record.
 RUNS = 14
 
@@ -46,7 +51,7 @@ class Trace:
     """Runs of one record with one column."""
 
     motion: Motion
-    column: Column
+    column: Structure
     number: int
     value: float
     first: float
@@ -56,7 +61,7 @@ class Trace:
 
 @campaigning(Fields)
 def ida(
-    column: Column,
+    column: Structure,
     motions: Sequence[Motion],
     model: Model,
     im: IntensityMeasure | str = "pgv",
@@ -72,7 +77,7 @@ def ida(
 
     Parameters
     ----------
-    column : Column
+    column : Column or Assembly
     motions : sequence of Motion
     model : Model
     im : IntensityMeasure or str
@@ -102,7 +107,7 @@ def ida(
         Interrupted (Ctrl-C); a KeyboardInterrupt that says what is kept.
     """
     started = time.perf_counter()
-    check_kind("column", column, Column)
+    check_kind("column", column, Structure)
     motions = check_all("motions", motions, Motion)
     check_kind("model", model, Model)
     check_kind("im", im, (str, IntensityMeasure))
@@ -126,14 +131,22 @@ def ida(
             raise InputError(
                 f"{motion.name!r} is zero along x and cannot be scaled; leave a record without shaking out."
             )
-    relation = (math.tan(column.slenderness), column.frequency_parameter)
+    angle = column.slenderness  # an assembly has none, and no measure that is related to it
+    relation = (1.0 if angle is None else math.tan(angle), column.frequency_parameter)
     known = _about(about or {}, motions)
+    if angle is None and measure.key in RELATIVE:
+        raise InputError(
+            f"{measure.name} relates a record to the slenderness of a column, and {column.name!r} is {column.described}; "
+            "scale to another measure, such as pgv."
+        )
     facts = [_facts(one, measure, relation, known.get(one.name, known.get(record_of(one), {}))) for one in motions]
+    if angle is None:
+        facts = [{name: value for name, value in one.items() if name not in RELATIVE} for one in facts]
     drawn = the_twins(column, model, campaign) if campaign.replicates else None
     columns = [column] if drawn is None else list(drawn.columns)
     traces = []
     for motion, fact in zip(motions, facts):
-        value, peak = fact[measure.key], float(level(model.taken(motion), column).max())
+        value, peak = fact[measure.key], _loudest(model.taken(motion), column)
         start = value * (1.0 / peak) ** measure.power
         traces += [Trace(motion, one, k, value, start, [], []) for k, one in enumerate(columns)]
     stripes = None if levels is None else sorted({float(one) for one in levels})
@@ -169,6 +182,15 @@ def ida(
     table["hunted"] = stripes is None
     table.attrs["doubt"] = doubt = caveat([column], model)
     return Ida(table, measure, column, model.name, time.perf_counter() - started, drawn, doubt)
+
+
+def _loudest(motion: Motion, column: Structure) -> float:
+    """Largest share of what opens a joint that a motion reaches; of an assembly, of :data:`GENTLE` [-]."""
+    if column.moving_acceleration is not None:
+        return float(level(motion, column).max())
+    return float(np.hypot(motion.samples, 0.0 if motion.y_samples is None else motion.y_samples).max()) * abs(
+        motion.factor / GENTLE
+    )
 
 
 def _asked(trace: Trace, runs: int, largest: float, power: int) -> list[float]:
@@ -229,7 +251,7 @@ def _warn_of_factors(traces: Sequence[Trace], power: int) -> None:
 def _table(
     traces: Sequence[Trace],
     facts: Mapping[str, Mapping[str, float]],
-    column: Column,
+    column: Structure,
     measure: IntensityMeasure,
     model: Model,
 ) -> pandas.DataFrame:

@@ -10,25 +10,24 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..campaign.twins import Twins
-from ..column import Column
+from ..column.structure import Structure
 from ..errors import InputError
 from ..models.base import Model
 from ..motion.intensity_specs import IntensityMeasure
-from ..outcome import Outcome
-from ..response import Measures, SpaceMeasures
+from ..response.measures import blank_row
 from . import verdicts as v
 from .capacity import SHARES, Capacity, bounds, of_levels, quantiles
+from .directions import peak_of
 
 if TYPE_CHECKING:
     import pandas
 
 
-def check_response(edp: str, column: Column, model: Model) -> None:
+def check_response(edp: str, column: Structure, model: Model) -> None:
     """Refuse a measure of the response that runs of this column will not have, before they are made."""
     if column.links:  # what is measured of links has many names
         return
-    space = SpaceMeasures(math.nan, math.nan, math.nan, math.nan, (), ()) if "y" in model.axes else None
-    row = Measures(Outcome.AT_REST, True, *[math.nan] * 8, steps=0, space=space).row()
+    row = blank_row(space="y" in model.axes, blocks=column.base_width is None)
     numbers = [name for name, value in row.items() if isinstance(value, float)]
     if edp not in numbers:
         raise unknown_response(edp, numbers)
@@ -98,7 +97,7 @@ class Ida:
         motion.
     measure : IntensityMeasure
         That the records were scaled to.
-    column : Column
+    column : Column or Assembly
     model : str
     wall_time : float
         [s]
@@ -110,20 +109,22 @@ class Ida:
 
     runs: pandas.DataFrame
     measure: IntensityMeasure
-    column: Column
+    column: Structure
     model: str
     wall_time: float
     twins: Twins | None = None
     doubt: str = ""
 
-    def curves(self, edp: str = "peak_top_displacement_m") -> list[Curve]:
+    def curves(self, edp: str | None = None) -> list[Curve]:
         """One curve per motion and realisation.
 
         Parameters
         ----------
-        edp : str
-            A measure of the response, as a column of the table of runs.
+        edp : str, optional
+            A measure of the response, as a column of the table of runs; the peak displacement by default, of the top or of
+            the body of an assembly that goes farthest.
         """
+        edp = peak_of(self.runs) if edp is None else edp
         if edp not in self.runs:
             raise unknown_response(edp, self.runs.columns)
         curves = []
@@ -147,7 +148,7 @@ class Ida:
             )
         return curves
 
-    def fractiles(self, edp: str = "peak_top_displacement_m", points: int = 100) -> pandas.DataFrame:
+    def fractiles(self, edp: str | None = None, points: int = 100) -> pandas.DataFrame:
         """Response that 16, 50 and 84 % of the curves do not exceed, over the intensity.
 
         A collapse exceeds every response: +inf. A curve counts no further than its runs stand or collapse; where fewer

@@ -13,7 +13,7 @@ import numpy as np
 
 from ..campaign.campaign import USUAL, Campaign, Fields, campaigning
 from ..campaign.cases import Study
-from ..column import Column
+from ..column.structure import Structure
 from ..errors import InputError, check_kind
 from ..models.base import Model
 from ..motion import Motion
@@ -45,7 +45,7 @@ class StateComparison:
     ----------
     labels : tuple of str
         Measures are compared with the column as it stands today, see :func:`~stylobate.analysis.difference.reference`.
-    columns : tuple of Column
+    columns : tuple of Column, or of assemblies
     result : StudyResult
         All runs.
     table : pandas.DataFrame
@@ -63,7 +63,7 @@ class StateComparison:
     """
 
     labels: tuple[str, ...]
-    columns: tuple[Column, ...]
+    columns: tuple[Structure, ...]
     result: StudyResult
     table: pandas.DataFrame
     curves: tuple[Fragility | None, ...]
@@ -137,7 +137,7 @@ class StateComparison:
 
 @campaigning(Fields, but=("ledger",))
 def compare_states(
-    states: Mapping[str, Column],
+    states: Mapping[str, Structure],
     motions: Sequence[Motion],
     model: Model,
     levels: Sequence[float] = (1.0,),
@@ -154,7 +154,7 @@ def compare_states(
 
     Parameters
     ----------
-    states : mapping of str to Column
+    states : mapping of str to Column, or to an assembly
         By label. A measure is compared with the last of "as built" and "as found" that is given, the column as it stands
         today; where neither is, and for these two, it is the first state that the others are compared with.
     motions : sequence of Motion
@@ -182,12 +182,12 @@ def compare_states(
     check_kind("states", states, Mapping, allowed="a mapping of columns by their labels, such as {'as built': column}")
     labels = tuple(states)
     for label, column in states.items():
-        check_kind(f"the state {label!r}", column, Column)
+        check_kind(f"the state {label!r}", column, Structure)
     if len(labels) < FEWEST_STATES:
         raise InputError(f"{len(labels)} state of a column is given; give at least {FEWEST_STATES} to compare.")
-    named = tuple(column.replace(name=label) for label, column in states.items())
+    named = tuple(column.renamed(label) for label, column in states.items())
     study = Study(named, motions, [model], levels, im, campaign=campaign.of_runs)
-    parse_state(state).check_known(blank_row(space="y" in model.axes, links=any(one.links for one in named)), named)
+    parse_state(state).check_known(_blank(named, model), named)
     result, seed = run_study(study, out, campaign=campaign.of_computing), campaign.seed
     table = result.table.rename(columns={"column": "state"})
     table["state"] = np.repeat(labels, len(table) // len(labels))
@@ -203,6 +203,12 @@ def compare_states(
     side_by_side = tuple(shares({one.name: one.codes for one in told}, told[0].records))
     before = doubt(labels, named, model)
     return StateComparison(labels, named, result, table, curves, differences, side_by_side, state, before)
+
+
+def _blank(states: Sequence[Structure], model: Model) -> dict:
+    """Names of what runs of these states measure."""
+    linked, blocks = any(one.links for one in states), states[0].base_width is None
+    return blank_row(space="y" in model.axes, links=linked, blocks=blocks)
 
 
 def _curve(one: Evidence, samples: int, seed: int, confidence: float) -> Fragility | None:

@@ -39,7 +39,8 @@ def assembly_of(text: str) -> Assembly:
             data = parse_toml(path)
             if describes_space(data):  # before anything is read that the file names, such as a mesh of this machine
                 raise InputError(
-                    "an assembly in space is nothing that the page shows; use 'stylobate limit' and 'draw'."
+                    "the page does not take assemblies in space yet; use 'stylobate run' with the model dem3d, 'limit' "
+                    "and 'draw'."
                 )
             _only_presets(data.get("column"))
             return cast(Assembly, read_assembly(path))

@@ -11,7 +11,6 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from ..column import Column
 from ..column.scatter import usual_scatter
 from ..column.structure import Structure
 from ..errors import InputError, check_all, check_choice, check_range
@@ -108,9 +107,12 @@ class Study:
         if len(set(names)) < len(names):
             raise InputError(f"two columns have the same name ({', '.join(names)}); give each a name of its own.")
         must_be_alike(self.columns, "study")
-        if campaign.replicates and self.columns[0].stack is None:
-            described = self.columns[0].described
-            raise InputError(f"{names[0]!r} is {described}, and only columns have realisations; leave [scatter] out.")
+        without = next((one for one in self.columns if not (one.stack or one).scattered), None)
+        if campaign.replicates and without is not None:
+            raise InputError(
+                f"{without.name!r} is {without.described}, and only columns and assemblies in space have realisations; "
+                "leave [scatter] out."
+            )
         check_choice("keep", self.keep, KEEP)
         for level in self.levels:
             check_range("one of the levels", level, 0.0, 1e6, open_low=True, field="levels")
@@ -141,7 +143,7 @@ class Study:
         return self.models[number // (self.size // len(self.models))]
 
     @cached_property
-    def stands(self) -> list[list[Sequence[Column]]]:
+    def stands(self) -> list[list[Sequence[Any]]]:
         """The columns as they stand: by model, column and realisation."""
         if not self.campaign.replicates:
             return [[[column] for column in self.columns] for _ in self.models]

@@ -44,11 +44,15 @@ class Hasher:
     model : Model
     tail : float
         Time to go on after each motion [s].
+    until_rest : bool
+        Whether to go on until everything lies still.
     """
 
-    def __init__(self, model: Model, tail: float = 0.0) -> None:
-        self.model, self.tail = model, run_options(tail).tail
+    def __init__(self, model: Model, tail: float = 0.0, until_rest: bool = False) -> None:
+        self.model, self.tail, self.until_rest = model, run_options(tail).tail, until_rest
         law = [model.name, model.parameters(), self.tail, __version__, *laws(), Code().of_model(model)]
+        if until_rest:
+            law.append("until_rest")
         self._head = json.dumps(law, sort_keys=True, default=str)
         self._samples: dict[tuple, tuple[Motion, str]] = {}
 

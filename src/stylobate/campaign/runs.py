@@ -56,8 +56,9 @@ class Request:
 
     @classmethod
     def of(cls, cases: Sequence[Case], hasher: Hasher, quiet: float = 0.0) -> Request:
-        """Cases of the model and the tail of a hasher, of one share of quiet."""
-        groups = [(np.arange(len(cases)), hasher.model, run_options(hasher.tail, quiet=quiet))]
+        """Cases of the model and the end of a hasher, of one share of quiet."""
+        options = run_options(hasher.tail, until_rest=hasher.until_rest, quiet=quiet)
+        groups = [(np.arange(len(cases)), hasher.model, options)]
         return cls(cases, Digests(hasher.of_cases(cases, quiet)), groups)
 
     def __len__(self) -> int:

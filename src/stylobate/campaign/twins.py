@@ -6,21 +6,22 @@ import dataclasses
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from ..column import Column
-from ..column.scatter import Scatter, scattered_columns, usual_scatter
+from ..column.scatter import Scatter, usual_scatter
 from ..column.structure import Structure
+from ..column.twins import twins_of
 from ..errors import InputError, check_kind
 from ..models.base import Model
 from .campaign import MAX_TWINS, Campaign
 
 
 class Twins(NamedTuple):
-    """Columns like one that a model can take, their scatter and seed, and what of the scatter the model leaves out."""
+    """Columns like one, or assemblies, that a model can take: scatter, seed, what of it is left out, what they are."""
 
-    columns: Sequence[Column]
+    columns: Sequence[Any]
     scatter: Scatter
     seed: int
     left_out: tuple[str, ...]
+    like: str = "columns"
 
     @property
     def words(self) -> str:
@@ -30,7 +31,12 @@ class Twins(NamedTuple):
     @property
     def facts(self) -> dict[str, Any]:
         """Differences, under the names of the JSON objects of commands."""
-        return {"scatter": dataclasses.asdict(self.scatter), "left_out": list(self.left_out), "seed": self.seed}
+        return {
+            "like": self.like,
+            "scatter": dataclasses.asdict(self.scatter),
+            "left_out": list(self.left_out),
+            "seed": self.seed,
+        }
 
 
 def described(number: int, scatter: Scatter, seed: int, left_out: Sequence[str]) -> str:
@@ -47,14 +53,22 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
     """Twins of a column that the model can take; not ``alone`` where more than the columns differs."""
     check_kind("column", column, Structure)
     check_kind("model", model, Model)
-    stack, replicates, seed = column.stack, campaign.replicates, campaign.seed
-    if stack is None:
+    stands, replicates, seed = column.stack or column, campaign.replicates, campaign.seed
+    if not stands.scattered:
         raise InputError(
-            f"{column.name!r} is no column, and only columns have twins; leave `replicates` out.", "replicates"
+            f"{column.name!r} is {column.described}, and only columns and assemblies in space have twins; leave "
+            "`replicates` out.",
+            "replicates",
         )
     if not replicates:
         raise InputError(f"replicates is 0; allowed is a whole number from 1 to {MAX_TWINS}.")
-    asked = usual_scatter(stack) if campaign.scatter is None else campaign.scatter
+    asked = usual_scatter(stands) if campaign.scatter is None else campaign.scatter
+    if unknown := [name for name in asked.given if name not in stands.scattered]:
+        raise InputError(
+            f"the scatter has {' and '.join(unknown).replace('_', ' ')}, by which twins of {column.described} such as "
+            f"{column.name!r} do not vary; leave it out, known are {', '.join(stands.scattered)}.",
+            "scatter",
+        )
     left_out = tuple(name for name in asked.given if name in model.not_scattered)
     size = dataclasses.replace(asked, **dict.fromkeys(left_out, 0.0))
     if alone and not size.given:  # as many runs of one column are no population
@@ -63,4 +77,4 @@ def the_twins(column: Structure, model: Model, campaign: Campaign, *, alone: boo
             f"nothing scatters{why}; give at least one coefficient of variation above 0, such as friction=10%."
         )
     space = not model.is_plane(model.parameters())
-    return Twins(scattered_columns(stack, size, replicates, seed, space=space), size, seed, left_out)
+    return Twins(twins_of(stands, size, replicates, seed, space=space), size, seed, left_out, stands.like)

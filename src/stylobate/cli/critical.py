@@ -153,7 +153,7 @@ def describe(result: CriticalAmplitude, summary: dict, taken: Motion, files: lis
         "grid": f"{low:.4g} to {high:.4g} g, {len(result.rows)} runs, {result.wall_time:.1f} s",
     }
     if likes is not None:
-        facts[f"{kind}s like this"] = f"{likes.drawn.words}; at {len(likes.amplitudes)} of these amplitudes"
+        facts[f"{likes.drawn.like} like this"] = f"{likes.drawn.words}; at {len(likes.amplitudes)} of these amplitudes"
     if (own := summary["as_recorded"]) is not None:
         facts["as recorded"] = as_recorded(own)
     for row in summary["alternation"]:

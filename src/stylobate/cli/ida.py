@@ -14,12 +14,12 @@ _MAGNITUDE = re.compile(r"\bM[wWlLsS]?\s?(\d\.\d)\b")
 
 
 def ida(
-    column: o.ColumnName,
+    column: o.StructureName,
     sources: list[Path] = o.argument("RECORDS...", "Records, or folders of them; or sample:NAME."),
     model: o.ModelName = "dem2d",
     im: str = o.option("IM", "Measure that is scaled: pga, pgv, sa:1.0s, avgsa, pgv@geomean …", "pgv"),
-    edp: str = o.option(
-        "MEASURE", "Measure of the response, as a JSON key of stylobate run.", "peak_top_displacement_m"
+    edp: str | None = o.option(
+        "MEASURE", "Measure of the response, as a JSON key of stylobate run; the peak displacement by default."
     ),
     levels: str | None = o.option("A:A:N", "Stripes instead of a hunt, such as 0.1m/s:1.0m/s:10."),
     runs: int = o.option("N", "Runs of each record.", 14),
@@ -46,7 +46,8 @@ def ida(
     from . import console
 
     campaign = execution.campaign(following, population)
-    measure, stone, how = parse_measure(im), o.the_column(column, project), o.the_model(model, settings)
+    measure, stone, how = parse_measure(im), o.the_structure(column, project), o.the_model(model, settings)
+    edp = ("peak_displacement_m" if stone.base_width is None else "peak_top_displacement_m") if edp is None else edp
     check_response(edp, stone, how)
     stripes = None if levels is None else parse_levels(levels, measure)
     records = motions.request(motion=sources, separate=True).expand()
@@ -94,7 +95,7 @@ def ida(
         f"{_count(result['curves_with_resurrections'], 'curve')}",
     }
     if (drawn := found.twins) is not None:
-        facts["columns like this"] = drawn.words
+        facts[f"{drawn.like} like this"] = drawn.words
     if result["undecided"] or result["failed"]:
         facts["open"] = (
             f"{result['undecided']} undecided, {result['failed']} failed; "

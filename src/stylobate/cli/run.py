@@ -30,6 +30,9 @@ class Drawn(NamedTuple):
     median: bool = False
 
 
+#: Most bodies that are told one by one.
+MOST_BODIES = 6
+
 #: Pictures of what a model in space computes, besides those of every column.
 SPACE_PICTURES = ["orbit", "uplift", "residuals"]
 
@@ -117,7 +120,7 @@ def run_one(
     if not campaign.replicates:
         return simulate(stone, motion, model, tail=campaign.tail, progress=progress, **options), None
     made = dataclasses.replace(campaign, whole=False, progress=progress)
-    found = certainty(stone.stack, motion, model, campaign=made, **options)
+    found = certainty(stone.stack or stone, motion, model, campaign=made, **options)
     return found.response, found.population
 
 
@@ -192,7 +195,7 @@ def conclude(
 
     pictures = ["histories", "filmstrip", "joints", "energy", "motion"]
     pictures += SPACE_PICTURES if model.axes == "xyz" else []
-    names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "median")
+    names = ("response.nc", "run.json", "motion.csv", "replicates.csv", "bodies.csv", "debris", "median")
     with files_of(out, "run", *names, *pictures) as files:
         with console.progress("seconds of motion") as progress:
             campaign = follow.keywords["campaign"].kept_in(files.folder)
@@ -202,6 +205,8 @@ def conclude(
         summary = response.summary() | o.input_facts(taken) | direction_of(motion)
         if population is not None:
             summary |= population.summary(summary)
+        elif response.measures.blocks is not None:  # carried along by no run
+            summary["replicates"] = 0
         if files.folder is not None:
             files += [*write(response, taken, files.folder, drawn.all), write_csv(taken, files / "motion.csv")]
             if population is not None:
@@ -221,11 +226,14 @@ def write_population(
     from ..simulate import simulate
 
     files.table(population.table, "replicates.csv")
+    if population.bodies:
+        files.table(population.table_of_bodies, "bodies.csv")
+        files.picture(plots.draw_debris(response, population.bodies), "debris")
     if population.median is None or not strip:
         return
     options = {name: response.provenance[f"{name}_s"] for name in ("tail", "output_interval")}
     options["quiet"] = response.provenance["quiet_share"]
-    middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.column), **options)
+    middle = simulate(population.drawn.columns[population.median], motion, model.paced(response.structure), **options)
     files.picture(plots.draw_filmstrip(middle), "median")
 
 
@@ -265,6 +273,8 @@ def describe(response: Response, motion: Motion, files: list[Path], population: 
     if population is not None:
         sentence = f"{sentence} {population.sentence} {population.beside(response.summary())}".rstrip()
         facts |= population_facts(population)
+    elif response.structure.scattered and response.measures.blocks is not None:
+        facts["certainty"] = "one run, of exactly these stones; --replicates 15 runs assemblies like it as well"
     sentence = f"{sentence} {doubt_of(response)}".rstrip()
     what |= quiet_facts(response)
     computed = f"{response.model}, step {response.time_step:.3g} s, {response.steps} steps, {response.wall_time:.2f} s"
@@ -281,13 +291,28 @@ def quiet_facts(response: Response) -> dict[str, str]:
 
 
 def population_facts(population: Population) -> dict[str, str]:
-    """Columns like this one, and their displacements."""
+    """Columns like this one, or assemblies, and their displacements; of an assembly where its bodies lie."""
+    from ..analysis.debris import not_yet_debris
     from . import console
 
-    facts = {"columns like this": population.drawn.words}
+    facts = {f"{population.like} like this": population.drawn.words}
+    spreads = {name.split("_")[0]: spread for name, spread in population.spread.items() if "displacement" in name}
     for name, words in (("peak", "their peak, 16/50/84 %"), ("residual", "their residual, 16/50/84 %")):
-        if (spread := population.spread[f"{name}_top_displacement_m"]) is not None:
+        if (spread := spreads[name]) is not None:
             facts[words] = ", ".join("collapse" if one == float("inf") else console.length(one) for one in spread)
+    fallen = sorted((one for one in population.bodies if one.fell), key=lambda one: -one.fell)
+    for body in fallen[:MOST_BODIES]:
+        half, most = (console.length(one) for one in body.radii)
+        low, high = (100.0 * one for one in body.interval(population.confidence))
+        x, y = (console.length(one) for one in body.middle)
+        facts[f"body {body.name}"] = (
+            f"fell in {body.fell} of {len(body.ends)} ({low:.0f} to {high:.0f} %); at the end {x} along x and {y} along y "
+            f"from where it stood, half of them within {half} of that and 90 % within {most}"
+        )
+    if len(fallen) > MOST_BODIES:
+        facts["other bodies"] = f"{len(fallen) - MOST_BODIES} more fell in some (bodies.csv with --out)"
+    if fallen and (moving := not_yet_debris(population.bodies)):
+        facts["debris"] = f"{moving}: where bodies were is not yet where they lie"
     return facts
 
 
@@ -325,7 +350,8 @@ def assembly_facts(response: Response) -> tuple[str, dict[str, str], dict[str, s
     elif response.outcome is not Outcome.FAILED:
         change = "" if response.decided else " and the verdict may change"
         waited = response.provenance.get("until_rest", False)
-        remedy = "damp it with --set mass_damping=0.5" if waited else "go on with --until-rest"
+        damping = "mass_damping=0.5" if structure.space_joints is None else "stiffness_damping=1e-4"
+        remedy = f"damp it with --set {damping}" if waited else "go on with --until-rest"
         sentence += f" Not everything lies still{change}; {remedy}."
     fixed = sum(block.fixed for block in structure.bodies[-structure.n :])
     supports = f", {fixed} of them fixed" if fixed else ""

@@ -11,7 +11,7 @@ from . import options as o
 if TYPE_CHECKING:
     from ..analysis.states import StateComparison
     from ..campaign.campaign import Campaign
-    from ..column import Column
+    from ..column.structure import Structure
 
 
 def the_states(as_built: str | None, as_found: str | None, strengthened: list[str] | None) -> dict[str, str]:
@@ -63,7 +63,7 @@ def states(
     how = o.the_model(model, settings)
     campaign = execution.campaign(following, population)
     request = motions.request(motion=sources, separate=bool(sources))
-    columns = {label: o.the_column(text, project) for label, text in named.items()}
+    columns = {label: o.the_structure(text, project) for label, text in named.items()}
     if (im is None) != (levels is None):
         raise InputError("records are scaled by --im and --levels together; give both, such as --im pgv --levels "
                          "0.2m/s:1.6m/s:8.", "im")  # fmt: skip
@@ -95,7 +95,7 @@ def states(
         print(f"{len(files)} files in {execution.out}")
 
 
-def _twins(columns: dict[str, Column], campaign: Campaign) -> dict[str, Any]:
+def _twins(columns: dict[str, Structure], campaign: Campaign) -> dict[str, Any]:
     """How twins of the columns are drawn, as it is kept beside the results."""
     from ..column.scatter import usual_scatter
 

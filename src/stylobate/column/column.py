@@ -77,6 +77,8 @@ class Column(DrumStack):
     kind: ClassVar[str] = "column"
     counted: ClassVar[tuple[str, str]] = ("drum", "drums")
     joints_are: ClassVar[str] = "joint under the drum of that number"
+    like: ClassVar[str] = "columns"
+    scattered: ClassVar[tuple[str, ...]] = ("friction", "joint_stiffness", "density", "width", "height", "offset")
 
     drums: tuple[Drum, ...]
     joints: tuple[Joint, ...]
@@ -289,6 +291,10 @@ class Column(DrumStack):
         from .tables import read_as  # pydantic is loaded where a file is read
 
         return read_as(cls, path)
+
+    def renamed(self, name: str) -> Column:
+        """A copy of this name; what was warned of is not warned of again."""
+        return self.replace(name=name)
 
     def replace(self, **changes) -> Column:
         """A copy with some fields changed, checked as any column; what was warned of is not warned of again."""

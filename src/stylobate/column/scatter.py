@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -13,6 +12,7 @@ from ..errors import check_range
 from .as_found import FoundDrum
 from .column import Column
 from .materials import material
+from .structure import Structure
 
 #: Draws lie within so many standard deviations.
 WITHIN = 2.5
@@ -30,6 +30,10 @@ class Scatter:
     Half of the variance of friction, joint stiffness and density is common to the whole column, because it is one stone and
     one hand; the other half, and all of width, height and offset, is each joint's or drum's own. The medians are those of
     the column given.
+
+    Of an assembly in space friction and stiffness are those of each stone's contacts with those before it, and an offset is
+    that of each stone in plan, over the side of a square as large as its smallest joint; stones that touch otherwise than
+    on level faces move together. Width and height do not vary: stones that fit one another cannot vary one by one.
 
     Parameters
     ----------
@@ -73,12 +77,15 @@ class Scatter:
         return ", ".join(words) or "nothing"
 
 
-def usual_scatter(column: Column) -> Scatter:
+def usual_scatter(structure: Structure) -> Scatter:
     """Scatter of columns like this one where nobody states it: that of its material, else the defaults.
 
-    The friction and density of a column that differ from its material's were given by hand: they scatter by the defaults.
+    The friction and density of a column that differ from its material's were given by hand: they scatter by the defaults. Of
+    anything else, what its twins vary by scatters by the defaults.
     """
-    usual = Scatter()
+    usual, column = Scatter(), structure.stack
+    if column is None:
+        return dataclasses.replace(usual, **{name: 0.0 for name in usual.given if name not in structure.scattered})
     if column.material is None:
         return usual
     stone, changes = material(column.material), {}
@@ -94,36 +101,23 @@ def _same(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=1e-9)
 
 
-def scattered_columns(
-    column: Column, scatter: Scatter, number: int, seed: int, *, space: bool = False
-) -> Sequence[Column]:
-    """Columns that could as well stand there.
-
-    Column k of a seed is the same for any ``number`` above k; where one part does not scatter, the others stay the same.
-
-    Parameters
-    ----------
-    column : Column
-    scatter : Scatter
-    number, seed : int
-    space : bool
-        Offsets in any direction, for a model in space; along x otherwise.
-    """
-    streams = np.random.default_rng(seed).spawn(number)
-    return [_drawn(column, scatter, stream, k, space) for k, stream in enumerate(streams)]
-
-
-def _drawn(column: Column, size: Scatter, stream: np.random.Generator, k: int, space: bool) -> Column:
+def factors_of(size: Scatter, stream: np.random.Generator, n: int) -> tuple[np.ndarray, ...]:
+    """Factors of friction, stiffness, density, width, height of n bodies, shape (n,), and draws of their places, (2, n)."""
     # The order of the draws is part of what a seed means.
     common = _normal(stream, 3)[:, None]
-    own = _normal(stream, (5, column.n))
-    aside, across = _normal(stream, (2, column.n))
+    own = _normal(stream, (5, n))
+    aside = _normal(stream, (2, n))
     material = math.sqrt(0.5) * (common + own[:3])
     factors = np.exp(
         np.vstack((material, own[3:]))
         * [[_spread(one)] for one in (size.friction, size.joint_stiffness, size.density, size.width, size.height)]
     )
-    rough, stiff, dense, wide, high = factors
+    return (*factors, aside)
+
+
+def drawn_column(column: Column, size: Scatter, stream: np.random.Generator, k: int, space: bool) -> Column:
+    """Column number k that could as well stand there."""
+    rough, stiff, dense, wide, high, (aside, across) = factors_of(size, stream, column.n)
     varied = _rebuilt(column, wide, high, rough, stiff, dense, f"{column.name}, twin {k + 1}")
     if not size.offset:
         return varied

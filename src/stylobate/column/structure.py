@@ -5,6 +5,7 @@ Columns, assemblies and specimens are ways to write one down; whoever computes, 
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
 import math
@@ -144,9 +145,10 @@ class Structure:
     """Base of what stands. A kind gives its bodies and links, and what of the following it has.
 
     Class attributes: ``kind``, its word in sentences and the name of its entry in files; ``counted`` what one and several of
-    its bodies are called; ``joints_are``, what the joints of its responses are; ``computed_by``, who computes it where not
-    all models do; ``first``, the first of ``bodies`` whose
-    poses a run records; ``relative``, whether a model in the plane records them from where the bodies stand.
+    its bodies are called; ``like``, what several like it are; ``joints_are``, what the joints of its responses are;
+    ``computed_by``, who computes it where not all models do; ``scattered``, by which parts of a scatter its twins vary, none
+    of what has no twins; ``first``, the first of ``bodies`` whose poses a run records; ``relative``, whether a model in the
+    plane records them from where the bodies stand.
     """
 
     wanted: ClassVar[str] = "a Column, Specimen or Assembly"
@@ -154,6 +156,8 @@ class Structure:
     counted: ClassVar[tuple[str, str]] = ("body", "bodies")
     joints_are: ClassVar[str] = ""
     computed_by: ClassVar[str] = ""
+    like: ClassVar[str] = ""
+    scattered: ClassVar[tuple[str, ...]] = ()
     first: ClassVar[int] = 1
     relative: ClassVar[bool] = True
 
@@ -281,6 +285,11 @@ class Structure:
     def on_rings(self) -> bool:
         """Whether some joint carries on a ring."""
         return False
+
+    def renamed(self, name: str) -> Any:
+        """A copy of this name."""
+        fields: Any = self
+        return dataclasses.replace(fields, name=name)
 
     # -- what asks for less ------------------------------------------------------------------------------------------
 

@@ -2,6 +2,7 @@
 
 from .amplitudes import draw_amplitudes
 from .collapse_over_amplitude import draw_collapse_over_amplitude
+from .debris import draw_debris
 from .directions import draw_directions
 from .domain import draw_boundaries, draw_domain
 from .elevation import draw_elevation
@@ -32,6 +33,7 @@ __all__ = [
     "draw_boundaries",
     "draw_collapse_over_amplitude",
     "draw_comparison",
+    "draw_debris",
     "draw_directions",
     "draw_domain",
     "draw_efficiency",

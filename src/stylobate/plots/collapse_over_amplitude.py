@@ -42,7 +42,7 @@ def draw_collapse_over_amplitude(
     axes.set_xlim(amplitudes[0], max(amplitudes[-1], amplitudes[0] * 1.0001))
     axes.grid(axis="y")
     axes.set_xlabel("amplitude of acceleration [g]")
-    axes.set_ylabel(f"probability of collapse [-]\n{len(population.verdicts)} columns like this one")
+    axes.set_ylabel(f"probability of collapse [-]\n{len(population.verdicts)} {population.drawn.like} like this one")
     if population.nominal:
         scale = population.nominal / g
         above = axes.secondary_xaxis(

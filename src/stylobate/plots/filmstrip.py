@@ -15,8 +15,11 @@ from ..response.instants import ASIDE, telling_states
 from ..response.words import title_of
 from .link_marks import draw_links
 from .scene import Scene, draw_bodies
-from .style import WIDTH, in_lines, page, styled
+from .style import GREY, WIDTH, in_lines, page, styled
 from .view import ALONG_X, ALONG_Y
+
+#: What the picture of one collapse in space is not: debris as such.
+ONE_DRAW = "; where pieces lie is one draw of many"
 
 #: Width that the words over a panel take [inch].
 WORDS = 0.66
@@ -70,8 +73,12 @@ def draw_filmstrip(
         draw_links(axes, one, index, factor)
         far = f"{round(size * one.way[index], digits) + 0.0:{sign}.{digits}f}".replace("-", "−")
         along = ("x ", "y ")[scenes.index(one)] if space and scene.signed else ""
+        if space and not scene.signed:
+            toward = "xy"[scenes.index(one)]
+            axes.text(0.01, 0.0, f"{toward} →", transform=axes.transAxes, fontsize=6.5, color=GREY, ha="left", va="top")
         axes.set_title(f"{scene.time[index]:.2f} s\n{along}{far} {unit}", fontsize=8.5, loc="center")
     said = "" if factor == 1.0 else f" (displacements × {factor:g})"
+    said += ONE_DRAW * (response.structure.space_joints is not None and response.collapsed)
     figure.suptitle(in_lines((title or title_of(response)) + said), x=0.01, ha="left", fontsize=10.0)
     return figure
 

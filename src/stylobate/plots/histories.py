@@ -77,12 +77,16 @@ def _draw_blocks(
     inside = (response.time >= window[0]) & (response.time <= window[1])
     farthest = np.nan_to_num(response.displacement[inside]).max(axis=0, initial=0.0)
     named = sorted(moving, key=lambda i: -farthest[i])[:NAMED]
-    figure = page(figure, (WIDTH, 5.4))
-    panels = figure.subplots(3, 1, sharex=True, height_ratios=(2.4, 2.4, 1.0))
+    space = response.dims == "xyz"
+    places = {"x": response.x, "y": response.y, "vertical": response.z}
+    if not space:
+        places = {"horizontal": response.x, "vertical": response.z}
+    figure = page(figure, (WIDTH, 3.4 + len(places)))
+    panels = figure.subplots(len(places) + 1, 1, sharex=True, height_ratios=(*(2.4,) * len(places), 1.0 + 0.3 * space))
     unit, factor = ("m", 1.0) if farthest.max() >= 0.1 else ("mm", 1000.0)
     gone = response.displacement > ASIDE * size_of(response)
-    for axes, places, word in zip(panels, (response.x, response.z), ("horizontal", "vertical")):
-        values = np.where(gone | ~inside[:, None], np.nan, factor * (places - places[0]))
+    for axes, (word, place) in zip(panels, places.items()):
+        values = np.where(gone | ~inside[:, None], np.nan, factor * (place - place[0]))
         zero_line(axes)
         for i in moving:
             if i not in named:
@@ -90,17 +94,21 @@ def _draw_blocks(
         for i, line in zip(named, CYCLE):
             axes.plot(response.time, values[:, i], label=names[i], **line)
         axes.set_ylabel(f"{word}\ndisplacement [{unit}]")
+    ground = len(places)
     others = len(moving) - len(named)
     handles, labels = panels[0].get_legend_handles_labels()
-    panels[0].legend(handles, labels, loc="best", ncols=min(3, len(labels)))
+    if space:
+        figure.legend(handles, labels, loc="outside lower center", ncols=min(3, len(labels)))
+    else:
+        panels[0].legend(handles, labels, loc="best", ncols=min(3, len(labels)))
     first = response.collapse_time
     if window[0] <= first <= window[1]:
-        for axes in panels[:2]:
+        for axes in panels[:ground]:
             axes.axvline(first, color=BLACK, linewidth=0.8, linestyle=(0, (1, 2)))
     said = f"; in grey the other {others} blocks" if others > 0 else ""
     panels[1].set_title(f"relative to the ground{said}", loc="right", fontsize=8.0)
     panels[0].set_title(in_lines(title or title_of(response)))
-    _draw_ground(panels[2], response, window)
+    _draw_ground(panels[ground], response, window)
     figure.align_ylabels()
     return figure
 

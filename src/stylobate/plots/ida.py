@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from ..analysis.capacity import SHARES
+from ..analysis.directions import peak_of
 from ..analysis.ida_curves import Ida
 from ..percent import percent
 from .fragility import NARROW
@@ -26,16 +27,15 @@ FAR = 3.0
 
 
 @styled
-def draw_ida(
-    result: Ida, edp: str = "peak_top_displacement_m", title: str | None = None, *, ax: Axes | None = None
-) -> Figure:
+def draw_ida(result: Ida, edp: str | None = None, title: str | None = None, *, ax: Axes | None = None) -> Figure:
     """Intensity over the response of every record, collapses as plateaus, and the curves of 16, 50 and 84 %.
 
     Parameters
     ----------
     result : Ida
-    edp : str
-        Measure of the response, as a column of the table of runs; displacements are drawn in base widths.
+    edp : str, optional
+        Measure of the response, as a column of the table of runs; the peak displacement by default. Displacements are
+        drawn in base widths where there is a base.
     title : str, optional
         Column and model by default.
     ax : Axes, optional
@@ -43,7 +43,9 @@ def draw_ida(
     """
     figure, axes = panel(ax, (NARROW[0], 3.9))
     curves, table = result.curves(edp), result.fractiles(edp)
-    size = result.column.base_width if edp.endswith("displacement_m") else 1.0
+    edp = peak_of(result.runs) if edp is None else edp
+    width = result.column.base_width if edp.endswith("displacement_m") else None
+    size = 1.0 if width is None else width
     largest = max((float(curve.edp.max(initial=0.0)) for curve in curves), default=0.0) / size
     right = ROOM * (largest or 1.0)
     handles = {}
@@ -75,7 +77,7 @@ def draw_ida(
         title = title or f"{result.column.name}, {result.model}; {hidden} of {len(curves)} plateaus lie above"
     axes.set(xlim=(0.0, right), ylim=(0.0, 1.05 * max([high, *(one for one in fell if one <= high)])))
     words = edp.removesuffix("_m").removesuffix("_rad").replace("_", " ")
-    unit = "base widths" if size != 1.0 or edp.endswith("displacement_m") else "rad" if edp.endswith("_rad") else "m"
+    unit = "base widths" if width is not None else "rad" if edp.endswith("_rad") else "m"
     axes.set_xlabel(f"{words} [{unit}], collapse →")
     axes.set_ylabel(result.measure.words)
     axes.grid(True)

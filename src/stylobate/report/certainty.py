@@ -8,7 +8,7 @@ from typing import Any
 from ..analysis.certainty import set_against
 from ..percent import percent, percents
 from . import numbers as n
-from .page import Facts, Item, Section
+from .page import Facts, Item, Rows, Section
 
 #: Scattered parts, in words.
 PARTS = {
@@ -20,9 +20,12 @@ PARTS = {
     "offset": "place of each drum on the one below, over the width",
 }
 
+#: One of several of a kind, with its article.
+ONE_OF = {"columns": "a column", "assemblies": "an assembly"}
+
 #: Text of a cell with the columns like one.
 OF_TWINS = (
-    "Columns like it that collapse: their share, of how many, and in brackets its 95 % interval; from which to which where "
+    "Those like it that collapse: their share, of how many, and in brackets its 95 % interval; from which to which where "
     "some are undecided."
 )
 
@@ -39,13 +42,13 @@ def certainty_sentence(summary: Mapping[str, Any]) -> str:
             "motion, and near collapse small differences decide."
         )
     fell, stood, open_ = (int(known.get(key, 0)) for key in ("collapsed", "stands", "undecided"))
-    number = fell + stood + open_
+    number, like = fell + stood + open_, str(known.get("like", "columns"))
     if not number:
-        return "How sure this verdict is, is not known: none of the columns like this one could be computed."
+        return f"How sure this verdict is, is not known: none of the {like} like this one could be computed."
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
     level = percent(known.get("confidence", 0.95))
     how_many = "none" if not fell else "all" if fell == number else str(fell)
-    said = f"Of {number} columns like this one, {how_many} collapse{'s' if fell == 1 else ''}"
+    said = f"Of {number} {like} like this one, {how_many} collapse{'s' if fell == 1 else ''}"
     if low is not None and high is not None:
         share = percents(fell / number, (fell + open_) / number)
         said += (
@@ -73,9 +76,11 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
     if not isinstance(known, Mapping):
         return None
     low, high = summary.get("collapse_interval_low"), summary.get("collapse_interval_high")
+    like = str(known.get("like", "columns"))
+    one = ONE_OF.get(like, "structure")
     pairs = [
         (
-            "columns computed: collapse / stand / undecided / could not be computed",
+            f"{like} computed: collapse / stand / undecided / could not be computed",
             " / ".join(str(known.get(one, 0)) for one in ("collapsed", "stands", "undecided", "failed")),
         ),
         ("probability of collapse, estimated", n.plain(summary.get("collapse_probability"))),
@@ -90,6 +95,8 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
     for key, words in (
         ("peak_top_displacement_m", f"peak displacement of the top, {PERCENTILES}"),
         ("residual_top_displacement_m", f"residual displacement of the top, {PERCENTILES}"),
+        ("peak_displacement_m", f"peak displacement of a body, {PERCENTILES}"),
+        ("residual_displacement_m", f"residual displacement of a body, {PERCENTILES}"),
         ("peak_rotation_rad", f"peak rotation [rad], {PERCENTILES}"),
     ):
         spread = known.get(key)
@@ -107,9 +114,40 @@ def certainty_section(summary: Mapping[str, Any]) -> Section | None:
         pairs.append(("does not vary, because the model does not take it", ", ".join(map(str, known["left_out"]))))
     pairs.append(("seed of the random numbers", n.plain(known.get("seed"))))
     items: list[Item] = [
-        "Nobody knows a column to the last digit. The same motion was computed for columns that differ from this one by as "
+        f"Nobody knows {one} to the last digit. The same motion was computed for {like} that differ from this one by as "
         "much as a survey leaves open; the share of them that collapses says how far the verdict can be relied on. It does "
         "not say how probable this earthquake is, nor how well the model fits nature.",
         Facts(pairs),
+        *_bodies(known),
     ]
     return Section("How sure the verdict is", items)
+
+
+def _bodies(known: Mapping[str, Any]) -> list[Item]:
+    """Of each body of an assembly that fell in some of those like it, in how many, and the regions in which it lay."""
+    bodies = {name: one for name, one in (known.get("bodies") or {}).items() if one.get("fell")}
+    if not bodies:
+        return []
+    header = [
+        "body",
+        "fell",
+        "probability",
+        "at the end, along x [m]",
+        "along y [m]",
+        "50 % within [m]",
+        "90 % within [m]",
+    ]
+    rows = [
+        [
+            name,
+            str(one["fell"]),
+            percents(one["interval_low"], one["interval_high"]),
+            *(f"{one[key]:.2f}" for key in ("middle_x_m", "middle_y_m", "region_50_m", "region_90_m")),
+        ]
+        for name, one in sorted(bodies.items(), key=lambda pair: -pair[1]["fell"])
+    ]
+    said = (
+        "Bodies that fell in some of them: the median way in plan from where each stood to where it was when its run ended, "
+        "and within which distances of that half and 90 % of the runs left it. Where a body lies in one run is one draw."
+    )
+    return [Rows(header, rows, said, numbers=True)]

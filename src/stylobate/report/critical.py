@@ -55,7 +55,7 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
     items += kept(
         result.pictures,
         "probability",
-        "Share of columns like this one that collapse, over the amplitude, with its interval.",
+        "Share of those like this one that collapse, over the amplitude, with its interval.",
     )
     items += kept(result.pictures, "directions", "By direction of the motion.")
     said = s["sentence"] if own is None else f"{s['sentence']} The record as it is, {as_recorded(own)}."
@@ -65,9 +65,9 @@ def critical_result(result: Numbers) -> tuple[tuple[str, str], list[Item]]:
 def _twins(s: dict[str, Any]) -> list[Item]:
     """Columns like the one of a critical amplitude: by which amplitude shares of them fall, and the share at each."""
     told, scale = s["certainty"], [None] * len(s["amplitudes_g"]) if s.get("factors") is None else s["factors"]
-    shown = told | told.get("bounds", {})
+    shown, like = told | told.get("bounds", {}), told.get("like", "columns")
     pairs = [
-        (f"{share} % of {s['replicates']} columns like this one have fallen by", f"{n.plain(shown[name])} g")
+        (f"{share} % of {s['replicates']} {like} like this one have fallen by", f"{n.plain(shown[name])} g")
         for share in (16, 50, 84)
         if shown.get(name := f"critical_{share}_g") is not None
     ]
@@ -80,7 +80,7 @@ def _twins(s: dict[str, Any]) -> list[Item]:
     header = ["amplitude [g]", "factor of the record", *v.MADE, "share that collapses", "95 % interval of it"]
     left_out = " A share from which to which counts the undecided both ways." if any(s["twins_undecided"]) else ""
     left_out += f" The first {MOST} of {len(rows)}." if len(rows) > MOST else ""
-    return [Facts(pairs), Rows(header, rows[:MOST], f"Columns like this one, by amplitude.{left_out}", numbers=True)]
+    return [Facts(pairs), Rows(header, rows[:MOST], f"Those like this one, by amplitude.{left_out}", numbers=True)]
 
 
 def _share(fell: int, stood: int, undecided: int) -> str:

@@ -83,13 +83,14 @@ def verdict_look(response: Response, doubted: bool = False) -> str:
 def _verdict(run: RunResult) -> Note:
     r = run.response
     texts = [" ".join([r.sentence, *_how_far(r)])]
-    if r.structure.stack is not None:
+    if r.structure.scattered:
         if r.outcome is not Outcome.FAILED:
             texts.append(certainty_sentence(run.summary))
     else:
         texts.append(
-            "How sure this verdict is was not computed: only columns are computed with varied properties. It is that of "
-            "exactly this geometry, these joints and this motion, and near collapse small differences decide."
+            "How sure this verdict is was not computed: only columns and assemblies in space are computed with varied "
+            "properties. It is that of exactly this geometry, these joints and this motion, and near collapse small "
+            "differences decide."
         )
     texts += filter(None, [doubt_of(r)])
     return Note([*texts, _scope(run)], verdict_look(r, bool(beside_them(run.summary))), first=len(texts))
@@ -174,13 +175,16 @@ def _motion_of_what_stood(r: Response, summary: dict[str, Any]) -> list[Section]
     items.append(
         picture(plots.draw_histories(r, " "), f"Histories: {what}, over the acceleration of the ground.{until}")
     )
+    one_draw = ""
+    if r.structure.space_joints is not None and r.collapsed:
+        one_draw = " Where pieces come to lie is one draw of many: take regions over assemblies like it (`replicates`)."
     which = "its top" if r.histories.top is not None else "the block that moved most"
     views = ", seen along y (x to the right) and against x (y to the right)" if space else ""
     items.append(
         picture(
             plots.draw_filmstrip(r, title=" "),
             f"Film strip: what stood, at chosen instants{views}, in true proportion unless the title says a factor. Under "
-            f"each time: how far {which} is from where it was.",
+            f"each time: how far {which} is from where it was.{one_draw}",
         )
     )
     if r.histories.top is not None:
@@ -231,6 +235,8 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
     opening = summary.get("peak_opening_per_joint_m")
     if not isinstance(opening, list):
         return []
+    if r.measures.blocks is not None:
+        return [*_bodies(r), *_joints_of_blocks(r, opening)]
     slip, twist = summary.get("residual_slip_per_joint_m"), summary.get("residual_twist_per_joint_rad")
     header = ["joint", "peak opening [mm]", "residual slip [mm]"] + (["residual twist [°]"] if twist else [])
     body = []
@@ -248,6 +254,36 @@ def _joints(r: Response, summary: dict[str, Any]) -> list[Item]:
         else ""
     )
     return [Rows(header, body, f"Joints, from the base up.{fallen}", numbers=True)]
+
+
+def _bodies(r: Response) -> list[Item]:
+    """Each body of an assembly: its tilt, when and to which side it fell, how far it is displaced."""
+    blocks = r.measures.blocks
+    assert blocks is not None
+    header = ["body", "peak tilt [°]", "fell at [s]", "towards azimuth [°]", "residual displacement [mm]"]
+    body = []
+    for one in blocks.bodies:
+        side = n.NONE if one.fall_azimuth is None else f"{math.degrees(one.fall_azimuth):.0f}"
+        far = n.NONE if one.fell_at is not None else f"{1000.0 * math.hypot(*one.moved):.2f}"
+        fell = n.NONE if one.fell_at is None else f"{one.fell_at:.2f}"
+        body.append([one.name, f"{math.degrees(one.peak_tilt):.2f}", fell, side, far])
+    said = "Bodies that can move; tilts over the whole run, the fall included. Azimuths from x towards y."
+    return [Rows(header, body, said, numbers=True)] if body else []
+
+
+def _joints_of_blocks(r: Response, opening: list[float | None]) -> list[Item]:
+    """Joints of an assembly by the bodies that they join."""
+    structure, gone = r.structure, r.collapsed
+    joints = structure.face_pairs if structure.space_joints is None else structure.space_joints
+    slip = np.linalg.norm(r.slip[-1], axis=-1)
+    header = ["joint", "between", "peak opening [mm]", *([] if gone else ["residual slip [mm]", "residual twist [°]"])]
+    body = []
+    for k, (joint, gap) in enumerate(zip(joints, opening, strict=True)):
+        names = f"{structure.bodies[joint.lower].name}, {structure.bodies[joint.upper].name}"
+        row = [str(k + 1), names, n.NONE if gap is None else f"{1000.0 * gap:.2f}"]
+        row += [] if gone else [f"{1000.0 * slip[k]:.2f}", f"{math.degrees(r.twist[-1, k]):.2f}"]
+        body.append(row)
+    return [Rows(header, body, "Joints" + " until the first body fell" * gone + ".", numbers=True)] if body else []
 
 
 def _energy(r: Response) -> Section:

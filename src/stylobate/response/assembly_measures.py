@@ -10,7 +10,8 @@ import numpy as np
 
 from ..column.assembly import Assembly, Block, FaceJoint, separation
 from ..column.structure import Structure
-from ..outcome import Outcome, classify
+from ..outcome import classify
+from .body_measures import body_measures, shifted_bodies
 from .collapse import FELL, Collapse, Touch
 from .histories import Histories
 from .links import LinkHistories, LinkMeasures
@@ -48,6 +49,7 @@ def recorded_blocks(
     touched: Touch | None = None,
     links: tuple[LinkMeasures, ...] = (),
     held: LinkHistories | None = None,
+    velocity: np.ndarray | None = None,
 ) -> Recorded:
     """A run of an assembly from the recorded poses of its bodies.
 
@@ -76,37 +78,51 @@ def recorded_blocks(
         Of the links that act.
     held : LinkHistories, optional
         Their histories.
+    velocity : array, optional
+        Along x and z [m/s] and of the rotation [rad/s], shape (T, N, 3).
     """
     opening, slip = joint_histories(assembly, x, z, rotation)
     moved = np.hypot(x - x[0], z - z[0])
-    since = fallen_since(assembly, z, rotation)
-    fell_at = tuple((assembly.bodies[i].name, float(time[k])) for i, k in since.items())
+    turned = np.abs(rotation - rotation[0])
+    since = fallen_since(have_fallen(lowest_standing(assembly, z[0]), z, turned))
+    opened, shares, free, free_shares = _shares(assembly, moved, opening, slip)
+    pairs = [(joint.lower, joint.upper) for joint in assembly.joints]
+    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares)
+    names, sizes = (
+        [one.name for one in assembly.bodies],
+        [math.nan if one.fixed else one.size for one in assembly.bodies],
+    )
+    bodies = body_measures(names, sizes, time, np.stack((x, np.zeros_like(x), z), axis=-1), turned, since, shifted)
+    fell_at = tuple((names[i], float(time[k])) for i, k in since.items())
     collapsed = bool(fell_at) and not failed
-    first = min((when for _, when in fell_at), default=math.nan) if collapsed else math.nan
+    first = fell_at[0][1] if collapsed else math.nan
     until = time <= first if collapsed else slice(None)
-    outcome = Outcome.FAILED if failed else classify_assembly(assembly, moved, opening, slip, collapsed)
     azimuth = None
     if collapsed:
-        lost = min(since, key=lambda i: since[i])
+        lost = next(iter(since))
         azimuth = 0.0 if x[-1, lost] >= x[0, lost] else math.pi
+    blocks = BlockMeasures(
+        fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, bodies,
+        struck_at=None if touched is None else touched.time,
+    )  # fmt: skip
     measures = Measures(
-        outcome=outcome,
+        outcome=classify(collapsed, failed, opened, max(_largest(shares), _largest(free_shares))),
         decided=not failed and (at_rest or collapsed),
         collapse_time=first,
         peak_top_displacement=math.nan,
         residual_top_displacement=math.nan,
-        peak_rotation=float(np.abs(rotation - rotation[0])[until].max()),
+        peak_rotation=float(turned[until].max()),
         peak_joint_opening=float(opening[until].max(initial=0.0)),
         residual_joint_slip=float(np.abs(slip[-1]).max(initial=0.0)),
         energy_imbalance=energy_imbalance,
         time_step=time_step,
         steps=steps,
         collapse=Collapse(first, None, FELL, azimuth, touched) if collapsed else None,
-        blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
+        blocks=blocks,
         links=links,
     )
     histories = Histories.of_blocks(
-        time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy
+        time, x, z, rotation, opening, slip, ground_acceleration, ground_displacement, energy, velocity
     )
     if held is not None:
         histories = replace(histories, links=held)
@@ -130,10 +146,16 @@ def joint_histories(
     return opening.T, slip.T
 
 
-def fallen_since(assembly: Assembly, z: np.ndarray, rotation: np.ndarray) -> dict[int, int]:
-    """Bodies that have fallen at the end, and the recorded state from which on each of them had."""
-    down = have_fallen(lowest_standing(assembly, z[0]), z, rotation - rotation[0])
-    return {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
+def fallen_since(down: np.ndarray) -> dict[int, int]:
+    """Bodies that have fallen at the end in the order in which they fell, and the recorded state from which on each had.
+
+    Parameters
+    ----------
+    down : array of bool
+        Which bodies were down at which state, shape (T, N).
+    """
+    found = {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
+    return dict(sorted(found.items(), key=lambda one: one[1]))
 
 
 def lowest_standing(structure: Structure, z: np.ndarray) -> np.ndarray:
@@ -183,24 +205,10 @@ def first_touch(
     return Touch(when, found)
 
 
-def classify_assembly(
-    assembly: Assembly,
-    moved: np.ndarray,
-    opening: np.ndarray,
-    slip: np.ndarray,
-    collapsed: bool,
-) -> Outcome:
-    """Outcome as for columns; a block that no joint holds counts by its own displacement, as a share of its size.
-
-    Parameters
-    ----------
-    assembly : Assembly
-    moved : array
-        Distance of every centroid from where it was at the start [m], shape (T, N).
-    opening, slip : array
-        Of the joints [m], shape (T, J).
-    collapsed : bool
-    """
+def _shares(
+    assembly: Assembly, moved: np.ndarray, opening: np.ndarray, slip: np.ndarray
+) -> tuple[float, np.ndarray, list[int], np.ndarray]:
+    """Shares of size: largest opening, slip of each joint at the end, way of blocks that no joint holds, with these."""
     joints, bodies = assembly.joints, assembly.bodies
     width = np.array(
         [min(_length(bodies[j.lower], j.lower_face), _length(bodies[j.upper], j.upper_face)) for j in joints]
@@ -209,8 +217,7 @@ def classify_assembly(
     free = [i for i, block in enumerate(bodies) if i not in held and not block.fixed]
     size = np.array([bodies[i].size for i in free])
     opened = max(_largest(opening / width), _largest(moved[:, free] / size))
-    shifted = max(_largest(np.abs(slip[-1]) / width), _largest(moved[-1, free] / size))
-    return classify(collapsed, False, opened, shifted)
+    return opened, np.abs(slip[-1]) / width, free, moved[-1, free] / size
 
 
 def _joint_history(

@@ -39,6 +39,9 @@ class Histories:
         Horizontal displacement of the middle of the lowest and of the topmost face [m], shape (T,), in space (T, 2).
     links : LinkHistories, optional
         Of the links of a column that has some.
+    velocity, spin : array, optional
+        Of the centroids, relative to the moving base [m/s], and of the bodies' turning [rad/s], in the axes of space, shape
+        (T, N, 3); of an assembly.
     """
 
     time: np.ndarray
@@ -52,6 +55,8 @@ class Histories:
     base: np.ndarray | None = None
     top: np.ndarray | None = None
     links: LinkHistories | None = None
+    velocity: np.ndarray | None = None
+    spin: np.ndarray | None = None
 
     # -- made from -----------------------------------------------------------------------------------------------
 
@@ -106,11 +111,20 @@ class Histories:
         ground_acceleration: np.ndarray,
         ground_displacement: np.ndarray,
         energy: dict[str, np.ndarray],
+        velocity: np.ndarray | None = None,
     ) -> Histories:
-        """An assembly in the plane: ``x`` and ``z`` are the places of the centroids [m]; the rest as for columns."""
+        """An assembly in the plane: ``x`` and ``z`` are the places of the centroids [m]; the rest as for columns.
+
+        ``velocity`` is that along x and z [m/s] and of the rotation, counter-clockwise [rad/s], shape (T, n, 3).
+        """
+        moving, spin = None, None
+        if velocity is not None:
+            zero = np.zeros_like(x)
+            moving = np.stack((velocity[..., 0], zero, velocity[..., 1]), axis=-1)
+            spin = np.stack((zero, -velocity[..., 2], zero), axis=-1)
         return cls(
             time, PlanePoses(x, z, rotation), joint_opening, _in_plane(joint_slip), np.zeros_like(joint_opening),
-            _along_axes(ground_acceleration), _along_axes(ground_displacement), energy,
+            _along_axes(ground_acceleration), _along_axes(ground_displacement), energy, velocity=moving, spin=spin,
         )  # fmt: skip
 
     @classmethod
@@ -127,6 +141,8 @@ class Histories:
         ground_acceleration: np.ndarray,
         ground_displacement: np.ndarray,
         energy: dict[str, np.ndarray],
+        velocity: np.ndarray | None = None,
+        spin: np.ndarray | None = None,
     ) -> Histories:
         """A column, a single body or an assembly in space.
 
@@ -147,10 +163,12 @@ class Histories:
         ground_acceleration, ground_displacement : array
             [m/s²], [m], shape (T, 3)
         energy : dict of str to array
+        velocity, spin : array, optional
+            [m/s], [rad/s], shape (T, n, 3)
         """
         return cls(
             time, SpacePoses(position, orientation), joint_opening, joint_slip, joint_twist, ground_acceleration,
-            ground_displacement, energy, base_displacement, top_displacement,
+            ground_displacement, energy, base_displacement, top_displacement, velocity=velocity, spin=spin,
         )  # fmt: skip
 
     # -- views ---------------------------------------------------------------------------------------------------

@@ -19,6 +19,7 @@ from ..column.kinds import FROM_DICT
 from ..column.structure import Structure
 from ..errors import InputError, OutOfRangeWarning
 from ..outcome import Outcome
+from .body_measures import BodyMeasures
 from .collapse import Collapse
 from .histories import Histories
 from .links import NAMES as LINKS
@@ -44,6 +45,8 @@ _BODY = {
     "rotation": ("rad", "rotation of the body, counter-clockwise positive"),
     "body_position": ("m", "centroid relative to the moving base, z upward"),
     "body_orientation": ("1", "unit quaternion from the body's axes to those of space, real part first"),
+    "body_velocity": ("m s-1", "velocity of the centroid relative to the moving base"),
+    "body_angular_velocity": ("rad s-1", "angular velocity in the axes of space"),
     "tilt": ("rad", "angle between the body's axis and the vertical"),
 }
 _REST = {
@@ -176,6 +179,8 @@ def _recorded(response: Recorded, of: str) -> list[tuple[str, tuple[str, ...], n
         found.append(("body_position", (*body, "axis"), poses.position))
         found.append(("body_orientation", (*body, "part"), poses.orientation))
         found.append(("joint_twist", joint, h.twist))
+    if h.velocity is not None and h.spin is not None:
+        found += [("body_velocity", (*body, "axis"), h.velocity), ("body_angular_velocity", (*body, "axis"), h.spin)]
     found.append(("joint_opening", joint, h.opening))
     found.append(("joint_slip", joint if h.dims == "xz" else (*joint, "direction"), h.joint_slip))
     if h.base is not None and h.top is not None:
@@ -201,6 +206,9 @@ def _from_dataset(data: xarray.Dataset) -> Recorded:
     collapse, space, blocks = facts["collapse"], facts["space"], facts["blocks"]
     if blocks is not None:
         blocks["fell_at"] = tuple((str(name), float(time)) for name, time in blocks["fell_at"])
+        blocks["bodies"] = tuple(BodyMeasures(**_tuples(one)) for one in blocks.get("bodies", ()))
+        if blocks.get("joints") is not None:
+            blocks["joints"] = tuple(map(tuple, blocks["joints"]))
     parts = {
         "collapse": None if collapse is None else Collapse.from_dict(collapse),
         "space": None if space is None else SpaceMeasures(**_tuples(space)),
@@ -226,8 +234,12 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
         return data[name].to_numpy()
 
     steps, energy = len(data["time"]), _energy(data)
+    velocities = "body_velocity", "body_angular_velocity"
+    moving = {field: get(name) for field, name in zip(("velocity", "spin"), velocities) if name in data}
     links = LinkHistories(*(get(f"link_{name}") for name in LINKS)) if "link_shear" in data else None
     bodies = len(structure.shapes)
+    for values in moving.values():
+        _check(values, (steps, bodies, 3))
     joint = {"joint_opening": get("joint_opening"), "joint_slip": get("joint_slip")}
     if "body_orientation" in data:
         names = ("body_position", "body_orientation", "joint_twist")
@@ -247,7 +259,7 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
             ground_displacement=get("ground_displacement"),
             energy=energy,
         )
-        return dataclasses.replace(found, links=links)
+        return dataclasses.replace(found, links=links, **moving)
     ground = {}
     for name in ("ground_acceleration", "ground_displacement"):
         ground[name] = get(name)
@@ -262,7 +274,7 @@ def _histories(data: xarray.Dataset, structure: Structure) -> Histories:
         found = Histories.of_blocks(get("time"), **body, **joint, **ground, energy=energy)
     for values in body.values():
         _check(values, (steps, bodies))
-    return dataclasses.replace(found, links=links)
+    return dataclasses.replace(found, links=links, **moving)
 
 
 def _energy(data: xarray.Dataset) -> dict[str, np.ndarray]:

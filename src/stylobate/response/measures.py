@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 from ..outcome import Outcome
+from .body_measures import BodyMeasures
 from .collapse import Collapse
 from .links import LinkMeasures, row_of
 
@@ -26,6 +27,8 @@ class SpaceMeasures:
         Length of the offset along each joint at the end [m].
     residual_twist_per_joint : tuple of float
         Turn about each joint's normal at the end, from x towards y [rad].
+    residual_slip_x, residual_slip_y : tuple of float
+        Offset along each joint at the end, along x and y of its lower face [m].
     """
 
     peak_top_x: float
@@ -34,6 +37,8 @@ class SpaceMeasures:
     peak_twist: float
     residual_slip_per_joint: tuple[float, ...]
     residual_twist_per_joint: tuple[float, ...]
+    residual_slip_x: tuple[float, ...] = ()
+    residual_slip_y: tuple[float, ...] = ()
 
     def row(self) -> dict:
         """The facts under the names that scripts rely on."""
@@ -44,22 +49,39 @@ class SpaceMeasures:
             "peak_twist_rad": float(self.peak_twist),
             "residual_slip_per_joint_m": [float(one) for one in self.residual_slip_per_joint],
             "residual_twist_per_joint_rad": [float(one) for one in self.residual_twist_per_joint],
+            **joints_row(self.residual_slip_x, self.residual_slip_y, self.residual_twist_per_joint),
         }
 
 
-def blank_row(*, space: bool = False, links: bool = False) -> dict:
-    """Row of a run of a column before there is one: all measures missing.
+#: Residuals of joints in space, under the names of rows; what has fallen has none.
+RESIDUALS_OF_JOINTS = ("residual_slip_x_m", "residual_slip_y_m", "residual_twist_rad")
+
+
+def joints_row(x: tuple[float, ...], y: tuple[float, ...], twist: tuple[float, ...]) -> dict[str, list[float]]:
+    """Offsets of joints in space along x and y [m] and their twists [rad] at the end, joint by joint."""
+    return {
+        name: [float(one) for one in values] for name, values in zip(RESIDUALS_OF_JOINTS, (x, y, twist), strict=True)
+    }
+
+
+def blank_row(*, space: bool = False, links: bool = False, blocks: bool = False) -> dict:
+    """Row of a run before there is one: all measures missing.
 
     Parameters
     ----------
     space : bool
         Of a model in space.
     links : bool
-        Of a column with links.
+        Of what has links.
+    blocks : bool
+        Of an assembly, which has no top.
     """
     nan = math.nan
-    in_space = SpaceMeasures(nan, nan, nan, nan, (), ()) if space else None
-    row = Measures(Outcome.AT_REST, False, nan, nan, nan, nan, nan, nan, nan, nan, 0, space=in_space).row()
+    in_space = SpaceMeasures(nan, nan, nan, nan, (), ()) if space and not blocks else None
+    of_blocks = BlockMeasures((), nan, nan, False) if blocks else None
+    row = Measures(
+        Outcome.AT_REST, False, nan, nan, nan, nan, nan, nan, nan, nan, 0, space=in_space, blocks=of_blocks
+    ).row()
     return row | (row_of(()) if links else {})
 
 
@@ -70,13 +92,19 @@ class BlockMeasures:
     Parameters
     ----------
     fell_at : tuple of (str, float)
-        Blocks that have fallen, and when each of them had [s].
+        Blocks that have fallen, in this order, and when each of them had [s].
     peak_displacement, residual_displacement : float
         Largest distance of a centroid from where it was at the start, until the first block has fallen and at the end [m].
     at_rest : bool
         Whether everything lies still at the end.
     in_equilibrium : bool, optional
         Whether the assembly is in equilibrium as drawn; None if it is not known.
+    bodies : tuple of BodyMeasures
+        Of those that can move, in the assembly's order.
+    joints : (tuple, tuple, tuple), optional
+        Of joints in space, offsets along x and y of the lower face [m] and twist [rad] at the end, joint by joint.
+    struck_at : float, optional
+        When bodies that no joint holds together first touched [s]; None if none did, or the record does not tell.
     """
 
     fell_at: tuple[tuple[str, float], ...]
@@ -84,6 +112,38 @@ class BlockMeasures:
     residual_displacement: float
     at_rest: bool
     in_equilibrium: bool | None = None
+    bodies: tuple[BodyMeasures, ...] = ()
+    joints: tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...]] | None = None
+    struck_at: float | None = None
+
+    @property
+    def displaced(self) -> tuple[str, ...]:
+        """Bodies that stand, and stand shifted."""
+        return tuple(body.name for body in self.bodies if body.displaced)
+
+    @property
+    def hangs_on_strikes(self) -> bool:
+        """Whether bodies struck one another before the last that fell had fallen, or although none fell."""
+        return self.struck_at is not None and self.struck_at <= max(
+            (when for _, when in self.fell_at), default=math.inf
+        )
+
+    def row(self) -> dict:
+        """The facts under the names that scripts rely on."""
+        row = {
+            "peak_displacement_m": float(self.peak_displacement),
+            "residual_displacement_m": float(self.residual_displacement),
+            "at_rest": bool(self.at_rest),
+            "fallen_blocks": len(self.fell_at),
+            "fallen": [name for name, _ in self.fell_at],
+            "displaced": list(self.displaced),
+            "bodies": {body.name: body.row() for body in self.bodies},
+        }
+        if self.joints is not None:
+            x, y, twist = self.joints
+            row["residual_slip_per_joint_m"] = [math.hypot(*one) for one in zip(x, y, strict=True)]
+            row |= joints_row(x, y, twist)
+        return row
 
 
 @dataclass(frozen=True, eq=False)
@@ -180,9 +240,7 @@ class Measures:
         }
         if self.blocks is not None:  # an assembly has no top
             del row["peak_top_displacement_m"], row["residual_top_displacement_m"]
-            row["peak_displacement_m"] = float(self.blocks.peak_displacement)
-            row["residual_displacement_m"] = float(self.blocks.residual_displacement)
-            row["fallen_blocks"] = len(self.blocks.fell_at)
+            row |= self.blocks.row()
         if self.space is not None:
             azimuth = None if self.collapse is None else self.collapse.azimuth
             row |= self.space.row() | {"collapse_azimuth_deg": None if azimuth is None else math.degrees(azimuth)}

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from ..column.structure import Structure
-from ..outcome import Outcome, classify
-from .assembly_measures import TURNED, lowest_standing
-from .collapse import FELL, Collapse
+from ..outcome import classify
+from .assembly_measures import TURNED, fallen_since, lowest_standing
+from .body_measures import body_measures, shifted_bodies
+from .collapse import FELL, Collapse, Touch
 from .histories import Histories
 from .links import LinkHistories, LinkMeasures
 from .measures import BlockMeasures, Measures
@@ -38,6 +39,9 @@ def recorded_in_space(
     provenance: dict[str, Any],
     links: tuple[LinkMeasures, ...] = (),
     held: LinkHistories | None = None,
+    velocity: np.ndarray | None = None,
+    spin: np.ndarray | None = None,
+    struck_at: float | None = None,
 ) -> Recorded:
     """A run of an assembly in space from the recorded poses of its bodies.
 
@@ -56,41 +60,56 @@ def recorded_in_space(
         As of an assembly in the plane.
     failure : str
         Why the run has failed and has no verdict; empty if it has one.
+    velocity, spin : array, optional
+        Of the centroids [m/s], and of the bodies' turning in the axes of space [rad/s], shape (T, N, 3).
+    struck_at : float, optional
+        When bodies that no joint holds together first touched [s].
     """
     failed = bool(failure)
     opening, slip, twist = joint_histories(structure, position, axes)
     moved = np.linalg.norm(position - position[0], axis=-1)
     down = fallen(structure, position[0], axes[0], position, axes)
-    since = {int(i): int(np.flatnonzero(~down[:, i])[-1]) + 1 for i in np.flatnonzero(down[-1])}
-    fell_at = tuple((structure.bodies[i].name, float(time[k])) for i, k in since.items())
+    since = fallen_since(down)
+    tilt = np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))
+    opened, shares, free, free_shares = _shares(structure, moved, opening, slip)
+    pairs = [(joint.lower, joint.upper) for joint in structure.space_joints or ()]
+    shifted = shifted_bodies(pairs, shares, moved[-1], free, free_shares)
+    names, sizes = (
+        [one.name for one in structure.bodies],
+        [math.nan if one.fixed else one.size for one in structure.bodies],
+    )
+    bodies = body_measures(names, sizes, time, position, tilt, since, shifted)
+    fell_at = tuple((names[i], float(time[k])) for i, k in since.items())
     collapsed = bool(fell_at) and not failed
-    first = min((when for _, when in fell_at), default=math.nan) if collapsed else math.nan
+    first = fell_at[0][1] if collapsed else math.nan
     until = time <= first if collapsed else slice(None)
-    azimuth = None
-    if collapsed:
-        lost = min(since, key=lambda i: since[i])
-        way = position[-1, lost] - position[0, lost]
-        azimuth = math.atan2(way[1], way[0])
+    azimuth = next(one.fall_azimuth for one in bodies if one.name == fell_at[0][0]) if collapsed else None
+    offsets, turns = slip[-1].T.tolist(), twist[-1].tolist()
+    touched = None if struck_at is None else Touch(struck_at)
+    blocks = BlockMeasures(
+        fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium, bodies,
+        (tuple(offsets[0]), tuple(offsets[1]), tuple(turns)), struck_at,
+    )  # fmt: skip
     measures = Measures(
-        outcome=Outcome.FAILED if failed else _outcome(structure, moved, opening, slip, collapsed),
+        outcome=classify(collapsed, failed, opened, max(_largest(shares), _largest(free_shares))),
         decided=not failed and (at_rest or collapsed),
         collapse_time=first,
         peak_top_displacement=math.nan,
         residual_top_displacement=math.nan,
-        peak_rotation=float(np.arccos(np.clip(_upright(axes[0], axes), -1.0, 1.0))[until].max()),
+        peak_rotation=float(tilt[until].max()),
         peak_joint_opening=float(opening[until].max(initial=0.0)),
         residual_joint_slip=float(np.linalg.norm(slip[-1], axis=-1).max(initial=0.0)),
         energy_imbalance=energy_imbalance,
         time_step=time_step,
         steps=steps,
         reason=failure,
-        collapse=Collapse(first, None, FELL, azimuth) if collapsed else None,
-        blocks=BlockMeasures(fell_at, float(moved[until].max()), float(moved[-1].max()), at_rest, in_equilibrium),
+        collapse=Collapse(first, None, FELL, azimuth, touched) if collapsed else None,
+        blocks=blocks,
         links=links,
     )
     histories = Histories.in_space(
         time, position, quaternions(axes), opening, slip, twist, None, None, ground_acceleration,
-        ground_displacement, energy,
+        ground_displacement, energy, velocity=velocity, spin=spin,
     )  # fmt: skip
     if held is not None:
         histories = replace(histories, links=held)
@@ -149,18 +168,17 @@ def joint_histories(
     return opening, slip, twist
 
 
-def _outcome(
-    structure: Structure, moved: np.ndarray, opening: np.ndarray, slip: np.ndarray, collapsed: bool
-) -> Outcome:
-    """Outcome as for columns; a body that no joint holds counts by its own displacement, as a share of its size."""
+def _shares(
+    structure: Structure, moved: np.ndarray, opening: np.ndarray, slip: np.ndarray
+) -> tuple[float, np.ndarray, list[int], np.ndarray]:
+    """Shares of size: largest opening, slip of each joint at the end, way of bodies that no joint holds, with these."""
     joints, bodies = structure.space_joints or (), structure.bodies
     width = np.array([joint.width for joint in joints])
     held = {i for joint in joints for i in (joint.lower, joint.upper)}
     free = [i for i, body in enumerate(bodies) if i not in held and not body.fixed]
     size = np.array([bodies[i].size for i in free])
     opened = max(_largest(opening / width), _largest(moved[:, free] / size))
-    shifted = max(_largest(np.linalg.norm(slip[-1], axis=-1) / width), _largest(moved[-1, free] / size))
-    return classify(collapsed, False, opened, shifted)
+    return opened, np.linalg.norm(slip[-1], axis=-1) / width, free, moved[-1, free] / size
 
 
 def _largest(values: np.ndarray) -> float:

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from .block_words import mechanism_of
 from .links import row_of
+from .measures import RESIDUALS_OF_JOINTS, joints_row
 from .words import doubt_of
 
 if TYPE_CHECKING:
@@ -33,7 +35,7 @@ def _of_column(response: Recorded) -> dict:
     if m.collapsed:
         first = 1 if m.collapse is None or m.collapse.joint is None else m.collapse.joint
         row["residual_top_displacement_m"] = row["residual_joint_slip_m"] = None
-        for name in ("residual_slip_per_joint_m", "residual_twist_per_joint_rad"):
+        for name in ("residual_slip_per_joint_m", "residual_twist_per_joint_rad", *RESIDUALS_OF_JOINTS):
             if name in row:
                 row[name] = [one if i + 1 < first else None for i, one in enumerate(row[name])]
         if m.collapse is not None:
@@ -48,12 +50,19 @@ def _of_blocks(response: Recorded) -> dict:
     m, blocks = response.measures, response.measures.blocks
     assert blocks is not None
     gone = m.collapsed
+    h = response.histories
+    before = h.time <= m.collapse_time if gone else np.ones(len(h.time), dtype=bool)
+    joints = {"peak_opening_per_joint_m": _finite(h.opening[before].max(axis=0))}
+    if blocks.joints is not None:
+        residuals = joints_row(*blocks.joints)
+        joints |= {name: [None] * len(values) if gone else values for name, values in residuals.items()}
     return {
         "outcome": m.outcome.label,
         "collapsed": m.collapsed,
         "decided": m.decided,
         "collapse_time_s": m.collapse_time if gone else None,
         "fallen": list(response.fallen),
+        "displaced": list(blocks.displaced),
         "at_rest": blocks.at_rest,
         "in_equilibrium_as_drawn": blocks.in_equilibrium,
         "peak_displacement_m": blocks.peak_displacement,
@@ -61,9 +70,14 @@ def _of_blocks(response: Recorded) -> dict:
         "peak_rotation_rad": m.peak_rotation,
         "peak_joint_opening_m": m.peak_joint_opening,
         "residual_joint_slip_m": None if gone else m.residual_joint_slip,
+        **joints,
         "energy_imbalance": m.energy_imbalance,
         "time_step_s": m.time_step,
         "steps": m.steps,
+        "bodies": {body.name: body.row() for body in blocks.bodies},
+        "struck_at_s": blocks.struck_at,
+        "mechanism": mechanism_of(response),
+        "doubt": doubt_of(response),
         **_of_links(m),
     }
 

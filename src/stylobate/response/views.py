@@ -232,8 +232,13 @@ class Views:
 
     @property
     def fallen(self) -> tuple[str, ...]:
-        """Bodies that have fallen; none where the run was not followed to the ground."""
+        """Bodies that have fallen, of an assembly in this order; none where the run was not followed to the ground."""
         return tuple(self.fell_at)
+
+    @property
+    def displaced(self) -> tuple[str, ...]:
+        """Bodies of an assembly that stand, and stand shifted."""
+        return () if self.measures.blocks is None else self.measures.blocks.displaced
 
     # -- bodies in space -----------------------------------------------------------------------------------------
 
@@ -251,6 +256,16 @@ class Views:
     def body_orientation(self) -> np.ndarray:
         """Unit quaternion of every body, real part first, from its axes to those of space [-], shape (T, n, 4)."""
         return self.poses.orientation
+
+    @property
+    def body_velocity(self) -> np.ndarray:
+        """Velocity of every centroid relative to the moving base [m/s], shape (T, n, 3); of assemblies."""
+        return _recorded(self.histories.velocity)
+
+    @property
+    def body_angular_velocity(self) -> np.ndarray:
+        """Angular velocity of every body in the axes of space [rad/s], shape (T, n, 3); of assemblies."""
+        return _recorded(self.histories.spin)
 
     @property
     def body_axis(self) -> np.ndarray:
@@ -295,12 +310,17 @@ class Views:
             return np.hypot(poses.x - poses.x[0], poses.z - poses.z[0])
         return np.linalg.norm(poses.position - poses.position[0], axis=-1)
 
-    # -- blocks of a plane assembly ------------------------------------------------------------------------------
+    # -- bodies of an assembly ------------------------------------------------------------------------------
 
     @property
     def x(self) -> np.ndarray:
         """Place of every centroid along x [m], shape (T, n)."""
         return self._placed_by(0)
+
+    @property
+    def y(self) -> np.ndarray:
+        """Place of every centroid along y [m], shape (T, n); zero in the plane."""
+        return self._placed_by(1)
 
     @property
     def z(self) -> np.ndarray:
@@ -314,6 +334,12 @@ class Views:
 
     def _placed_by(self, axis: int) -> np.ndarray:
         poses = self.histories.poses
-        if isinstance(poses, PlanePoses) and self.measures.blocks is not None:
+        if axis != 1 and isinstance(poses, PlanePoses) and self.measures.blocks is not None:
             return poses.x if axis == 0 else poses.z  # as recorded, to the last bit
         return self.poses.position[..., axis]
+
+
+def _recorded(velocity: np.ndarray | None) -> np.ndarray:
+    if velocity is None:
+        raise AttributeError("velocities are recorded of assemblies only; differentiate body_position.")
+    return velocity

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from ..outcome import Outcome
+from .block_words import sentence_of_blocks
 from .links import sentence_of as sentence_of_links
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ def sentence_of(response: Recorded) -> str:
     m = response.measures
     links = sentence_of_links(m.links)
     if m.blocks is not None:
-        return f"{_of_blocks(response)} {links if m.outcome is not Outcome.FAILED else ''}".rstrip()
+        return f"{sentence_of_blocks(response)} {links if m.outcome is not Outcome.FAILED else ''}".rstrip()
     if m.collapsed:
         return f"{_of_collapse(response)} {links}".rstrip()
     words = [m.outcome.sentence_of(len(response.bodies.names)), *([links] if links else [])]
@@ -63,8 +64,22 @@ def round_in_the_plane(structure: Structure) -> str:
     return f"{ROUND_IN_THE_PLANE}{too}; compute them in space (dem3d) before relying on it."
 
 
+#: What stands beside whatever rests on assemblies in space whose bodies struck one another.
+STRUCK_IN_SPACE = (
+    "Assemblies in space are new: where bodies strike one another the outcome depends on how stiff a base is beside the "
+    "contact, and a fall is one draw of many; near the limit repeat with half the step and twice the stiffness."
+)
+
+
+def struck_in_space(structure: Structure) -> str:
+    """What stands beside runs of what stands, if it is an assembly in space; empty if not."""
+    return "" if structure.space_joints is None else STRUCK_IN_SPACE
+
+
 def doubt_of(response: Recorded) -> str:
     """Why a verdict may be another one in space; empty where there is no reason.
+
+    Of an assembly in space, if the verdict hangs on bodies that struck one another.
 
     In a plane, round drums that stand although joints opened: their own wobble is left out. In space, what nobody has
     measured: without damping a column on rims wobbles long, and how many of a population fall differs several times with
@@ -73,6 +88,9 @@ def doubt_of(response: Recorded) -> str:
     known, space = response.provenance.get("parameters", {}), response.measures.space
     slenderness = response.structure.slenderness
     if space is None:
+        blocks = response.measures.blocks
+        if blocks is not None and response.outcome is not Outcome.FAILED and blocks.hangs_on_strikes:
+            return struck_in_space(response.structure)
         several = len(response.bodies.names) > 1 and response.outcome in (Outcome.ROCKED, Outcome.DISPLACED)
         return round_in_the_plane(response.structure) if several else ""
     wobbled = slenderness is not None and space.peak_tilt > WOBBLES * slenderness
@@ -170,24 +188,3 @@ def _of_collapse(response: Recorded) -> str:
     if mechanism is not None:
         words.append(mechanism.describe())
     return " ".join(words)
-
-
-def _of_blocks(response: Recorded) -> str:
-    names, fixed, fell = response.bodies.names, response.bodies.fixed, response.fell_at
-    moving = [i for i, held in enumerate(fixed) if not held]
-    all_of_them = {1: "The block is", 2: "Both blocks are"}.get(len(moving), f"All {len(moving)} blocks are")
-    in_place = f"{all_of_them} in place"
-    if response.outcome is Outcome.FAILED:
-        why = f" Reason: {response.measures.reason}." if response.measures.reason else ""
-        return f"The computation could not be completed; this is no verdict on the assembly.{why}"
-    if response.outcome is Outcome.COLLAPSED:
-        order = sorted(fell, key=lambda name: fell[name])
-        said = ", ".join(order[:6]) + (f" and {len(order) - 6} more" if len(order) > 6 else "")
-        return f"{len(order)} of {len(moving)} blocks fell, the first at {fell[order[0]]:.2f} s: {said}."
-    if response.outcome is Outcome.DISPLACED:
-        gone = response.displacement[-1]
-        far = max(moving, key=lambda i: gone[i])
-        return f"{in_place}, but shifted: {names[far]} by {1000.0 * float(gone[far]):.3g} mm, the others by less."
-    if response.outcome is Outcome.ROCKED:
-        return f"{in_place}: joints opened and closed, none is shifted."
-    return f"{in_place}: no joint opened."

@@ -12,7 +12,7 @@ from ..analysis.evidence import STOOD
 from ..errors import InputError
 from ..models.registry import MODELS, model_class
 from ..own_files import LIST, OwnFiles, digest
-from ..response.words import ROUND_IN_THE_PLANE, UNDAMPED_WOBBLE, undamped
+from ..response.words import ROUND_IN_THE_PLANE, STRUCK_IN_SPACE, UNDAMPED_WOBBLE, undamped
 from .asked import Asked, asked_file, scales_of
 
 if TYPE_CHECKING:
@@ -83,7 +83,10 @@ class Source:
 
     @property
     def doubt(self) -> str:
-        """Caveat before all that rests on these runs: round columns in a plane, or a wobble in space that nothing damped."""
+        """Caveat before all that rests on these runs: stones in space struck, round columns in a plane, undamped wobble."""
+        kept = [one for structure in self.structures for one in structure.values() if isinstance(one, dict)]
+        if any("stones" in one for one in kept):
+            return STRUCK_IN_SPACE
         drums = [drum for one in self.structures for drum in (one.get("column") or {}).get("drums", ())]
         models = [one for one in self.models if one["name"] in MODELS]
         in_plane, in_space = [], []

@@ -60,8 +60,10 @@ class SpatialAssembly(Structure):
 
     kind: ClassVar[str] = "assembly in space"
     joints_are: ClassVar[str] = "joint, in the assembly's order"
+    like: ClassVar[str] = "assemblies"
     first: ClassVar[int] = 0
     relative: ClassVar[bool] = False
+    scattered: ClassVar[tuple[str, ...]] = ("friction", "joint_stiffness", "density", "offset")
 
     stones: tuple[Stone, ...]
     joint: Joint
@@ -129,6 +131,11 @@ class SpatialAssembly(Structure):
     def space_joints(self) -> tuple[SpaceJoint, ...]:
         """Faces that lie on one another, bodies by their numbers in :attr:`bodies`."""
         return self._contacts[0]
+
+    @property
+    def touching(self) -> tuple[tuple[int, int], ...]:
+        """All pairs of bodies that touch, on faces or otherwise, by their numbers in :attr:`bodies`."""
+        return self._contacts[1]
 
     @property
     def surfaces(self) -> tuple[Joint, ...]:

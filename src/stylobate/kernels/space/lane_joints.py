@@ -154,9 +154,7 @@ def act(damped, e, u, v, s, o, l):
     spin_v = dot((v.wx[l], v.wy[l], v.wz[l]), n)
     kf, slip, spin, before, turn = e.ks[l] * closed, along(w, -dot(w, n), n), spin_v - spin_u, row(e.f, l), e.t[l]
     kt, limit, arm = TORSION * kf * spread, e.tan[l] * pressing + e.co[l] * closed, LEVER * math.sqrt(spread)
-    f, twist = sprung(
-        before, turn, e.kf[l], e.kt[l], n, slip, 0.5 * (spin_u + spin_v), spin, kf, kt, limit, arm, last
-    )
+    f, twist = sprung(before, turn, e.kf[l], e.kt[l], n, slip, 0.5 * (spin_u + spin_v), spin, kf, kt, limit, arm, last)
     # nothing is remembered of a joint that is open
     keep = 1.0 if pressing > 0.0 else 0.0
     half = 0.5 * last * keep

@@ -238,6 +238,8 @@ class SpaceBlock(LaneRuns):
             peak_twist=self.peak(lane, "spin"),
             residual_slip_per_joint=tuple(slips.tolist()),
             residual_twist_per_joint=tuple(twist.tolist()),
+            residual_slip_x=tuple(slip[:, 0].tolist()),
+            residual_slip_y=tuple(slip[:, 1].tolist()),
         )
         return self.measures(lane, slips, float(np.hypot(*self.top(lane))), lean, space)
 

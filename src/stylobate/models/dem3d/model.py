@@ -120,14 +120,16 @@ class DistinctElement3D(SteppedDrums):
     assumptions: ClassVar[tuple[str, ...]] = (
         "Drums are rigid, with their true shape; the stone's flexibility can be put into the joints (block_modulus).",
         "Round faces carry on the rims of their overlap, without tension, with Coulomb friction in shear and torsion; "
-        "rectangular ones at the four corners of their overlap, each with a shear force within Coulomb's cone.",
+        "rectangular ones at the four corners of their overlap, each with a shear force within Coulomb's cone. Faces of "
+        "assemblies carry on the edge of their overlap, and whatever else touches on an elastic bed.",
         "The base is a rigid half-space that moves with the record, in all three directions.",
     )
     limits: ClassVar[tuple[str, ...]] = (
         "What an impact loses depends on the law of contact, on friction and on damping.",
         "Undamped (stiffness_damping = 0, the default) a column wobbles long, and near collapse the verdict hangs on how "
         "long a contact of stone lasts, which is not known: take a population, and compare 1e-4 to 1e-3 s.",
-        "A drum touches its neighbours and the base only.",
+        "A drum of a column touches its neighbours and the base only. In an assembly any two bodies may touch: what is "
+        "struck then hangs on how stiff a base is beside the contact, and a fall is one draw of many.",
         "Drums do not crack, chip or wear.",
         "The overlap of rectangular faces turned against each other is taken too small: its corners are those of the upper "
         "face, brought to the nearest place on the lower one.",

@@ -109,10 +109,13 @@ class SteppedDrums(Model):
         return whole_steps(motion, 0.0, self.step_for(column))[0], self.cost(column.n)
 
     def paced(self, column: Column) -> SteppedDrums:
-        """The model in the column's own time step, far enough below the largest stable one of columns like it."""
+        """The model in the column's own time step, far enough below the largest stable one of columns like it.
+
+        What is no stack chooses its step run by run.
+        """
         if self.time_step is not None or self.step_factor > SAFE_FACTOR:
             return self
-        return replace(self, time_step=self.step_for(column))
+        return self if column.stack is None else replace(self, time_step=self.step_for(column))
 
     def run(self, column: Column, motion: Motion, options: RunOptions) -> Response:
         """One run with histories, through the same kernel as a batch; twins of the column in the free lanes.

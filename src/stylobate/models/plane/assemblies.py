@@ -121,6 +121,7 @@ def run_assembly(
         touched=touched,
         links=link_measures(acting(assembly), engine.records.link, 0, engine.dt),
         held=link_histories(states) if recorded else None,
+        velocity=stack.get("velocity"),
         provenance={
             "restitution": restitution,
             "joints": len(assembly.joints),

@@ -365,4 +365,5 @@ class Loose:
     def state(self) -> dict[str, Any]:
         """Part of the present state in a history."""
         held = {"links": link_snapshot(self.records.link, 0)} if len(self.records.link) else {}
+        held["velocity"] = np.stack([self.records.body[key][:, 0] for key in ("vx", "vz", "w")], axis=-1)
         return self.pose() | held | {"energy": self.energies()}

@@ -16,6 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...column import Column
+from ...column.structure import Structure
 from ...motion import Motion
 from ..base import Case, RunOptions
 
@@ -36,7 +37,7 @@ GAP = 3.0
 AT_REST = 5e-3
 
 
-def level(motion: Motion, column: Column) -> np.ndarray:
+def level(motion: Motion, column: Structure) -> np.ndarray:
     """Share of what opens a joint that a motion reaches at each sample [-], shape (steps,).
 
     Infinite on a joint without friction, which any shaking moves.
@@ -45,6 +46,7 @@ def level(motion: Motion, column: Column) -> np.ndarray:
         return np.zeros(motion.steps)
     flat = np.abs(motion.samples) if motion.y_samples is None else np.hypot(motion.samples, motion.y_samples)
     opens = column.moving_acceleration
+    assert opens is not None
     found = flat / opens if opens > 0.0 else np.where(flat > 0.0, math.inf, 0.0)
     if motion.z_samples is not None:
         found += np.abs(motion.z_samples) / column.gravity

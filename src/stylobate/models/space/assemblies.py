@@ -215,6 +215,9 @@ def response_of(
         energy_imbalance=imbalance,
         time_step=engine.dt,
         steps=round(float(stack["time"][-1]) / engine.dt),
+        velocity=stack.get("velocity"),
+        spin=stack.get("spin"),
+        struck_at=engine.struck_at,
         model=numbers.name,
         links=link_measures(engine.links, engine.ties.link, 0, engine.dt),
         held=held,
@@ -231,7 +234,8 @@ def _imbalance(change: np.ndarray, start: np.ndarray) -> float:
     """Energy imbalance at the last of some states, whose ledgers have changed so since the start."""
     return ledger.imbalance(
         ledger.unaccounted(change[-1] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0)),
-        work=float(np.abs(change[:, 0]).max()), start=float(start[3]), barrier=0.0, released=ledger.released(change[-1]),
+        work=float(np.abs(change[:, 0]).max()), start=float(start[1] + start[3]), barrier=0.0,
+        released=ledger.released(change[-1]),
     )  # fmt: skip
 
 
@@ -249,7 +253,7 @@ def _imbalance_before_falls(
     last = int(np.flatnonzero(upright[:, 2] + upright[:, 3] >= 0.0)[-1])
     missing = ledger.unaccounted(upright[last] - np.where([0, 1, 0, 0, 0, 0], change[0], 0.0))
     work = float(np.abs(upright[:, 0]).max())
-    return ledger.imbalance(missing, work=work, start=float(start[3]), barrier=0.0, released=0.0)
+    return ledger.imbalance(missing, work=work, start=float(start[1] + start[3]), barrier=0.0, released=0.0)
 
 
 def _follow(
@@ -288,6 +292,8 @@ def _state(engine: Loose, motion: Motion) -> dict[str, Any]:
         "time": engine.time,
         "position": engine.places,
         "axes": engine.axes_of_all,
+        "velocity": engine.vectors("v"),
+        "spin": engine.vectors("w"),
         "energy": engine.energies(ground_at(motion, engine.time)),
     } | ({"links": link_snapshot(engine.ties.link, 0)} if engine.links else {})
 

@@ -225,6 +225,16 @@ class Loose:
         """Centroids of all bodies [m], shape (N, 3)."""
         return np.stack([self.body[c][:, 0] for c in "xyz"], axis=-1)
 
+    def vectors(self, name: str) -> np.ndarray:
+        """A vector of all bodies in the axes of space by the name of its fields, such as ``v`` or ``w``, shape (N, 3)."""
+        return np.stack([self.body[name + c][:, 0] for c in "xyz"], axis=-1)
+
+    @property
+    def struck_at(self) -> float | None:
+        """When bodies that no joint holds together first touched [s]; None if none has."""
+        step = int(self.now["touched"][0])
+        return None if step < 0 else step * self.dt
+
     @property
     def axes_of_all(self) -> np.ndarray:
         """Axes in which the bodies were given, as columns, shape (N, 3, 3)."""

@@ -12,7 +12,7 @@ from stylobate.campaign.campaign import Campaign
 from stylobate.campaign.digests import Hasher
 from stylobate.campaign.ledger import RUNS_FILE
 from stylobate.campaign.runs import Request, run_all
-from stylobate.column.scatter import scattered_columns
+from stylobate.column.twins import twins_of
 from stylobate.constants import g
 from stylobate.models.base import Case
 from stylobate.models.dem3d.model import DistinctElement3D
@@ -54,7 +54,7 @@ def population_name(name: str, law: str, across: float) -> str:
 
 def _population(name: str, law: str, across: float, ledger: Path) -> dict[str, list[float]]:
     frequency, amplitude, duration, tail = SHAKING
-    columns = scattered_columns(c.paper_column(name, "circular"), c.alike(WITHIN), NUMBER, 0)
+    columns = twins_of(c.paper_column(name, "circular"), c.alike(WITHIN), NUMBER, 0)
     beside = (frequency, across * amplitude, 0.5 * np.pi) if across else None
     motion = harmonic(frequency, amplitude, duration, across=beside)
     cases = [Case(column, motion) for column in columns]

@@ -1,0 +1,121 @@
+"""Each body of an assembly over its twins: in how many it fell, and the regions in which it lay at the end."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from . import verdicts as v
+
+#: Shares of the twins whose places the regions hold.
+REGIONS = (0.5, 0.9)
+
+#: From fewer twins than this the larger region is only as large as what was seen.
+FEW = 20
+
+
+@dataclass(frozen=True, eq=False)
+class BodyOverTwins:
+    """One body over the twins of an assembly.
+
+    Parameters
+    ----------
+    name : str
+    fell : int
+        Twins with a verdict in which it fell.
+    stood : int
+        Decided ones in which it did not.
+    open : int
+        Those in which it had not fallen when their runs ended, and not everything lay still.
+    still : int
+        Runs at whose end everything lay still.
+    ends : array
+        Ways of its centroid in plan from the start to the end of each run that did not fail [m], shape (k, 2).
+    """
+
+    name: str
+    fell: int
+    stood: int
+    open: int
+    still: int
+    ends: np.ndarray
+
+    @property
+    def share(self) -> float:
+        """Share of the twins in which it fell; NaN without a verdict."""
+        return float(v.share_collapsed(self.fell, self.stood, self.open))
+
+    def interval(self, confidence: float) -> tuple[float, float]:
+        """Confidence limits of the probability that it falls; undecided ones are counted both ways."""
+        low, high = v.collapse_interval(self.fell, self.stood, self.open, confidence)
+        return float(low), float(high)
+
+    @property
+    def middle(self) -> np.ndarray:
+        """Median way in plan [m], shape (2,)."""
+        return np.median(self.ends, axis=0) if len(self.ends) else np.full(2, math.nan)
+
+    @property
+    def radii(self) -> tuple[float, ...]:
+        """Radii about :attr:`middle` of the circles that hold these shares of the ends (:data:`REGIONS`) [m]."""
+        if not len(self.ends):
+            return (math.nan,) * len(REGIONS)
+        far = np.linalg.norm(self.ends - self.middle, axis=1)
+        return tuple(float(one) for one in np.quantile(far, REGIONS, method="inverted_cdf"))
+
+    def row(self, confidence: float) -> dict[str, Any]:
+        """Under the names of the JSON object of ``stylobate run`` and of ``bodies.csv``."""
+        low, high = self.interval(confidence)
+        radii = {f"region_{100 * share:.0f}_m": one for share, one in zip(REGIONS, self.radii, strict=True)}
+        return {
+            "fell": self.fell,
+            "stood": self.stood,
+            "undecided": self.open,
+            "runs_at_rest": self.still,
+            "probability": None if math.isnan(self.share) else self.share,
+            "interval_low": low,
+            "interval_high": high,
+            "middle_x_m": float(self.middle[0]),
+            "middle_y_m": float(self.middle[1]),
+            **radii,
+        }
+
+
+def bodies_over_twins(rows: Sequence[Mapping[str, Any]]) -> tuple[BodyOverTwins, ...]:
+    """Each body over twins; none where the rows do not tell of bodies.
+
+    Parameters
+    ----------
+    rows : sequence of mapping
+        One per twin, with the keys of ``Measures.row()``.
+    """
+    sound = [(row["at_rest"], row["bodies"]) for row in rows if row.get("bodies") and v.verdict(row) != v.FAILED]
+    found = []
+    for name in sound[0][1] if sound else ():
+        mine = [(still, bodies[name]) for still, bodies in sound]
+        fell = sum(one["fell_at_s"] is not None for _, one in mine)
+        open_ = sum(one["fell_at_s"] is None and not still for still, one in mine)
+        ends = np.array([one["displacement_at_end_m"][:2] for _, one in mine])
+        still = sum(still for still, _ in mine)
+        found.append(BodyOverTwins(name, fell, len(mine) - fell - open_, open_, still, ends))
+    return tuple(found)
+
+
+def not_yet_debris(bodies: Sequence[BodyOverTwins]) -> str:
+    """That the regions are of bodies that still move, in a clause; empty where all lies still."""
+    moving = len(bodies[0].ends) - bodies[0].still if bodies else 0
+    return f"in {moving} of {len(bodies[0].ends)} runs not all lay still at the end" if moving else ""
+
+
+def words_of_bodies(bodies: Sequence[BodyOverTwins], most: int = 6) -> str:
+    """In how many twins each body fell, those that fell most often first, in a sentence; empty where none fell."""
+    fallen = sorted((one for one in bodies if one.fell), key=lambda one: -one.fell)
+    if not fallen:
+        return ""
+    said = ", ".join(f"{one.name} in {one.fell}" for one in fallen[:most])
+    more = f", and {len(fallen) - most} more" if len(fallen) > most else ""
+    return f"What fell: {said}{more}."

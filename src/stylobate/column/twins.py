@@ -1,0 +1,37 @@
+"""Twins: columns, or assemblies in space, that could as well stand there; drawn by the kind of what stands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+
+from .column import Column
+from .scatter import Scatter, drawn_column
+from .spatial.assembly import SpatialAssembly
+from .spatial.scatter import drawn_assembly
+from .structure import Structure
+
+#: Makers of twin number k from what stands, a scatter and its stream, in space or not, by the kind of what stands.
+TWIN_OF: dict[str, Callable[[Any, Scatter, np.random.Generator, int, bool], Structure]] = {
+    Column.kind: drawn_column,
+    SpatialAssembly.kind: drawn_assembly,
+}
+
+
+def twins_of(structure: Structure, scatter: Scatter, number: int, seed: int, *, space: bool = False) -> Sequence[Any]:
+    """What could as well stand there.
+
+    Twin k of a seed is the same for any ``number`` above k; where one part does not scatter, the others stay the same.
+
+    Parameters
+    ----------
+    structure : Column or SpatialAssembly
+    scatter : Scatter
+    number, seed : int
+    space : bool
+        Offsets in any direction, for a model in space; along x otherwise.
+    """
+    streams = np.random.default_rng(seed).spawn(number)
+    return [TWIN_OF[structure.kind](structure, scatter, stream, k, space) for k, stream in enumerate(streams)]

@@ -1,0 +1,144 @@
+"""Assemblies in space like one: what varies, which stones move together, and what is told of each body over them."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.analysis.debris import bodies_over_twins, words_of_bodies
+from stylobate.column.twins import twins_of
+from stylobate.response.words import STRUCK_IN_SPACE
+
+JOINT = st.Joint(5e9, 2.5e9, 35.0)
+OFFSETS = st.Scatter(0.0, 0.0, 0.0, 0.0, 0.0, 0.01)
+
+
+def box(name, sides, at, **others):
+    return st.Stone.box(sides, at, 2700.0, name=name, **others)
+
+
+def scene(*stones, **others):
+    return st.SpatialAssembly(stones, JOINT, name="scene", **others)
+
+
+PORTAL = scene(
+    box("left", (0.8, 0.8, 4.0), (-1.2, 0.0, 0.0)),
+    box("right", (0.8, 0.8, 4.0), (1.2, 0.0, 0.0)),
+    box("beam", (3.2, 0.8, 0.6), (0.0, 0.0, 4.0)),
+)
+
+
+def moved(one, other):
+    return np.array([np.subtract(a.position, b.position) for a, b in zip(one.stones, other.stones)])
+
+
+def test_a_twin_is_the_same_for_any_number_of_them():
+    few, many = (twins_of(PORTAL, st.Scatter(width=0.0, height=0.0), number, 3, space=True) for number in (2, 4))
+    assert [one.digest for one in few] == [one.digest for one in many[:2]]
+    assert len({one.digest for one in many}) == 4
+    assert [len(one.space_joints) for one in many] == [4, 4, 4, 4]
+
+
+def test_each_part_varies_alone_and_as_much_as_it_says():
+    """Coefficients of variation of 400 draws of three stones, half of whose variance is common: to 15 %, four deviations."""
+    for part, read in (
+        ("friction", lambda stone: stone.surface.tan_phi),
+        ("joint_stiffness", lambda stone: stone.surface.normal_stiffness),
+        ("density", lambda stone: stone.density),
+    ):
+        size = dataclasses.replace(OFFSETS, offset=0.0, **{part: 0.1})
+        twins = twins_of(PORTAL, size, 400, 0, space=True)
+        values = np.log([[read(stone) for stone in twin.stones] for twin in twins])
+        assert values.std(axis=0) == pytest.approx(0.1, rel=0.15)
+        assert np.corrcoef(values.T)[0, 1] == pytest.approx(0.5, abs=0.15)
+        assert not moved(twins[0], PORTAL).any()
+
+
+def test_stones_slide_on_level_faces_and_otherwise_move_together():
+    """Two architraves end to end move as one; what is fixed, and what leans on it, does not."""
+    stones = (
+        box("left", (0.8, 0.8, 4.0), (-2.0, 0.0, 0.0)),
+        box("right", (0.8, 0.8, 4.0), (2.0, 0.0, 0.0)),
+        box("one", (2.4, 0.8, 0.6), (-1.2, 0.0, 4.0)),
+        box("other", (2.4, 0.8, 0.6), (1.2, 0.0, 4.0)),
+        box("wall", (0.5, 4.0, 3.0), (-2.65, 0.0, 0.0), fixed=True),
+        box("middle", (0.8, 0.8, 4.0), (0.0, 0.0, 0.0)),
+    )
+    way = moved(twins_of(scene(*stones), OFFSETS, 1, 1, space=True)[0], scene(*stones))
+    assert not way[0].any()
+    assert not way[4].any()
+    assert way[1].any()
+    assert np.array_equal(way[2], way[3])
+    assert not np.array_equal(way[1], way[2])
+    assert np.abs(way[:, :2]).max() <= 0.025 * 0.8 + 1e-9  # 2.5 deviations of 0.01, faces of 0.8 m and less
+    assert not way[:, 2].any()
+
+
+def test_offsets_that_do_not_fit_are_halved():
+    """Two boxes 1 mm apart, moved by some 40 mm: no twin overlaps, and some had to be halved."""
+    close = scene(box("a", (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), box("b", (1.0, 1.0, 1.0), (1.001, 0.0, 0.0)))
+    size = dataclasses.replace(OFFSETS, offset=0.04)
+    free = scene(box("a", (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)), box("b", (1.0, 1.0, 1.0), (3.0, 0.0, 0.0)))
+    near, far = (
+        np.array([moved(twin, one) for twin in twins_of(one, size, 12, 0, space=True)]) for one in (close, free)
+    )
+    share = np.abs(near).max(axis=(1, 2)) / np.abs(far).max(axis=(1, 2))
+    assert set(np.round(share, 12)) > {1.0}
+    assert all(math.isclose(one, 2.0 ** round(math.log2(one))) for one in share if one)
+
+
+def row(fell=(), still=True, outcome="collapsed"):
+    bodies = {
+        name: {"fell_at_s": 1.0 if name in fell else None, "displacement_at_end_m": [x, 0.0, 0.0]}
+        for name, x in (("a", 1.0 + len(fell)), ("b", 0.0))
+    }
+    return {
+        "outcome": outcome, "decided": bool(fell) or still, "collapsed": bool(fell), "at_rest": still, "bodies": bodies,
+    }  # fmt: skip
+
+
+def test_bodies_over_twins():
+    """By hand: of four runs with a verdict "a" fell in three, and in one that did not lie still "b" may yet fall."""
+    rows = [row("a"), row("ab"), row("a", still=False), row(outcome="rocked"), row("ab", outcome="failed")]
+    a, b = bodies_over_twins(rows)
+    assert (a.fell, a.stood, a.open, a.still) == (3, 1, 0, 3)
+    assert (b.fell, b.stood, b.open) == (1, 2, 1)
+    assert a.share == 0.75
+    assert a.middle[0] == 2.0  # median of 1, 2, 2, 3
+    assert a.radii == (0.0, 1.0)
+    assert b.interval(0.95)[1] > a.share > b.interval(0.95)[0]
+    assert words_of_bodies((a, b)) == "What fell: a in 3, b in 1."
+    assert words_of_bodies(bodies_over_twins([row(outcome="rocked")])) == ""
+    assert bodies_over_twins([{"outcome": "rocked", "decided": True, "collapsed": False}]) == ()
+
+
+def test_what_does_not_vary_is_refused():
+    still = st.Motion(0.01, np.zeros(11))
+    with pytest.raises(st.InputError, match=r"the scatter has width, by which twins of an assembly in space such as"):
+        st.certainty(PORTAL, still, st.DistinctElement3D(), replicates=2, scatter=st.Scatter(0.1, 0, 0, 0.01, 0, 0))
+
+
+def test_a_push_of_one_box_onto_another():
+    """A box shoves its neighbour: what fell is told of each body, with a caution as they struck, and over twins."""
+    stones = (
+        box("pushed", (0.3, 0.6, 1.2), (0.0, 0.0, 0.0)),
+        box("hurled", (0.3, 0.3, 0.3), (-0.8, 0.0, 0.85), velocity=(6.0, 0.0, 0.0)),
+    )
+    found = st.certainty(
+        scene(*stones, settle=False), st.Motion(0.01, np.zeros(101)), st.DistinctElement3D(), replicates=2, threads=1
+    )
+    said = found.summary()
+    assert said["fallen"][0] == "hurled"
+    assert set(said["fallen"]) == {"pushed", "hurled"}
+    assert 0.05 < said["struck_at_s"] < 0.12  # 0.5 m at 6 m/s
+    assert said["bodies"]["pushed"]["fall_azimuth_deg"] == pytest.approx(0.0, abs=15.0)
+    assert said["bodies"]["pushed"]["residual_displacement_m"] is None
+    assert found.sentence.count(STRUCK_IN_SPACE) == 1
+    assert "Collapses in 2 of 2 assemblies like this" in found.sentence
+    assert said["certainty"]["bodies"]["pushed"]["fell"] == 2
+    response = found.response
+    assert response.body_velocity[0, 2] == pytest.approx([6.0, 0.0, 0.0])
+    assert response.body_angular_velocity.shape == response.body_position.shape
+    assert response.dims == "xyz"

@@ -1,0 +1,83 @@
+"""Measures of each body of an assembly: who fell in which order and to which side, who is shifted, joints by components."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+
+import stylobate as st
+from stylobate.response.body_measures import body_measures, shifted_bodies
+from stylobate.response.measures import BlockMeasures
+
+
+def test_falls_sides_and_ways():
+    """By hand: "b" leans 60° and lies 0.3 m along y, "c" drops straight down; the ground has no measures."""
+    time = np.array([0.0, 1.0, 2.0])
+    position = np.zeros((3, 4, 3))
+    position[1:, 2] = (0.0, 0.3, -0.1)
+    position[2, 3] = (0.0, 0.0, -2.0)
+    tilt = np.zeros((3, 4))
+    tilt[1:, 2] = math.radians(60.0)
+    sizes = [math.nan, 1.0, 1.0, 1.0]
+    a, b, c = body_measures(["ground", "a", "b", "c"], sizes, time, position, tilt, {2: 1, 3: 2}, [1, 2])
+    assert (a.fell_at, a.displaced, b.displaced) == (None, True, False)
+    assert (b.fell_at, c.fell_at, c.fall_azimuth) == (1.0, 2.0, None)
+    assert b.fall_azimuth == pytest.approx(0.5 * math.pi)
+    assert b.row()["peak_tilt_rad"] == pytest.approx(math.pi / 3.0)
+    assert (b.row()["residual_displacement_m"], a.row()["residual_displacement_m"]) == (None, 0.0)
+    assert c.row()["displacement_at_end_m"] == [0.0, 0.0, -2.0]
+
+
+def test_of_a_joint_that_slid_the_body_that_moved_is_shifted():
+    pairs = [(0, 1), (1, 2)]
+    assert shifted_bodies(pairs, np.array([0.0, 0.01]), np.array([0.0, 0.001, 0.02]), [3], np.array([0.5])) == {2, 3}
+    assert shifted_bodies(pairs, np.array([0.0005, 0.0005]), np.zeros(3), [], np.zeros(0)) == set()
+
+
+def test_a_verdict_hangs_on_strikes_before_the_last_fall():
+    struck, late = (BlockMeasures((("a", 2.0),), 1.0, 1.0, True, struck_at=when) for when in (1.0, 3.0))
+    assert struck.hangs_on_strikes
+    assert not late.hangs_on_strikes
+    assert BlockMeasures((), 1.0, 1.0, True, struck_at=3.0).hangs_on_strikes
+    assert not BlockMeasures((), 1.0, 1.0, True).hangs_on_strikes
+
+
+def test_a_row_tells_joints_in_space_by_components():
+    blocks = BlockMeasures((), 1.0, 1.0, True, joints=((0.3, 0.0), (0.4, 0.0), (0.1, -0.2)))
+    row = blocks.row()
+    assert row["residual_slip_per_joint_m"] == pytest.approx([0.5, 0.0])
+    assert (row["residual_slip_x_m"], row["residual_slip_y_m"]) == ([0.3, 0.0], [0.4, 0.0])
+    assert row["residual_twist_rad"] == [0.1, -0.2]
+    json.dumps(row, allow_nan=False)
+
+
+def test_an_assembly_in_the_plane_tells_its_bodies_and_velocities(tmp_path):
+    """A block thrown to the right at 3 m/s turns the one it strikes over; its file gives velocities back."""
+    square = [[0.0, 0.0], [0.3, 0.0], [0.3, 0.3], [0.0, 0.3]]
+    tall = [[0.0, 0.0], [0.2, 0.0], [0.2, 1.0], [0.0, 1.0]]
+    pushed = st.Block(tall, 2500.0, name="tall")
+    side = st.Block([[x - 3.0, z] for x, z in square], 2500.0, name="aside")
+    assembly = st.Assembly((pushed, side), st.Joint(5e9, 2.5e9, 35.0))
+    motion = st.harmonic(1.0, 0.5 * st.g, 2.0)
+    response = st.simulate(assembly, motion, st.DistinctElement2D())
+    told = response.summary()
+    assert told["fallen"] == ["tall"]
+    assert told["bodies"]["tall"]["fall_azimuth_deg"] in (0.0, 180.0)
+    assert told["mechanism"]["first"] == "tall"
+    assert "First fell tall, to the " in response.sentence
+    assert response.body_velocity.shape == (len(response.time), 3, 3)
+    speed = np.gradient(response.x[:, 1], response.time)
+    late = slice(5, 40)
+    assert response.body_velocity[late, 1, 0] == pytest.approx(speed[late], abs=0.05 * np.abs(speed[late]).max() + 1e-3)
+    turning = np.gradient(response.rotation[:, 1], response.time)  # counter-clockwise is about −y
+    assert response.body_angular_velocity[late, 1, 1] == pytest.approx(
+        -turning[late], abs=0.05 * np.abs(turning[late]).max() + 1e-3
+    )
+    response.save(tmp_path / "response.nc")
+    again = st.Response.load(tmp_path / "response.nc")
+    assert np.array_equal(again.body_velocity, response.body_velocity)
+    assert again.measures.blocks == response.measures.blocks
+    column = st.simulate(st.preset("paper-monolithic"), st.harmonic(1.0, 0.1, 1.0), st.DistinctElement2D())
+    with pytest.raises(AttributeError, match="velocities are recorded of assemblies only"):
+        _ = column.body_velocity
