@@ -1,0 +1,101 @@
+"""Scenes of two physics engines: who falls, how many, and the largest tilt, as the engines say at several steps and sizes."""
+
+import re
+import warnings
+from functools import cache
+from typing import NamedTuple
+
+import numpy as np
+from references import assembly, scenes
+
+import stylobate as st
+
+from .row import MET, MISSED, NONE, Judged, Rows, family
+
+#: Joints of the scenes [N/m³], their damping [s], restitution of what strikes, and how long they were followed [s].
+STIFFNESS, DAMPING, RESTITUTION, FOLLOWED = 5e10, 1e-3, 0.0, 8.0
+
+
+class Found(NamedTuple):
+    """What became of a scene: bodies fallen, and the largest tilt of any from the vertical [deg]."""
+
+    fallen: int
+    tilt: float
+    failed: str
+
+
+def bodies_of(text: str):
+    """Bodies of a scene as its row writes it, such as ``scenes.portal('cyl', 3)``."""
+    call = re.match(r"scenes\.(\w+)\(([^)]*)\)", text)
+    arguments, named = [], {}
+    for one in filter(None, (part.strip() for part in call[2].split(","))):
+        name, _, value = one.rpartition("=")
+        made = value.strip("'") if value.startswith("'") else float(value) if "." in value else int(value)
+        named.update({name: made}) if name else arguments.append(made)
+    return getattr(scenes(), call[1])(*arguments, **named)
+
+
+def motion_of(text: str) -> st.Motion:
+    """The ground of a scene as its row writes it."""
+    s = scenes()
+    one = re.search(r"one full sine (\S+) g, period (\S+) s, azimuth (\S+) deg", text)
+    two = re.search(r"(?:= |two_sines)\(([\d., ]+)\)", text)
+    if one:
+        size, period, azimuth = map(float, one.groups())
+        ground, length = s.one_sine(size, period, azimuth), 0.2 + period
+    elif two:
+        ax, fx, ay, fy = (float(part) for part in two[1].split(","))
+        ground, length = s.two_sines(ax, fx, ay, fy), 0.2 + 5.0 / min(fx, fy)
+    else:
+        ground, length = s.quiet, 0.2
+    rows = np.array([ground(t) for t in np.arange(0.0, length + 0.01, 0.002)])
+    return st.Motion(0.002, rows[:, 0], lateral=rows[:, 1])
+
+
+@cache
+def found(text: str) -> Found:
+    """One run of a scene."""
+    structure = assembly(bodies_of(text), "scene")
+    joint = st.Joint(STIFFNESS, 0.5 * STIFFNESS, friction_coefficient=0.7)
+    structure = st.SpatialAssembly(structure.stones, joint, "scene")
+    model = st.DistinctElement3D(stiffness_damping=DAMPING, restitution=None if DAMPING else RESTITUTION)
+    motion = motion_of(text)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", st.OutOfRangeWarning)  # a monolith that leans begins as drawn
+        response = st.simulate(structure, motion, model, tail=FOLLOWED - motion.duration, until_end=True)
+    axes = response.poses.axis
+    hull = "arch" in text
+    upright = np.abs(axes[..., 2]) if not hull else np.einsum("nk,tnk->tn", axes[0], axes)
+    tilt = float(np.degrees(np.arccos(np.clip(upright, -1.0, 1.0))).max())
+    return Found(len(response.measures.blocks.fell_at), tilt, response.measures.reason)
+
+
+@family(
+    "engines_portal",
+    "engines_podium",
+    "engines_colonnade",
+    "engines_temple_corner",
+    "engines_row",
+    "engines_arch",
+    "engines_wall",
+)
+def engines(rows: Rows):
+    """Verdict and number fallen; tilts within the range of the engines."""
+    for row in rows:
+        scene = found(row["params"])
+        why = f"no verdict: {scene.failed}" if scene.failed else ""
+        if row["quantity"] == "verdict":
+            mine = "collapses" if scene.fallen else "stands"
+            shown = f"{mine} ({scene.fallen} fallen, {scene.tilt:.3g}°)"
+            yield Judged(shown, "", MET if mine == row["value"] and not why else MISSED, why)
+        elif row["quantity"] == "bodies fallen":
+            off = scene.fallen - int(row["value"])
+            yield Judged(str(scene.fallen), f"{off:+d}" if off else "", MISSED if off or why else MET, why)
+        elif row["quantity"] == "largest tilt of any body":
+            low, high = (float(one) for one in row["spread"].split(" to "))
+            off = scene.tilt / float(row["value"]) - 1.0
+            inside = low <= scene.tilt <= high and not why
+            yield Judged(f"{scene.tilt:.3g}", f"{100.0 * off:+.2g} %", MET if inside else MISSED, why)
+        else:
+            shown = f"{scene.fallen} fallen, {scene.tilt:.3g}°"
+            yield Judged(shown, "", NONE, "the engines disagree: no verdict to be met")
