@@ -134,8 +134,8 @@ def impacts_of(lane, count: int, most: float) -> list[float]:
 def dominoes(width: float, height: float, clear: float, count: int, steady: bool) -> list[float]:
     """Speeds from impact to impact [m/s]; for the steady one the first block begins with a velocity that spares time."""
     small = height / 4.0
-    # a base that gives way lets the first step, the slowest, be faster: 1.5 % at a tenth of this stiffness
-    bases = (1.0 if steady else 10.0) * STIFF * small / (width / 0.8)
+    # a base that gives way lets the first step of the tall ones, the slowest, be faster: 1.5 % at a tenth of this stiffness
+    bases = (1.0 if steady or small < 1.0 else 10.0) * STIFF * small / (width / 0.8)
     contact = bases * SOFT / STIFF
     tilt = math.atan(width / height) + 1e-3
     spin = 1.0 / math.sqrt(small) if steady else 0.0

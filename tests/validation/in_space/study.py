@@ -1,4 +1,4 @@
-"""All reference rows beside what is computed here: computed by ``make references``, kept, and written as tables for the page."""
+"""All reference rows beside what is computed here: renewed by ``make references``, and written as tables of a page."""
 
 import json
 import sys
@@ -11,11 +11,14 @@ from pathlib import Path
 from references import FOLDER
 from references import rows as rows_of
 
-from . import engines, frames, impacts, limits, rolling
+from . import engines, frames, impacts, limits, plane, rolling
 from .row import FAMILIES, MET, MISSED, NONE, Judged, Rows, family_of
 
 #: What is kept.
 FILE = Path(__file__).with_name("rows.json")
+
+#: What is renewed besides the families: plane assemblies in space.
+PLANE = "plane"
 
 #: Modules whose families are judged, in the order of the page.
 MODULES = (rolling, impacts, limits, frames, engines)
@@ -39,12 +42,16 @@ def families() -> dict[str, Rows]:
 def renew(*names: str) -> None:
     """Compute some families, or all, and write what is kept of them."""
     told = families()
-    unknown = [name for name in names if name not in told]
+    every = [*told, PLANE]
+    unknown = [name for name in names if name not in every]
     if unknown:
-        known = ", ".join(told)
+        known = ", ".join(every)
         sys.exit(f"No family of rows is called {unknown[0]!r}; there are {known}.")
-    for name in names or told:
+    for name in names or every:
         began = time.process_time()
+        if name == PLANE:
+            write((stored() if FILE.exists() else {"rows": {}}) | {PLANE: plane.computed()}, name)
+            continue
         found = [vars(one) for one in judged(name, told[name])]
         kept = stored() if FILE.exists() else {"rows": {}}
         kept["date"] = date.today().isoformat()
@@ -53,14 +60,19 @@ def renew(*names: str) -> None:
             for row, one in zip(told[name], found, strict=True)
         ]
         kept["rows"] = {key: kept["rows"][key] for key in told if key in kept["rows"]}
-        fresh = FILE.with_suffix(f".{name}")
-        fresh.write_text(json.dumps(kept, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
-        fresh.replace(FILE)
+        write(kept, name)
         counts = Counter(one["verdict"] for one in found)
         print(
             f"{name}: {', '.join(f'{n} {key}' for key, n in counts.items())}; {time.process_time() - began:.0f} s",
             flush=True,
         )
+
+
+def write(kept: dict, name: str) -> None:
+    """Keep what is known now."""
+    fresh = FILE.with_suffix(f".{name}")
+    fresh.write_text(json.dumps(kept, ensure_ascii=False, indent=1) + "\n", encoding="utf-8")
+    fresh.replace(FILE)
 
 
 def stored() -> dict:
@@ -130,7 +142,8 @@ def summary() -> str:
     rows = [row for family in kept.values() for row in family]
     applicable = [row for row in rows if row["verdict"] != NONE]
     agreed, same = verdicts_of_engines()
-    told = f"Of {len(rows)} rows {len(applicable)} can be judged, and {sum(row['verdict'] == MET for row in applicable)} are met. "
+    met = sum(row["verdict"] == MET for row in applicable)
+    told = f"Of {len(rows)} rows {len(applicable)} can be judged, and {met} are met. "
     told += (
         f"Of {agreed} scenes on whose verdict the engines agree, {same} have it here ({100.0 * same / agreed:.0f} %). "
     )
