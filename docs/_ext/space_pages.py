@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from validation.in_space import study
+from validation.in_space import plane, study
 from validation.in_space.row import MISSED, NONE
 
 from stylobate_studies.company.shares import markdown
@@ -22,5 +22,6 @@ def texts(out):
         (out / "references_missed.md", study.listed(MISSED)),
         (out / "references_none.md", study.listed(NONE)),
         (out / "references_multipliers.md", study.listed("met", only="limit3d_")),
+        (out / "plane_in_space.md", plane.tables(study.stored()[study.PLANE])),
         (out / "company.md", markdown(found) + "\n" + said),
     ]

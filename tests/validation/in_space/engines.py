@@ -57,12 +57,12 @@ def motion_of(text: str) -> st.Motion:
 
 
 @cache
-def found(text: str) -> Found:
-    """One run of a scene."""
+def found(text: str, share: float = 1.0) -> Found:
+    """One run of a scene, its motion as it is or a share of it."""
     structure = assembly(bodies_of(text), "scene")
     joint = st.Joint(STIFFNESS, 0.5 * STIFFNESS, friction_coefficient=0.7)
     structure = st.SpatialAssembly(structure.stones, joint, "scene")
-    motion = motion_of(text)
+    motion = motion_of(text).scaled(share)
     models = [st.DistinctElement3D(stiffness_damping=damping) for damping in DAMPINGS]
     model = next((one for one in models if one.expected_step(structure, motion)[0] >= SHORTEST), models[-1])
     with warnings.catch_warnings():
@@ -92,7 +92,8 @@ def engines(rows: Rows):
         if row["quantity"] == "verdict":
             mine = "collapses" if scene.fallen else "stands"
             shown = f"{mine} ({scene.fallen} fallen, {scene.tilt:.3g}°)"
-            yield Judged(shown, "", MET if mine == row["value"] and not why else MISSED, why)
+            same = mine == row["value"] and not why
+            yield Judged(shown, "", MET if same else MISSED, why or ("" if same else nearby(row)))
         elif row["quantity"] == "bodies fallen":
             off = scene.fallen - int(row["value"])
             yield Judged(str(scene.fallen), f"{off:+d}" if off else "", MISSED if off or why else MET, why)
@@ -100,7 +101,28 @@ def engines(rows: Rows):
             low, high = (float(one) for one in row["spread"].split(" to "))
             off = scene.tilt / float(row["value"]) - 1.0
             inside = low <= scene.tilt <= high and not why
-            yield Judged(f"{scene.tilt:.3g}", f"{100.0 * off:+.2g} %", MET if inside else MISSED, why)
+            reason = why or ("" if inside else beyond(row, rows, scene.tilt))
+            yield Judged(f"{scene.tilt:.3g}", f"{100.0 * off:+.2g} %", MET if inside else MISSED, reason)
         else:
             shown = f"{scene.fallen} fallen, {scene.tilt:.3g}°"
             yield Judged(shown, "", NONE, "the engines disagree: no verdict to be met")
+
+
+def nearby(row: dict[str, str]) -> str:
+    """What a scene with another verdict does when it is shaken a little more or less."""
+    runs = [(share, found(row["params"], share)) for share in (0.97, 1.03, 1.1)]
+    said = ", ".join(f"{share:g}: {one.fallen} fallen ({one.tilt:.3g}°)" for share, one in runs)
+    return f"near its limit in the engines too; here with so much of the amplitude {said}"
+
+
+def beyond(row: dict[str, str], rows: Rows, tilt: float) -> str:
+    """Why a tilt is outside the range of the engines."""
+    verdict = next(one for one in rows if one["case"] == row["case"] and one["quantity"] == "verdict")
+    seen = [float(one) for one in re.findall(r"([\d.]+) deg", verdict["spread"])]
+    low, high = min(seen), max(seen)
+    if low <= tilt <= high:
+        return f"inside what 3 % more or less of the amplitude make of it in the engines ({low:g} to {high:g})"
+    lossy = (
+        "joints give way where bodies rock on edges, and an impact on them leaves more than one that loses all it can"
+    )
+    return f"outside {low:g} to {high:g}, what 3 % of the amplitude make of it in the engines: {lossy}"

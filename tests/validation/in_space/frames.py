@@ -112,7 +112,7 @@ def wobbling(feet, slab: float, free: bool):
         high = turned @ np.array([-0.8, 0.0, 4.0])
         middle = np.mean([[x + 0.4, y, 0.0] for x, y in feet], axis=0) + high
         sides = (3.4, 3.4, slab * columns[0].mass / (2700.0 * 3.4**2))
-        one = box(sides, middle + [0.0, 0.0, 0.5 * sides[2]], velocity=np.cross(spin, high))
+        one = box(sides, middle + np.array([0.0, 0.0, 0.5 * sides[2]]), velocity=np.cross(spin, high))
         bodies.append(one if free else one._replace(inertia=1e12 * np.eye(3)))
         under = square_face(1.7, -0.5 * sides[2], up=False)
         joints += [
@@ -134,7 +134,7 @@ def frame(slab: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
 
 @family("wobbling_frame")
 def wobbling_frame(rows: Rows):
-    """A column that rolls below and above under a slab that can only translate; bodies that roll with all of their friction."""
+    """A column that rolls below and above under a slab that can only translate, with friction that holds."""
     for row in rows:
         slab = float(re.search(r"slab of (\S+) column", row["params"])[1])
         times, tilt, azimuth, travel = frame(slab)

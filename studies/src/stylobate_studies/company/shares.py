@@ -59,9 +59,9 @@ def difference(table: Any, kind: str, structure: str, against: str) -> dict[str,
     """
     keys = ["record", "azimuth_deg", "pgv_m_s"]
     mine, other = (
-        counts(table[table["structure"] == one], kind).set_index(keys)[["fell", "of"]] for one in (structure, against)
+        counts(table[table["structure"] == one], kind)[[*keys, "fell", "of"]] for one in (structure, against)
     )
-    both = mine.join(other, lsuffix="_mine", rsuffix="_other", how="inner").reset_index()
+    both = mine.merge(other, on=keys, suffixes=("_mine", "_other"))
     change = (both["fell_mine"] / both["of_mine"] - both["fell_other"] / both["of_other"]).to_numpy(dtype=float)
     names, owner = np.unique(both["record"].to_numpy(dtype=str), return_inverse=True)
     sums, runs = np.bincount(owner, change), np.bincount(owner)
@@ -99,7 +99,7 @@ def markdown(found: dict[str, Any]) -> str:
     lines = []
     for kind, words in KINDS.items():
         lines += [
-            f"| {words} | share of all | half of them at PGV (95 %) | difference from the column alone (95 %) | better, worse |",
+            f"| {words} | share of all | half of them at PGV (95 %) | against the column alone (95 %) | better, worse |",
             "| --- | --- | --- | --- | --- |",
         ]
         for label, one in found[kind].items():

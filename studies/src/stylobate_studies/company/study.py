@@ -60,7 +60,7 @@ def directed(record: Motion, azimuth: float) -> Motion:
 def cases_of(
     records: Sequence[Motion], levels: Sequence[float] = LEVELS, labels: Sequence[str] = tuple(STRUCTURES)
 ) -> list[tuple[str, int, float, float]]:
-    """All runs: structure, number of the record, azimuth, level; the level changes last, so that all are known coarsely first."""
+    """All runs: structure, number of the record, azimuth, level; level by level, so that all are known coarsely first."""
     return [
         (label, record, azimuth, level)
         for level, record, azimuth, label in itertools.product(levels, range(len(records)), AZIMUTHS, labels)
