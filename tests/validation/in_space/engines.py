@@ -96,7 +96,8 @@ def engines(rows: Rows):
             yield Judged(shown, "", MET if same else MISSED, why or ("" if same else nearby(row)))
         elif row["quantity"] == "bodies fallen":
             off = scene.fallen - int(row["value"])
-            yield Judged(str(scene.fallen), f"{off:+d}" if off else "", MISSED if off or why else MET, why)
+            last = "the same verdict; how many of the last stones come down hangs on what impacts leave" if off else ""
+            yield Judged(str(scene.fallen), f"{off:+d}" if off else "", MISSED if off or why else MET, why or last)
         elif row["quantity"] == "largest tilt of any body":
             low, high = (float(one) for one in row["spread"].split(" to "))
             off = scene.tilt / float(row["value"]) - 1.0

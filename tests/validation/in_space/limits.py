@@ -87,11 +87,14 @@ def independent_programme(rows: Rows):
         structure, told = scene(row["case"]), float(row["value"])
         found = st.limit_directions(structure, [azimuth]).limits[0]
         below, above = (stands(stiffer(structure, PUSHED), azimuth, share * told) for share in PUSHES)
+        sure = "stands at 0.96" in row["spread"]
         bound = "" if not found.upper_bound else "an upper bound; "
         words = {True: "stands", False: "falls"}
         said = f"{bound}pushed with {PUSHES[0]:g}: {words[below]}, {PUSHES[1]:g}: {words[above]}"
+        if sure and not below:  # bodies on soft joints lean before they lose their stand
+            below = stands(stiffer(structure, 10.0 * PUSHED), azimuth, PUSHES[0] * told)
+            said += f"; on joints ten times as stiff {PUSHES[0]:g}: {words[below]}"
         judged = near(row, found.multiplier, why=said, spread=CLOSE * told)
-        sure = "stands at 0.96" in row["spread"]
         wrong = above or (sure and not below)
         yield Judged(judged.ours, judged.difference, MISSED if wrong else judged.verdict, said)
 

@@ -52,7 +52,7 @@ def share(table: Any, kind: str, structure: str) -> float:
     return float(mine["fell"].sum() / mine["of"].sum())
 
 
-def difference(table: Any, kind: str, structure: str, against: str) -> dict[str, float]:
+def difference(table: Any, kind: str, structure: str, against: str) -> dict[str, Any]:
     """Share that falls less that of another structure under the same motions, and its 95 % interval over records.
 
     Runs without a verdict are left out with those that they are paired with.
@@ -69,7 +69,7 @@ def difference(table: Any, kind: str, structure: str, against: str) -> dict[str,
     weight = np.random.default_rng(SEED).multinomial(len(names), even, SAMPLES)
     drawn = (weight @ sums) / (weight @ runs)
     low, high = share_limits(sums, runs, float(both["pgv_m_s"].nunique()), drawn)
-    found = {"pairs": len(change), "records": len(names), "difference": float(change.mean()), "low": low, "high": high}
+    found: dict[str, Any] = {"pairs": len(change), "records": len(names), "difference": float(change.mean()), "low": low, "high": high}
     return found | {"better": int((change < 0.0).sum()), "worse": int((change > 0.0).sum())}
 
 

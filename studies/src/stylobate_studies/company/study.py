@@ -43,7 +43,8 @@ MODEL = DistinctElement3D(stiffness_damping=1e-4)
 
 def structures() -> dict[str, SpatialAssembly]:
     """The structures of the study."""
-    return {label: read_assembly(Path(__file__).with_name(name)) for label, name in STRUCTURES.items()}
+    read: dict[str, Any] = {label: read_assembly(Path(__file__).with_name(name)) for label, name in STRUCTURES.items()}
+    return read
 
 
 def prepared(record: Motion) -> Motion:
